@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * ents - enriched node-to-segment contact elements for finite element codes.
+ *
+ * The master surface of an element is rho_e(xi) = rho(xi) + h(xi) n(xi): the segment rho interpolated
+ * from the host's nodes, displaced by a height function h along its unit normal n. The library returns
+ * the projection of a slave node on rho_e, its variations, and the residual and consistent tangent of the contact element.
+ *   V. Yastrebov, G. Cailletaud, F. Feyel, Enrichment of the contact geometry within the finite
+ *   element method, CSMA 2011, hal-00592720 ("the paper"; eq. numbers below are its own).
+ *
+ * Conventions
+ *   - indices are 0-based; every position is a CURRENT position (reference + displacement);
+ *   - dofs are node-major: slave node first, then the master nodes of the segment (slave alone when the
+ *     model says "master": "rigid"); matrices are column-major;
+ *   - gap > 0 open, gap < 0 penetration; the master normal is the tangent turned by +90 degrees in 2D and
+ *     rho_,1 x rho_,2 in 3D;
+ *   - residual R = dW/du is the internal force on the host's nodes, tangent K = dR/du;
+ *   - units are the host's. [L] length, [F] force, [A] tributary area (2D: length times thickness).
+ *
+ * Rules
+ *   - a model is the only handle. It is immutable: any number of threads may evaluate it at once;
+ *   - an evaluation is a pure function: the same inputs give the same bits, whatever the thread, the
+ *     batch, or the calls before. It allocates nothing, prints nothing, throws nothing, takes no lock,
+ *     and leaves the floating-point environment (rounding, traps, flags) as it found it;
+ *   - every struct starts with `struct_size`: zero the struct, then set struct_size = sizeof(struct).
+ *     A shorter (older) struct is served; a longer (newer) one is served if its unknown tail is zero;
+ *   - every function returns a status, see ENTS_STATUS_TABLE. Messages go into the caller's report.
+ */
+#ifndef ENTS_H
+#define ENTS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#if defined(ENTS_BUILD)
+#define ENTS_API __declspec(dllexport)
+#else
+#define ENTS_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define ENTS_API __attribute__((visibility("default")))
+#else
+#define ENTS_API
+#endif
+
+/* What this header promises (the contract) and what implements it (the library) are numbered apart. A
+ * library serves every header with the same contract major and an equal or smaller contract minor. */
+#define ENTS_CONTRACT_MAJOR 1
+#define ENTS_CONTRACT_MINOR 0
+
+/* Status values; pinned, never renumbered.
+ *   0            done
+ *   1 .. 99      recoverable: nothing was written for that element except its status; cut the step
+ *   -1 .. -99    the caller's mistake; the report says which argument or key
+ *   -100 ..      installation or internal                                                               */
+#define ENTS_STATUS_TABLE(X)                                                                       \
+  X(ENTS_OK, 0, "ok")                                                                              \
+  X(ENTS_NO_PROJECTION, 1, "the projection did not converge on this segment")                      \
+  X(ENTS_SINGULAR_PROJECTION, 2, "singular projection: slave at a centre of curvature")            \
+  X(ENTS_AMBIGUOUS_PROJECTION, 3, "ambiguous projection: two points are equally good")             \
+  X(ENTS_DEGENERATE_SEGMENT, 4, "degenerate segment: zero area, folded, or no normal")             \
+  X(ENTS_GRAZING_RAY, 5, "the shadow ray grazes the enriched surface")                             \
+  X(ENTS_DEEP_PENETRATION, 6, "penetration exceeds the model's penetration_limit")                 \
+  X(ENTS_OUT_OF_RANGE, 7, "a result exceeds the range of double precision")                        \
+  X(ENTS_NULL_ARGUMENT, -1, "a required pointer is null")                                          \
+  X(ENTS_STRUCT_SIZE, -2, "wrong struct_size or non-zero unknown tail")                            \
+  X(ENTS_VERSION, -3, "the library does not serve this contract version")                          \
+  X(ENTS_NON_FINITE, -4, "an input is NaN or infinite")                                            \
+  X(ENTS_JSON_SYNTAX, -5, "the model text is not valid JSON")                                      \
+  X(ENTS_UNKNOWN_KEY, -6, "unknown, duplicate or missing key in the model")                        \
+  X(ENTS_BAD_VALUE, -7, "wrong type or value out of range in the model")                           \
+  X(ENTS_FILE, -8, "a file cannot be read or has the wrong format")                                \
+  X(ENTS_BAD_MASK, -9, "unknown bit in `wanted`, or something the model cannot deliver")           \
+  X(ENTS_BAD_COUNT, -10, "negative count, or a stride or leading dimension too small")             \
+  X(ENTS_BAD_HANDLE, -11, "not a live model handle")                                               \
+  X(ENTS_BAD_STATE, -12, "state block of another model, version, or not initialised")              \
+  X(ENTS_NO_MEMORY, -100, "out of memory")                                                         \
+  X(ENTS_INTERNAL, -101, "internal error, please report it")
+
+enum {
+#define ENTS_STATUS_ENUM(name, value, text) name = value,
+  ENTS_STATUS_TABLE(ENTS_STATUS_ENUM)
+#undef ENTS_STATUS_ENUM
+  ENTS_STATUS_LAST_ = -9999
+};
+
+/* Caller-owned message store; one per thread. Written by every function that gets one. */
+typedef struct ents_report {
+  int32_t struct_size;
+  int32_t status;       /* status of the call */
+  int64_t element;      /* first element concerned, -1 if none */
+  double step_factor;   /* recoverable status: suggested factor in (0, 1) for the step; else 1 */
+  char message[512];    /* zero-terminated; empty when the status is 0 */
+} ents_report;
+
+/* Text of a status value. Any thread, any time. Never null; an unknown value has a text, too. */
+ENTS_API const char *ents_status_text(int32_t status);
+
+/* Library version ("major.minor.patch", static text). */
+ENTS_API const char *ents_version(void);
+
+/* Does this library serve the caller's header? Call it once with the two macros above.
+ * Returns 0 or ENTS_VERSION. */
+ENTS_API int32_t ents_check_contract(int32_t major, int32_t minor, ents_report *report);
+
+/* ---- model ------------------------------------------------------------------------------------ */
+
+/* What the JSON text says, checked once, immutable afterwards. */
+typedef struct ents_model ents_model;
+
+/* Numbers a model may take from the caller's memory instead of a file or the text: a height map says
+ * {"type": "map", "data": NAME, ...}. Copied by ents_model_create. */
+typedef struct ents_data {
+  int32_t struct_size;
+  int32_t reserved;     /* 0 */
+  const char *name;     /* zero-terminated */
+  const double *values; /* [rows][columns], row by row; [L] for a height map */
+  int64_t rows;         /* samples along s_2 (2D: 1) */
+  int64_t columns;      /* samples along s_1 */
+} ents_data;
+
+/* Read a model from text (abi/model.schema.json says what it may hold).
+ *   text, length     UTF-8; length in bytes, or -1 if zero-terminated
+ *   directory        where relative file names of height maps start; null: the working directory
+ *   data, data_count arrays the text refers to by name; null, 0 if none. The structs lie data[0].struct_size bytes apart
+ *   model            out; null on failure
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, JSON_SYNTAX (with byte offset), UNKNOWN_KEY and BAD_VALUE (with the
+ * JSON path), FILE, NO_MEMORY. One thread per model under construction. */
+ENTS_API int32_t ents_model_create(const char *text, int64_t length, const char *directory,
+                                   const ents_data *data, int64_t data_count, ents_model **model,
+                                   ents_report *report);
+
+/* The same from a JSON file; relative names of height maps start at the file's own folder. */
+ENTS_API int32_t ents_model_create_from_file(const char *path, ents_model **model, ents_report *report);
+
+/* Release a model and set the handle to null. Null, or a handle that is null: no effect. No thread may be evaluating it. */
+ENTS_API int32_t ents_model_destroy(ents_model **model, ents_report *report);
+
+/* Sizes of everything a caller allocates for this model, in doubles where not said otherwise. */
+typedef struct ents_layout {
+  int32_t struct_size;
+  int32_t dimension;           /* d: 2 or 3 */
+  int32_t nodes;               /* m: master nodes of the segment */
+  int32_t parameters;          /* d-1: convective coordinates xi; also surface coordinates per master node */
+  int32_t dofs;                /* d (m+1), or d for a rigid master */
+  int32_t state_size;          /* per element */
+  int32_t symmetric_tangent;   /* 1 if K = K^T always */
+  int32_t own_surface_coordinates; /* 1 if the model text carries them */
+} ents_layout;
+
+ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
+
+/* ---- evaluation ------------------------------------------------------------------------------- */
+
+/* Inputs of contact elements: one slave node and one master segment each. `..._stride` is the
+ * distance in doubles between consecutive elements; 0 means that all elements share the values (one
+ * segment for many slave nodes, say). */
+typedef struct ents_input {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  const double *slave;               /* [d] position, [L], finite */
+  int64_t slave_stride;
+  const double *master;              /* [m][d] positions, [L], finite */
+  int64_t master_stride;
+  const double *surface_coordinates; /* [m][d-1] s of each master node; null: the model's own, else s = xi */
+  int64_t surface_coordinates_stride;
+  const double *start;               /* [d-1] start of the projection, natural coordinates; null: search the whole segment */
+  int64_t start_stride;
+  const double *area;                /* [1] tributary area of the slave node, [A], >= 0; null: 1 */
+  int64_t area_stride;
+  const double *state_begin;         /* [state_size] begin of increment, read only; null: no history.
+                                        A state that has seen a projection overrides `start` */
+  int64_t state_begin_stride;
+} ents_input;
+
+/* What to compute. What is not asked for is neither computed nor touched. */
+#define ENTS_XI            (1 << 0)  /* xi            [d-1]          natural coordinates of the projection */
+#define ENTS_GAP           (1 << 1)  /* gap           [1]    [L]     along n_e (normal) or along the ray (shadow) */
+#define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
+#define ENTS_NORMAL        (1 << 3)  /* normal        [d]            n_e, unit normal of the enriched surface */
+#define ENTS_POINT         (1 << 4)  /* point         [d]    [L]     rho_e at the projection */
+#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [dofs]         dg/du,       eq. (3) */
+#define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [dofs][dofs]   d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
+#define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][dofs]    dxi/du,      eq. (3); [1/L] */
+#define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][dofs][dofs] d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
+#define ENTS_ENERGY        (1 << 9)  /* energy        [1]    [F L]   W */
+#define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
+#define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
+#define ENTS_TANGENT       (1 << 12) /* tangent       [dofs][tangent_leading_dimension] [F/L]  K = dR/du */
+#define ENTS_STATE         (1 << 13) /* state_end     [state_size] */
+#define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
+#define ENTS_ITERATIONS    (1 << 15) /* iterations    [1] int32: surface evaluations the projection took */
+
+#define ENTS_FLAG_CONTACT  1   /* the element carries pressure */
+#define ENTS_FLAG_OUTSIDE  2   /* the projection lies outside the segment: open, R = 0, K = 0 */
+#define ENTS_FLAG_FAR_SIDE 4   /* slave beyond a centre of curvature: the projection is not a minimum of the distance */
+#define ENTS_FLAG_SEARCHED 8   /* the whole segment was searched */
+
+/* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A
+ * pointer may be null unless its bit is set in `wanted`. */
+typedef struct ents_output {
+  int32_t struct_size;
+  int32_t wanted;                      /* ENTS_... bits */
+  int32_t *status;                     /* [1] per element, or null; written whatever `wanted` says */
+  int64_t status_stride;
+  double *xi;            int64_t xi_stride;
+  double *gap;           int64_t gap_stride;
+  double *normal_gap;    int64_t normal_gap_stride;
+  double *normal;        int64_t normal_stride;
+  double *point;         int64_t point_stride;
+  double *gap_gradient;  int64_t gap_gradient_stride;
+  double *gap_hessian;   int64_t gap_hessian_stride;
+  double *xi_gradient;   int64_t xi_gradient_stride;
+  double *xi_hessian;    int64_t xi_hessian_stride;
+  double *energy;        int64_t energy_stride;
+  double *pressure;      int64_t pressure_stride;
+  double *residual;      int64_t residual_stride;
+  double *tangent;       int64_t tangent_stride;
+  int64_t tangent_leading_dimension;   /* >= dofs; 0 means dofs */
+  double *state_end;     int64_t state_end_stride;
+  int32_t *flags;        int64_t flags_stride;
+  int32_t *iterations;   int64_t iterations_stride;
+} ents_output;
+
+/* Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges). count = 1 is the single
+ * element; n elements give the same bits as n single calls. All levels are here: kinematics (ENTS_XI .. ENTS_XI_HESSIAN) to
+ * build any method of eq. (3)-(4) with, and the element (ENTS_ENERGY .. ENTS_STATE), which needs "contact" in the model.
+ * For a kinematic quantity alone the segment has no border: xi may lie outside.
+ * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
+ * visited, the recoverable status of the first element that has one. */
+ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t count,
+                               const ents_input *input, const ents_output *output,
+                               ents_report *report);
+
+/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. */
+ENTS_API int32_t ents_state_init(const ents_model *model, int64_t count, double *state,
+                                 int64_t stride, ents_report *report);
+
+/* ---- the enriched surface itself --------------------------------------------------------------- */
+
+/* Points of the surface, for pictures, meshes and checks. Pointers that are null are skipped. */
+typedef struct ents_surface {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  const double *master;              /* [m][d], [L] */
+  const double *surface_coordinates; /* [m][d-1] or null: the model's own, else s = xi */
+  const double *xi;                  /* [count][d-1] in */
+  double *point;                     /* [count][d] out: rho_e, [L] */
+  double *normal;                    /* [count][d] out: n_e */
+  double *height;                    /* [count] out: h, [L] */
+  double *base_point;                /* [count][d] out: rho, [L] */
+  double *base_normal;               /* [count][d] out: n */
+} ents_surface;
+
+ENTS_API int32_t ents_surface_evaluate(const ents_model *model, int64_t count,
+                                       const ents_surface *surface, ents_report *report);
+
+/* Is the enrichment admissible on this segment? (conditions of section 3 and Fig. 4 of the paper, on a
+ * regular grid of `samples` points per direction). Worst values and where they are. */
+typedef struct ents_admissibility {
+  int32_t struct_size;
+  int32_t samples;            /* in: points per direction, 2 .. 4096; 0: as fine as the height asks for */
+  int32_t continuity;         /* h is C^continuity; 1000: smooth */
+  int32_t reserved;           /* 0 */
+  double fold;                /* max |h| |kappa| over the segment; >= 1: rho_e folds over itself */
+  double fold_xi[2];
+  double edge_height;         /* max |h| on the segment's edges, [L]; must be 0 for local enrichment (s = xi) */
+  double edge_height_xi[2];
+  double reach;               /* min 1/|kappa_e| of the enriched surface, [L]: farther away a normal projection is not unique */
+  double reach_xi[2];
+  double shadow;              /* min n_e . e with the ray through each surface point; <= 0: self-shadow. 1 for normal projection */
+  double shadow_xi[2];
+  double height_min, height_max; /* [L] */
+} ents_admissibility;
+
+ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
+                                  const double *surface_coordinates, ents_admissibility *result,
+                                  ents_report *report);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
