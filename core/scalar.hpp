@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scalars of the kernel. Every formula in core is a template on its scalar S:
+//   double         values, residual, frictionless tangent
+//   Dual<double>   the same formula and, in `d`, its derivative along one direction in xi
+// Nothing here or in the kernel may branch on a value of type S except through value_of().
+#pragma once
+
+#ifdef __FAST_MATH__
+#error "ents must not be compiled with -ffast-math: NaN checks and bit equality would be lost"
+#endif
+
+// Kernels may be compiled several times for different instruction sets; each compilation lives in a
+// namespace of its own so that the linker never mixes their inline functions.
+#ifndef ENTS_ISA
+#define ENTS_ISA portable
+#endif
+
+#if defined(__GNUC__)
+#define ENTS_INLINE inline __attribute__((always_inline))
+#elif defined(_MSC_VER)
+#define ENTS_INLINE __forceinline
+#else
+#define ENTS_INLINE inline
+#endif
+
+namespace ents::ENTS_ISA {
+
+// First-order dual number: v + eps d, eps^2 = 0.
+template <class S>
+struct Dual {
+  S v;
+  S d;
+  Dual() = default;
+  constexpr Dual(S value) : v(value), d(S(0)) {}
+  constexpr Dual(S value, S derivative) : v(value), d(derivative) {}
+};
+
+template <class S> ENTS_INLINE Dual<S> operator+(Dual<S> a, Dual<S> b) { return {a.v + b.v, a.d + b.d}; }
+template <class S> ENTS_INLINE Dual<S> operator-(Dual<S> a, Dual<S> b) { return {a.v - b.v, a.d - b.d}; }
+template <class S> ENTS_INLINE Dual<S> operator-(Dual<S> a) { return {-a.v, -a.d}; }
+template <class S> ENTS_INLINE Dual<S> operator*(Dual<S> a, Dual<S> b) {
+  return {a.v * b.v, a.v * b.d + a.d * b.v};
+}
+template <class S> ENTS_INLINE Dual<S> operator/(Dual<S> a, Dual<S> b) {
+  const S q = a.v / b.v;
+  return {q, (a.d - q * b.d) / b.v};
+}
+template <class S> ENTS_INLINE Dual<S> operator+(Dual<S> a, double b) { return {a.v + b, a.d}; }
+template <class S> ENTS_INLINE Dual<S> operator+(double a, Dual<S> b) { return {a + b.v, b.d}; }
+template <class S> ENTS_INLINE Dual<S> operator-(Dual<S> a, double b) { return {a.v - b, a.d}; }
+template <class S> ENTS_INLINE Dual<S> operator-(double a, Dual<S> b) { return {a - b.v, -b.d}; }
+template <class S> ENTS_INLINE Dual<S> operator*(Dual<S> a, double b) { return {a.v * b, a.d * b}; }
+template <class S> ENTS_INLINE Dual<S> operator*(double a, Dual<S> b) { return {a * b.v, a * b.d}; }
+template <class S> ENTS_INLINE Dual<S> operator/(Dual<S> a, double b) { return {a.v / b, a.d / b}; }
+template <class S> ENTS_INLINE Dual<S> operator/(double a, Dual<S> b) { return Dual<S>(S(a)) / b; }
+template <class S> ENTS_INLINE Dual<S>& operator+=(Dual<S>& a, Dual<S> b) { return a = a + b; }
+template <class S> ENTS_INLINE Dual<S>& operator-=(Dual<S>& a, Dual<S> b) { return a = a - b; }
+template <class S> ENTS_INLINE Dual<S>& operator*=(Dual<S>& a, Dual<S> b) { return a = a * b; }
+
+ENTS_INLINE double square_root(double a) { return __builtin_sqrt(a); }
+template <class S> ENTS_INLINE Dual<S> square_root(Dual<S> a) {
+  const S r = square_root(a.v);
+  return {r, a.d / (2.0 * r)};
+}
+
+// The part of a scalar that decides branches.
+ENTS_INLINE double value_of(double a) { return a; }
+template <class S> ENTS_INLINE S value_of(Dual<S> a) { return a.v; }
+
+// The derivative part; 0 for a plain number.
+ENTS_INLINE double derivative_of(double) { return 0.0; }
+template <class S> ENTS_INLINE S derivative_of(Dual<S> a) { return a.d; }
+
+}  // namespace ents::ENTS_ISA
