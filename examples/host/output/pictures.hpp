@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pictures through gnuplot. Every picture NAME leaves NAME.dat (the numbers, columns with a header), NAME.gp
+// (the script, to be changed and run again by hand), NAME.svg and NAME.png. A machine without gnuplot
+// still gets the first two, and one line that names the missing package.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace host::pictures {
+
+/// What became of a picture. A picture never fails a run.
+struct Outcome {
+  std::vector<std::filesystem::path> files; ///< .svg and .png, if drawn
+  std::string problem;                      ///< empty, or one line for the terminal
+};
+
+/// Not given: gnuplot finds the end of the axis.
+inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
+
+struct Axis {
+  std::string label; ///< "gap", "p", "contact half-width a/λ"
+  std::string unit;  ///< "MPa"; empty for a ratio
+  bool logarithmic = false;
+  double min = automatic, max = automatic;
+};
+
+enum class Style {
+  exact,  ///< solid dark line: the reference, drawn first
+  line,   ///< coloured line
+  points, ///< coloured open markers: a computed result
+  both,   ///< markers joined by a thin line
+  dashed, ///< thin dashed line: a bound or a second reference
+  area,   ///< line with a light fill down to the axis
+};
+
+struct Curve {
+  std::string label;        ///< legend; empty: no entry
+  std::vector<double> x, y; ///< same size; a NaN interrupts the line
+  Style style = Style::both;
+  bool fit_order = false; ///< log-log: adds "order 1.98" (least squares, last three points) to the label
+};
+
+/// A thin straight line across the chart, with a word at its end: an exact contact width, a tolerance.
+struct Guide {
+  std::string label;
+  double value = 0;
+  bool vertical = true;
+};
+
+struct Chart {
+  std::string title;    ///< what is shown
+  std::string subtitle; ///< what is exact about it, mesh, load
+  Axis x, y;
+  std::vector<Curve> curves;
+  std::vector<Guide> guides;
+  double slope_triangle = 0; ///< log-log: draws a triangle of this order below the first computed curve
+  bool equal_axes = false;   ///< geometry: one unit is as long in x as in y
+};
+
+/// Curves against references; log-log for convergence.
+Outcome draw(const Chart& chart, const std::filesystem::path& directory, const std::string& name);
+
+/// Residual norms per Newton iteration, one curve per load step, semi-logarithmic.
+/// @param steps  [steps][iterations] residual norms relative to the first, > 0
+/// @param labels one per step, or empty
+Chart residual_history(std::string title, const std::vector<std::vector<double>>& steps,
+                       const std::vector<std::string>& labels = {});
+
+/// A scalar on a regular grid over a rectangle.
+struct Map {
+  std::string title; ///< "contact pressure"
+  std::string unit;
+  int columns = 0, rows = 0;
+  std::vector<double> values; ///< [rows][columns], first row at y_min; NaN: white
+  bool blank_zero = false;    ///< show 0 as white: no contact
+  double clip = 1; ///< fraction of the non-blank values inside the colour range; the peak is written out
+  enum class Palette { viridis, cividis, magma, diverging } palette = Palette::viridis;
+};
+
+/// Maps side by side over the same rectangle.
+struct Maps {
+  std::string title, subtitle;
+  std::string x_label = "x", y_label = "y", unit; ///< of both coordinates
+  double x_min = 0, x_max = 1, y_min = 0, y_max = 1;
+  std::vector<Map> maps; ///< 1 to 3
+};
+
+Outcome draw(const Maps& maps, const std::filesystem::path& directory, const std::string& name);
+
+/// A place worth a look on a surface.
+struct Place {
+  double x = 0, y = 0, z = 0;
+  std::string label; ///< "folds: |h| κ = 1.3"
+  bool wrong = true; ///< drawn as an offence, else as a remark
+};
+
+/// The enriched surface of one segment for `ents-host check`: a section in 2D, a shaded surface in 3D.
+struct Surface {
+  std::string title, subtitle;
+  std::string unit;  ///< of length
+  int dimension = 2; ///< 2: rows = 1
+  int columns = 0, rows = 1;
+  std::vector<double> enriched; ///< [rows][columns][dimension] rho_e
+  std::vector<double> base;     ///< [rows][columns][dimension] rho
+  std::vector<double> height;   ///< [rows][columns] h, colours the surface in 3D
+  std::vector<Place> places;
+};
+
+Outcome draw(const Surface& surface, const std::filesystem::path& directory, const std::string& name);
+
+/// Is a usable gnuplot on the path? Asked once.
+bool gnuplot_available();
+
+} // namespace host::pictures

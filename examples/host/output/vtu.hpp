@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// VTU files (VTK XML unstructured grids) and their .pvd time series, for ParaView, VisIt, PyVista ...
+// Format: VTK File Formats 4.2, "XML File Formats". Arrays are inline base64 with a UInt64 byte count:
+// valid XML, no loss, nothing depends on the locale.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace host::vtu {
+
+/// VTK cell types by their VTK numbers. Node order is that of the finite elements: counterclockwise in 2D,
+/// the first face counterclockwise seen from inside in 3D (hex8: bottom 0-3, top 4-7).
+enum class Cell : std::uint8_t {
+  vertex = 1,
+  line = 3,
+  polyline = 4,
+  triangle = 5,
+  quad = 9,
+  tetrahedron = 10,
+  hexahedron = 12,
+};
+
+/// Cells of one kind and size: `nodes_per_cell` is free for a polyline and the cell's own otherwise.
+struct Cells {
+  Cell type = Cell::vertex;
+  int nodes_per_cell = 1;
+  std::vector<std::int64_t> connectivity; ///< [cells][nodes_per_cell], 0-based into Grid::points
+};
+
+/// One named value per point or per cell.
+/// components: 1 scalar; 2 or 3 vector; 4 plane tensor xx yy zz xy; 6 tensor xx yy zz xy yz xz (VTK's order).
+/// 2 and 4 are padded with zeros to 3 and 6, so that ParaView treats plane and space results alike.
+struct Array {
+  std::string name; ///< with its unit if it has one, "pressure [MPa]"
+  int components = 1;
+  std::vector<double> values; ///< [n][components]
+};
+
+struct Grid {
+  int dimension = 3;          ///< 2 or 3; plane points get z = 0
+  std::vector<double> points; ///< [n][dimension], length
+  std::vector<Cells> cells;   ///< cell data run through these blocks in order
+  std::vector<Array> point_data;
+  std::vector<Array> cell_data;
+};
+
+/// The slave nodes as a cloud: one vertex per point.
+Grid point_cloud(int dimension, std::vector<double> points);
+
+/// A surface sampled on a regular grid of parameters, first parameter fastest: one polyline in 2D
+/// (n2 = 1), (n1-1)(n2-1) quads in 3D. Meant for the enriched surface rho_e.
+/// @param points [n2][n1][dimension], length
+Grid sampled_surface(int dimension, int n1, int n2, std::vector<double> points);
+
+/// The file's text.
+/// @throws std::invalid_argument naming the array whose size does not fit, or a bad node number
+std::string to_xml(const Grid& grid);
+
+/// @throws std::runtime_error naming the file that cannot be written; std::invalid_argument as to_xml
+void write(const std::filesystem::path& file, const Grid& grid);
+
+/// A series over load steps: DIR/NAME.pvd refers to DIR/NAME_PART_0003.vtu. The .pvd is rewritten at every
+/// step, so a run that was stopped can be looked at.
+class Series {
+public:
+  Series(std::filesystem::path directory, std::string name);
+
+  /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
+  void add(int step, double time, std::string_view part, const Grid& grid);
+
+  /// The .pvd file, for the message to the user.
+  std::filesystem::path file() const;
+
+private:
+  struct Entry {
+    double time;
+    std::string part, file;
+  };
+  std::filesystem::path directory_;
+  std::string name_;
+  std::vector<std::string> parts_; ///< in order of first appearance: the block number in ParaView
+  std::vector<Entry> entries_;
+};
+
+} // namespace host::vtu
