@@ -1,0 +1,379 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!
+! ents - enriched node-to-segment contact elements for finite element codes: the Fortran 2003 view of ents.h.
+!
+! Same names, same order, same meaning as the header, which documents every argument (shape, unit, errors); a test compares every
+! constant, every struct offset and every procedure of the two. What Fortran adds or changes:
+!   - types start zeroed and with null pointers; `call ents_init(x)` does the same again and sets x%struct_size;
+!   - arrays go into ents_input, ents_output ... as c_loc(array) of arrays with the target attribute; ENTS_XI | ENTS_GAP is
+!     ior(ENTS_XI, ENTS_GAP), or ENTS_XI + ENTS_GAP. A C array [m][d] is a Fortran array (d, m);
+!   - a model is a type(c_ptr); element numbers (`first`, report%element) are 0-based as in C;
+!   - text arguments are ordinary character values with their length; ents_string turns C texts and report%message into one;
+!   - ents_version is called ents_library_version here: Fortran cannot tell it from the status value ENTS_VERSION.
+module ents
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, &
+    c_null_char, c_null_ptr, c_ptr
+  implicit none
+  public
+  private :: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, c_null_char, c_null_ptr, c_ptr
+
+  ! What this module promises: pass both to ents_check_contract.
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 0
+
+  ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
+  integer(c_int32_t), parameter :: ENTS_OK = 0
+  integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
+  integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
+  integer(c_int32_t), parameter :: ENTS_AMBIGUOUS_PROJECTION = 3
+  integer(c_int32_t), parameter :: ENTS_DEGENERATE_SEGMENT = 4
+  integer(c_int32_t), parameter :: ENTS_GRAZING_RAY = 5
+  integer(c_int32_t), parameter :: ENTS_DEEP_PENETRATION = 6
+  integer(c_int32_t), parameter :: ENTS_OUT_OF_RANGE = 7
+  integer(c_int32_t), parameter :: ENTS_NULL_ARGUMENT = -1
+  integer(c_int32_t), parameter :: ENTS_STRUCT_SIZE = -2
+  integer(c_int32_t), parameter :: ENTS_VERSION = -3
+  integer(c_int32_t), parameter :: ENTS_NON_FINITE = -4
+  integer(c_int32_t), parameter :: ENTS_JSON_SYNTAX = -5
+  integer(c_int32_t), parameter :: ENTS_UNKNOWN_KEY = -6
+  integer(c_int32_t), parameter :: ENTS_BAD_VALUE = -7
+  integer(c_int32_t), parameter :: ENTS_FILE = -8
+  integer(c_int32_t), parameter :: ENTS_BAD_MASK = -9
+  integer(c_int32_t), parameter :: ENTS_BAD_COUNT = -10
+  integer(c_int32_t), parameter :: ENTS_BAD_HANDLE = -11
+  integer(c_int32_t), parameter :: ENTS_BAD_STATE = -12
+  integer(c_int32_t), parameter :: ENTS_NO_MEMORY = -100
+  integer(c_int32_t), parameter :: ENTS_INTERNAL = -101
+
+  ! ents_output%wanted
+  integer(c_int32_t), parameter :: ENTS_XI = 1
+  integer(c_int32_t), parameter :: ENTS_GAP = 2
+  integer(c_int32_t), parameter :: ENTS_NORMAL_GAP = 4
+  integer(c_int32_t), parameter :: ENTS_NORMAL = 8
+  integer(c_int32_t), parameter :: ENTS_POINT = 16
+  integer(c_int32_t), parameter :: ENTS_GAP_GRADIENT = 32
+  integer(c_int32_t), parameter :: ENTS_GAP_HESSIAN = 64
+  integer(c_int32_t), parameter :: ENTS_XI_GRADIENT = 128
+  integer(c_int32_t), parameter :: ENTS_XI_HESSIAN = 256
+  integer(c_int32_t), parameter :: ENTS_ENERGY = 512
+  integer(c_int32_t), parameter :: ENTS_PRESSURE = 1024
+  integer(c_int32_t), parameter :: ENTS_RESIDUAL = 2048
+  integer(c_int32_t), parameter :: ENTS_TANGENT = 4096
+  integer(c_int32_t), parameter :: ENTS_STATE = 8192
+  integer(c_int32_t), parameter :: ENTS_FLAGS = 16384
+  integer(c_int32_t), parameter :: ENTS_ITERATIONS = 32768
+
+  ! ents_output%flags
+  integer(c_int32_t), parameter :: ENTS_FLAG_CONTACT = 1
+  integer(c_int32_t), parameter :: ENTS_FLAG_OUTSIDE = 2
+  integer(c_int32_t), parameter :: ENTS_FLAG_FAR_SIDE = 4
+  integer(c_int32_t), parameter :: ENTS_FLAG_SEARCHED = 8
+
+  type, bind(c) :: ents_report
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: status = 0
+    integer(c_int64_t) :: element = 0
+    real(c_double) :: step_factor = 0
+    character(kind=c_char) :: message(512) = c_null_char
+  end type ents_report
+
+  type, bind(c) :: ents_data
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: name = c_null_ptr ! zero-terminated
+    type(c_ptr) :: values = c_null_ptr ! (columns, rows)
+    integer(c_int64_t) :: rows = 0
+    integer(c_int64_t) :: columns = 0
+  end type ents_data
+
+  type, bind(c) :: ents_layout
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: dimension = 0
+    integer(c_int32_t) :: nodes = 0
+    integer(c_int32_t) :: parameters = 0
+    integer(c_int32_t) :: dofs = 0
+    integer(c_int32_t) :: state_size = 0
+    integer(c_int32_t) :: symmetric_tangent = 0
+    integer(c_int32_t) :: own_surface_coordinates = 0
+  end type ents_layout
+
+  type, bind(c) :: ents_input
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: slave = c_null_ptr ! (d, elements)
+    integer(c_int64_t) :: slave_stride = 0
+    type(c_ptr) :: master = c_null_ptr ! (d, m, elements)
+    integer(c_int64_t) :: master_stride = 0
+    type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m, elements)
+    integer(c_int64_t) :: surface_coordinates_stride = 0
+    type(c_ptr) :: start = c_null_ptr ! (d-1, elements)
+    integer(c_int64_t) :: start_stride = 0
+    type(c_ptr) :: area = c_null_ptr ! (elements)
+    integer(c_int64_t) :: area_stride = 0
+    type(c_ptr) :: state_begin = c_null_ptr ! (state_size, elements)
+    integer(c_int64_t) :: state_begin_stride = 0
+  end type ents_input
+
+  type, bind(c) :: ents_output
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: wanted = 0
+    type(c_ptr) :: status = c_null_ptr ! (elements), int32
+    integer(c_int64_t) :: status_stride = 0
+    type(c_ptr) :: xi = c_null_ptr ! (d-1, elements)
+    integer(c_int64_t) :: xi_stride = 0
+    type(c_ptr) :: gap = c_null_ptr ! (elements)
+    integer(c_int64_t) :: gap_stride = 0
+    type(c_ptr) :: normal_gap = c_null_ptr ! (elements)
+    integer(c_int64_t) :: normal_gap_stride = 0
+    type(c_ptr) :: normal = c_null_ptr ! (d, elements)
+    integer(c_int64_t) :: normal_stride = 0
+    type(c_ptr) :: point = c_null_ptr ! (d, elements)
+    integer(c_int64_t) :: point_stride = 0
+    type(c_ptr) :: gap_gradient = c_null_ptr ! (dofs, elements)
+    integer(c_int64_t) :: gap_gradient_stride = 0
+    type(c_ptr) :: gap_hessian = c_null_ptr ! (dofs, dofs, elements)
+    integer(c_int64_t) :: gap_hessian_stride = 0
+    type(c_ptr) :: xi_gradient = c_null_ptr ! (dofs, d-1, elements)
+    integer(c_int64_t) :: xi_gradient_stride = 0
+    type(c_ptr) :: xi_hessian = c_null_ptr ! (dofs, dofs, d-1, elements)
+    integer(c_int64_t) :: xi_hessian_stride = 0
+    type(c_ptr) :: energy = c_null_ptr ! (elements)
+    integer(c_int64_t) :: energy_stride = 0
+    type(c_ptr) :: pressure = c_null_ptr ! (elements)
+    integer(c_int64_t) :: pressure_stride = 0
+    type(c_ptr) :: residual = c_null_ptr ! (dofs, elements)
+    integer(c_int64_t) :: residual_stride = 0
+    type(c_ptr) :: tangent = c_null_ptr ! (tangent_leading_dimension, dofs, elements)
+    integer(c_int64_t) :: tangent_stride = 0
+    integer(c_int64_t) :: tangent_leading_dimension = 0
+    type(c_ptr) :: state_end = c_null_ptr ! (state_size, elements)
+    integer(c_int64_t) :: state_end_stride = 0
+    type(c_ptr) :: flags = c_null_ptr ! (elements), int32
+    integer(c_int64_t) :: flags_stride = 0
+    type(c_ptr) :: iterations = c_null_ptr ! (elements), int32
+    integer(c_int64_t) :: iterations_stride = 0
+  end type ents_output
+
+  type, bind(c) :: ents_surface
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: master = c_null_ptr ! (d, m)
+    type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m)
+    type(c_ptr) :: xi = c_null_ptr ! (d-1, points)
+    type(c_ptr) :: point = c_null_ptr ! (d, points)
+    type(c_ptr) :: normal = c_null_ptr ! (d, points)
+    type(c_ptr) :: height = c_null_ptr ! (points)
+    type(c_ptr) :: base_point = c_null_ptr ! (d, points)
+    type(c_ptr) :: base_normal = c_null_ptr ! (d, points)
+  end type ents_surface
+
+  type, bind(c) :: ents_admissibility
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: samples = 0
+    integer(c_int32_t) :: continuity = 0
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: fold = 0
+    real(c_double) :: fold_xi(2) = 0
+    real(c_double) :: edge_height = 0
+    real(c_double) :: edge_height_xi(2) = 0
+    real(c_double) :: reach = 0
+    real(c_double) :: reach_xi(2) = 0
+    real(c_double) :: shadow = 0
+    real(c_double) :: shadow_xi(2) = 0
+    real(c_double) :: height_min = 0
+    real(c_double) :: height_max = 0
+  end type ents_admissibility
+
+  ! Zero a struct and set its struct_size: call ents_init(input).
+  interface ents_init
+    module procedure init_report, init_data, init_layout, init_input, init_output, init_surface, init_admissibility
+  end interface ents_init
+  private :: init_report, init_data, init_layout, init_input, init_output, init_surface, init_admissibility
+
+  ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
+  interface ents_string
+    module procedure string_from_pointer, string_from_characters
+  end interface ents_string
+  private :: string_from_pointer, string_from_characters
+
+  interface
+    ! Text of a status value; read it with ents_string.
+    function ents_status_text(status) result(text) bind(c, name="ents_status_text")
+      import :: c_int32_t, c_ptr
+      integer(c_int32_t), value :: status
+      type(c_ptr) :: text
+    end function ents_status_text
+
+    ! Library version "major.minor.patch"; read it with ents_string.
+    function ents_library_version() result(text) bind(c, name="ents_version")
+      import :: c_ptr
+      type(c_ptr) :: text
+    end function ents_library_version
+
+    ! Does this library serve ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR of this module? 0 or ENTS_VERSION.
+    function ents_check_contract(major, minor, report) result(status) bind(c, name="ents_check_contract")
+      import :: c_int32_t, ents_report
+      integer(c_int32_t), value :: major, minor
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_check_contract
+
+    ! Read a model from text of `length` bytes. directory: c_loc of a zero-terminated text, or c_null_ptr; data: c_loc of the first
+    ! of data_count ents_data, or c_null_ptr.
+    function ents_model_create(text, length, directory, data, data_count, model, report) result(status) &
+      bind(c, name="ents_model_create")
+      import :: c_char, c_int32_t, c_int64_t, c_ptr, ents_report
+      character(kind=c_char), intent(in) :: text(*)
+      integer(c_int64_t), value :: length
+      type(c_ptr), value :: directory
+      type(c_ptr), value :: data
+      integer(c_int64_t), value :: data_count
+      type(c_ptr), intent(out) :: model
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_create
+
+    ! The same from a JSON file; path is zero-terminated: trim(path) // c_null_char.
+    function ents_model_create_from_file(path, model, report) result(status) bind(c, name="ents_model_create_from_file")
+      import :: c_char, c_int32_t, c_ptr, ents_report
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_ptr), intent(out) :: model
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_create_from_file
+
+    ! Release a model and set the handle to c_null_ptr.
+    function ents_model_destroy(model, report) result(status) bind(c, name="ents_model_destroy")
+      import :: c_int32_t, c_ptr, ents_report
+      type(c_ptr), intent(inout) :: model
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_destroy
+
+    ! Sizes of everything a caller allocates for this model.
+    function ents_model_layout(model, layout, report) result(status) bind(c, name="ents_model_layout")
+      import :: c_int32_t, c_ptr, ents_layout, ents_report
+      type(c_ptr), value :: model
+      type(ents_layout), intent(inout) :: layout
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_layout
+
+    ! Evaluate the elements first .. first + count - 1 (0-based) of the arrays that input and output name.
+    function ents_evaluate(model, first, count, input, output, report) result(status) bind(c, name="ents_evaluate")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_output, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: first, count
+      type(ents_input), intent(in) :: input
+      type(ents_output), intent(in) :: output
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_evaluate
+
+    ! Fill `count` state blocks, `stride` doubles apart, for elements without history.
+    function ents_state_init(model, count, state, stride, report) result(status) bind(c, name="ents_state_init")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      real(c_double), intent(inout) :: state(*)
+      integer(c_int64_t), value :: stride
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_init
+
+    ! Points of the enriched surface, for pictures, meshes and checks.
+    function ents_surface_evaluate(model, count, surface, report) result(status) bind(c, name="ents_surface_evaluate")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_report, ents_surface
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      type(ents_surface), intent(in) :: surface
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_surface_evaluate
+
+    ! Is the enrichment admissible on this segment? master: c_loc of (d, m); surface_coordinates: c_loc of (d-1, m) or c_null_ptr.
+    function ents_model_check(model, master, surface_coordinates, result, report) result(status) &
+      bind(c, name="ents_model_check")
+      import :: c_int32_t, c_ptr, ents_admissibility, ents_report
+      type(c_ptr), value :: model
+      type(c_ptr), value :: master
+      type(c_ptr), value :: surface_coordinates
+      type(ents_admissibility), intent(inout) :: result
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_check
+  end interface
+
+contains
+
+  ! intent(out) gives the components their default values; transfer to bytes counts them.
+
+  subroutine init_report(x)
+    type(ents_report), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_report
+
+  subroutine init_data(x)
+    type(ents_data), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_data
+
+  subroutine init_layout(x)
+    type(ents_layout), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_layout
+
+  subroutine init_input(x)
+    type(ents_input), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_input
+
+  subroutine init_output(x)
+    type(ents_output), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_output
+
+  subroutine init_surface(x)
+    type(ents_surface), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_surface
+
+  subroutine init_admissibility(x)
+    type(ents_admissibility), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_admissibility
+
+  pure function string_from_characters(characters) result(string)
+    character(kind=c_char), intent(in) :: characters(:)
+    character(:), allocatable :: string
+    integer :: length, i
+    length = 0
+    do while (length < size(characters))
+      if (characters(length + 1) == c_null_char) exit
+      length = length + 1
+    end do
+    allocate (character(length) :: string)
+    do i = 1, length
+      string(i:i) = characters(i)
+    end do
+  end function string_from_characters
+
+  function string_from_pointer(pointer) result(string)
+    type(c_ptr), intent(in) :: pointer
+    character(:), allocatable :: string
+    character(kind=c_char), pointer :: characters(:)
+    integer :: length
+    if (.not. c_associated(pointer)) then
+      string = ""
+      return
+    end if
+    length = 0
+    do
+      call c_f_pointer(pointer, characters, [length + 1])
+      if (characters(length + 1) == c_null_char) exit
+      length = length + 1
+    end do
+    string = string_from_characters(characters(1:length))
+  end function string_from_pointer
+
+end module ents
