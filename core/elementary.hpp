@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sine, cosine and exponential of the kernel's scalars.
+//
+// Own code because their bits must depend neither on the C library nor on the instruction set, and must
+// be the same for a number and for a lane of a vector. Only + - * / and comparisons are used, in a fixed
+// order; the build switches contraction to fused multiply-add off. Rounding is to nearest.
+//
+// A vector scalar R joins in with its own overloads of select, power_of_two and Dual's value_of.
+//
+// Polynomials and the reduction of the exponential: fdlibm (Sun Microsystems 1993, free to copy with this
+// notice): k_sin.c, k_cos.c, e_exp.c. Reduction of the sine: Cody and Waite, Software Manual for the
+// Elementary Functions, 1980, with pi/2 in three parts.
+#pragma once
+
+#include <cstdint>
+
+#include "core/scalar.hpp"
+
+namespace ents::ENTS_ISA {
+
+inline constexpr double two_pi = 6.283185307179586476925286766559;
+
+ENTS_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+template <class M, class S> ENTS_INLINE Dual<S> select(M condition, Dual<S> a, Dual<S> b) {
+  return {select(condition, a.v, b.v), select(condition, a.d, b.d)};
+}
+
+// Nearest integer, ties to even; exact for |x| <= 2^51.
+template <class R> ENTS_INLINE R nearest_integer(R x) {
+  constexpr double shift = 6755399441055744.0; // 1.5 * 2^52: the spacing of doubles there is 1
+  return (x + shift) - shift;
+}
+
+// Largest integer <= x; exact for |x| <= 2^51.
+template <class R> ENTS_INLINE R round_down(R x) {
+  const R n = nearest_integer(x);
+  return n - select(n > x, R(1.0), R(0.0));
+}
+
+// a - b where b counts as a constant.
+ENTS_INLINE double minus_value(double a, double b) { return a - b; }
+template <class S> ENTS_INLINE Dual<S> minus_value(Dual<S> a, S b) { return {a.v - b, a.d}; }
+
+// x within [low, high]; NaN stays NaN.
+template <class S> ENTS_INLINE S clamp(S x, double low, double high) {
+  const S above = select(value_of(x) < low, S(low), x);
+  return select(value_of(x) > high, S(high), above);
+}
+
+// The same; NaN becomes `low`.
+template <class R> ENTS_INLINE R clamp_not_nan(R x, double low, double high) {
+  const R above = select(x > low, x, R(low));
+  return select(x > high, R(high), above);
+}
+
+// 2^n for an integer -1022 <= n <= 1023. Any other n gives an arbitrary number, never undefined behaviour.
+ENTS_INLINE double power_of_two(double n) {
+  // n + 1023 stands in the last bits of the sum; moved up they are the exponent field.
+  const double biased = n + (4503599627370496.0 + 1023.0);
+  return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, biased) << 52);
+}
+
+// Sine and cosine of quadrant * pi/2 + y + tail for |y| <= pi/4, |tail| <= ulp(y), quadrant in {-2 .. 2}.
+template <class R> ENTS_INLINE void sin_cos_in_quadrant(R quadrant, R y, R tail, R& sine, R& cosine) {
+  const R z = y * y;
+  const R p = 8.33333333332248946124e-03 +
+              z * (-1.98412698298579493134e-04 +
+                   z * (2.75573137070700676789e-06 +
+                        z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+  const R y_cubed = z * y;
+  const R s = y - ((z * (0.5 * tail - y_cubed * p) - tail) + y_cubed * 1.66666666666666324348e-01);
+  const R q = z * (4.16666666666666019037e-02 +
+                   z * (-1.38888888888741095749e-03 +
+                        z * (2.48015872894767294178e-05 +
+                             z * (-2.75573143513906633035e-07 +
+                                  z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+  const R half_z = 0.5 * z;
+  const R w = 1.0 - half_z;
+  const R c = w + (((1.0 - w) - half_z) + (z * q - y * tail));
+  const auto odd = quadrant * quadrant == R(1.0);
+  const R minus_one(-1.0), one(1.0);
+  sine = select(odd, c, s) * select(quadrant < -0.5, minus_one, select(quadrant > 1.5, minus_one, one));
+  cosine = select(odd, s, c) * select(quadrant < -1.5, minus_one, select(quadrant > 0.5, minus_one, one));
+}
+
+// Sine and cosine of 2 pi (t + offset). t is reduced before the offset is added, so that large counts of
+// turns cost no accuracy of the offset; exact 0 and +-1 at quarter turns.
+template <class R> ENTS_INLINE void sin_cos_turns(R t, double offset, R& sine, R& cosine) {
+  R r = t - nearest_integer(t);
+  r = r + offset;
+  r = r - nearest_integer(r);
+  const R quadrant = nearest_integer(4.0 * r);
+  const R f = r - 0.25 * quadrant; // exact, |f| <= 1/8
+  sin_cos_in_quadrant(quadrant, f * two_pi, f * 2.4492935982947064e-16, sine, cosine);
+}
+template <class S> ENTS_INLINE void sin_cos_turns(Dual<S> t, double offset, Dual<S>& sine, Dual<S>& cosine) {
+  sin_cos_turns(t.v, offset, sine.v, cosine.v);
+  const S rate = two_pi * t.d;
+  sine.d = cosine.v * rate;
+  cosine.d = -sine.v * rate;
+}
+
+// Sine and cosine of x in radians, |x| <= 1e6.
+template <class R> ENTS_INLINE void sin_cos(R x, R& sine, R& cosine) {
+  // pi/2 = p1 + p2 + p3; p1 and p2 have 33 bits, so that q p1 and q p2 are exact for q < 2^20.
+  constexpr double p1 = 1.57079632673412561417e+00, p2 = 6.07710050630396597660e-11,
+                   p3 = 2.02226624879595063154e-21;
+  const R q = nearest_integer(x * 6.36619772367581382433e-01);
+  const R r = x - q * p1, w = q * p2;
+  const R difference = r - w, part = r - difference; // two-sum: error of r - w
+  const R error = (r - (difference + part)) + (part - w);
+  const R rest = error - q * p3;
+  const R y = difference + rest;
+  const R tail = rest - (y - difference);
+  sin_cos_in_quadrant(q - 4.0 * nearest_integer(0.25 * q), y, tail, sine, cosine);
+}
+template <class S> ENTS_INLINE void sin_cos(Dual<S> x, Dual<S>& sine, Dual<S>& cosine) {
+  sin_cos(x.v, sine.v, cosine.v);
+  sine.d = cosine.v * x.d;
+  cosine.d = -sine.v * x.d;
+}
+
+// e^x. 0 below -708 (where the result would leave the normal numbers), infinite above 709.78.
+template <class R> ENTS_INLINE R exponential(R x) {
+  const R bounded = clamp(x, -708.0, 709.79);
+  const R k = nearest_integer(bounded * 1.44269504088896338700e+00);
+  const R high = bounded - k * 6.93147180369123816490e-01; // exact: 33 bits of ln 2
+  const R low = k * 1.90821492927058770002e-10;
+  const R r = high - low;
+  const R t = r * r;
+  const R c = r - t * (1.66666666666666019037e-01 +
+                       t * (-2.77777777770155933842e-03 +
+                            t * (6.61375632143793436117e-05 +
+                                 t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
+  const R y = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
+  // 2 * 2^(k-1): k reaches 1024
+  const R scaled = (y * power_of_two(k - 1.0)) * 2.0;
+  return select(x < -708.0, R(0.0), scaled);
+}
+template <class S> ENTS_INLINE Dual<S> exponential(Dual<S> x) {
+  const S y = exponential(x.v);
+  return {y, y * x.d};
+}
+
+} // namespace ents::ENTS_ISA

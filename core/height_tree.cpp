@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/height_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "core/height_map.hpp"
+
+namespace ents {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+std::int32_t dimension_of(const std::vector<double>& vector) {
+  if (vector.empty() || vector.size() > 2)
+    throw std::invalid_argument("a height has 1 or 2 surface coordinates");
+  return static_cast<std::int32_t>(vector.size());
+}
+
+// Coefficients beside the samples that a cell may read: cells -1 .. n when clamped, 0 .. n - 1 when periodic.
+constexpr std::int64_t padding_before = 2;
+constexpr std::int64_t padding_after = 3;
+
+std::int64_t source_index(std::int64_t i, std::int64_t count, MapBoundary boundary) {
+  if (boundary == MapBoundary::clamped) return std::clamp<std::int64_t>(i, 0, count - 1);
+  return ((i % count) + count) % count;
+}
+
+} // namespace
+
+Height::Height(std::int32_t dimension) : dimension_(dimension), nodes_(1) {
+  if (dimension < 1 || dimension > 2) throw std::invalid_argument("a height has 1 or 2 surface coordinates");
+  nodes_[0].kind = HeightKind::none;
+}
+
+Height Height::constant(std::int32_t dimension, double value) {
+  Height height(dimension);
+  height.nodes_[0].kind = HeightKind::constant;
+  height.nodes_[0].value = value;
+  height.bound_ = std::fabs(value);
+  return height;
+}
+
+Height Height::sine(double amplitude, const std::vector<double>& wave_vector, double phase) {
+  Height height(dimension_of(wave_vector));
+  SineHeight sine{amplitude, {0.0, 0.0}, phase / (2.0 * 3.14159265358979323846)};
+  for (std::size_t a = 0; a < wave_vector.size(); ++a) {
+    sine.wave_vector[a] = wave_vector[a];
+    if (wave_vector[a] != 0.0) height.feature_length_[a] = 0.25 / std::fabs(wave_vector[a]);
+  }
+  height.nodes_[0].kind = HeightKind::sine;
+  height.nodes_[0].sine = sine;
+  height.bound_ = std::fabs(amplitude);
+  return height;
+}
+
+Height Height::polynomial(std::vector<double> coefficients) {
+  std::vector<std::vector<double>> rows;
+  for (const double c : coefficients) rows.push_back({c});
+  Height height = polynomial(rows);
+  height.dimension_ = 1;
+  return height;
+}
+
+Height Height::polynomial(const std::vector<std::vector<double>>& coefficients) {
+  std::size_t columns = 0;
+  for (const auto& row : coefficients) columns = std::max(columns, row.size());
+  if (columns == 0) throw std::invalid_argument("a polynomial has at least one coefficient");
+
+  Height height(2);
+  std::vector<double> table(coefficients.size() * columns, 0.0);
+  bool varies = false;
+  for (std::size_t i = 0; i < coefficients.size(); ++i)
+    for (std::size_t j = 0; j < coefficients[i].size(); ++j) {
+      table[i * columns + j] = coefficients[i][j];
+      varies = varies || ((i > 0 || j > 0) && coefficients[i][j] != 0.0);
+    }
+  height.bound_ = varies ? unbounded : std::fabs(table[0]);
+  height.tables_.push_back(std::move(table));
+  height.nodes_[0].kind = HeightKind::polynomial;
+  height.nodes_[0].polynomial = {height.tables_[0].data(), static_cast<std::int32_t>(coefficients.size()),
+                                 static_cast<std::int32_t>(columns)};
+  return height;
+}
+
+Height Height::gaussian(double amplitude, const std::vector<double>& center, double width) {
+  Height height(dimension_of(center));
+  GaussianHeight gaussian{amplitude, {0.0, 0.0}, 1.0 / width};
+  for (std::size_t a = 0; a < center.size(); ++a) {
+    gaussian.center[a] = center[a];
+    height.feature_length_[a] = width;
+  }
+  height.nodes_[0].kind = HeightKind::gaussian;
+  height.nodes_[0].gaussian = gaussian;
+  height.bound_ = std::fabs(amplitude);
+  return height;
+}
+
+Height Height::map(const HeightMap& map) {
+  const std::int64_t smallest = map.boundary == MapBoundary::clamped ? 2 : 1;
+  const std::int64_t count[2] = {map.columns, map.rows};
+  for (std::int32_t a = 0; a < map.dimension; ++a)
+    if (count[a] < smallest) throw std::invalid_argument("too few samples in a height map");
+  if (map.dimension == 1 && map.rows != 1) throw std::invalid_argument("one surface coordinate, one row");
+  if (map.values.size() != index(map.rows) * index(map.columns))
+    throw std::invalid_argument("values of a height map: rows times columns");
+
+  Height height(map.dimension);
+  std::vector<double> c = map.values;
+  for (std::int64_t j = 0; j < map.rows; ++j)
+    solve_spline_coefficients(c.data() + j * map.columns, map.columns, 1, map.boundary);
+  if (map.dimension == 2)
+    for (std::int64_t i = 0; i < map.columns; ++i)
+      solve_spline_coefficients(c.data() + i, map.rows, map.columns, map.boundary);
+
+  MapHeight view{};
+  for (std::int32_t a = 0; a < map.dimension; ++a) {
+    const bool periodic = map.boundary == MapBoundary::periodic;
+    const double n = static_cast<double>(count[a]);
+    const double spacing = map.size[a] / (periodic ? n : n - 1.0);
+    view.origin[a] = map.origin[a];
+    view.inverse_spacing[a] = 1.0 / spacing;
+    view.period[a] = periodic ? n : 0.0;
+    view.inverse_period[a] = periodic ? 1.0 / n : 0.0;
+    view.low[a] = periodic ? -unbounded : -1.0;
+    view.high[a] = periodic ? unbounded : n;
+    view.first_cell[a] = periodic ? 0.0 : -1.0;
+    view.last_cell[a] = periodic ? n - 1.0 : n;
+    height.feature_length_[a] = spacing;
+  }
+  const std::int64_t before_rows = map.dimension == 2 ? padding_before : 0;
+  const std::int64_t after_rows = map.dimension == 2 ? padding_after : 0;
+  view.row_stride = map.columns + padding_before + padding_after;
+  std::vector<double> table;
+  table.reserve(index(before_rows + map.rows + after_rows) * index(view.row_stride));
+  for (std::int64_t j = -before_rows; j < map.rows + after_rows; ++j)
+    for (std::int64_t i = -padding_before; i < map.columns + padding_after; ++i) {
+      const std::int64_t row = source_index(j, map.rows, map.boundary);
+      table.push_back(c[index(row * map.columns + source_index(i, map.columns, map.boundary))]);
+    }
+
+  // A B-spline is a mean of its coefficients.
+  for (const double value : c) height.bound_ = std::max(height.bound_, std::fabs(value));
+  height.continuity_ = 2;
+  height.tables_.push_back(std::move(table));
+  view.coefficients = height.tables_[0].data() + before_rows * view.row_stride + padding_before;
+  height.nodes_[0].kind = HeightKind::map;
+  height.nodes_[0].map = view;
+  return height;
+}
+
+Height Height::sum(std::vector<Height> terms) { return combine(HeightKind::sum, std::move(terms)); }
+
+Height Height::product(std::vector<Height> factors) {
+  return combine(HeightKind::product, std::move(factors));
+}
+
+Height Height::combine(HeightKind kind, std::vector<Height> parts) {
+  if (parts.empty()) throw std::invalid_argument("a sum or product has at least one part");
+  Height height(parts.front().dimension_);
+  const bool sum = kind == HeightKind::sum;
+  height.bound_ = sum ? 0.0 : 1.0;
+  double rate[largest_dimension] = {0.0, 0.0}; // of a product: frequencies add
+  std::size_t node_count = 1;
+  for (const Height& part : parts) {
+    if (part.dimension_ != height.dimension_)
+      throw std::invalid_argument("parts of a height have the same number of surface coordinates");
+    height.depth_ = std::max(height.depth_, part.depth_ + 1);
+    height.continuity_ = std::min(height.continuity_, part.continuity_);
+    // 0 times an unbounded factor is 0
+    if (sum)
+      height.bound_ += part.bound_;
+    else
+      height.bound_ = height.bound_ == 0.0 || part.bound_ == 0.0 ? 0.0 : height.bound_ * part.bound_;
+    for (std::int32_t a = 0; a < height.dimension_; ++a) {
+      rate[a] += 1.0 / part.feature_length_[a];
+      height.feature_length_[a] =
+          sum ? std::min(height.feature_length_[a], part.feature_length_[a]) : 1.0 / rate[a];
+    }
+    node_count += part.nodes_.size();
+  }
+  if (height.depth_ > max_height_depth) throw std::invalid_argument("height nested too deeply");
+
+  // Children side by side, then the descendants of each. Distances within a part stay, except from its root.
+  height.nodes_.reserve(node_count);
+  height.nodes_[0].kind = kind;
+  height.nodes_[0].first_child = 1;
+  height.nodes_[0].child_count = static_cast<std::int32_t>(parts.size());
+  for (const Height& part : parts) height.nodes_.push_back(part.root());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    HeightNode& child = height.nodes_[1 + p];
+    const std::size_t moved_by = height.nodes_.size() - 1; // of the part's node 1
+    if (parts[p].nodes_.size() > 1) child.first_child += static_cast<std::int32_t>(moved_by - (1 + p));
+    height.nodes_.insert(height.nodes_.end(), parts[p].nodes_.begin() + 1, parts[p].nodes_.end());
+    for (auto& table : parts[p].tables_) height.tables_.push_back(std::move(table));
+  }
+  return height;
+}
+
+} // namespace ents

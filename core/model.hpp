@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A checked model: what an element needs beside the positions of its nodes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/height_tree.hpp"
+
+namespace ents {
+
+// Segment bases; order and names as in basis_table.
+enum class Basis : std::int32_t {
+  line2,
+  line3,
+  catmull_rom4,
+  bspline4,
+  tri3,
+  tri6,
+  quad4,
+  quad8,
+  quad9,
+  catmull_rom16,
+  bspline16
+};
+
+struct BasisEntry {
+  Basis basis;
+  const char* name;
+  std::int32_t nodes;      // m
+  std::int32_t parameters; // convective coordinates = surface coordinates; dimension of space - 1
+};
+
+inline constexpr BasisEntry basis_table[] = {
+    {Basis::line2, "line2", 2, 1},
+    {Basis::line3, "line3", 3, 1},
+    {Basis::catmull_rom4, "catmull_rom4", 4, 1},
+    {Basis::bspline4, "bspline4", 4, 1},
+    {Basis::tri3, "tri3", 3, 2},
+    {Basis::tri6, "tri6", 6, 2},
+    {Basis::quad4, "quad4", 4, 2},
+    {Basis::quad8, "quad8", 8, 2},
+    {Basis::quad9, "quad9", 9, 2},
+    {Basis::catmull_rom16, "catmull_rom16", 16, 2},
+    {Basis::bspline16, "bspline16", 16, 2},
+};
+
+constexpr const BasisEntry& basis_entry(Basis basis) { return basis_table[static_cast<std::int32_t>(basis)]; }
+
+enum class ProjectionKind : std::int32_t {
+  normal,          // (x_s - rho_e) . rho_e,a = 0
+  shadow_point,    // along the line from the slave to an emitter
+  shadow_direction // along a fixed direction
+};
+
+enum class TangentKind : std::int32_t {
+  consistent,     // d2g/du2 exact
+  small_gap,      // terms in g dropped (Konyukhov and Schweizerhof 2005)
+  first_variation // d2g/du2 = 0
+};
+
+struct Model {
+  Basis basis = Basis::line2;
+  Height height;                           // of as many surface coordinates as the basis has parameters
+  bool own_surface_coordinates = false;    // else the host's, else s = xi
+  std::vector<double> surface_coordinates; // [m][parameters]
+  ProjectionKind projection = ProjectionKind::normal;
+  double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
+  bool has_contact = false;
+  double penalty_stiffness = 0.0; // [F/L^3] (force per area and gap), > 0 with contact
+  TangentKind tangent = TangentKind::consistent;
+  bool rigid_master = false;      // dofs of the slave alone
+  double penetration_limit = 0.0; // [L]; 0: the size of the segment
+};
+
+} // namespace ents
