@@ -5,7 +5,7 @@
 // be the same for a number and for a lane of a vector. Only + - * / and comparisons are used, in a fixed
 // order; the build switches contraction to fused multiply-add off. Rounding is to nearest.
 //
-// A vector scalar R joins in with its own overloads of select, power_of_two and Dual's value_of.
+// A vector scalar R joins in with its own select, power_of_two, add_quarters and value_of.
 //
 // Polynomials and the reduction of the exponential: fdlibm (Sun Microsystems 1993, free to copy with this
 // notice): k_sin.c, k_cos.c, e_exp.c. Reduction of the sine: Cody and Waite, Software Manual for the
@@ -53,22 +53,33 @@ template <class R> ENTS_INLINE R clamp_not_nan(R x, double low, double high) {
   return select(x > high, R(high), above);
 }
 
-// 2^n for an integer -1022 <= n <= 1023. Any other n gives an arbitrary number, never undefined behaviour.
+// 2^n for an integer -1022 <= n <= 1023. Any other n: some number.
 ENTS_INLINE double power_of_two(double n) {
   // n + 1023 stands in the last bits of the sum; moved up they are the exponent field.
   const double biased = n + (4503599627370496.0 + 1023.0);
   return __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, biased) << 52);
 }
 
-// Sine and cosine of quadrant * pi/2 + y + tail for |y| <= pi/4, |tail| <= ulp(y), quadrant in {-2 .. 2}.
-template <class R> ENTS_INLINE void sin_cos_in_quadrant(R quadrant, R y, R tail, R& sine, R& cosine) {
+// (sine, cosine) of an angle -> those of the angle + quarters * pi/2, quarters an integer below 2^51.
+ENTS_INLINE void add_quarters(double quarters, double& sine, double& cosine) {
+  // The last bits of the sum are quarters modulo 4: odd ones swap, the second bit is a sign.
+  const std::uint64_t n = __builtin_bit_cast(std::uint64_t, quarters + 6755399441055744.0);
+  const std::uint64_t s = __builtin_bit_cast(std::uint64_t, sine);
+  const std::uint64_t c = __builtin_bit_cast(std::uint64_t, cosine);
+  const std::uint64_t swap = (s ^ c) & (0 - (n & 1));
+  sine = __builtin_bit_cast(double, s ^ swap ^ ((n & 2) << 62));
+  cosine = __builtin_bit_cast(double, c ^ swap ^ (((n + 1) & 2) << 62));
+}
+
+// Sine and cosine of y + tail, |y| <= pi/4, |tail| <= ulp(y).
+template <class R> ENTS_INLINE void sin_cos_near_zero(R y, R tail, R& sine, R& cosine) {
   const R z = y * y;
   const R p = 8.33333333332248946124e-03 +
               z * (-1.98412698298579493134e-04 +
                    z * (2.75573137070700676789e-06 +
                         z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
   const R y_cubed = z * y;
-  const R s = y - ((z * (0.5 * tail - y_cubed * p) - tail) + y_cubed * 1.66666666666666324348e-01);
+  sine = y - ((z * (0.5 * tail - y_cubed * p) - tail) + y_cubed * 1.66666666666666324348e-01);
   const R q = z * (4.16666666666666019037e-02 +
                    z * (-1.38888888888741095749e-03 +
                         z * (2.48015872894767294178e-05 +
@@ -76,11 +87,7 @@ template <class R> ENTS_INLINE void sin_cos_in_quadrant(R quadrant, R y, R tail,
                                   z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
   const R half_z = 0.5 * z;
   const R w = 1.0 - half_z;
-  const R c = w + (((1.0 - w) - half_z) + (z * q - y * tail));
-  const auto odd = quadrant * quadrant == R(1.0);
-  const R minus_one(-1.0), one(1.0);
-  sine = select(odd, c, s) * select(quadrant < -0.5, minus_one, select(quadrant > 1.5, minus_one, one));
-  cosine = select(odd, s, c) * select(quadrant < -1.5, minus_one, select(quadrant > 0.5, minus_one, one));
+  cosine = w + (((1.0 - w) - half_z) + (z * q - y * tail));
 }
 
 // Sine and cosine of 2 pi (t + offset). t is reduced before the offset is added, so that large counts of
@@ -89,9 +96,10 @@ template <class R> ENTS_INLINE void sin_cos_turns(R t, double offset, R& sine, R
   R r = t - nearest_integer(t);
   r = r + offset;
   r = r - nearest_integer(r);
-  const R quadrant = nearest_integer(4.0 * r);
-  const R f = r - 0.25 * quadrant; // exact, |f| <= 1/8
-  sin_cos_in_quadrant(quadrant, f * two_pi, f * 2.4492935982947064e-16, sine, cosine);
+  const R quarters = nearest_integer(4.0 * r);
+  const R f = r - 0.25 * quarters; // exact, |f| <= 1/8
+  sin_cos_near_zero(f * two_pi, f * 2.4492935982947064e-16, sine, cosine);
+  add_quarters(quarters, sine, cosine);
 }
 template <class S> ENTS_INLINE void sin_cos_turns(Dual<S> t, double offset, Dual<S>& sine, Dual<S>& cosine) {
   sin_cos_turns(t.v, offset, sine.v, cosine.v);
@@ -112,7 +120,8 @@ template <class R> ENTS_INLINE void sin_cos(R x, R& sine, R& cosine) {
   const R rest = error - q * p3;
   const R y = difference + rest;
   const R tail = rest - (y - difference);
-  sin_cos_in_quadrant(q - 4.0 * nearest_integer(0.25 * q), y, tail, sine, cosine);
+  sin_cos_near_zero(y, tail, sine, cosine);
+  add_quarters(q, sine, cosine);
 }
 template <class S> ENTS_INLINE void sin_cos(Dual<S> x, Dual<S>& sine, Dual<S>& cosine) {
   sin_cos(x.v, sine.v, cosine.v);
@@ -120,7 +129,7 @@ template <class S> ENTS_INLINE void sin_cos(Dual<S> x, Dual<S>& sine, Dual<S>& c
   cosine.d = -sine.v * x.d;
 }
 
-// e^x. 0 below -708 (where the result would leave the normal numbers), infinite above 709.78.
+// e^x. 0 below -708, before results leave the normal numbers, infinite above 709.78.
 template <class R> ENTS_INLINE R exponential(R x) {
   const R bounded = clamp(x, -708.0, 709.79);
   const R k = nearest_integer(bounded * 1.44269504088896338700e+00);
@@ -133,8 +142,7 @@ template <class R> ENTS_INLINE R exponential(R x) {
                             t * (6.61375632143793436117e-05 +
                                  t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
   const R y = 1.0 - ((low - (r * c) / (2.0 - c)) - high);
-  // 2 * 2^(k-1): k reaches 1024
-  const R scaled = (y * power_of_two(k - 1.0)) * 2.0;
+  const R scaled = (2.0 * y) * power_of_two(k - 1.0); // k reaches 1024
   return select(x < -708.0, R(0.0), scaled);
 }
 template <class S> ENTS_INLINE Dual<S> exponential(Dual<S> x) {
