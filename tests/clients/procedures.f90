@@ -1,0 +1,164 @@
+! Every procedure of the Fortran module is called once and does what its C twin promises: arguments arrive in the right order and
+! the right way (by value, by reference), results come back. Geometry: a flat unit quad4 in z = 0 with a constant height of 1/4, where
+! every expected number is exact in binary.
+program procedures
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use ents
+  implicit none
+
+  character(*), parameter :: model_text = '{"segment": "quad4", "height": {"type": "constant", "value": 0.25},' // &
+    ' "projection": {"type": "normal"}, "contact": {"normal": {"type": "penalty", "stiffness": 8.0}}}'
+  character(*), parameter :: map_text = '{"segment": "quad4", "height": {"type": "map", "data": "patch"},' // &
+    ' "projection": {"type": "normal"}}'
+  character(*), parameter :: path = "procedures_model.json"
+
+  real(c_double), target :: master(3, 4) = reshape( &
+    [-1d0, -1d0, 0d0, 1d0, -1d0, 0d0, 1d0, 1d0, 0d0, -1d0, 1d0, 0d0], [3, 4])
+  real(c_double), target :: slave(3, 2) = reshape([0.5d0, 0d0, 0.5d0, 0d0, 0.5d0, 0.125d0], [3, 2])
+
+  type(c_ptr) :: model
+  type(ents_report) :: report
+  type(ents_layout) :: layout
+  integer, parameter :: unit = 20
+
+  call ents_init(report)
+  call check_texts()
+  call expect(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, report) == ENTS_OK, "check_contract: this one")
+  call expect(ents_check_contract(ENTS_CONTRACT_MAJOR + 1, 0_c_int32_t, report) == ENTS_VERSION, "check_contract: a later one")
+  call expect(report%status == ENTS_VERSION .and. len(ents_string(report%message)) > 0, "check_contract: the report")
+
+  call expect(ents_model_create(model_text // "rubbish", len(model_text, c_int64_t), c_null_ptr, c_null_ptr, 0_c_int64_t, &
+    model, report) == ENTS_OK, "model_create reads `length` bytes: " // ents_string(report%message))
+  call ents_init(layout)
+  call expect(ents_model_layout(model, layout, report) == ENTS_OK, "model_layout")
+  call expect(layout%dimension == 3 .and. layout%nodes == 4 .and. layout%parameters == 2 .and. layout%dofs == 15, "layout")
+  call check_evaluate()
+  call check_state()
+  call check_surface()
+  call check_admissibility()
+  call expect(ents_model_destroy(model, report) == ENTS_OK .and. .not. c_associated(model), "model_destroy clears the handle")
+
+  call check_data()
+
+  open (unit=unit, file=path, action="write", status="replace")
+  write (unit, '(a)') model_text
+  close (unit)
+  call expect(ents_model_create_from_file(path // c_null_char, model, report) == ENTS_OK, &
+    "model_create_from_file: " // ents_string(report%message))
+  call expect(ents_model_destroy(model, report) == ENTS_OK, "model_destroy")
+  open (unit=unit, file=path)
+  close (unit, status="delete")
+  call expect(ents_model_create_from_file(path // c_null_char, model, report) == ENTS_FILE, "model_create_from_file: no file")
+  call expect(index(ents_string(report%message), path) > 0, "the message names the file: " // ents_string(report%message))
+
+contains
+
+  subroutine expect(condition, what)
+    logical, intent(in) :: condition
+    character(*), intent(in) :: what
+    if (condition) return
+    write (error_unit, '(2a)') "failed: ", what
+    stop 1
+  end subroutine expect
+
+  ! Exact equality of two numbers, said without the comparison that compilers warn of.
+  elemental function same(a, b)
+    real(c_double), intent(in) :: a, b
+    logical :: same
+    same = abs(a - b) <= 0
+  end function same
+
+  subroutine check_texts()
+    character(kind=c_char), target :: text(4) = ["t", "w", "o", c_null_char]
+    type(ents_output) :: output
+    call expect(ents_string(c_loc(text)) == "two" .and. len(ents_string(c_loc(text))) == 3, "ents_string of a C text")
+    call expect(ents_string(text) == "two" .and. len(ents_string(text(1:2))) == 2, "ents_string of characters")
+    call expect(ents_string(c_null_ptr) == "", "ents_string of a null pointer")
+    call expect(ents_string(ents_status_text(ENTS_OK)) == "ok", "status_text")
+    call expect(ents_string(ents_status_text(ENTS_FILE)) /= ents_string(ents_status_text(ENTS_VERSION)), "status_text by value")
+    call expect(index(ents_string(ents_library_version()), ".") > 1, "library_version")
+    output%wanted = ENTS_GAP
+    output%gap = c_loc(text)
+    call ents_init(output)
+    call expect(output%wanted == 0 .and. .not. c_associated(output%gap), "ents_init zeroes")
+  end subroutine check_texts
+
+  subroutine check_evaluate()
+    type(ents_input) :: input
+    type(ents_output) :: output
+    real(c_double), target :: gap(2), residual(15, 2)
+    integer(c_int32_t), target :: flags(2)
+    call ents_init(input)
+    input%slave = c_loc(slave)
+    input%slave_stride = 3
+    input%master = c_loc(master)
+    call ents_init(output)
+    output%wanted = ENTS_GAP + ENTS_RESIDUAL + ENTS_FLAGS
+    output%gap = c_loc(gap)
+    output%gap_stride = 1
+    output%residual = c_loc(residual)
+    output%residual_stride = 15
+    output%flags = c_loc(flags)
+    output%flags_stride = 1
+
+    gap = -7
+    call expect(ents_evaluate(model, 1_c_int64_t, 1_c_int64_t, input, output, report) == ENTS_OK, "evaluate the second")
+    call expect(same(gap(1), -7d0) .and. same(gap(2), -0.125d0), "`first` counts from 0, `count` elements are written")
+    call expect(ents_evaluate(model, 0_c_int64_t, 2_c_int64_t, input, output, report) == ENTS_OK, "evaluate both")
+    call expect(all(same(gap, [0.25d0, -0.125d0])), "gap")
+    call expect(all(same(residual(:, 1), 0d0)), "an open element carries no force")
+    ! Penalty force 8 * (-1/8) along z, shared by the master nodes as the bilinear basis says at (0, 1/2).
+    call expect(all(same(residual(1:3, 2), [0d0, 0d0, -1d0])), "force on the slave node")
+    call expect(all(same(residual(6:15:3, 2), [0.125d0, 0.125d0, 0.375d0, 0.375d0])), "forces on the master nodes")
+    call expect(iand(flags(1), ENTS_FLAG_CONTACT) == 0 .and. iand(flags(2), ENTS_FLAG_CONTACT) /= 0, "flags")
+  end subroutine check_evaluate
+
+  subroutine check_state()
+    real(c_double) :: state(layout%state_size + 1, 2)
+    state = -7
+    call expect(ents_state_init(model, 2_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_OK, "state_init")
+    call expect(all(same(state(layout%state_size + 1, :), -7d0)), "state_init keeps to state_size")
+    call expect(ents_state_init(model, -1_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_BAD_COUNT, "count < 0")
+  end subroutine check_state
+
+  subroutine check_surface()
+    type(ents_surface) :: surface
+    real(c_double), target :: xi(2, 2) = reshape([0.5d0, -0.25d0, -1d0, 1d0], [2, 2]), point(3, 2), height(2)
+    call ents_init(surface)
+    surface%master = c_loc(master)
+    surface%xi = c_loc(xi)
+    surface%point = c_loc(point)
+    surface%height = c_loc(height)
+    call expect(ents_surface_evaluate(model, 2_c_int64_t, surface, report) == ENTS_OK, "surface_evaluate")
+    call expect(all(same(point(:, 1), [0.5d0, -0.25d0, 0.25d0])) .and. all(same(point(:, 2), [-1d0, 1d0, 0.25d0])), "points")
+    call expect(all(same(height, 0.25d0)), "heights")
+  end subroutine check_surface
+
+  subroutine check_admissibility()
+    type(ents_admissibility) :: result
+    real(c_double), target :: s(2, 4) = reshape([0d0, 0d0, 1d0, 0d0, 1d0, 1d0, 0d0, 1d0], [2, 4])
+    call ents_init(result)
+    result%samples = 3
+    call expect(ents_model_check(model, c_loc(master), c_null_ptr, result, report) == ENTS_OK, "model_check")
+    call expect(same(result%height_max, 0.25d0) .and. same(result%edge_height, 0.25d0), "heights of model_check")
+    call expect(ents_model_check(model, c_loc(master), c_loc(s), result, report) == ENTS_OK, "model_check with coordinates")
+  end subroutine check_admissibility
+
+  ! A height map from the caller's memory: samples equal to 1/2 make a flat surface at 1/2.
+  subroutine check_data()
+    type(ents_data), target :: data(1)
+    character(kind=c_char), target :: name(6) = ["p", "a", "t", "c", "h", c_null_char]
+    real(c_double), target :: values(8, 8)
+    values = 0.5d0
+    call ents_init(data(1))
+    data(1)%name = c_loc(name)
+    data(1)%values = c_loc(values)
+    data(1)%rows = 8
+    data(1)%columns = 8
+    call expect(ents_model_create(map_text, len(map_text, c_int64_t), c_null_ptr, c_loc(data), 1_c_int64_t, model, report) &
+      == ENTS_OK, "model_create with data: " // ents_string(report%message))
+    call expect(ents_model_destroy(model, report) == ENTS_OK, "model_destroy")
+  end subroutine check_data
+
+end program procedures
