@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,7 +17,7 @@
 
 namespace host::inp {
 
-/// "FILE:LINE: what was expected, what was found".
+/// "FILE:LINE: what was wrong, what was expected".
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -33,7 +32,7 @@ struct Element {
   Shape shape = Shape::line2;
   Kind kind = Kind::truss;
   std::array<int, 8> nodes{}; ///< indices into Deck::coordinates, the first node_count(shape) are used
-  int line = 0;               ///< where it was defined
+  int file = 0, line = 0;     ///< where it was defined; `file` indexes Deck::files
 };
 
 /// Face of an element; `face` is 0-based: Abaqus S1 is 0.
@@ -54,6 +53,7 @@ struct Ignored {
 
 /// Sets are named in upper case and hold indices (not ids), without repetition, in the deck's order.
 struct Deck {
+  std::vector<std::string> files; ///< the deck and what it includes
   std::string heading;
   std::vector<std::int64_t> node_ids;
   std::vector<std::array<double, 3>> coordinates; ///< [nodes], length; missing ones are 0

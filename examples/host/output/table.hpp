@@ -21,7 +21,6 @@ public:
   ///               whole so that numbers can be compared down the column
   Table& column(std::string title, std::string unit = "", int digits = 4);
 
-  /// Text and counts of any integer type become cells, too.
   /// @throws std::invalid_argument if the number of cells is not the number of columns
   Table& row(std::vector<Cell> cells);
 
@@ -40,8 +39,8 @@ private:
   std::vector<std::vector<Cell>> rows_;
 };
 
-/// A number with `digits` significant digits, fixed notation for 1e-3 <= |value| < 10^max(digits, 5),
-/// else 1.23e-07. Locale independent.
+/// A number with `digits` significant digits: fixed for 1e-3 <= |value| < 10^(max(digits, 5) + 1), else as
+/// 1.23e-07. Locale independent.
 std::string format_number(double value, int digits = 4);
 
 /// Columns a terminal needs for UTF-8 text: code points, combining marks not counted.

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtu.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <stdexcept>
+
+namespace host::vtu {
+namespace {
+
+std::string base64(std::span<const unsigned char> bytes) {
+  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j) group = group << 8 | (j < n ? bytes[i + j] : 0u);
+    for (std::size_t j = 0; j < 4; ++j) out += j <= n ? digits[group >> (18 - 6 * j) & 63u] : '=';
+  }
+  return out;
+}
+
+std::string attribute(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string number(double value) { // shortest text that reads back to the same bits
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+template <class T> constexpr const char* type_name() {
+  if constexpr (std::is_same_v<T, double>)
+    return "Float64";
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    return "Int64";
+  else
+    return "UInt8";
+}
+
+template <class T>
+void data_array(std::string& xml, std::string_view name, int components, const std::vector<T>& values) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  std::vector<unsigned char> bytes(sizeof size + size);
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  xml += "<DataArray type=\"" + std::string(type_name<T>()) + "\" Name=\"" + attribute(name) + "\"";
+  xml += " NumberOfComponents=\"" + std::to_string(components) + "\"";
+  if (components == 6) {
+    static constexpr std::array tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    for (std::size_t i = 0; i < tensor.size(); ++i)
+      xml += " ComponentName" + std::to_string(i) + "=\"" + tensor[i] + "\"";
+  }
+  xml += " format=\"binary\">" + base64(bytes) + "</DataArray>\n";
+}
+
+/// Insert zeros: [n][from] becomes [n][to].
+std::vector<double> padded(const std::vector<double>& values, std::size_t from, std::size_t to) {
+  if (from == to) return values;
+  const std::size_t n = values.size() / from;
+  std::vector<double> out(n * to, 0.0);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(&values[i * from], from, &out[i * to]);
+  return out;
+}
+
+void attributes(std::string& xml, std::string_view tag, const std::vector<Array>& arrays, std::size_t n) {
+  xml += "<" + std::string(tag) + ">\n";
+  for (const Array& array : arrays) {
+    const int from = array.components, to = from == 2 ? 3 : from == 4 ? 6 : from;
+    if (from < 1) throw std::invalid_argument("array '" + array.name + "': components must be at least 1");
+    if (array.values.size() != n * static_cast<std::size_t>(from))
+      throw std::invalid_argument("array '" + array.name + "' has " + std::to_string(array.values.size()) +
+                                  " values; " + std::to_string(n) + " x " + std::to_string(from) +
+                                  " are needed");
+    data_array(xml, array.name, to,
+               padded(array.values, static_cast<std::size_t>(from), static_cast<std::size_t>(to)));
+  }
+  xml += "</" + std::string(tag) + ">\n";
+}
+
+/// The three arrays of VTK's cell list, all blocks one after the other.
+struct CellList {
+  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::uint8_t> types;
+};
+
+CellList cell_list(const Grid& grid, std::size_t points) {
+  CellList list;
+  for (const Cells& block : grid.cells) {
+    const auto per_cell = static_cast<std::size_t>(block.nodes_per_cell);
+    if (block.nodes_per_cell < 1 || block.connectivity.size() % per_cell != 0)
+      throw std::invalid_argument(
+          "cells: " + std::to_string(block.connectivity.size()) +
+          " nodes are not a multiple of nodes_per_cell = " + std::to_string(block.nodes_per_cell));
+    for (std::size_t i = 0; i < block.connectivity.size(); ++i) {
+      const std::int64_t node = block.connectivity[i];
+      if (node < 0 || node >= static_cast<std::int64_t>(points))
+        throw std::invalid_argument("cells: node " + std::to_string(node) + " of " + std::to_string(points) +
+                                    " points");
+      list.connectivity.push_back(node);
+      if ((i + 1) % per_cell != 0) continue;
+      list.offsets.push_back(static_cast<std::int64_t>(list.connectivity.size()));
+      list.types.push_back(static_cast<std::uint8_t>(block.type));
+    }
+  }
+  return list;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written (folder, permission or disk?)");
+}
+
+constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+
+Grid one_block(int dimension, std::vector<double> points) {
+  Grid grid;
+  grid.dimension = dimension;
+  grid.points = std::move(points);
+  grid.cells.emplace_back();
+  return grid;
+}
+
+} // namespace
+
+Grid point_cloud(int dimension, std::vector<double> points) {
+  Grid grid = one_block(dimension, std::move(points));
+  grid.cells[0].connectivity.resize(grid.points.size() / static_cast<std::size_t>(dimension));
+  for (std::size_t i = 0; i < grid.cells[0].connectivity.size(); ++i)
+    grid.cells[0].connectivity[i] = static_cast<std::int64_t>(i);
+  return grid;
+}
+
+Grid sampled_surface(int dimension, int n1, int n2, std::vector<double> points) {
+  Grid grid = one_block(dimension, std::move(points));
+  Cells& cells = grid.cells[0];
+  if (n2 == 1) {
+    cells.type = Cell::polyline, cells.nodes_per_cell = n1;
+    for (int i = 0; i < n1; ++i) cells.connectivity.push_back(i);
+    return grid;
+  }
+  cells.type = Cell::quad, cells.nodes_per_cell = 4;
+  for (int j = 0; j + 1 < n2; ++j)
+    for (int i = 0; i + 1 < n1; ++i) {
+      const int corner = j * n1 + i;
+      for (const int node : {corner, corner + 1, corner + 1 + n1, corner + n1})
+        cells.connectivity.push_back(node);
+    }
+  return grid;
+}
+
+std::string to_xml(const Grid& grid) {
+  if (grid.dimension != 2 && grid.dimension != 3)
+    throw std::invalid_argument("grid: dimension must be 2 or 3");
+  const auto dimension = static_cast<std::size_t>(grid.dimension);
+  if (grid.points.size() % dimension != 0)
+    throw std::invalid_argument("grid: the size of `points` is not a multiple of the dimension");
+  const std::size_t points = grid.points.size() / dimension;
+  const CellList cells = cell_list(grid, points);
+
+  std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
+  xml += std::string(byte_order) + "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+  xml += "<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
+         std::to_string(cells.types.size()) + "\">\n";
+  attributes(xml, "PointData", grid.point_data, points);
+  attributes(xml, "CellData", grid.cell_data, cells.types.size());
+  xml += "<Points>\n";
+  data_array(xml, "Points", 3, padded(grid.points, dimension, 3));
+  xml += "</Points>\n<Cells>\n";
+  data_array(xml, "connectivity", 1, cells.connectivity);
+  data_array(xml, "offsets", 1, cells.offsets);
+  data_array(xml, "types", 1, cells.types);
+  xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return xml;
+}
+
+void write(const std::filesystem::path& file, const Grid& grid) { write_text(file, to_xml(grid)); }
+
+Series::Series(std::filesystem::path directory, std::string name)
+    : directory_(std::move(directory)), name_(std::move(name)) {}
+
+std::filesystem::path Series::file() const { return directory_ / (name_ + ".pvd"); }
+
+void Series::add(int step, double time, std::string_view part, const Grid& grid) {
+  std::string digits = std::to_string(step);
+  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+  const std::string vtu = name_ + "_" + std::string(part) + "_" + digits + ".vtu";
+  write(directory_ / vtu, grid);
+  entries_.push_back({time, std::string(part), vtu});
+  if (std::find(parts_.begin(), parts_.end(), part) == parts_.end()) parts_.emplace_back(part);
+
+  std::string xml =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+      "byte_order=\"" +
+      std::string(byte_order) + "\">\n<Collection>\n";
+  for (const Entry& entry : entries_) {
+    const auto number_of_part = std::find(parts_.begin(), parts_.end(), entry.part) - parts_.begin();
+    xml += "<DataSet timestep=\"" + number(entry.time) + "\" part=\"" + std::to_string(number_of_part) +
+           "\" name=\"" + attribute(entry.part) + "\" file=\"" + attribute(entry.file) + "\"/>\n";
+  }
+  write_text(file(), xml + "</Collection>\n</VTKFile>\n");
+}
+
+} // namespace host::vtu
