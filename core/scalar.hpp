@@ -17,10 +17,16 @@
 
 #if defined(__GNUC__)
 #define ENTS_INLINE inline __attribute__((always_inline))
+#define ENTS_LAMBDA_INLINE __attribute__((always_inline))
+#define ENTS_NOINLINE __attribute__((noinline))
 #elif defined(_MSC_VER)
 #define ENTS_INLINE __forceinline
+#define ENTS_LAMBDA_INLINE
+#define ENTS_NOINLINE __declspec(noinline)
 #else
 #define ENTS_INLINE inline
+#define ENTS_LAMBDA_INLINE
+#define ENTS_NOINLINE
 #endif
 
 namespace ents::ENTS_ISA {

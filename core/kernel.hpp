@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Instantiates the kernels of one basis.
+#pragma once
+
+#include "core/element.hpp"
+#include "core/kernel_table.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class B> inline constexpr KernelSet kernels_of = {
+    {{evaluate_element<B, false, false>, evaluate_element<B, false, true>},
+     {evaluate_element<B, true, false>, evaluate_element<B, true, true>}},
+    {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>}};
+
+}  // namespace ents::ENTS_ISA

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/plan.hpp"
+
+#include "core/kernel_table.hpp"
+
+namespace ents {
+
+namespace {
+
+const KernelSet& kernels_of(Basis basis) {
+  switch (basis) {
+    case Basis::line2: return portable::line2_kernels();
+    case Basis::line3: return portable::line3_kernels();
+    case Basis::catmull_rom4: return portable::catmull_rom4_kernels();
+    case Basis::bspline4: return portable::bspline4_kernels();
+    case Basis::tri3: return portable::tri3_kernels();
+    case Basis::tri6: return portable::tri6_kernels();
+    case Basis::quad4: return portable::quad4_kernels();
+    case Basis::quad8: return portable::quad8_kernels();
+    case Basis::quad9: return portable::quad9_kernels();
+    case Basis::catmull_rom16: return portable::catmull_rom16_kernels();
+    case Basis::bspline16: break;
+  }
+  return portable::bspline16_kernels();
+}
+
+}  // namespace
+
+Plan make_plan(const Model& model) {
+  const BasisEntry& basis = basis_entry(model.basis);
+  const KernelSet& kernels = kernels_of(model.basis);
+  const bool enriched = !model.height.none();
+  Plan plan{};
+  plan.element = kernels.element[enriched][model.rigid_master];
+  plan.surface = kernels.surface[enriched];
+  plan.height = enriched ? &model.height.root() : nullptr;
+  plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
+  for (std::int32_t a = 0; a < 2; ++a)
+    plan.feature_length[a] = a < basis.parameters ? model.height.feature_length(a) : Height::unbounded;
+  plan.height_bound = model.height.bound();
+  plan.projection = model.projection;
+  plan.tangent = model.tangent;
+  for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
+  plan.penalty_stiffness = model.has_contact ? model.penalty_stiffness : 0.0;
+  plan.penetration_limit = model.penetration_limit;
+  plan.dimension = basis.parameters + 1;
+  plan.nodes = basis.nodes;
+  plan.parameters = basis.parameters;
+  plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1);
+  plan.state_size = state_size_of(basis.parameters);
+  return plan;
+}
+
+}  // namespace ents

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Projection of the slave node on the enriched surface, from a start value.
+//   normal: (x_s - rho_e) . rho_e,a = 0, the minimum of F = |x_s - rho_e|^2 / 2
+//   shadow: x_s - rho_e = g e, the point of the surface on the ray through the slave
+// Newton's method on the exact equations, made safe by a bound on the step and by backtracking on F
+// (normal) or on the distance from the ray (shadow).
+#pragma once
+
+#include "core/model.hpp"
+#include "core/surface.hpp"
+
+namespace ents::ENTS_ISA {
+
+enum class Found { yes, not_converged, escaped, degenerate, grazing };
+
+// The surface at the projection, ready for the variations.
+template <class B, bool H> struct Projection {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  double xi[T];
+  Shape<double, T, B::nodes> N;
+  Surface<B, H, double> s;
+  double metric[K];  // A_e = rho_e,a . rho_e,b   (normal)
+  double f2[K];      // F_,xixi = A_e - d . rho_e,ab (normal)
+  int evaluations;
+};
+
+// What a projection needs to know of its model.
+struct Target {
+  ProjectionKind kind;
+  double ray[3];            // unit ray direction e of this element (shadow)
+  double inverse_distance;  // 1 / distance of the emitter; 0 for a fixed direction
+};
+
+inline constexpr int max_evaluations = 30;
+inline constexpr double max_step = 0.5;   // natural coordinates
+inline constexpr double far_outside = 4.0;  // |xi| beyond which the iteration has left the segment for good
+
+template <int T> ENTS_INLINE double max_norm(const double (&v)[T]) {
+  double m = v[0] < 0 ? -v[0] : v[0];
+  if constexpr (T == 2) {
+    const double w = v[1] < 0 ? -v[1] : v[1];
+    m = m > w ? m : w;
+  }
+  return m;
+}
+
+// Solve the symmetric system m x = r.
+ENTS_INLINE void solve(const double (&m)[1], const double (&r)[1], double (&x)[1]) { x[0] = r[0] / m[0]; }
+ENTS_INLINE void solve(const double (&m)[3], const double (&r)[2], double (&x)[2]) {
+  const double q = 1.0 / determinant(m);
+  x[0] = (m[2] * r[0] - m[1] * r[1]) * q;
+  x[1] = (m[0] * r[1] - m[1] * r[0]) * q;
+}
+
+// A minimum of the distance: F_,xixi is positive definite, with some distance from singular.
+template <int K> ENTS_INLINE bool is_minimum(const double (&f2)[K], const double (&metric)[K]) {
+  return f2[0] > 1e-8 * metric[0] && determinant(f2) > 1e-8 * determinant(metric);
+}
+
+// Newton step of the normal projection; returns F.
+template <class B, bool H>
+ENTS_INLINE double normal_step(Projection<B, H>& p, double (&step)[B::dim - 1]) {
+  constexpr int T = B::dim - 1, K = symmetric_size<T>;
+  double r[T];
+  for (int a = 0; a < T; ++a) r[a] = dot(p.s.e[a], p.s.d);
+  for (int k = 0; k < K; ++k) {
+    p.metric[k] = dot(p.s.e[k / 2], p.s.e[(k + 1) / 2]);
+    p.f2[k] = p.metric[k] - dot(p.s.d, p.s.e2[k]);
+  }
+  // away from a minimum the metric alone (Gauss-Newton) still descends
+  solve(is_minimum(p.f2, p.metric) ? p.f2 : p.metric, r, step);
+  return 0.5 * dot(p.s.d, p.s.d);
+}
+
+// Covectors of the frame (rho_e,1 .. rho_e,T, e): onto[a] . rho_e,b = delta_ab, onto[a] . e = 0;
+// gap . rho_e,a = 0, gap . e = 1. False if the ray lies in the tangent plane.
+ENTS_INLINE bool ray_frame(const Vec<double, 2> (&e)[1], const Vec<double, 2>& ray, Vec<double, 2> (&onto)[1],
+                           Vec<double, 2>& gap) {
+  const Vec<double, 2> m = normal_of_tangents(e);
+  const double det = dot(m, ray);
+  if (!(det * det > 1e-20 * dot(m, m))) return false;
+  onto[0] = (1.0 / det) * Vec<double, 2>{{ray[1], -ray[0]}};
+  gap = (1.0 / det) * m;
+  return true;
+}
+ENTS_INLINE bool ray_frame(const Vec<double, 3> (&e)[2], const Vec<double, 3>& ray, Vec<double, 3> (&onto)[2],
+                           Vec<double, 3>& gap) {
+  const Vec<double, 3> m = normal_of_tangents(e);
+  const double det = dot(m, ray);
+  if (!(det * det > 1e-20 * dot(m, m))) return false;
+  onto[0] = (1.0 / det) * cross(e[1], ray);
+  onto[1] = (1.0 / det) * cross(ray, e[0]);
+  gap = (1.0 / det) * m;
+  return true;
+}
+
+template <int D> ENTS_INLINE double absolute_dot(const Vec<double, D>& a, const Vec<double, D>& b) {
+  const double s = dot(a, b);
+  return s < 0 ? -s : s;
+}
+
+template <int D> ENTS_INLINE Vec<double, D> ray_of(const Target& t) {
+  Vec<double, D> e;
+  for (int k = 0; k < D; ++k) e[k] = t.ray[k];
+  return e;
+}
+
+// Newton step of the shadow projection; merit = half the squared distance from the ray.
+template <class B, bool H>
+ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step)[B::dim - 1], double& merit) {
+  constexpr int D = B::dim, T = D - 1;
+  const Vec<double, D> ray = ray_of<D>(t);
+  Vec<double, D> onto[T], gap;
+  if (!ray_frame(p.s.e, ray, onto, gap)) return false;
+  for (int a = 0; a < T; ++a) step[a] = dot(onto[a], p.s.d);
+  Vec<double, D> off = p.s.d;
+  add_scaled(off, -dot(p.s.d, ray), ray);
+  merit = 0.5 * dot(off, off);
+  return true;
+}
+
+// From p.xi to the projection near it. On success p holds the surface at the projection; after `escaped`,
+// at the last point on the way out.
+template <class B, bool H>
+ENTS_INLINE Found project(const Geometry<B>& g, const Target& t, Projection<B, H>& p) {
+  constexpr int T = B::dim - 1;
+  const bool normal = t.kind == ProjectionKind::normal;
+  double xi[T], step[T] = {}, previous_merit = 0.0, previous_length = 0.0;
+  for (int a = 0; a < T; ++a) xi[a] = p.xi[a];
+  bool last = false;
+  for (p.evaluations = 1; p.evaluations <= max_evaluations; ++p.evaluations) {
+    const bool first = p.evaluations == 1;
+    double next[T], merit = 0.0;
+    bool ok = normal ? evaluate_surface<2>(g, xi, p.N, p.s) : evaluate_surface<1>(g, xi, p.N, p.s);
+    if (!ok && (first || last)) return Found::degenerate;
+    if (ok) {
+      if (normal) {
+        merit = normal_step(p, next);
+      } else if (!shadow_step(p, t, next, merit)) {
+        if (first || last) return Found::grazing;
+        ok = false;
+      }
+    }
+    if (last) {
+      for (int a = 0; a < T; ++a) p.xi[a] = xi[a];
+      return Found::yes;
+    }
+    // rounding keeps the merit from falling below (eps size)^2
+    const double floor = 1e-26 * dot(p.s.a[0], p.s.a[0]);
+    if (ok && (first || merit <= previous_merit * (1.0 + 1e-12) + floor)) {
+      for (int a = 0; a < T; ++a) {
+        p.xi[a] = xi[a];
+        step[a] = next[a];
+      }
+      const double length = max_norm(step);
+      if (!(length < 1e30)) return Found::not_converged;
+      if (length <= 1e-15) return Found::yes;
+      // Quadratic convergence: the error after this step is about (l / l_before^2) l^2; ten times that below
+      // rounding makes this the last step. A flat plain segment is solved by its first step.
+      constexpr bool linear = is_flat<B> && !H;
+      if (linear || length <= 1e-13 ||
+          (length < 1e-4 && 10.0 * length * length * length <= 1e-16 * previous_length * previous_length))
+        last = true;
+      else if (length > max_step)
+        for (int a = 0; a < T; ++a) step[a] *= max_step / length;
+      previous_length = length;
+      previous_merit = merit;
+    } else {  // back to the last good point, with half the step
+      for (int a = 0; a < T; ++a) step[a] *= 0.5;
+      previous_length = 0.0;
+      if (max_norm(step) < 1e-14) return Found::not_converged;
+    }
+    for (int a = 0; a < T; ++a) xi[a] = p.xi[a] + step[a];
+    if (!last && max_norm(xi) > far_outside) return Found::escaped;
+  }
+  return Found::not_converged;
+}
+
+// Is xi on the segment? The tolerance keeps a node on a common edge from falling between two segments.
+template <class B> ENTS_INLINE bool on_segment(const double (&xi)[B::dim - 1], double tolerance = 1e-9) {
+  if constexpr (B::simplex) return xi[0] >= -tolerance && xi[1] >= -tolerance && xi[0] + xi[1] <= 1.0 + tolerance;
+  else return max_norm(xi) <= 1.0 + tolerance;
+}
+
+}  // namespace ents::ENTS_ISA
