@@ -1,0 +1,25 @@
+#!/bin/sh
+# Set up, build, press the measured rough surface into an elastic block, and name the pictures.
+set -eu
+cd "$(dirname "$0")/.."
+
+case ${1-} in
+  -h | --help)
+    cat <<'HELP'
+usage: sh examples/quickstart.sh
+
+Installs what is missing and builds ents-host in build/ (see sh examples/setup.sh --help), then solves examples/rough_afm, a surface
+measured by atomic force microscopy on ONE contact segment, pressed into an elastic block. The results go to out/rough_afm.
+
+exit status: 0 done; 1 the build or the solution failed; 2 a package is missing, or the command line is wrong
+HELP
+    exit 0
+    ;;
+  ?*) echo "quickstart.sh: unknown option '$1'; try --help" >&2; exit 2 ;;
+esac
+
+sh examples/setup.sh --target ents-host
+echo "== build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm"
+build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm
+echo "== pictures"
+find out/rough_afm -name '*.png' -o -name '*.svg' | sort

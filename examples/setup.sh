@@ -1,0 +1,75 @@
+#!/bin/sh
+# Install what is missing and build in build/. quickstart.sh and tests/run.sh begin with this, so that both share one build.
+set -eu
+
+usage() {
+  cat <<'HELP'
+usage: sh examples/setup.sh [--target NAME] [-DNAME=VALUE ...]
+
+Installs what is missing from Debian's packages (as root, or through sudo when it asks for no password), configures and builds the
+library, the reference host, the benchmark and the tests in build/; with --target, only that and what it needs. -D... goes to CMake:
+  -DENTS_WERROR=ON                       warnings are errors
+  -DCMAKE_BUILD_TYPE=Debug               instead of Release
+They stay in force in build/ until changed or until build/ is removed.
+
+exit status: 0 built; 1 the build failed; 2 a package is missing and cannot be installed, or the command line is wrong
+HELP
+}
+
+target=all
+if [ "${1-}" = --target ] && [ $# -ge 2 ]; then
+  target=$2
+  shift 2
+fi
+for option; do
+  case $option in
+    -h | --help) usage; exit 0 ;;
+    -D?*) ;;
+    *) echo "setup.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
+  esac
+done
+
+cd "$(dirname "$0")/.."
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+
+# Compilers and build tools; libraries; pictures.
+packages='g++ gfortran cmake ninja-build pkg-config
+  libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev
+  gnuplot-nox'
+
+missing() {
+  for package in $packages; do
+    state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$state" = installed ] || printf '%s ' "$package"
+  done
+}
+
+if command -v dpkg-query >/dev/null 2>&1; then
+  wanted=$(missing)
+  if [ -n "$wanted" ]; then
+    echo "== installing: $wanted"
+    if [ "$(id -u)" -eq 0 ]; then
+      as_root='env DEBIAN_FRONTEND=noninteractive'
+    elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+      as_root='sudo -n env DEBIAN_FRONTEND=noninteractive'
+    else
+      echo "setup.sh: these packages are missing and this user may not install them. As root:" >&2
+      echo "  apt-get install $wanted" >&2
+      exit 2
+    fi
+    # shellcheck disable=SC2086 # the lists are words
+    if ! { $as_root apt-get -qq update && $as_root apt-get -qq install -y --no-install-recommends $wanted; } >"$log" 2>&1; then
+      cat "$log" >&2
+      echo "setup.sh: apt-get failed (above); is there a network? Still missing: $(missing)" >&2
+      exit 2
+    fi
+  fi
+else
+  echo "== no dpkg here: assuming that the equivalents of these Debian packages are installed:" $packages
+fi
+
+echo "== building in build/"
+[ -f build/CMakeCache.txt ] || set -- -G Ninja "$@"
+cmake -S . -B build "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+cmake --build build --target "$target" --parallel "$(nproc)" || exit 1

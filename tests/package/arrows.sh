@@ -1,0 +1,49 @@
+#!/bin/sh
+# arrows.sh ROOT: who may include whom. core knows mechanics and nothing of C, JSON, files or hosts; abi is the only door to it;
+# examples and adapters see ents.h and nothing else of ours.
+set -eu
+cd "$1"
+bad=0
+
+# includes FOLDER: file:line:<header> or "header" of every source file below it
+includes() {
+  [ -d "$1" ] || return 0
+  grep -rnoE --include='*.[ch]' --include='*.[ch]pp' '^ *# *include *[<"][^>"]*[>"]' "$1" | sed 's/# *include *//; s/: */:/g'
+}
+
+# forbid "why" 'pattern' folders ...: no include of these folders matches
+forbid() {
+  why=$1 pattern=$2
+  shift 2
+  for folder; do
+    found=$(includes "$folder" | grep -E ":$pattern\$" || true)
+    [ -z "$found" ] && continue
+    printf '%s\n' "$found" | sed "s|\$|  -- $why|" >&2
+    bad=1
+  done
+}
+
+for folder in core abi; do
+  [ -n "$(includes $folder)" ] || { echo "no include found below $folder" >&2; exit 1; }
+done
+forbid "core does not know the C ABI or hosts" '["<](.*/)?(ents\.h|(abi|adapters|examples|tests)/.*)[">]' core
+forbid "core does not know JSON" '["<].*json.*[">]' core
+forbid "core does not read or write" '<(fstream|iostream|ostream|istream|sstream|filesystem|cstdio|stdio\.h|clocale|locale)>' core
+forbid "core takes no lock and starts no thread" '<(thread|mutex|shared_mutex|atomic|future|condition_variable)>' core
+forbid "POSIX is not portable C++" '<(unistd|fcntl|dlfcn|pthread|signal|sys/.*)\.?h?>' core abi
+forbid "abi does not know hosts or tests" '["<](.*/)?(adapters|examples|tests)/.*[">]' abi
+forbid "only abi may see core" '["<](.*/)?core/.*[">]' examples adapters
+forbid "the door is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters core
+
+# No detour either: a name without a folder that exists only in core or in abi.
+for folder in examples adapters; do
+  includes $folder | grep -oE '"[^"]*"$' | tr -d '"' | sort -u | while read -r header; do
+    name=$(basename "$header")
+    [ "$name" = ents.h ] && continue
+    [ -n "$(find $folder -name "$name")" ] && continue
+    echo "$folder includes \"$header\", which is not its own"
+  done
+done | sort | { ! grep . >&2; } || bad=1
+
+[ $bad -eq 0 ] || exit 1
+echo "$(includes core | wc -l) includes of core, $(includes abi | wc -l) of abi, $(includes examples | wc -l) of examples"

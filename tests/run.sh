@@ -1,0 +1,23 @@
+#!/bin/sh
+# Set up, build, run every test.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+
+case ${1-} in
+  -h | --help)
+    cat <<'HELP'
+usage: sh tests/run.sh [-DNAME=VALUE ...]
+
+Installs what is missing, builds in build/ (see sh examples/setup.sh --help for both, and for the options) and runs every test.
+Afterwards some of them, by name:
+  ctest --test-dir build -R clients --output-on-failure
+
+exit status: 0 all tests passed; 1 a test or the build failed; 2 a package is missing, or the command line is wrong
+HELP
+    exit 0
+    ;;
+esac
+
+sh "$root/examples/setup.sh" "$@"
+echo "== testing"
+ctest --test-dir "$root/build" --parallel "$(nproc)" --output-on-failure --no-tests=error || exit 1
