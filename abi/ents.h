@@ -73,7 +73,7 @@ extern "C" {
   X(ENTS_NON_FINITE, -4, "an input is NaN or infinite")                                            \
   X(ENTS_JSON_SYNTAX, -5, "the model text is not valid JSON")                                      \
   X(ENTS_UNKNOWN_KEY, -6, "unknown, duplicate or missing key in the model")                        \
-  X(ENTS_BAD_VALUE, -7, "wrong type or value out of range in the model")                           \
+  X(ENTS_BAD_VALUE, -7, "wrong type or value out of range")                           \
   X(ENTS_FILE, -8, "a file cannot be read or has the wrong format")                                \
   X(ENTS_BAD_MASK, -9, "unknown bit in `wanted`, or something the model cannot deliver")           \
   X(ENTS_BAD_COUNT, -10, "negative count, or a stride or leading dimension too small")             \

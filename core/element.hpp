@@ -88,6 +88,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   const std::int32_t wanted = out.wanted;
   const bool element = (wanted & want::element) != 0;
   if (!inputs_finite<B>(in)) return Status::non_finite;
+  if (in.area && *in.area < 0.0) return Status::bad_value;
 
   Geometry<B> g;
   g.set(in.slave, in.master);
@@ -199,36 +200,6 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   }
   if (wanted & want::flags) *out.flags = flags;
   if (wanted & want::iterations) *out.iterations = p.evaluations;
-  return Status::ok;
-}
-
-// A point of the surface itself, for pictures and checks.
-template <class B, bool H>
-Status evaluate_surface_point(const Plan& plan, const double* master, const double* surface_coordinates,
-                              const double* xi, const SurfacePoint& out) {
-  constexpr int D = B::dim, T = D - 1;
-  if (!all_finite<D * B::nodes>(master) || !all_finite<T>(xi) ||
-      (surface_coordinates && !all_finite<T * B::nodes>(surface_coordinates)))
-    return Status::non_finite;
-  Geometry<B> g;
-  g.set(master, master);  // seen from the first node
-  g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
-  g.height = plan.height;
-  double at[T];
-  for (int a = 0; a < T; ++a) at[a] = xi[a];
-  Projection<B, H> p;
-  Vec<double, D> normal;
-  if (!evaluate_surface<1>(g, at, p.N, p.s) || !enriched_normal(p.s, normal)) return Status::degenerate_segment;
-  double h = 0.0;
-  if constexpr (H) h = p.s.height.h;
-  for (int c = 0; c < D; ++c) {
-    const double point = master[c] - p.s.d[c];
-    if (out.point) out.point[c] = point;
-    if (out.normal) out.normal[c] = normal[c];
-    if (out.base_point) out.base_point[c] = point - h * p.s.n[c];
-    if (out.base_normal) out.base_normal[c] = p.s.n[c];
-  }
-  if (out.height) *out.height = h;
   return Status::ok;
 }
 

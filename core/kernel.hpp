@@ -4,6 +4,7 @@
 
 #include "core/element.hpp"
 #include "core/kernel_table.hpp"
+#include "core/surface_point.hpp"
 
 namespace ents::ENTS_ISA {
 

@@ -20,6 +20,7 @@ enum class Status : std::int32_t {
   deep_penetration = 6,
   out_of_range = 7,
   non_finite = -4,
+  bad_value = -7,
   bad_state = -12,
 };
 
@@ -71,6 +72,7 @@ struct ElementOutput {
 
 struct SurfacePoint {
   double *point, *normal, *height, *base_point, *base_normal;  // each or null
+  double *curvature, *base_curvature;                          // largest |kappa| of rho_e and of rho; each or null
 };
 
 struct Plan;

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents_evaluate: arguments checked once, then one kernel call per element.
+#include <bit>
+#include <cmath>
+
+#include "abi/guard.hpp"
+#include "abi/handle.hpp"
+
+namespace ents {
+
+namespace {
+
+static_assert(static_cast<int>(Status::no_projection) == ENTS_NO_PROJECTION);
+static_assert(static_cast<int>(Status::singular_projection) == ENTS_SINGULAR_PROJECTION);
+static_assert(static_cast<int>(Status::ambiguous_projection) == ENTS_AMBIGUOUS_PROJECTION);
+static_assert(static_cast<int>(Status::degenerate_segment) == ENTS_DEGENERATE_SEGMENT);
+static_assert(static_cast<int>(Status::grazing_ray) == ENTS_GRAZING_RAY);
+static_assert(static_cast<int>(Status::deep_penetration) == ENTS_DEEP_PENETRATION);
+static_assert(static_cast<int>(Status::out_of_range) == ENTS_OUT_OF_RANGE);
+static_assert(static_cast<int>(Status::non_finite) == ENTS_NON_FINITE);
+static_assert(static_cast<int>(Status::bad_value) == ENTS_BAD_VALUE);
+static_assert(static_cast<int>(Status::bad_state) == ENTS_BAD_STATE);
+static_assert(want::xi == ENTS_XI && want::gap == ENTS_GAP && want::normal_gap == ENTS_NORMAL_GAP);
+static_assert(want::normal == ENTS_NORMAL && want::point == ENTS_POINT);
+static_assert(want::gap_gradient == ENTS_GAP_GRADIENT && want::gap_hessian == ENTS_GAP_HESSIAN);
+static_assert(want::xi_gradient == ENTS_XI_GRADIENT && want::xi_hessian == ENTS_XI_HESSIAN);
+static_assert(want::energy == ENTS_ENERGY && want::pressure == ENTS_PRESSURE);
+static_assert(want::residual == ENTS_RESIDUAL && want::tangent == ENTS_TANGENT && want::state == ENTS_STATE);
+static_assert(want::flags == ENTS_FLAGS && want::iterations == ENTS_ITERATIONS);
+static_assert(flag::contact == ENTS_FLAG_CONTACT && flag::outside == ENTS_FLAG_OUTSIDE);
+static_assert(flag::far_side == ENTS_FLAG_FAR_SIDE && flag::searched == ENTS_FLAG_SEARCHED);
+
+// An array of an input or output struct, as the checks and messages need it.
+struct Array {
+  const char* name;
+  const void* data;
+  std::int64_t stride;
+  std::int64_t size; // of one element
+};
+
+std::int64_t leading_dimension(const Plan& plan, const ents_output& out) noexcept {
+  return out.tangent_leading_dimension == 0 ? plan.dofs : out.tangent_leading_dimension;
+}
+
+Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
+  const std::int64_t d = plan.dimension, t = plan.parameters, n = plan.dofs;
+  switch (1 << bit) {
+  case ENTS_XI:
+    return {"xi", out.xi, out.xi_stride, t};
+  case ENTS_GAP:
+    return {"gap", out.gap, out.gap_stride, 1};
+  case ENTS_NORMAL_GAP:
+    return {"normal_gap", out.normal_gap, out.normal_gap_stride, 1};
+  case ENTS_NORMAL:
+    return {"normal", out.normal, out.normal_stride, d};
+  case ENTS_POINT:
+    return {"point", out.point, out.point_stride, d};
+  case ENTS_GAP_GRADIENT:
+    return {"gap_gradient", out.gap_gradient, out.gap_gradient_stride, n};
+  case ENTS_GAP_HESSIAN:
+    return {"gap_hessian", out.gap_hessian, out.gap_hessian_stride, n * n};
+  case ENTS_XI_GRADIENT:
+    return {"xi_gradient", out.xi_gradient, out.xi_gradient_stride, t * n};
+  case ENTS_XI_HESSIAN:
+    return {"xi_hessian", out.xi_hessian, out.xi_hessian_stride, t * n * n};
+  case ENTS_ENERGY:
+    return {"energy", out.energy, out.energy_stride, 1};
+  case ENTS_PRESSURE:
+    return {"pressure", out.pressure, out.pressure_stride, 1};
+  case ENTS_RESIDUAL:
+    return {"residual", out.residual, out.residual_stride, n};
+  case ENTS_TANGENT:
+    return {"tangent", out.tangent, out.tangent_stride, (n - 1) * leading_dimension(plan, out) + n};
+  case ENTS_STATE:
+    return {"state_end", out.state_end, out.state_end_stride, plan.state_size};
+  case ENTS_FLAGS:
+    return {"flags", out.flags, out.flags_stride, 1};
+  default:
+    return {"iterations", out.iterations, out.iterations_stride, 1};
+  }
+}
+
+std::int32_t check_output(const ents_model& model, std::int64_t count, const ents_output& out,
+                          ents_report* report) {
+  const Plan& plan = model.plan;
+  if ((out.wanted & ~want::all) != 0)
+    return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
+                          static_cast<unsigned>(out.wanted & ~want::all));
+  if ((out.wanted & (want::element & ~want::state)) != 0 && !model.model.has_contact)
+    return report_status(
+        report, ENTS_BAD_MASK, -1,
+        "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
+        "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
+  if ((out.wanted & ENTS_TANGENT) != 0 && leading_dimension(plan, out) < plan.dofs)
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "output.tangent_leading_dimension is %lld; at least %d is needed",
+                          static_cast<long long>(out.tangent_leading_dimension), plan.dofs);
+  for (std::uint32_t bits = static_cast<std::uint32_t>(out.wanted); bits != 0; bits &= bits - 1) {
+    const Array a = output_array(plan, out, std::countr_zero(bits));
+    if (!a.data)
+      return report_message(report, ENTS_NULL_ARGUMENT, -1,
+                            "output.%s is null but its bit is set in output.wanted", a.name);
+    if (count > 1 && a.stride < a.size)
+      return report_message(report, ENTS_BAD_COUNT, -1, "output.%s_stride is %lld; at least %lld is needed",
+                            a.name, static_cast<long long>(a.stride), static_cast<long long>(a.size));
+  }
+  if (out.status && count > 1 && out.status_stride < 1)
+    return report_message(report, ENTS_BAD_COUNT, -1, "output.status_stride is %lld; at least 1 is needed",
+                          static_cast<long long>(out.status_stride));
+  return ENTS_OK;
+}
+
+constexpr int input_arrays = 6;
+Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
+  const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes;
+  switch (index) {
+  case 0:
+    return {"slave", in.slave, in.slave_stride, d};
+  case 1:
+    return {"master", in.master, in.master_stride, m * d};
+  case 2:
+    return {"surface_coordinates", in.surface_coordinates, in.surface_coordinates_stride, m * t};
+  case 3:
+    return {"start", in.start, in.start_stride, t};
+  case 4:
+    return {"area", in.area, in.area_stride, 1};
+  default:
+    return {"state_begin", in.state_begin, in.state_begin_stride, plan.state_size};
+  }
+}
+
+std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t count, const ents_input& in,
+                         ents_report* report) {
+  if (first < 0 || count < 0 || count > INT64_MAX / 4096 || first > INT64_MAX / 4096)
+    return report_message(report, ENTS_BAD_COUNT, -1, "first = %lld, count = %lld: both must be >= 0",
+                          static_cast<long long>(first), static_cast<long long>(count));
+  if (count > 0 && (!in.slave || !in.master))
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.%s is null", in.slave ? "master" : "slave");
+  if (count > 1)
+    for (int i = 0; i < input_arrays; ++i) {
+      const Array a = input_array(plan, in, i);
+      if (a.data && a.stride != 0 && a.stride < a.size)
+        return report_message(report, ENTS_BAD_COUNT, -1,
+                              "input.%s_stride is %lld; 0 (shared) or at least %lld is needed", a.name,
+                              static_cast<long long>(a.stride), static_cast<long long>(a.size));
+    }
+  return ENTS_OK;
+}
+
+// Name the entry a kernel refused.
+std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element, const ents_input& in,
+                     ents_report* report) {
+  const long long e = element;
+  if (status == ENTS_NON_FINITE)
+    for (int i = 0; i < input_arrays; ++i) {
+      const Array a = input_array(plan, in, i);
+      const double* v = static_cast<const double*>(a.data);
+      if (!v) continue;
+      v += a.stride * element;
+      for (std::int64_t k = 0; k < a.size; ++k)
+        if (!std::isfinite(v[k]))
+          return report_message(report, status, element, "input.%s[%lld] of element %lld is %s", a.name,
+                                static_cast<long long>(k), e, std::isnan(v[k]) ? "NaN" : "infinite");
+    }
+  if (status == ENTS_BAD_VALUE)
+    return report_message(report, status, element, "input.area of element %lld is negative", e);
+  if (status == ENTS_BAD_STATE)
+    return report_message(
+        report, status, element,
+        "input.state_begin of element %lld is not a state of this model and version; fill it with "
+        "ents_state_init",
+        e);
+  return report_message(report, status, element, "element %lld: %s", e, ents_status_text(status));
+}
+
+template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
+  return data ? data + stride * element : nullptr;
+}
+
+std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t count,
+                      const ents_input* input, const ents_output* output, ents_report* report) {
+  std::int32_t status = check_handle(model, report);
+  if (status != ENTS_OK) return status;
+  ents_input input_copy;
+  ents_output output_copy;
+  const ents_input* in = known_struct(input, input_copy, "input", status, report);
+  if (!in) return status;
+  const ents_output* out = known_struct(output, output_copy, "output", status, report);
+  if (!out) return status;
+  const Plan& plan = model->plan;
+  if ((status = check_input(plan, first, count, *in, report)) != ENTS_OK) return status;
+  if ((status = check_output(*model, count, *out, report)) != ENTS_OK) return status;
+
+  report_ok(report);
+  std::int32_t result = ENTS_OK;
+  for (std::int64_t e = first; e < first + count; ++e) {
+    const ElementInput element = {at(in->slave, in->slave_stride, e),
+                                  at(in->master, in->master_stride, e),
+                                  at(in->surface_coordinates, in->surface_coordinates_stride, e),
+                                  at(in->start, in->start_stride, e),
+                                  at(in->area, in->area_stride, e),
+                                  at(in->state_begin, in->state_begin_stride, e)};
+    const ElementOutput results = {out->wanted,
+                                   at(out->xi, out->xi_stride, e),
+                                   at(out->gap, out->gap_stride, e),
+                                   at(out->normal_gap, out->normal_gap_stride, e),
+                                   at(out->normal, out->normal_stride, e),
+                                   at(out->point, out->point_stride, e),
+                                   at(out->gap_gradient, out->gap_gradient_stride, e),
+                                   at(out->gap_hessian, out->gap_hessian_stride, e),
+                                   at(out->xi_gradient, out->xi_gradient_stride, e),
+                                   at(out->xi_hessian, out->xi_hessian_stride, e),
+                                   at(out->energy, out->energy_stride, e),
+                                   at(out->pressure, out->pressure_stride, e),
+                                   at(out->residual, out->residual_stride, e),
+                                   at(out->tangent, out->tangent_stride, e),
+                                   at(out->state_end, out->state_end_stride, e),
+                                   leading_dimension(plan, *out),
+                                   at(out->flags, out->flags_stride, e),
+                                   at(out->iterations, out->iterations_stride, e)};
+    const std::int32_t outcome = static_cast<std::int32_t>(plan.element(plan, element, results));
+    if (out->status) *at(out->status, out->status_stride, e) = outcome;
+    if (outcome < 0) return explain(plan, outcome, e, *in, report);
+    if (outcome > 0 && result == ENTS_OK) {
+      result = outcome;
+      explain(plan, outcome, e, *in, report);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+} // namespace ents
+
+extern "C" {
+
+int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
+                      const ents_output* output, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    const ents::FloatingPointGuard guard;
+    return ents::evaluate(model, first, count, input, output, report);
+  });
+}
+
+int32_t ents_state_init(const ents_model* model, int64_t count, double* state, int64_t stride,
+                        ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    if (const std::int32_t status = ents::check_handle(model, report); status != ENTS_OK) return status;
+    const ents::Plan& plan = model->plan;
+    if (count < 0 || stride < plan.state_size)
+      return ents::report_message(
+          report, ENTS_BAD_COUNT, -1, "count = %lld must be >= 0 and stride = %lld at least %d",
+          static_cast<long long>(count), static_cast<long long>(stride), plan.state_size);
+    if (count > 0 && !state)
+      return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'state' is null");
+    for (int64_t e = 0; e < count; ++e) {
+      double* block = state + e * stride;
+      for (std::int32_t i = 0; i < plan.state_size; ++i) block[i] = 0.0;
+      block[0] = ents::state_tag(plan.parameters);
+    }
+    return ents::report_ok(report);
+  });
+}
+
+int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents_surface* surface,
+                              ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    std::int32_t status = ents::check_handle(model, report);
+    if (status != ENTS_OK) return status;
+    ents_surface copy;
+    const ents_surface* s = ents::known_struct(surface, copy, "surface", status, report);
+    if (!s) return status;
+    if (count < 0)
+      return ents::report_message(report, ENTS_BAD_COUNT, -1, "count = %lld must be >= 0",
+                                  static_cast<long long>(count));
+    if (count > 0 && (!s->master || !s->xi))
+      return ents::report_message(report, ENTS_NULL_ARGUMENT, -1, "surface.%s is null",
+                                  s->master ? "xi" : "master");
+    const ents::FloatingPointGuard guard;
+    const ents::Plan& plan = model->plan;
+    const std::int64_t d = plan.dimension;
+    for (int64_t i = 0; i < count; ++i) {
+      const ents::SurfacePoint point = {ents::at(s->point, d, i),
+                                        ents::at(s->normal, d, i),
+                                        ents::at(s->height, 1, i),
+                                        ents::at(s->base_point, d, i),
+                                        ents::at(s->base_normal, d, i),
+                                        nullptr,
+                                        nullptr};
+      status = static_cast<std::int32_t>(
+          plan.surface(plan, s->master, s->surface_coordinates, s->xi + plan.parameters * i, point));
+      if (status != ENTS_OK)
+        return ents::report_message(report, status, i, "point %lld: %s", static_cast<long long>(i),
+                                    ents_status_text(status));
+    }
+    return ents::report_ok(report);
+  });
+}
+
+} // extern "C"

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Versions, and the life of a model.
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "abi/guard.hpp"
+#include "abi/handle.hpp"
+#include "abi/model_json.hpp"
+
+namespace ents {
+
+namespace {
+
+std::int32_t finish(Model&& checked, ents_model** model, ents_report* report) {
+  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked)};
+  handle->plan = make_plan(handle->model);
+  *model = handle;
+  return report_ok(report);
+}
+
+template <class Read> std::int32_t create(Read&& read, ents_model** model, ents_report* report) {
+  const FloatingPointGuard guard;
+  try {
+    return finish(read(), model, report);
+  } catch (const ModelError& error) {
+    return report_status(report, error.status, -1, error.message.c_str());
+  }
+}
+
+// The caller's arrays, whatever struct_size its structs have.
+std::int32_t collect(const ents_data* data, std::int64_t count, std::vector<NamedData>& out,
+                     ents_report* report) {
+  if (count < 0 || count > (1 << 20))
+    return report_message(report, ENTS_BAD_COUNT, -1, "data_count = %lld must be 0 .. %d",
+                          static_cast<long long>(count), 1 << 20);
+  if (count > 0 && !data) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'data' is null");
+  const unsigned char* position = reinterpret_cast<const unsigned char*>(data);
+  const std::int32_t stride = count > 0 ? data->struct_size : 0;
+  for (std::int64_t i = 0; i < count; ++i, position += stride) {
+    std::int32_t status = ENTS_OK;
+    ents_data copy;
+    const ents_data* d =
+        known_struct(reinterpret_cast<const ents_data*>(position), copy, "data", status, report);
+    if (!d) return status;
+    if (d->struct_size != stride)
+      return report_message(report, ENTS_STRUCT_SIZE, i,
+                            "data[%lld].struct_size differs from data[0].struct_size",
+                            static_cast<long long>(i));
+    if (!d->name || !d->values)
+      return report_message(report, ENTS_NULL_ARGUMENT, i, "data[%lld].%s is null", static_cast<long long>(i),
+                            d->name ? "values" : "name");
+    if (d->rows < 1 || d->columns < 1 || d->rows > (INT64_MAX >> 8) / d->columns)
+      return report_message(report, ENTS_BAD_COUNT, i, "data[%lld]: rows = %lld, columns = %lld must be >= 1",
+                            static_cast<long long>(i), static_cast<long long>(d->rows),
+                            static_cast<long long>(d->columns));
+    out.push_back({d->name, d->values, d->rows, d->columns});
+  }
+  return ENTS_OK;
+}
+
+} // namespace
+
+} // namespace ents
+
+extern "C" {
+
+const char* ents_version(void) { return ENTS_LIBRARY_VERSION; }
+
+int32_t ents_check_contract(int32_t major, int32_t minor, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    if (major == ENTS_CONTRACT_MAJOR && minor >= 0 && minor <= ENTS_CONTRACT_MINOR)
+      return ents::report_ok(report);
+    return ents::report_message(
+        report, ENTS_VERSION, -1,
+        "the caller was built with contract %d.%d; this library (%s) serves %d.0 to %d.%d", major, minor,
+        ENTS_LIBRARY_VERSION, ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR);
+  });
+}
+
+int32_t ents_model_create(const char* text, int64_t length, const char* directory, const ents_data* data,
+                          int64_t data_count, ents_model** model, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    if (!model) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
+    *model = nullptr;
+    if (!text) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'text' is null");
+    if (length < -1)
+      return ents::report_message(report, ENTS_BAD_COUNT, -1, "length = %lld must be >= 0, or -1",
+                                  static_cast<long long>(length));
+    std::vector<ents::NamedData> arrays;
+    if (const std::int32_t status = ents::collect(data, data_count, arrays, report); status != ENTS_OK)
+      return status;
+    const std::string_view view =
+        length < 0 ? std::string_view(text) : std::string_view(text, static_cast<std::size_t>(length));
+    return ents::create(
+        [&] {
+          const auto* utf8 = reinterpret_cast<const char8_t*>(directory ? directory : "");
+          return ents::read_model(view, std::filesystem::path(utf8), arrays);
+        },
+        model, report);
+  });
+}
+
+int32_t ents_model_create_from_file(const char* path, ents_model** model, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    if (!model) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
+    *model = nullptr;
+    if (!path) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'path' is null");
+    return ents::create([&] { return ents::read_model_file(path); }, model, report);
+  });
+}
+
+int32_t ents_model_destroy(ents_model** model, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    if (!model || !*model) return ents::report_ok(report);
+    if (const std::int32_t status = ents::check_handle(*model, report); status != ENTS_OK) return status;
+    *const_cast<volatile std::uint64_t*>(&(*model)->magic) =
+        ents_model::dead; // not a dead store: handles may be stale
+    delete *model;
+    *model = nullptr;
+    return ents::report_ok(report);
+  });
+}
+
+int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    std::int32_t status = ents::check_handle(model, report);
+    if (status != ENTS_OK) return status;
+    ents_layout copy;
+    const ents_layout* known = ents::known_struct(layout, copy, "layout", status, report);
+    if (!known) return status;
+    ents_layout out = *known;
+    out.dimension = model->plan.dimension;
+    out.nodes = model->plan.nodes;
+    out.parameters = model->plan.parameters;
+    out.dofs = model->plan.dofs;
+    out.state_size = model->plan.state_size;
+    out.symmetric_tangent = 1;
+    out.own_surface_coordinates = model->model.own_surface_coordinates;
+    ents::give_back(out, layout);
+    return ents::report_ok(report);
+  });
+}
+
+} // extern "C"
