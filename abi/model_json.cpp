@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abi/model_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "abi/height_json.hpp"
+#include "abi/json_check.hpp"
+#include "abi/json_text.hpp"
+#include "abi/text_file.hpp"
+
+namespace ents {
+
+namespace {
+
+using nlohmann::json;
+
+Basis read_segment(const json& value) {
+  std::vector<std::string_view> names;
+  for (const BasisEntry& entry : basis_table) names.push_back(entry.name);
+  return basis_table[read_choice(value, "/segment", names)].basis;
+}
+
+// [m][parameters]
+std::vector<double> read_surface_coordinates(const json& value, const BasisEntry& basis) {
+  const std::string path = "/surface_coordinates";
+  const auto nodes = static_cast<std::size_t>(basis.nodes);
+  check_array(value, path, nodes, "arrays, one per master node");
+  if (value.size() != nodes)
+    fail(ENTS_BAD_VALUE, path,
+         "has " + std::to_string(value.size()) + " entries; " + basis.name + " has " + std::to_string(nodes) +
+             " master nodes, write one array for each");
+  std::vector<double> result;
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (const double s : read_vector(value[i], item(path, i), static_cast<std::size_t>(basis.parameters),
+                                      Range::any, "the surface coordinates of this master node"))
+      result.push_back(s);
+  return result;
+}
+
+void read_projection(const json& value, Model& model) {
+  const std::string path = "/projection";
+  const auto d = static_cast<std::size_t>(basis_entry(model.basis).parameters) + 1;
+  constexpr ProjectionKind kinds[] = {ProjectionKind::normal, ProjectionKind::shadow_point,
+                                      ProjectionKind::shadow_direction};
+  model.projection = kinds[read_type(value, path, {"normal", "shadow_point", "shadow_direction"})];
+  if (model.projection == ProjectionKind::normal) return check_keys(value, path, {"type"}, {});
+
+  const bool point = model.projection == ProjectionKind::shadow_point;
+  const char* key = point ? "emitter" : "direction";
+  check_keys(value, path, {"type", key}, {});
+  const std::vector<double> ray = read_vector(value.at(key), member(path, key), d, Range::any,
+                                              point ? "the emitter's position" : "any length but zero");
+  std::copy(ray.begin(), ray.end(), model.ray);
+  if (point) return;
+
+  // Twice, by the largest entry first: squares of very small entries would vanish.
+  double largest = 0.0, squared = 0.0;
+  for (const double r : ray) largest = std::max(largest, std::fabs(r));
+  if (largest == 0.0)
+    fail(ENTS_BAD_VALUE, member(path, key), "is zero; write any other vector, its length does not matter");
+  for (double& r : model.ray) r /= largest;
+  for (const double r : model.ray) squared += r * r;
+  for (double& r : model.ray) r /= std::sqrt(squared);
+}
+
+void read_contact(const json& value, Model& model) {
+  check_keys(value, "/contact", {"normal"}, {});
+  const json& normal = value.at("normal");
+  const std::string path = "/contact/normal";
+  read_type(normal, path, {"penalty"});
+  check_keys(normal, path, {"type", "stiffness"}, {});
+  model.has_contact = true;
+  model.penalty_stiffness = read_double(normal, path, "stiffness", Range::positive);
+}
+
+} // namespace
+
+Model read_model(std::string_view text, const std::filesystem::path& directory,
+                 std::span<const NamedData> data) {
+  const json root = parse_json(text);
+  check_keys(
+      root, "", {"segment"},
+      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit"});
+
+  Model model;
+  model.basis = read_segment(root.at("segment"));
+  const BasisEntry& basis = basis_entry(model.basis);
+  if (root.contains("surface_coordinates")) {
+    model.own_surface_coordinates = true;
+    model.surface_coordinates = read_surface_coordinates(root.at("surface_coordinates"), basis);
+  }
+  if (root.contains("projection")) read_projection(root.at("projection"), model);
+  if (root.contains("contact")) read_contact(root.at("contact"), model);
+  if (root.contains("tangent")) {
+    constexpr TangentKind kinds[] = {TangentKind::consistent, TangentKind::small_gap,
+                                     TangentKind::first_variation};
+    model.tangent =
+        kinds[read_choice(root.at("tangent"), "/tangent", {"consistent", "small_gap", "first_variation"})];
+  }
+  if (root.contains("master"))
+    model.rigid_master = read_choice(root.at("master"), "/master", {"deformable", "rigid"}) == 1;
+  if (root.contains("penetration_limit"))
+    model.penetration_limit = read_double(root, "", "penetration_limit", Range::positive);
+
+  // Last: it may read a file.
+  model.height = Height(basis.parameters);
+  if (root.contains("height") && !root.at("height").is_null())
+    model.height = read_height(root.at("height"), "/height", {basis.parameters, directory, data});
+  return model;
+}
+
+Model read_model_file(std::string_view path) {
+  const std::filesystem::path file = path_from_utf8(path);
+  return read_model(read_text_file(file, largest_json_text), file.parent_path());
+}
+
+} // namespace ents
