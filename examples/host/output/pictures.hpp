@@ -25,15 +25,17 @@ struct Axis {
   std::string unit;  ///< "MPa"; empty for a ratio
   bool logarithmic = false;
   double min = automatic, max = automatic;
+  double tic_step = 0; ///< distance of the numbers; 0: gnuplot decides
 };
 
 enum class Style {
-  exact,  ///< solid dark line: the reference, drawn first
+  exact,  ///< solid dark line: the reference
   line,   ///< coloured line
-  points, ///< coloured open markers: a computed result
+  points, ///< coloured markers: a computed result
   both,   ///< markers joined by a thin line
   dashed, ///< thin dashed line: a bound or a second reference
   area,   ///< line with a light fill down to the axis
+  wrong,  ///< large red marker: an offence
 };
 
 struct Curve {
@@ -76,7 +78,8 @@ struct Map {
   int columns = 0, rows = 0;
   std::vector<double> values; ///< [rows][columns], first row at y_min; NaN: white
   bool blank_zero = false;    ///< show 0 as white: no contact
-  double clip = 1; ///< fraction of the non-blank values inside the colour range; the peak is written out
+  double clip =
+      1; ///< fraction of the non-blank values inside the colours; the extremes are written below the map
   enum class Palette { viridis, cividis, magma, diverging } palette = Palette::viridis;
 };
 

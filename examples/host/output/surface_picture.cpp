@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The enriched surface of one segment with the places a check found: a section in 2D, a shaded surface in 3D.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "gnuplot.hpp"
+
+namespace host::pictures {
+namespace {
+
+using gnuplot::number;
+
+struct Box {
+  std::array<double, 3> min{HUGE_VAL, HUGE_VAL, HUGE_VAL}, max{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  double span(std::size_t axis) const { return max[axis] - min[axis]; }
+};
+
+Box box_of(const Surface& surface) {
+  Box box;
+  const auto d = static_cast<std::size_t>(surface.dimension);
+  for (const auto* points : {&surface.enriched, &surface.base})
+    for (std::size_t i = 0; i < points->size(); ++i) {
+      box.min[i % d] = std::min(box.min[i % d], (*points)[i]);
+      box.max[i % d] = std::max(box.max[i % d], (*points)[i]);
+    }
+  return box;
+}
+
+/// 2D: lines with markers on them.
+Outcome draw_section(const Surface& surface, const std::filesystem::path& directory,
+                     const std::string& name) {
+  const auto line = [&](const char* label, const std::vector<double>& points, Style style) {
+    Curve out;
+    out.label = label, out.style = style;
+    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+      out.x.push_back(points[i]), out.y.push_back(points[i + 1]);
+    return out;
+  };
+  Chart chart;
+  chart.title = surface.title, chart.subtitle = surface.subtitle;
+  chart.x.label = "x", chart.y.label = "y", chart.x.unit = chart.y.unit = surface.unit;
+  const Box box = box_of(surface);
+  chart.equal_axes = box.span(1) > 0.2 * box.span(0) && box.span(0) > 0.2 * box.span(1);
+  if (!chart.equal_axes)
+    chart.subtitle += (chart.subtitle.empty() ? "" : "; ") + std::string("axes not to the same scale");
+  if (!surface.base.empty()) chart.curves.push_back(line("segment ρ", surface.base, Style::dashed));
+  chart.curves.push_back(line("enriched surface ρₑ = ρ + h n", surface.enriched, Style::exact));
+  for (const Place& place : surface.places) {
+    Curve mark;
+    mark.label = place.label, mark.style = place.wrong ? Style::wrong : Style::points;
+    mark.x = {place.x}, mark.y = {place.y};
+    chart.curves.push_back(mark);
+  }
+  return draw(chart, directory, name);
+}
+
+/// 0, step, 2 step ... and the last one: at most about 72, so that the SVG stays small.
+std::vector<std::size_t> thinned(int count) {
+  const int step = std::max(1, (count + 70) / 72);
+  std::vector<std::size_t> out;
+  for (int i = 0; i < count - 1; i += step) out.push_back(static_cast<std::size_t>(i));
+  out.push_back(static_cast<std::size_t>(count - 1));
+  return out;
+}
+
+/// Numbered arrows at the places and a list of them at the foot of the picture.
+std::string marks(const Surface& surface, double z_scale, double lift, double pixels) {
+  std::string out;
+  const std::size_t count = surface.places.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Place& place = surface.places[i];
+    const std::string color =
+        std::string(" textcolor rgb '") + (place.wrong ? gnuplot::wrong : gnuplot::ink) + "'\n";
+    const std::string line_color =
+        std::string(" linecolor rgb '") + (place.wrong ? gnuplot::wrong : gnuplot::ink) + "'\n";
+    const std::string plan = "first " + number(place.x) + "," + number(place.y) + ",";
+    const std::string at = plan + number(place.z * z_scale), above = plan + number(place.z * z_scale + lift);
+    const std::string sign = std::to_string(i + 1);
+    out += "set arrow from " + above + " to " + at + " front filled size screen 0.014,16 linewidth 1.6" +
+           line_color;
+    out +=
+        "set label " + gnuplot::bold(sign) + " at " + above + " center offset 0,0.6 front font ',14'" + color;
+    const double foot = (18 + 24 * static_cast<double>(count - 1 - i)) / pixels;
+    out += "set label " + gnuplot::text(sign + "   " + place.label) + " at screen 0.05, screen " +
+           number(foot) + " left font ',12.5'" + color;
+  }
+  return out;
+}
+
+Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directory, const std::string& name) {
+  const Box box = box_of(surface);
+  const double plan = std::max(box.span(0), box.span(1)), relief = box.span(2);
+  double z_scale = 1; // the heights of a rough surface cannot be seen in true scale
+  for (const double factor : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0})
+    if (relief * factor <= 0.25 * plan) z_scale = factor;
+  double highest = 0;
+  for (const double height : surface.height) highest = std::max(highest, std::abs(height));
+  const int height_power = gnuplot::common_power(highest), power = gnuplot::common_power(plan);
+  const double length = std::pow(10.0, -power);
+
+  gnuplot::Job job;
+  const double list = 24.0 * static_cast<double>(surface.places.size());
+  job.height = 600 + static_cast<int>(list);
+  job.data = "# x y z h of the enriched surface\n";
+  for (const std::size_t j : thinned(surface.rows)) {
+    for (const std::size_t i : thinned(surface.columns)) {
+      const std::size_t sample = j * static_cast<std::size_t>(surface.columns) + i;
+      for (std::size_t a = 0; a < 3; ++a) job.data += number(surface.enriched[3 * sample + a]) + " ";
+      job.data += number(surface.height[sample]) + "\n";
+    }
+    job.data += "\n";
+  }
+
+  Surface scaled = surface;
+  for (Place& place : scaled.places) place.x *= length, place.y *= length, place.z *= length;
+  std::string subtitle = surface.subtitle;
+  if (z_scale > 1)
+    subtitle += (subtitle.empty() ? "" : "; ") + std::string("heights drawn ") +
+                std::to_string(static_cast<int>(z_scale)) + " times";
+  const double pixels = job.height, foot = (list + 30) / pixels;
+  job.script = "reset\nset minussign\nunset key\nset border 15 linewidth 0.8 linecolor rgb '#999999'\n"
+               "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30,1.15\nset view equal "
+               "xyz\nset xyplane relative 0.02\n"
+               "set lmargin at screen 0.02\nset rmargin at screen 0.86\n";
+  job.script +=
+      "set bmargin at screen " + number(foot) + "\nset tmargin at screen " + number(1 - 60 / pixels) + "\n";
+  job.script += "set colorbox user origin screen 0.885, screen " + number(foot + 0.12) +
+                " size screen 0.016, screen " + number(0.5 * 600 / pixels) + " noborder\n";
+  job.script += "set label " + gnuplot::text(gnuplot::axis_label("height h", surface.unit, height_power)) +
+                " at screen 0.97, screen " + number(foot + 0.15 + 300 / pixels) + " right font ',12.5'\n";
+  job.script += "set label " + gnuplot::bold(surface.title) + " at screen 0.04, screen " +
+                number(1 - 26 / pixels) + " left font ',15'\n";
+  job.script += "set label " + gnuplot::text(subtitle) + " at screen 0.04, screen " +
+                number(1 - 49 / pixels) + " left font ',11.5' textcolor rgb '" + gnuplot::faint + "'\n";
+  job.script += "set xlabel " + gnuplot::text(gnuplot::axis_label("x", surface.unit, power)) +
+                " offset 0,-0.5\nset ylabel " + gnuplot::text(gnuplot::axis_label("y", surface.unit, power)) +
+                " offset 0.5,-0.5\n";
+  job.script +=
+      gnuplot::palette(Map::Palette::viridis) + "set pm3d depthorder lighting primary 0.4 specular 0.05\n";
+  job.script += marks(scaled, z_scale, 0.22 * plan * length, pixels);
+  const std::string l = number(length);
+  job.script += "splot data using ($1*" + l + "):($2*" + l + "):($3*" + number(length * z_scale) + "):($4*" +
+                number(std::pow(10.0, -height_power)) + ") with pm3d\n";
+  return gnuplot::render(job, directory, name);
+}
+
+void check_size(const char* what, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw std::invalid_argument(std::string("surface picture: `") + what + "` has " + std::to_string(found) +
+                                " values, " + std::to_string(expected) + " are needed");
+}
+
+} // namespace
+
+Outcome draw(const Surface& surface, const std::filesystem::path& directory, const std::string& name) {
+  if (surface.dimension != 2 && surface.dimension != 3)
+    throw std::invalid_argument("surface picture: dimension must be 2 or 3");
+  const auto samples = static_cast<std::size_t>(surface.columns) * static_cast<std::size_t>(surface.rows);
+  if (samples == 0) return {{}, "picture " + name + ": nothing to draw"};
+  check_size("enriched", surface.enriched.size(), samples * static_cast<std::size_t>(surface.dimension));
+  if (surface.dimension == 2) return draw_section(surface, directory, name);
+  check_size("height", surface.height.size(), samples);
+  return draw_shaded(surface, directory, name);
+}
+
+} // namespace host::pictures
