@@ -21,6 +21,26 @@ constexpr std::string_view per_coordinate = "one per surface coordinate of the s
 constexpr std::size_t most_coefficients = 64; // per surface coordinate
 constexpr std::size_t most_parts = 1024;      // of a sum or product
 
+std::vector<double> read_surface_vector(const json& value, const std::string& path, const char* key,
+                                        const HeightSources& sources) {
+  return read_vector(value.at(key), member(path, key), static_cast<std::size_t>(sources.dimension),
+                     Range::any, per_coordinate);
+}
+
+Height read_sine(const json& value, const std::string& path, const HeightSources& sources) {
+  check_keys(value, path, {"type", "amplitude", "wave_vector"}, {"phase"});
+  const double amplitude = read_double(value, path, "amplitude", Range::any);
+  const std::vector<double> wave_vector = read_surface_vector(value, path, "wave_vector", sources);
+  return Height::sine(amplitude, wave_vector, read_double_or(value, path, "phase", Range::any, 0.0));
+}
+
+Height read_gaussian(const json& value, const std::string& path, const HeightSources& sources) {
+  check_keys(value, path, {"type", "amplitude", "center", "width"}, {});
+  const double amplitude = read_double(value, path, "amplitude", Range::any);
+  const std::vector<double> center = read_surface_vector(value, path, "center", sources);
+  return Height::gaussian(amplitude, center, read_double(value, path, "width", Range::positive));
+}
+
 Height read_polynomial(const json& value, const std::string& path, const HeightSources& sources) {
   check_keys(value, path, {"type", "coefficients"}, {});
   const json& table = value.at("coefficients");
@@ -66,31 +86,26 @@ std::vector<Height> read_parts(const json& value, const std::string& path, const
 // depth: level of this height, 1 for the outermost.
 Height read_at_depth(const json& value, const std::string& path, const HeightSources& sources,
                      std::int32_t depth) {
-  const auto n = static_cast<std::size_t>(sources.dimension);
-  switch (read_type(value, path, {"constant", "sine", "polynomial", "gaussian", "map", "sum", "product"})) {
-  case 0:
+  constexpr HeightKind kinds[] = {HeightKind::constant, HeightKind::sine, HeightKind::polynomial,
+                                  HeightKind::gaussian, HeightKind::map,  HeightKind::sum,
+                                  HeightKind::product};
+  switch (kinds[read_type(value, path,
+                          {"constant", "sine", "polynomial", "gaussian", "map", "sum", "product"})]) {
+  case HeightKind::sine:
+    return read_sine(value, path, sources);
+  case HeightKind::polynomial:
+    return read_polynomial(value, path, sources);
+  case HeightKind::gaussian:
+    return read_gaussian(value, path, sources);
+  case HeightKind::map:
+    return Height::map(read_map(value, path, sources));
+  case HeightKind::sum:
+    return Height::sum(read_parts(value, path, sources, depth));
+  case HeightKind::product:
+    return Height::product(read_parts(value, path, sources, depth));
+  default:
     check_keys(value, path, {"type", "value"}, {});
     return Height::constant(sources.dimension, read_double(value, path, "value", Range::any));
-  case 1:
-    check_keys(value, path, {"type", "amplitude", "wave_vector"}, {"phase"});
-    return Height::sine(
-        read_double(value, path, "amplitude", Range::any),
-        read_vector(value.at("wave_vector"), member(path, "wave_vector"), n, Range::any, per_coordinate),
-        read_double_or(value, path, "phase", Range::any, 0.0));
-  case 2:
-    return read_polynomial(value, path, sources);
-  case 3:
-    check_keys(value, path, {"type", "amplitude", "center", "width"}, {});
-    return Height::gaussian(
-        read_double(value, path, "amplitude", Range::any),
-        read_vector(value.at("center"), member(path, "center"), n, Range::any, per_coordinate),
-        read_double(value, path, "width", Range::positive));
-  case 4:
-    return Height::map(read_map(value, path, sources));
-  case 5:
-    return Height::sum(read_parts(value, path, sources, depth));
-  default:
-    return Height::product(read_parts(value, path, sources, depth));
   }
 }
 

@@ -111,7 +111,8 @@ void check_keys(const json& value, const std::string& path, std::vector<std::str
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
       const std::string hint = suggestion(key, allowed);
       fail(ENTS_UNKNOWN_KEY, member(path, key),
-           "unknown key" + hint + (hint.empty() ? "; " : " ") + "allowed here: " + list(allowed, ", "));
+           "unknown key" + hint + (hint.empty() ? "; allowed here: " : " Allowed here: ") +
+               list(allowed, ", "));
     }
   for (const std::string_view key : required)
     if (!value.contains(key))

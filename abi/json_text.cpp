@@ -122,8 +122,12 @@ private:
   // Of the value being read.
   std::string path() const {
     std::string result;
-    for (const Open& level : open_)
-      result = level.value->is_object() ? member(result, level.key) : item(result, level.value->size());
+    for (const Open& level : open_) {
+      // An entry that is itself open already stands in its array.
+      const std::size_t begun = &level == &open_.back() ? 0 : 1;
+      result =
+          level.value->is_object() ? member(result, level.key) : item(result, level.value->size() - begun);
+    }
     return result;
   }
 

@@ -165,6 +165,9 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
   for (std::size_t a = 0; a < n; ++a) {
     if (!size.empty()) map.size[a] = size[a];
     map.origin[a] = origin[a];
+    if (!(map.size[a] >= 1e-100 && map.size[a] <= 1e100))
+      fail(ENTS_BAD_VALUE, source_path,
+           "the size stated in the file is not within 1e-100 .. 1e100 model lengths; check \"length_unit\"");
   }
   for (double& height : map.values) {
     height *= scale;
