@@ -196,6 +196,8 @@ module ents
   end interface ents_string
   private :: string_from_pointer, string_from_characters
 
+  ! `target` on the structs that hold pointers tells the compiler that their arrays are written: without it gfortran takes what an
+  ! intent(in) argument leads to for unchanged, and keeps old values of the arrays in registers.
   interface
     ! Text of a status value; read it with ents_string.
     function ents_status_text(status) result(text) bind(c, name="ents_status_text")
@@ -264,8 +266,8 @@ module ents
       import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_output, ents_report
       type(c_ptr), value :: model
       integer(c_int64_t), value :: first, count
-      type(ents_input), intent(in) :: input
-      type(ents_output), intent(in) :: output
+      type(ents_input), intent(in), target :: input
+      type(ents_output), intent(in), target :: output
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_evaluate
@@ -286,7 +288,7 @@ module ents
       import :: c_int32_t, c_int64_t, c_ptr, ents_report, ents_surface
       type(c_ptr), value :: model
       integer(c_int64_t), value :: count
-      type(ents_surface), intent(in) :: surface
+      type(ents_surface), intent(in), target :: surface
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_surface_evaluate
