@@ -186,18 +186,18 @@ std::string style_of(const Curve& curve, std::size_t index, std::size_t count,
 std::string guides(const Chart& chart, const Scale& x, const Scale& y) {
   std::string out;
   for (const Guide& guide : chart.guides) {
-    const std::string at = number(guide.vertical ? x.shown(guide.value) : y.shown(guide.value));
-    const std::string from = guide.vertical ? at + ", graph 0" : "graph 0, first " + at;
-    const std::string to = guide.vertical ? at + ", graph 1" : "graph 1, first " + at;
-    out += "set arrow from first " + from + " to first " + to +
+    const std::string at = "first " + number(guide.vertical ? x.shown(guide.value) : y.shown(guide.value));
+    const std::string from = guide.vertical ? at + ", graph 0" : "graph 0, " + at;
+    const std::string to = guide.vertical ? at + ", graph 1" : "graph 1, " + at;
+    out += "set arrow from " + from + " to " + to +
            " nohead back dashtype (5,4) linewidth 1.2 linecolor rgb '" + std::string(gnuplot::faint) + "'\n";
     if (guide.label.empty()) continue;
     const bool right_half = x.fraction(guide.value) > 0.7;
     out += "set label " + gnuplot::text(guide.label) + " at ";
     if (guide.vertical)
-      out += "first " + at + ", graph 0.965 " + (right_half ? "right offset -0.6,0" : "left offset 0.6,0");
+      out += at + ", graph 0.965 " + (right_half ? "right offset -0.6,0" : "left offset 0.6,0");
     else
-      out += "graph 0.985, first " + at + " right offset 0,0.55";
+      out += "graph 0.985, " + at + " right offset 0,0.55";
     out += " font ',11' textcolor rgb '" + std::string(gnuplot::faint) + "'\n";
   }
   return out;
