@@ -61,12 +61,12 @@ Height Height::sine(double amplitude, const std::vector<double>& wave_vector, do
 Height Height::polynomial(std::vector<double> coefficients) {
   std::vector<std::vector<double>> rows;
   for (const double c : coefficients) rows.push_back({c});
-  Height height = polynomial(rows);
+  Height height = bivariate_polynomial(rows);
   height.dimension_ = 1;
   return height;
 }
 
-Height Height::polynomial(const std::vector<std::vector<double>>& coefficients) {
+Height Height::bivariate_polynomial(const std::vector<std::vector<double>>& coefficients) {
   std::size_t columns = 0;
   for (const auto& row : coefficients) columns = std::max(columns, row.size());
   if (columns == 0) throw std::invalid_argument("a polynomial has at least one coefficient");
