@@ -218,16 +218,19 @@ std::string slope_triangle(const Chart& chart, const Scale& x, const Scale& y) {
     }
     return curve->y.front();
   };
-  const double rise = std::pow(b / a, chart.slope_triangle), below = std::pow(y.max / y.min, -0.07);
-  const double foot = std::min(on_curve(a), on_curve(b) / rise) * below;
+  const bool falling = fitted_order(*curve) < 0; // an error over the number of segments, say
+  const double ratio = std::pow(b / a, falling ? -chart.slope_triangle : chart.slope_triangle);
+  const double left = std::min(on_curve(a), on_curve(b) / ratio) * std::pow(y.max / y.min, -0.07);
+  const double right = left * ratio, upright = falling ? a : b;
   const auto corner = [](double u, double v) { return "first " + number(u) + "," + number(v); };
-  const double top = foot * rise;
-  std::string out = "set object polygon from " + corner(a, foot) + " to " + corner(b, foot) + " to " +
-                    corner(b, top) + " to " + corner(a, foot) +
+  std::string out = "set object polygon from " + corner(a, left) + " to " + corner(b, right) + " to " +
+                    corner(upright, std::min(left, right)) + " to " + corner(a, left) +
                     " fillstyle solid 0.12 border linecolor rgb '" + std::string(gnuplot::faint) + "'\n";
-  out += "set label '1' at " + corner(std::sqrt(a * b), foot) + " center offset 0,-0.75 font ',11'\n";
+  out += "set label '1' at " + corner(std::sqrt(a * b), std::min(left, right)) +
+         " center offset 0,-0.75 font ',11'\n";
   out += "set label " + gnuplot::text(number(chart.slope_triangle)) + " at " +
-         corner(b, std::sqrt(foot * top)) + " left offset 0.7,0 font ',11'\n";
+         corner(upright, std::sqrt(left * right)) +
+         (falling ? " right offset -0.7,0" : " left offset 0.7,0") + " font ',11'\n";
   return out;
 }
 
@@ -252,7 +255,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
     if (curve.fit_order && !std::isnan(fitted_order(curve)))
-      label += ", order " + format_number(fitted_order(curve), 3);
+      label += ", order " + format_number(std::abs(fitted_order(curve)), 3);
     job.data += "\n\n# " + label + "\n";
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       job.data += number(curve.x[i]) + " " + number(curve.y[i]) + "\n";

@@ -74,6 +74,18 @@ TEST_F(Pictures, ConvergenceShowsTheFittedOrder) {
   EXPECT_NE(content("order.gp").find("force, order 2.00"), std::string::npos);
 }
 
+TEST_F(Pictures, AnErrorOverTheNumberOfSegmentsHasTheSameOrder) {
+  Chart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  Curve curve;
+  curve.label = "force", curve.fit_order = true;
+  for (const double n : {4., 8., 16., 32.}) curve.x.push_back(n), curve.y.push_back(1 / (n * n));
+  chart.curves = {curve};
+  chart.slope_triangle = 2;
+  expect_drawn(draw(chart, folder_, "falling"), "falling");
+  EXPECT_NE(content("falling.gp").find("force, order 2.00"), std::string::npos);
+}
+
 TEST_F(Pictures, ResidualHistoryNamesAFewOfManySteps) {
   const std::vector<std::vector<double>> steps(12, {1, 1e-2, 1e-5, 1e-11, 0});
   const Chart chart = residual_history("residual", steps);
