@@ -48,8 +48,8 @@ Scale scale_of(const Axis& axis, const std::vector<const std::vector<double>*>& 
     const bool from_zero = low >= 0 && low <= 0.1 * span;
     out.min = from_zero ? 0 : low - 0.05 * span, out.max = high + 0.06 * span;
   }
-  if (!std::isnan(axis.min)) out.min = axis.min;
-  if (!std::isnan(axis.max)) out.max = axis.max;
+  if (drawable(axis.min, axis.logarithmic)) out.min = axis.min;
+  if (drawable(axis.max, axis.logarithmic)) out.max = axis.max;
   if (!axis.logarithmic) out.power = gnuplot::common_power(std::max(std::abs(out.min), std::abs(out.max)));
   out.unit = std::pow(10.0, -out.power);
   return out;
