@@ -178,8 +178,10 @@ Height Height::combine(HeightKind kind, std::vector<Height> parts) {
       height.bound_ = height.bound_ == 0.0 || part.bound_ == 0.0 ? 0.0 : height.bound_ * part.bound_;
     for (std::int32_t a = 0; a < height.dimension_; ++a) {
       rate[a] += 1.0 / part.feature_length_[a];
-      height.feature_length_[a] =
-          sum ? std::min(height.feature_length_[a], part.feature_length_[a]) : 1.0 / rate[a];
+      if (sum)
+        height.feature_length_[a] = std::min(height.feature_length_[a], part.feature_length_[a]);
+      else if (rate[a] > 0.0)
+        height.feature_length_[a] = 1.0 / rate[a];
     }
     node_count += part.nodes_.size();
   }
