@@ -2,12 +2,12 @@
 #include "abi/height_json.hpp"
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "abi/json_check.hpp"
+#include "abi/json_tree.hpp"
 #include "abi/map_json.hpp"
 #include "abi/model_error.hpp"
 
