@@ -17,10 +17,16 @@ namespace {
 
 using nlohmann::json;
 
+void dismantle(json& value) noexcept {
+  if (!value.is_structured()) return;
+  for (json& child : value) dismantle(child);
+  value.clear();
+}
+
 // Receives the parser's events and builds the tree.
 class TreeBuilder {
 public:
-  json tree;
+  JsonTree tree{new json};
 
   bool null() { return add(nullptr); }
   bool boolean(bool value) { return add(value); }
@@ -107,8 +113,8 @@ private:
            "more than " + std::to_string(most_json_values) +
                " values in the text; give large height maps as a file or through ents_data");
     if (open_.empty()) {
-      tree = std::move(value);
-      return &tree;
+      *tree = std::move(value);
+      return tree.get();
     }
     json& parent = *open_.back().value;
     if (parent.is_object()) return &(parent[open_.back().key] = std::move(value));
@@ -134,7 +140,12 @@ private:
 
 } // namespace
 
-nlohmann::json parse_json(std::string_view text) {
+void JsonDeleter::operator()(json* tree) const noexcept {
+  dismantle(*tree);
+  delete tree;
+}
+
+JsonTree parse_json(std::string_view text) {
   if (text.size() > largest_json_text)
     throw ModelError(ENTS_BAD_VALUE, "the model text has " + std::to_string(text.size()) +
                                          " bytes; at most " + std::to_string(largest_json_text) +

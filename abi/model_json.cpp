@@ -82,7 +82,8 @@ void read_contact(const json& value, Model& model) {
 
 Model read_model(std::string_view text, const std::filesystem::path& directory,
                  std::span<const NamedData> data) {
-  const json root = parse_json(text);
+  const JsonTree tree = parse_json(text);
+  const json& root = *tree;
   check_keys(
       root, "", {"segment"},
       {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit"});

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abi/text_file.hpp"
 
+#include <cerrno>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "abi/model_error.hpp"
@@ -22,7 +24,9 @@ std::string read_text_file(const std::filesystem::path& path, std::uintmax_t lar
   if (size > largest)
     failed("has " + std::to_string(size) + " bytes; at most " + std::to_string(largest) + " are read");
 
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
+  if (!stream && errno == ENOMEM) throw std::bad_alloc(); // the stream itself does not say why
   if (!stream) failed("cannot be opened for reading");
   std::string text(static_cast<std::size_t>(size), '\0');
   stream.read(text.data(), static_cast<std::streamsize>(size));
