@@ -1,4 +1,5 @@
-// What must not matter: where the scene lies, how it is turned, how the nodes are numbered, in which units it is written.
+// What must not matter: where the scene lies, how it is turned, how the nodes are numbered, in which units it
+// is written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +11,8 @@
 namespace mechanics {
 namespace {
 
-// 1e-12 relative: rounding of positions (1e-16 times their distance from the origin, up to 10 here) through condition numbers
-// of the projection and its second variation up to 1e3.
+// 1e-12 relative: rounding of positions (1e-16 times their distance from the origin, up to 10 here) through
+// condition numbers of the projection and its second variation up to 1e3.
 constexpr double tolerance = 1e-12;
 
 constexpr std::int32_t kinematics = ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL | ENTS_GAP_GRADIENT |
@@ -35,21 +36,21 @@ Matrix draw_rotation(Random& random, int dimension) {
   for (std::size_t j = 0; j < 3; ++j) {
     Vec3 e{};
     e[j] = 1.0;
-    const Vec3 turned =
-        std::cos(angle) * e + std::sin(angle) * cross(axis, e) + (1.0 - std::cos(angle)) * dot(axis, e) * axis;
+    const Vec3 turned = std::cos(angle) * e + std::sin(angle) * cross(axis, e) +
+                        (1.0 - std::cos(angle)) * dot(axis, e) * axis;
     for (std::size_t i = 0; i < 3; ++i) q[i][j] = turned[i];
   }
   return q;
 }
 
-// How results change when a scene is rewritten: dof vectors are multiplied by `dofs` (a matrix with one block per node), xi by
-// `xi`, and scalars by powers of the units of length and force.
+// How results change when a scene is rewritten: dof vectors are multiplied by `dofs` (a matrix with one block
+// per node), xi by `xi`, and scalars by powers of the units of length and force.
 struct Change {
   Matrix rotation = {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  std::vector<std::size_t> node;                       // new master node k is the old node[k]
+  std::vector<std::size_t> node; // new master node k is the old node[k]
   double xi_matrix[2][2] = {{1, 0}, {0, 1}}, xi_shift[2] = {0, 0};
-  double gap_sign = 1.0, normal_sign = 1.0;            // of the gap along the ray or normal; of n_e
-  double length = 1.0, force = 1.0;                    // new number of units per old one
+  double gap_sign = 1.0, normal_sign = 1.0; // of the gap along the ray or normal; of n_e
+  double length = 1.0, force = 1.0;         // new number of units per old one
 };
 
 class Invariance : public testing::TestWithParam<std::string> {
@@ -72,7 +73,9 @@ protected:
     const int d = basis().dimension;
     std::vector<double> out;
     for (int k = 0; k <= basis().node_count(); ++k) {
-      const int old = k == 0 || change.node.empty() ? k : 1 + static_cast<int>(change.node[static_cast<std::size_t>(k - 1)]);
+      const int old = k == 0 || change.node.empty()
+                          ? k
+                          : 1 + static_cast<int>(change.node[static_cast<std::size_t>(k - 1)]);
       const Vec3 turned = turn(change.rotation, vec3(v + d * old, d));
       out.insert(out.end(), turned.begin(), turned.begin() + d);
     }
@@ -93,18 +96,22 @@ protected:
     return out;
   }
 
-  void compare(const char* name, std::vector<double> expected, double factor, const double* got, double scale) {
+  void compare(const char* name, std::vector<double> expected, double factor, const double* got,
+               double scale) {
     for (double& x : expected) x *= factor;
     if (scale == 0.0) scale = largest_entry(expected.data(), expected.size());
     double error = 0.0;
-    for (std::size_t i = 0; i < expected.size(); ++i) error = std::max(error, std::fabs(got[i] - expected[i]) / scale);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      error = std::max(error, std::fabs(got[i] - expected[i]) / scale);
     worst_.see(error, [&] { return std::string(name) + ", " + place_; });
     ++compared_;
   }
 
   // Do the results b of the rewritten elements say the same as the results a?
-  void compare(const Change& c, std::int32_t wanted, const Results& a, const Results& b, const Elements& elements) {
-    const std::size_t n = static_cast<std::size_t>(basis().dofs()), t = static_cast<std::size_t>(basis().parameters());
+  void compare(const Change& c, std::int32_t wanted, const Results& a, const Results& b,
+               const Elements& elements) {
+    const std::size_t n = static_cast<std::size_t>(basis().dofs()),
+                      t = static_cast<std::size_t>(basis().parameters());
     const std::size_t d = t + 1;
     for (std::size_t e = 0; e < static_cast<std::size_t>(elements.count); ++e) {
       ASSERT_TRUE(a.ok(static_cast<std::int64_t>(e)) && b.ok(static_cast<std::int64_t>(e))) << place_;
@@ -120,11 +127,13 @@ protected:
         compare("gap", {a.gap[e]}, c.gap_sign * L, &b.gap[e], L);
         compare("normal_gap", {a.normal_gap[e]}, c.normal_sign * L, &b.normal_gap[e], L);
         const Vec3 normal = turn(c.rotation, vec3(&a.normal[e * d], static_cast<int>(d)));
-        compare("normal", std::vector<double>(normal.begin(), normal.begin() + static_cast<std::ptrdiff_t>(d)),
+        compare("normal",
+                std::vector<double>(normal.begin(), normal.begin() + static_cast<std::ptrdiff_t>(d)),
                 c.normal_sign, &b.normal[e * d], 1.0);
-        compare("gap_gradient", change_dofs(c, &a.gap_gradient[e * n]), c.gap_sign, &b.gap_gradient[e * n], 0.0);
-        compare("gap_hessian", change_matrix(c, &a.gap_hessian[e * n * n]), c.gap_sign / L, &b.gap_hessian[e * n * n],
+        compare("gap_gradient", change_dofs(c, &a.gap_gradient[e * n]), c.gap_sign, &b.gap_gradient[e * n],
                 0.0);
+        compare("gap_hessian", change_matrix(c, &a.gap_hessian[e * n * n]), c.gap_sign / L,
+                &b.gap_hessian[e * n * n], 0.0);
         std::vector<double> gradient(t * n), hessian(t * n * n);
         for (std::size_t j = 0; j < t; ++j) {
           const std::vector<double> v = change_dofs(c, &a.xi_gradient[(e * t + j) * n]);
@@ -150,8 +159,8 @@ protected:
   void report() {
     EXPECT_LE(worst_.error, tolerance) << worst_.where;
     EXPECT_GE(elements_, samples(1000));
-    std::cout << GetParam() << ": " << elements_ << " elements, worst relative change " << worst_.error << " ("
-              << worst_.where.substr(0, 60) << ")\n";
+    std::cout << GetParam() << ": " << elements_ << " elements, worst relative change " << worst_.error
+              << " (" << worst_.where.substr(0, 60) << ")\n";
   }
 
   Worst worst_;
@@ -182,7 +191,8 @@ TEST_P(Invariance, RigidTranslationAndRotation) {
   report();
 }
 
-// The maps of the natural coordinates that take the segment to itself: 2 on a line, 8 on a quadrangle, 6 on a triangle.
+// The maps of the natural coordinates that take the segment to itself: 2 on a line, 8 on a quadrangle, 6 on a
+// triangle.
 std::vector<Change> symmetries(const Basis& basis) {
   std::vector<Change> all;
   const auto add = [&](double a, double b, double c, double d, double x, double y) {
@@ -195,7 +205,8 @@ std::vector<Change> symmetries(const Basis& basis) {
     for (const auto& at : basis.nodes) // the old node that comes to lie where the new one is
       for (std::size_t j = 0; j < basis.nodes.size(); ++j) {
         const auto& old = basis.nodes[j];
-        if (std::fabs(a * old[0] + b * old[1] + x - at[0]) + std::fabs(c * old[0] + d * old[1] + y - at[1]) < 1e-9)
+        if (std::fabs(a * old[0] + b * old[1] + x - at[0]) + std::fabs(c * old[0] + d * old[1] + y - at[1]) <
+            1e-9)
           s.node.push_back(j);
       }
     EXPECT_EQ(s.node.size(), basis.nodes.size());
@@ -219,8 +230,8 @@ std::vector<Change> symmetries(const Basis& basis) {
   return all;
 }
 
-// Nodes numbered from another corner, or the other way round. The latter turns the normal: the same surface then has the height
-// -h, and the gap along the normal changes its sign.
+// Nodes numbered from another corner, or the other way round. The latter turns the normal: the same surface
+// then has the height -h, and the gap along the normal changes its sign.
 TEST_P(Invariance, NodeRenumbering) {
   for_every_scene(32, [&](Random& random, Scene scene, const Elements& elements) {
     // a texture that sticks to the nodes, not to the numbering

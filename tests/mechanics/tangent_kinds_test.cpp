@@ -32,9 +32,9 @@ protected:
   }
 };
 
-constexpr std::int32_t everything = ENTS_XI | ENTS_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN |
-                                    ENTS_XI_GRADIENT | ENTS_XI_HESSIAN | ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL |
-                                    ENTS_TANGENT | ENTS_FLAGS;
+constexpr std::int32_t everything = ENTS_XI | ENTS_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_GAP_GRADIENT |
+                                    ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_XI_HESSIAN | ENTS_ENERGY |
+                                    ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS;
 
 TEST_P(TangentKinds, ShareEveryBitOfAllButTheSecondVariationOfTheGap) {
   for_every_scene(1, samples(50), [&](const Scene& scene, const Elements& elements) {
@@ -90,7 +90,8 @@ TEST_P(TangentKinds, TangentIsBuiltFromTheReportedVariations) {
           ASSERT_NEAR(r.residual[e * n + j], eps * r.gap[e] * dg[j], tolerance * eps);
           for (std::size_t i = 0; i < n; ++i) {
             const std::size_t k = (e * n + j) * n + i;
-            ASSERT_NEAR(r.tangent[k], eps * (dg[i] * dg[j] + r.gap[e] * r.gap_hessian[k]), tolerance * eps) << kind;
+            ASSERT_NEAR(r.tangent[k], eps * (dg[i] * dg[j] + r.gap[e] * r.gap_hessian[k]), tolerance * eps)
+                << kind;
           }
         }
       }
@@ -109,8 +110,10 @@ TEST_P(TangentKinds, SmallGapDropsTermsOfFirstOrderInTheGap) {
     const std::size_t count = static_cast<std::size_t>(elements.count), n2 = dofs() * dofs();
     std::vector<std::vector<double>> dropped;
     for (const double gap : gaps) {
-      for (std::size_t i = 0; i < elements.slave.size(); ++i) elements.slave[i] = at.point[i] + gap * at.normal[i];
-      const Results a = consistent.evaluate(elements, everything), b = small_gap.evaluate(elements, everything);
+      for (std::size_t i = 0; i < elements.slave.size(); ++i)
+        elements.slave[i] = at.point[i] + gap * at.normal[i];
+      const Results a = consistent.evaluate(elements, everything),
+                    b = small_gap.evaluate(elements, everything);
       dropped.emplace_back();
       for (std::size_t e = 0; e < count; ++e) {
         double difference = 0.0;
@@ -120,7 +123,8 @@ TEST_P(TangentKinds, SmallGapDropsTermsOfFirstOrderInTheGap) {
       }
     }
     for (std::size_t e = 0; e < count; ++e) {
-      // over three decades; at g = 0.01 terms of second order may still show (0.01 / 0.1 radius of curvature: 4 %)
+      // over three decades; at g = 0.01 terms of second order may still show (0.01 / 0.1 radius of curvature:
+      // 4 %)
       const double slope = std::log10(dropped.front()[e] / dropped.back()[e]) / 3.0;
       smallest = std::min(smallest, slope);
       largest = std::max(largest, slope);
@@ -172,15 +176,16 @@ TEST_P(TangentKinds, RigidMasterIsTheSlavesPartOfTheElement) {
       EXPECT_EQ(rigid.xi, whole.xi);
       EXPECT_EQ(rigid.energy, whole.energy);
       // `parts` vectors (rank 1) or matrices (rank 2) of the dofs per element
-      const auto compare = [&](const std::vector<double>& small, const std::vector<double>& large, std::size_t parts,
-                               int rank, const char* name) {
+      const auto compare = [&](const std::vector<double>& small, const std::vector<double>& large,
+                               std::size_t parts, int rank, const char* name) {
         const std::size_t rows = rank == 2 ? d : 1, all_rows = rank == 2 ? n : 1;
         for (std::size_t p = 0; p < parts * static_cast<std::size_t>(elements.count); ++p) {
           const double* from = &large[p * all_rows * n];
           const double scale = largest_entry(from, all_rows * n);
           for (std::size_t j = 0; j < rows; ++j)
             for (std::size_t i = 0; i < d; ++i)
-              ASSERT_NEAR(small[(p * rows + j) * d + i], from[j * n + i], tolerance * scale) << name << " " << kind;
+              ASSERT_NEAR(small[(p * rows + j) * d + i], from[j * n + i], tolerance * scale)
+                  << name << " " << kind;
         }
       };
       compare(rigid.gap_gradient, whole.gap_gradient, 1, 1, "gap_gradient");
