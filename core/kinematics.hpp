@@ -166,15 +166,23 @@ template <int N, int Max> struct ProductSum {
     ++count;
   }
   // lower triangle computed, upper one mirrored: exactly symmetric
-  ENTS_INLINE void write(double* out, std::int64_t leading) const {
+  template <bool Accumulate = false> ENTS_INLINE void write(double* out, std::int64_t leading) const {
     for (int j = 0; j < N; ++j) {
       double column[N];
       for (int i = j; i < N; ++i) column[i] = u[0][i] * v[0][j];
       for (int k = 1; k < count; ++k)
         for (int i = j; i < N; ++i) column[i] += u[k][i] * v[k][j];
-      for (int i = j; i < N; ++i) {
-        out[j * leading + i] = column[i];
-        out[i * leading + j] = column[i];
+      if constexpr (Accumulate) {
+        out[j * leading + j] += column[j];
+        for (int i = j + 1; i < N; ++i) {
+          out[j * leading + i] += column[i];
+          out[i * leading + j] += column[i];
+        }
+      } else {
+        for (int i = j; i < N; ++i) {
+          out[j * leading + i] = column[i];
+          out[i * leading + j] = column[i];
+        }
       }
     }
   }

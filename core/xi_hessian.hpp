@@ -12,10 +12,10 @@
 
 namespace ents::ENTS_ISA {
 
-// F_uu' and (F_xi,u)', F_xixi' at p along y, contracted with xi_u: out = t . D2xi.
+// F_uu' and (F_xi,u)', F_xixi' at p along y, contracted with xi_u: out += t . D2xi.
 template <class B, bool H, bool Rigid>
-ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H>& p, const double (&y)[B::dim - 1],
-                                     const Kinematics<B, H, Rigid>& k, double* out) {
+ENTS_NOINLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H>& p, const double (&y)[B::dim - 1],
+                                     const Kinematics<B, H, Rigid>& k, double* out, std::int64_t leading) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, N = dof_count<B, Rigid>;
   using S = Dual<double>;
   S xi[T];
@@ -24,10 +24,9 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
   Surface<B, H, S> s;
   if (!evaluate_surface<2>(g, xi, shape, s)) return;  // it was regular in p
 
-  for (int i = 0; i < N * N; ++i) out[i] = 0.0;
   const auto add_symmetric = [&](const double(&u)[N], const double(&v)[N]) {
     for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) out[j * N + i] += u[i] * v[j] + v[i] * u[j];
+      for (int i = 0; i < N; ++i) out[j * leading + i] += u[i] * v[j] + v[i] * u[j];
   };
   const auto split = [](const S(&f)[N], double(&value)[N], double(&derivative)[N]) {
     for (int i = 0; i < N; ++i) {
@@ -43,7 +42,7 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
     for (int i = 0; i < B::nodes; ++i) weight[i + 1] = -shape.n[i];
     for (int j = 0; j <= B::nodes; ++j)
       for (int i = 0; i <= B::nodes; ++i)
-        for (int c = 0; c < D; ++c) out[(D * j + c) * N + D * i + c] += (weight[i] * weight[j]).d;
+        for (int c = 0; c < D; ++c) out[(D * j + c) * leading + D * i + c] += (weight[i] * weight[j]).d;
     if constexpr (H)
       unroll<T>([&](auto b) {
         // z_k of theory's F_uu: h a^k . dX + the z_k of - d . DD'rho_e + h^2/2 a^kl w_l
@@ -90,27 +89,39 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
   }
 }
 
-// out[T][N][N]; k holds the exact delta xi of this projection.
+// out += t_a D2xi^a; k holds the exact delta xi of this projection.
+template <class B, bool H, bool Rigid>
+ENTS_NOINLINE void add_contracted_xi_hessian(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
+                                           const Kinematics<B, H, Rigid>& k, const double (&weight)[B::dim - 1],
+                                           double* out, std::int64_t leading) {
+  constexpr int T = B::dim - 1;
+  if (t.kind == ProjectionKind::normal) {
+    double minus[T], y[T];
+    for (int a = 0; a < T; ++a) minus[a] = -weight[a];
+    solve(p.f2, minus, y);
+    directional_hessian(g, p, y, k, out, leading);
+  } else {
+    Kinematics<B, H, Rigid> turned = k;  // the covector t_a c^a in the place of that of the gap
+    turned.c = weight[0] * k.onto[0];
+    if constexpr (T == 2) add_scaled(turned.c, weight[1], k.onto[1]);
+    evaluate_slopes(p, turned);
+    GapProducts<B, H, Rigid> sum;
+    add_second_variation(p, t, false, 1.0, turned, sum);
+    sum.template write<true>(out, leading);
+    add_turning_ray(k, turned.c, 1.0, out, leading);
+  }
+}
+
+// out[T][N][N]
 template <class B, bool H, bool Rigid>
 ENTS_INLINE void evaluate_xi_hessian(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
                                      const Kinematics<B, H, Rigid>& k, double* out) {
   constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
+  for (int i = 0; i < T * N * N; ++i) out[i] = 0.0;
   for (int a = 0; a < T; ++a) {
-    double* matrix = out + a * N * N;
-    if (t.kind == ProjectionKind::normal) {
-      double unit[T] = {}, y[T];
-      unit[a] = -1.0;
-      solve(p.f2, unit, y);
-      directional_hessian(g, p, y, k, matrix);
-    } else {
-      Kinematics<B, H, Rigid> turned = k;  // the covector of xi_a in the place of that of the gap
-      turned.c = k.onto[a];
-      evaluate_slopes(p, turned);
-      GapProducts<B, H, Rigid> sum;
-      add_second_variation(p, t, false, 1.0, turned, sum);
-      sum.write(matrix, N);
-      add_turning_ray(k, k.onto[a], 1.0, matrix, N);
-    }
+    double unit[T] = {};
+    unit[a] = 1.0;
+    add_contracted_xi_hessian(g, p, t, k, unit, out + a * N * N, N);
   }
 }
 
