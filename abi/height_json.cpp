@@ -2,12 +2,12 @@
 #include "abi/height_json.hpp"
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "abi/json_check.hpp"
+#include "abi/json_tree.hpp"
 #include "abi/map_json.hpp"
 #include "abi/model_error.hpp"
 
@@ -61,7 +61,7 @@ Height read_polynomial(const json& value, const std::string& path, const HeightS
     for (std::size_t j = 0; j < table[i].size(); ++j)
       rows.back().push_back(read_double(table[i][j], item(row_path, j), Range::any));
   }
-  return one ? Height::polynomial(std::move(line)) : Height::polynomial(rows);
+  return one ? Height::polynomial(std::move(line)) : Height::bivariate_polynomial(rows);
 }
 
 Height read_at_depth(const json& value, const std::string& path, const HeightSources& sources,

@@ -2,8 +2,8 @@
 #include "abi/json_check.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "abi/json_tree.hpp"
 #include "abi/model_error.hpp"
 
 namespace ents {

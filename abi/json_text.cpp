@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abi/json_text.hpp"
 
-// The parser asserts that strtod read the whole number, which fails where the locale's decimal point has
-// several bytes. Its number is not used here, so neither is the assertion.
-#define JSON_ASSERT(condition) static_cast<void>(0)
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "abi/json_check.hpp"
+#include "abi/json_tree.hpp"
 #include "abi/model_error.hpp"
 #include "abi/number_text.hpp"
 
@@ -142,6 +139,10 @@ nlohmann::json parse_json(std::string_view text) {
     throw ModelError(ENTS_BAD_VALUE, "the model text has " + std::to_string(text.size()) +
                                          " bytes; at most " + std::to_string(largest_json_text) +
                                          " are read. Give large height maps as a file or through ents_data");
+  // The parser would take a zero byte for the end of the text.
+  if (const std::size_t zero = text.find('\0'); zero != text.npos)
+    throw ModelError(ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset " + std::to_string(zero) +
+                                           ": zero byte; give the length of the text without it");
   TreeBuilder builder;
   json::sax_parse(text.begin(), text.end(), &builder);
   return std::move(builder.tree);

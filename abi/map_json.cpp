@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "abi/json_check.hpp"
 #include "abi/json_text.hpp"
+#include "abi/json_tree.hpp"
 #include "abi/model_error.hpp"
 #include "abi/surface_file.hpp"
 #include "abi/text_file.hpp"

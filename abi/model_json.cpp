@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "abi/height_json.hpp"
 #include "abi/json_check.hpp"
 #include "abi/json_text.hpp"
+#include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
 
 namespace ents {

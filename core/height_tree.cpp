@@ -61,12 +61,12 @@ Height Height::sine(double amplitude, const std::vector<double>& wave_vector, do
 Height Height::polynomial(std::vector<double> coefficients) {
   std::vector<std::vector<double>> rows;
   for (const double c : coefficients) rows.push_back({c});
-  Height height = polynomial(rows);
+  Height height = bivariate_polynomial(rows);
   height.dimension_ = 1;
   return height;
 }
 
-Height Height::polynomial(const std::vector<std::vector<double>>& coefficients) {
+Height Height::bivariate_polynomial(const std::vector<std::vector<double>>& coefficients) {
   std::size_t columns = 0;
   for (const auto& row : coefficients) columns = std::max(columns, row.size());
   if (columns == 0) throw std::invalid_argument("a polynomial has at least one coefficient");
@@ -178,8 +178,10 @@ Height Height::combine(HeightKind kind, std::vector<Height> parts) {
       height.bound_ = height.bound_ == 0.0 || part.bound_ == 0.0 ? 0.0 : height.bound_ * part.bound_;
     for (std::int32_t a = 0; a < height.dimension_; ++a) {
       rate[a] += 1.0 / part.feature_length_[a];
-      height.feature_length_[a] =
-          sum ? std::min(height.feature_length_[a], part.feature_length_[a]) : 1.0 / rate[a];
+      if (sum)
+        height.feature_length_[a] = std::min(height.feature_length_[a], part.feature_length_[a]);
+      else if (rate[a] > 0.0)
+        height.feature_length_[a] = 1.0 / rate[a];
     }
     node_count += part.nodes_.size();
   }

@@ -27,8 +27,9 @@ public:
   // Vectors have `dimension` entries; angles in radians.
   static Height constant(std::int32_t dimension, double value);
   static Height sine(double amplitude, const std::vector<double>& wave_vector, double phase);
-  static Height polynomial(std::vector<double> coefficients);                     // [power of s]
-  static Height polynomial(const std::vector<std::vector<double>>& coefficients); // [of s_1][of s_2], ragged
+  static Height polynomial(std::vector<double> coefficients); // [power of s]
+  static Height
+  bivariate_polynomial(const std::vector<std::vector<double>>& coefficients); // [of s_1][of s_2], ragged
   static Height gaussian(double amplitude, const std::vector<double>& center, double width);
   static Height map(const HeightMap& map);
   // At least one term, all of one dimension, depth below max_height_depth; else std::invalid_argument.

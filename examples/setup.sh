@@ -48,7 +48,6 @@ missing() {
 if command -v dpkg-query >/dev/null 2>&1; then
   wanted=$(missing)
   if [ -n "$wanted" ]; then
-    echo "== installing: $wanted"
     if [ "$(id -u)" -eq 0 ]; then
       as_root='env DEBIAN_FRONTEND=noninteractive'
     elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
@@ -58,6 +57,7 @@ if command -v dpkg-query >/dev/null 2>&1; then
       echo "  apt-get install $wanted" >&2
       exit 2
     fi
+    echo "== installing (this can take minutes): $wanted"
     # shellcheck disable=SC2086 # the lists are words
     if ! { $as_root apt-get -qq update && $as_root apt-get -qq install -y --no-install-recommends $wanted; } >"$log" 2>&1; then
       cat "$log" >&2

@@ -147,7 +147,10 @@ private:
   }
 
   void heading(const Statement& s) {
-    for (const Line& line : s.lines) deck.heading += (deck.heading.empty() ? "" : "\n") + string(line.text);
+    for (const Line& line : s.lines) {
+      if (!deck.heading.empty()) deck.heading += '\n';
+      deck.heading += line.text;
+    }
   }
 
   void nodes(const Statement& s) {

@@ -83,8 +83,11 @@ Face face_at(const Deck& deck, Facet facet) {
 /// Node numbers in order: equal for two faces or elements with the same nodes.
 std::array<int, 4> sorted_nodes(std::span<const int> nodes) {
   std::array<int, 4> key{-1, -1, -1, -1};
-  std::copy(nodes.begin(), nodes.end(), key.begin());
-  std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::size_t at = i;
+    for (; at > 0 && key[at - 1] > nodes[i]; --at) key[at] = key[at - 1];
+    key[at] = nodes[i];
+  }
   return key;
 }
 

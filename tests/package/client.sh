@@ -4,7 +4,7 @@
 #   c        cc and pkg-config
 #   cpp      CMake and find_package(ents)
 #   fortran  the installed module source, compiled first, and pkg-config
-# CC, FC, CMAKE and CXX name the tools.
+# CC, CXX, FC, CMAKE and CMAKE_GENERATOR name the tools.
 set -eu
 language=$1 prefix=$2 clients=$3 scratch=$4/$1 expected=$5
 rm -rf "$scratch"

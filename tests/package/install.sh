@@ -20,4 +20,4 @@ if grep -rlF -e "$source" -e "$build" -e "$scratch" "$scratch/prefix"; then
   echo "the files above name a path of this machine" >&2
   exit 1
 fi
-(cd "$scratch/prefix" && find . -type f | sort)
+(cd "$scratch/prefix" && find . ! -type d | sort)

@@ -48,8 +48,8 @@ Scale scale_of(const Axis& axis, const std::vector<const std::vector<double>*>& 
     const bool from_zero = low >= 0 && low <= 0.1 * span;
     out.min = from_zero ? 0 : low - 0.05 * span, out.max = high + 0.06 * span;
   }
-  if (!std::isnan(axis.min)) out.min = axis.min;
-  if (!std::isnan(axis.max)) out.max = axis.max;
+  if (drawable(axis.min, axis.logarithmic)) out.min = axis.min;
+  if (drawable(axis.max, axis.logarithmic)) out.max = axis.max;
   if (!axis.logarithmic) out.power = gnuplot::common_power(std::max(std::abs(out.min), std::abs(out.max)));
   out.unit = std::pow(10.0, -out.power);
   return out;
@@ -186,18 +186,18 @@ std::string style_of(const Curve& curve, std::size_t index, std::size_t count,
 std::string guides(const Chart& chart, const Scale& x, const Scale& y) {
   std::string out;
   for (const Guide& guide : chart.guides) {
-    const std::string at = number(guide.vertical ? x.shown(guide.value) : y.shown(guide.value));
-    const std::string from = guide.vertical ? at + ", graph 0" : "graph 0, first " + at;
-    const std::string to = guide.vertical ? at + ", graph 1" : "graph 1, first " + at;
-    out += "set arrow from first " + from + " to first " + to +
+    const std::string at = "first " + number(guide.vertical ? x.shown(guide.value) : y.shown(guide.value));
+    const std::string from = guide.vertical ? at + ", graph 0" : "graph 0, " + at;
+    const std::string to = guide.vertical ? at + ", graph 1" : "graph 1, " + at;
+    out += "set arrow from " + from + " to " + to +
            " nohead back dashtype (5,4) linewidth 1.2 linecolor rgb '" + std::string(gnuplot::faint) + "'\n";
     if (guide.label.empty()) continue;
     const bool right_half = x.fraction(guide.value) > 0.7;
     out += "set label " + gnuplot::text(guide.label) + " at ";
     if (guide.vertical)
-      out += "first " + at + ", graph 0.965 " + (right_half ? "right offset -0.6,0" : "left offset 0.6,0");
+      out += at + ", graph 0.965 " + (right_half ? "right offset -0.6,0" : "left offset 0.6,0");
     else
-      out += "graph 0.985, first " + at + " right offset 0,0.55";
+      out += "graph 0.985, " + at + " right offset 0,0.55";
     out += " font ',11' textcolor rgb '" + std::string(gnuplot::faint) + "'\n";
   }
   return out;
@@ -218,16 +218,19 @@ std::string slope_triangle(const Chart& chart, const Scale& x, const Scale& y) {
     }
     return curve->y.front();
   };
-  const double rise = std::pow(b / a, chart.slope_triangle), below = std::pow(y.max / y.min, -0.07);
-  const double foot = std::min(on_curve(a), on_curve(b) / rise) * below;
+  const bool falling = fitted_order(*curve) < 0; // an error over the number of segments, say
+  const double ratio = std::pow(b / a, falling ? -chart.slope_triangle : chart.slope_triangle);
+  const double left = std::min(on_curve(a), on_curve(b) / ratio) * std::pow(y.max / y.min, -0.07);
+  const double right = left * ratio, upright = falling ? a : b;
   const auto corner = [](double u, double v) { return "first " + number(u) + "," + number(v); };
-  const double top = foot * rise;
-  std::string out = "set object polygon from " + corner(a, foot) + " to " + corner(b, foot) + " to " +
-                    corner(b, top) + " to " + corner(a, foot) +
+  std::string out = "set object polygon from " + corner(a, left) + " to " + corner(b, right) + " to " +
+                    corner(upright, std::min(left, right)) + " to " + corner(a, left) +
                     " fillstyle solid 0.12 border linecolor rgb '" + std::string(gnuplot::faint) + "'\n";
-  out += "set label '1' at " + corner(std::sqrt(a * b), foot) + " center offset 0,-0.75 font ',11'\n";
+  out += "set label '1' at " + corner(std::sqrt(a * b), std::min(left, right)) +
+         " center offset 0,-0.75 font ',11'\n";
   out += "set label " + gnuplot::text(number(chart.slope_triangle)) + " at " +
-         corner(b, std::sqrt(foot * top)) + " left offset 0.7,0 font ',11'\n";
+         corner(upright, std::sqrt(left * right)) +
+         (falling ? " right offset -0.7,0" : " left offset 0.7,0") + " font ',11'\n";
   return out;
 }
 
@@ -252,7 +255,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
     if (curve.fit_order && !std::isnan(fitted_order(curve)))
-      label += ", order " + format_number(fitted_order(curve), 3);
+      label += ", order " + format_number(std::abs(fitted_order(curve)), 3);
     job.data += "\n\n# " + label + "\n";
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       job.data += number(curve.x[i]) + " " + number(curve.y[i]) + "\n";

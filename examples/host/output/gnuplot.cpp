@@ -68,7 +68,7 @@ std::string hex(std::uint32_t rgb) {
   std::array<char, 8> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), rgb, 16).ptr;
   const std::string out(digits.data(), end);
-  return "#" + std::string(6 - out.size(), '0') + out;
+  return std::string("#").append(6 - out.size(), '0') + out;
 }
 
 bool write(const std::filesystem::path& file, const std::string& content) {
@@ -94,8 +94,8 @@ std::string file_name(std::string_view name) {
   return out + "'";
 }
 
-std::string text(std::string_view utf8) { return "'" + escaped(utf8) + "'"; }
-std::string bold(std::string_view utf8) { return "'{/:Bold " + escaped(utf8) + "}'"; }
+std::string text(std::string_view utf8) { return std::string("'").append(escaped(utf8)) + "'"; }
+std::string bold(std::string_view utf8) { return std::string("'{/:Bold ").append(escaped(utf8)) + "}'"; }
 
 std::string number(double value) {
   if (std::isnan(value)) return "NaN";

@@ -25,10 +25,11 @@ Range range_of(const Map& map) {
   Range out;
   if (values.empty()) return out;
   std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  const double cut = std::clamp(1 - map.clip, 0.0, 1.0) * last; // this many values are left out,
-  const auto below = static_cast<std::size_t>(map.blank_zero ? 0 : 0.5 * cut); // at both ends, or above only
-  const auto above = static_cast<std::size_t>(map.blank_zero ? cut : 0.5 * cut);
+  const double cut = std::clamp(1 - map.clip, 0.0, 1.0) * static_cast<double>(values.size());
+  // values left out at both ends, or above only
+  const auto above =
+      std::min(values.size() - 1, static_cast<std::size_t>(std::lround(map.blank_zero ? cut : 0.5 * cut)));
+  const auto below = map.blank_zero ? 0 : std::min(above, values.size() - 1 - above);
   out.lowest = values.front(), out.highest = values.back();
   out.min = map.blank_zero ? std::min(0.0, values.front()) : values[below];
   out.max = values[values.size() - 1 - above];
@@ -95,7 +96,8 @@ std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const
   const std::string column =
       map.blank_zero ? "($3 == 0 ? NaN : $3*" + number(unit) + ")" : "($3*" + number(unit) + ")";
   const auto centre = [](int axis, double start, double step) {
-    return "(" + number(start + 0.5 * step) + "+$" + std::to_string(axis) + "*" + number(step) + ")";
+    return std::string("(").append(number(start + 0.5 * step)) + "+$" + std::to_string(axis) + "*" +
+           number(step) + ")";
   };
   out += "plot data index " + std::to_string(index) + " matrix using " + centre(1, maps.x_min * length, dx) +
          ":" + centre(2, maps.y_min * length, dy) + ":" + column + " with image notitle\n";

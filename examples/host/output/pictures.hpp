@@ -42,7 +42,8 @@ struct Curve {
   std::string label;        ///< legend; empty: no entry
   std::vector<double> x, y; ///< same size; a NaN interrupts the line
   Style style = Style::both;
-  bool fit_order = false; ///< log-log: adds "order 1.98" (least squares, last three points) to the label
+  bool fit_order =
+      false; ///< log-log: adds the size of the slope, "order 1.98", to the label (last three points)
 };
 
 /// A thin straight line across the chart, with a word at its end: an exact contact width, a tolerance.

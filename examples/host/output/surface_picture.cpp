@@ -40,7 +40,7 @@ Outcome draw_section(const Surface& surface, const std::filesystem::path& direct
   };
   Chart chart;
   chart.title = surface.title, chart.subtitle = surface.subtitle;
-  chart.x.label = "x", chart.y.label = "y", chart.x.unit = chart.y.unit = surface.unit;
+  chart.x.label = 'x', chart.y.label = 'y', chart.x.unit = chart.y.unit = surface.unit;
   const Box box = box_of(surface);
   chart.equal_axes = box.span(1) > 0.2 * box.span(0) && box.span(0) > 0.2 * box.span(1);
   if (!chart.equal_axes)

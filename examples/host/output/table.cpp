@@ -111,7 +111,7 @@ std::vector<std::vector<std::string>> Table::formatted() const {
       else if (const auto* value = std::get_if<double>(&cell))
         out[r][c] = written(*value, notation);
       else
-        out[r][c] = "-";
+        out[r][c] = '-';
     }
   }
   return out;
@@ -160,14 +160,15 @@ std::string Table::markdown() const {
     const Column& column = columns_[c];
     const bool text = std::any_of(rows_.begin(), rows_.end(),
                                   [&](auto& row) { return std::holds_alternative<std::string>(row[c]); });
-    out +=
-        " " + escaped(column.title) + (column.unit.empty() ? "" : " [" + escaped(column.unit) + "]") + " |";
+    out += std::string(" ").append(escaped(column.title));
+    if (!column.unit.empty()) out.append(" [").append(escaped(column.unit)) += "]";
+    out += " |";
     rule += text ? "---|" : "---:|";
   }
   out += "\n" + rule + "\n";
   for (const auto& row : formatted()) {
     out += "|";
-    for (const std::string& cell : row) out += " " + escaped(cell) + " |";
+    for (const std::string& cell : row) out.append(" ").append(escaped(cell)) += " |";
     out += "\n";
   }
   return out;

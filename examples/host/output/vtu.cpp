@@ -82,7 +82,7 @@ std::vector<double> padded(const std::vector<double>& values, std::size_t from, 
 }
 
 void attributes(std::string& xml, std::string_view tag, const std::vector<Array>& arrays, std::size_t n) {
-  xml += "<" + std::string(tag) + ">\n";
+  xml.append("<").append(tag) += ">\n";
   for (const Array& array : arrays) {
     const int from = array.components, to = from == 2 ? 3 : from == 4 ? 6 : from;
     if (from < 1) throw std::invalid_argument("array '" + array.name + "': components must be at least 1");
@@ -93,7 +93,7 @@ void attributes(std::string& xml, std::string_view tag, const std::vector<Array>
     data_array(xml, array.name, to,
                padded(array.values, static_cast<std::size_t>(from), static_cast<std::size_t>(to)));
   }
-  xml += "</" + std::string(tag) + ">\n";
+  xml.append("</").append(tag) += ">\n";
 }
 
 /// The three arrays of VTK's cell list, all blocks one after the other.

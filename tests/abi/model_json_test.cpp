@@ -1,0 +1,515 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The model reader: every key ends in the right place, every mistake gets its status, path and advice.
+#include "abi/model_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "abi/json_text.hpp"
+#include "core/height.hpp"
+#include "model_errors.hpp"
+
+namespace {
+
+using namespace ents;
+using ents::testing::verdict;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double pi = 3.14159265358979323846;
+
+double height_1(const Model& model, double s1) {
+  const double s[1] = {s1};
+  return ENTS_ISA::evaluate_height(model.height.root(), s).h;
+}
+
+double height_2(const Model& model, double s1, double s2) {
+  const double s[2] = {s1, s2};
+  return ENTS_ISA::evaluate_height(model.height.root(), s).h;
+}
+
+std::string with_height(const std::string& segment, const std::string& height) {
+  return R"({"segment": ")" + segment + R"(", "height": )" + height + "}";
+}
+
+TEST(ModelJson, TheSegmentAloneIsAModel) {
+  const Model model = read_model(R"({"segment": "quad4"})");
+  EXPECT_EQ(model.basis, Basis::quad4);
+  EXPECT_TRUE(model.height.none());
+  EXPECT_EQ(model.height.dimension(), 2);
+  EXPECT_FALSE(model.own_surface_coordinates);
+  EXPECT_EQ(model.projection, ProjectionKind::normal);
+  EXPECT_FALSE(model.has_contact);
+  EXPECT_EQ(model.tangent, TangentKind::consistent);
+  EXPECT_FALSE(model.rigid_master);
+  EXPECT_EQ(model.penetration_limit, 0.0);
+}
+
+TEST(ModelJson, EveryBasisIsRead) {
+  for (const BasisEntry& entry : basis_table) {
+    const Model model = read_model(R"({"segment": ")" + std::string(entry.name) + R"(", "height": null})");
+    EXPECT_EQ(model.basis, entry.basis);
+    EXPECT_EQ(&basis_entry(model.basis), &entry);
+    EXPECT_EQ(model.height.dimension(), entry.parameters);
+  }
+}
+
+TEST(ModelJson, EveryKeyEndsInItsPlace) {
+  const Model model = read_model(R"({
+    "segment": "line3",
+    "height": {"type": "constant", "value": -0.25},
+    "surface_coordinates": [[-1.5], [2], [0.5]],
+    "projection": {"type": "shadow_point", "emitter": [0.3, 6]},
+    "contact": {"normal": {"type": "penalty", "stiffness": 1e5}},
+    "tangent": "small_gap",
+    "master": "rigid",
+    "penetration_limit": 0.125})");
+  EXPECT_EQ(height_1(model, 0.4), -0.25);
+  EXPECT_TRUE(model.own_surface_coordinates);
+  EXPECT_EQ(model.surface_coordinates, (std::vector<double>{-1.5, 2.0, 0.5}));
+  EXPECT_EQ(model.projection, ProjectionKind::shadow_point);
+  EXPECT_EQ(model.ray[0], 0.3);
+  EXPECT_EQ(model.ray[1], 6.0);
+  EXPECT_EQ(model.ray[2], 0.0);
+  EXPECT_TRUE(model.has_contact);
+  EXPECT_EQ(model.penalty_stiffness, 1e5);
+  EXPECT_EQ(model.tangent, TangentKind::small_gap);
+  EXPECT_TRUE(model.rigid_master);
+  EXPECT_EQ(model.penetration_limit, 0.125);
+
+  const Model other = read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
+    "surface_coordinates": [[1, 2], [3, 4], [5, 6]]})");
+  EXPECT_EQ(other.tangent, TangentKind::first_variation);
+  EXPECT_FALSE(other.rigid_master);
+  EXPECT_EQ(other.surface_coordinates, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(ModelJson, DirectionsOfAnyLengthBecomeUnitVectors) {
+  for (const std::string length : {"1", "1e-99", "1e99", "7"}) {
+    const Model model =
+        read_model(R"({"segment": "tri3", "projection": {"type": "shadow_direction", "direction": [)" +
+                   length + ", -" + length + ", 0]}}");
+    // two divisions and a square root
+    EXPECT_NEAR(model.ray[0], std::sqrt(0.5), 2 * eps);
+    EXPECT_NEAR(model.ray[1], -std::sqrt(0.5), 2 * eps);
+    EXPECT_EQ(model.ray[2], 0.0);
+  }
+}
+
+// The spellings of the golden vectors, against the definitions; a dozen roundings of terms below 1.
+TEST(ModelJson, HeightsIn2DFollowTheirDefinition) {
+  const double s = 0.37, bound = 12 * eps;
+  EXPECT_NEAR(
+      height_1(
+          read_model(with_height(
+              "line2",
+              R"({"type": "sine", "amplitude": 0.023908, "wave_vector": [0.898359], "phase": 2.97415})")),
+          s),
+      0.023908 * std::sin(2 * pi * 0.898359 * s + 2.97415), bound);
+  EXPECT_EQ(
+      height_1(read_model(with_height("line2", R"({"type": "sine", "amplitude": 1, "wave_vector": [0.25]})")),
+               1.0),
+      1.0);
+  EXPECT_NEAR(
+      height_1(read_model(with_height(
+                   "line2",
+                   R"({"type": "polynomial", "coefficients": [0.069462, -0.099891, -0.058057, 0.082054]})")),
+               s),
+      0.069462 - 0.099891 * s - 0.058057 * s * s + 0.082054 * s * s * s, bound);
+  EXPECT_NEAR(
+      height_1(
+          read_model(with_height(
+              "line2",
+              R"({"type": "gaussian", "amplitude": -0.040578, "center": [-0.239372], "width": 0.376952})")),
+          s),
+      -0.040578 * std::exp(-(s + 0.239372) * (s + 0.239372) / (2 * 0.376952 * 0.376952)), bound);
+  EXPECT_NEAR(height_1(read_model(with_height(
+                           "line2", R"({"type": "product", "of": [{"type": "constant", "value": 0.5},
+              {"type": "sum", "of": [{"type": "polynomial", "coefficients": [0, 1]}, {"type": "constant", "value": 2}]}]})")),
+                       s),
+              0.5 * (s + 2.0), bound);
+}
+
+TEST(ModelJson, HeightsIn3DFollowTheirDefinition) {
+  const double s = 0.37, t = -0.81, bound = 12 * eps;
+  EXPECT_NEAR(
+      height_2(read_model(with_height(
+                   "tri3",
+                   R"({"type": "sine", "amplitude": 0.047, "wave_vector": [0.78, -0.25], "phase": -2.28})")),
+               s, t),
+      0.047 * std::sin(2 * pi * (0.78 * s - 0.25 * t) - 2.28), bound);
+  EXPECT_NEAR(
+      height_2(
+          read_model(with_height(
+              "tri3", R"({"type": "polynomial", "coefficients": [[0.1, 0.2, 0.3], [0.4], [0.5, 0.6]]})")),
+          s, t),
+      0.1 + 0.2 * t + 0.3 * t * t + 0.4 * s + s * s * (0.5 + 0.6 * t), bound);
+  EXPECT_NEAR(
+      height_2(
+          read_model(with_height(
+              "tri3", R"({"type": "gaussian", "amplitude": 0.05, "center": [-0.19, 0.03], "width": 0.38})")),
+          s, t),
+      0.05 * std::exp(-((s + 0.19) * (s + 0.19) + (t - 0.03) * (t - 0.03)) / (2 * 0.38 * 0.38)), bound);
+}
+
+class MapFiles : public ::testing::Test {
+protected:
+  void SetUp() override { std::filesystem::create_directories(directory_); }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(directory_ / name, std::ios::binary) << text;
+  }
+  std::filesystem::path directory_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("ents_model_json_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+// values[j][i] at s_1 = origin + i spacing, s_2 = origin + j spacing
+TEST_F(MapFiles, SourcesOfAMapAreTheSame) {
+  const double samples[] = {1, 2, 3, 4, 5, 7, 8, 9, 11, 12, 13, 17};
+  const NamedData data[] = {{"other", samples, 1, 1}, {"scan", samples, 3, 4}};
+  write("plain.txt", "1 2 3 4\n5 7 8 9\n11 12 13 17\n");
+  const std::string rest = R"("boundary": "clamped", "size": [3, 1], "origin": [-1, 2], "scale": 0.5})";
+  const Model from_values = read_model(with_height(
+      "quad4", R"({"type": "map", "values": [[1, 2, 3, 4], [5, 7, 8, 9], [11, 12, 13, 17]], )" + rest));
+  const Model from_file =
+      read_model(with_height("quad4", R"({"type": "map", "file": "plain.txt", )" + rest), directory_);
+  const Model from_data =
+      read_model(with_height("quad4", R"({"type": "map", "data": "scan", )" + rest), {}, data);
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const double s1 = -1.0 + i, s2 = 2.0 + 0.5 * j;
+      // coefficients below 3 * 17, a dozen roundings
+      EXPECT_NEAR(height_2(from_values, s1, s2), 0.5 * samples[4 * j + i], 12 * 51 * eps);
+      EXPECT_EQ(height_2(from_file, s1, s2), height_2(from_values, s1, s2));
+      EXPECT_EQ(height_2(from_data, s1, s2), height_2(from_values, s1, s2));
+    }
+}
+
+TEST_F(MapFiles, UnitsOfAFileBecomeModelUnits) {
+  write("afm.txt",
+        "# Channel: ZSensor\n# Width: 4 um\n# Height: 2 um\n# Value units: nm\n1 2 3 4\n5 7 8 9\n");
+  const std::string text =
+      R"({"type": "map", "file": "afm.txt", "boundary": "periodic", "length_unit": 1e-6, "scale": 2})";
+  const Model model = read_model(with_height("quad4", text), directory_);
+  EXPECT_DOUBLE_EQ(model.height.feature_length(0), 1.0); // 4 um / 4 pixels
+  EXPECT_DOUBLE_EQ(model.height.feature_length(1), 1.0);
+  EXPECT_NEAR(height_2(model, 2.0, 1.0), 2 * 8e-3, 12 * 27e-3 * eps + 4 * 8e-3 * eps);
+
+  // In metres, and clamped: the pixels keep their distance.
+  const Model clamped = read_model(
+      with_height("quad4", R"({"type": "map", "file": "afm.txt", "boundary": "clamped"})"), directory_);
+  EXPECT_DOUBLE_EQ(clamped.height.feature_length(0), 1e-6);
+  EXPECT_DOUBLE_EQ(clamped.height.feature_length(1), 1e-6);
+  EXPECT_NEAR(height_2(clamped, 3e-6, 1e-6), 9e-9, 1e-9 * 1000 * eps);
+
+  // The model's own size wins over the file's.
+  const Model sized = read_model(
+      with_height("quad4", R"({"type": "map", "file": "afm.txt", "boundary": "periodic", "size": [8, 6]})"),
+      directory_);
+  EXPECT_DOUBLE_EQ(sized.height.feature_length(0), 2.0);
+  EXPECT_DOUBLE_EQ(sized.height.feature_length(1), 3.0);
+}
+
+TEST_F(MapFiles, ProfilesAreOneRowOrOneColumn) {
+  write("row.txt", "1 5 2 4\n");
+  write("column.txt", "1\n5\n2\n4\n");
+  write("column_units.txt", "# Width: 9 mm\n# Height: 4 mm\n# Value units: mm\n1\n5\n2\n4\n");
+  const auto read = [&](const std::string& file, const std::string& rest) {
+    return read_model(with_height("line2", R"({"type": "map", "boundary": "periodic", "file": ")" + file +
+                                               "\"" + rest + "}"),
+                      directory_);
+  };
+  const Model row = read("row.txt", R"(, "size": [4])"), column = read("column.txt", R"(, "size": [4])");
+  const Model units = read("column_units.txt", R"(, "length_unit": 1e-3)");
+  EXPECT_DOUBLE_EQ(units.height.feature_length(0), 1.0);
+  for (double s = -3.0; s < 6.0; s += 0.31) {
+    EXPECT_EQ(height_1(row, s), height_1(column, s));
+    EXPECT_NEAR(height_1(row, s), height_1(units, s), 1000 * eps);
+  }
+}
+
+TEST_F(MapFiles, ModelFilesReadMapsBesideThem) {
+  std::filesystem::create_directories(directory_ / "data");
+  write("data/map.txt", "1 2\n3 4\n");
+  write("model.json",
+        with_height("quad4",
+                    R"({"type": "map", "file": "data/map.txt", "boundary": "periodic", "size": [1, 1]})"));
+  EXPECT_FALSE(read_model_file((directory_ / "model.json").string()).height.none());
+  EXPECT_THROW(read_model_file((directory_ / "nothing.json").string()), ModelError);
+}
+
+TEST_F(MapFiles, MistakesWithMaps) {
+  write("plain.txt", "1 2\n3 x\n");
+  write("good.txt", "1 2\n3 4\n");
+  write("tiny.txt", "# Width: 1e-300 m\n# Height: 1 m\n# Value units: m\n1 2\n3 4\n");
+  const double bad[] = {1.0, 2.0, 3.0, std::nan("")};
+  const NamedData data[] = {{"bad", bad, 2, 2},   {"null", nullptr, 2, 2},
+                            {"empty", bad, 0, 2}, {"huge", bad, std::int64_t{1} << 40, std::int64_t{1} << 40},
+                            {"twin", bad, 1, 1},  {"twin", bad, 1, 1}};
+  const auto expect = [&](const std::string& segment, const std::string& keys, std::int32_t status,
+                          const std::string& start, const std::string& part) {
+    const auto [got, message] =
+        verdict(with_height(segment, R"({"type": "map", )" + keys + "}"), directory_, data);
+    EXPECT_EQ(got, status) << keys << ": " << message;
+    EXPECT_EQ(message.substr(0, start.size()), start) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  const std::string p = R"("boundary": "periodic", "size": [1, 1])";
+  expect("quad4", R"("file": "plain.txt", )" + p, ENTS_FILE,
+         "/height/file: ", "plain.txt, line 2, column 2: \"x\"");
+  expect("quad4", R"("file": "none.txt", )" + p, ENTS_FILE,
+         "/height/file: ", "none.txt: there is no such file");
+  expect("quad4", R"("file": "", )" + p, ENTS_FILE, "/height/file: ", "is not a regular file");
+  expect("quad4", R"("file": "a\u0000b", )" + p, ENTS_FILE, "/height/file: ", "zero byte");
+  expect("quad4", R"("file": 7, )" + p, ENTS_BAD_VALUE, "/height/file: ", "is a number; write a text");
+  expect("quad4", R"("file": "good.txt", "boundary": "periodic")", ENTS_UNKNOWN_KEY,
+         "/height: ", "\"size\" is missing");
+  expect("quad4", R"("file": "good.txt", "length_unit": 1e-6, )" + p, ENTS_BAD_VALUE,
+         "/height/length_unit: ", "states no units");
+  expect("quad4", R"("file": "tiny.txt", "boundary": "periodic")", ENTS_BAD_VALUE,
+         "/height/file: ", "length_unit");
+  expect("line2", R"("file": "good.txt", "boundary": "periodic", "size": [1])", ENTS_BAD_VALUE,
+         "/height/file: ", "one row or one column");
+  expect("quad4", R"("values": [[1, 2], [3]], )" + p, ENTS_BAD_VALUE,
+         "/height/values/1: ", "has 1 entry; write an array of 2 numbers");
+  expect("quad4", R"("values": [[1, 2], [3, "4"]], )" + p, ENTS_BAD_VALUE,
+         "/height/values/1/1: ", "the text \"4\"");
+  expect("quad4", R"("values": [1, 2], )" + p, ENTS_BAD_VALUE,
+         "/height/values/0: ", "write an array of numbers");
+  expect("line2", R"("values": [[1, 2]], "boundary": "periodic", "size": [1])", ENTS_BAD_VALUE,
+         "/height/values/0: ", "is an array");
+  expect("quad4", R"("values": [[1, 2]], "boundary": "clamped", "size": [1, 1])", ENTS_BAD_VALUE,
+         "/height/values: ", "at least 2");
+  expect("quad4", R"("values": [[1e99]], "scale": 1e9, )" + p, ENTS_BAD_VALUE, "/height/values: ", "1e100");
+  expect("quad4", R"("values": [[1]], "length_unit": 1, )" + p, ENTS_UNKNOWN_KEY,
+         "/height/length_unit: ", "unknown key");
+  expect("quad4", R"("values": [[1]], "size": [1, 1])", ENTS_UNKNOWN_KEY,
+         "/height: ", "\"boundary\" is missing");
+  expect("quad4", R"("values": [[1]], "boundary": "peridoic", "size": [1, 1])", ENTS_BAD_VALUE,
+         "/height/boundary: ", "did you mean \"periodic\"?");
+  expect("quad4", R"("values": [[1]], "boundary": "periodic", "size": [1])", ENTS_BAD_VALUE,
+         "/height/size: ", "2 numbers");
+  expect("quad4", R"("values": [[1]], "boundary": "periodic", "size": [1, 0])", ENTS_BAD_VALUE,
+         "/height/size/1: ", "1e-100");
+  expect("quad4", R"("boundary": "periodic")", ENTS_UNKNOWN_KEY,
+         "/height: ", "\"file\", \"values\" and \"data\"");
+  expect("quad4", R"("data": "bad", "values": [[1]], )" + p, ENTS_UNKNOWN_KEY, "/height: ", "more than one");
+  expect("quad4", R"("data": "bad", )" + p, ENTS_NON_FINITE,
+         "/height/data: ", "\"bad\" is NaN or infinite in row 1, column 1");
+  expect("quad4", R"("data": "null", )" + p, ENTS_NULL_ARGUMENT, "/height/data: ", "null");
+  expect("quad4", R"("data": "empty", )" + p, ENTS_BAD_COUNT, "/height/data: ", "has 0 rows of 2");
+  expect("quad4", R"("data": "huge", )" + p, ENTS_BAD_COUNT, "/height/data: ", "samples");
+  expect("quad4", R"("data": "twin", )" + p, ENTS_BAD_VALUE, "/height/data: ", "two arrays");
+  expect("quad4", R"("data": "absent", )" + p, ENTS_BAD_VALUE, "/height/data: ", "there are: \"bad\"");
+  expect("line2", R"("data": "bad", "boundary": "periodic", "size": [1])", ENTS_BAD_VALUE,
+         "/height/data: ", "one row");
+}
+
+struct Mistake {
+  const char* text;
+  std::int32_t status;
+  const char* start;
+  const char* part;
+};
+
+void expect_mistakes(const std::vector<Mistake>& mistakes) {
+  for (const Mistake& m : mistakes) {
+    const auto [status, message] = verdict(m.text);
+    EXPECT_EQ(status, m.status) << m.text << "\n" << message;
+    EXPECT_EQ(message.substr(0, std::string(m.start).size()), m.start) << m.text;
+    EXPECT_NE(message.find(m.part), std::string::npos) << m.text << "\n" << message;
+    EXPECT_LT(message.size(), 512u) << "longer than the message of a report";
+  }
+}
+
+TEST(ModelJson, SyntaxErrorsGiveTheByteOffset) {
+  expect_mistakes({
+      {"", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 0", "unexpected end of input"},
+      {"{", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 1", "line 1, column"},
+      {R"({"segment":"quad4",})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 19", "'}'"},
+      {R"({"segment":"quad4"} x)", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 20",
+       "expected end of input"},
+      {R"({"segment":"quad4"}{})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 19",
+       "expected end of input"},
+      {R"({"penetration_limit":NaN})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 21",
+       "NaN and Infinity"},
+      {R"({"penetration_limit":Infinity})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 21",
+       "NaN and Infinity"},
+      {R"({"penetration_limit":-Infinity})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 22",
+       "not JSON"},
+      {R"({"penetration_limit":01})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 22",
+       "not JSON"},
+      {R"({"penetration_limit":1.})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 23",
+       "not JSON"},
+      {"{'segment':'quad4'}", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 1",
+       "string literal"},
+      {"{\"segment\":\"quad4\" // why\n}", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 19",
+       "not JSON"},
+      {"{\"segment\":\"\xFF\"}", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 12",
+       "ill-formed UTF-8"},
+      {"{\"segment\":\"a\nb\"}", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 13",
+       "control character"},
+      {R"({"segment":"\ud800"})", ENTS_JSON_SYNTAX, "the model text is not JSON at byte offset 18",
+       "surrogate"},
+  });
+  const auto [status, message] = verdict(std::string_view("{\"segment\":\"quad4\"}\0", 20));
+  EXPECT_EQ(status, ENTS_JSON_SYNTAX);
+  EXPECT_NE(message.find("byte offset 19: zero byte"), std::string::npos) << message;
+}
+
+TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
+  expect_mistakes({
+      {"[]", ENTS_BAD_VALUE, "model: is an array", "\"segment\""},
+      {"null", ENTS_BAD_VALUE, "model: is null", "write an object"},
+      {"{}", ENTS_UNKNOWN_KEY, "model: the key \"segment\" is missing", ""},
+      {R"({"segment":"quad4","heigth":null})", ENTS_UNKNOWN_KEY, "/heigth: unknown key",
+       "did you mean \"height\"?"},
+      {R"({"segment":"quad4","zzz":null})", ENTS_UNKNOWN_KEY, "/zzz: unknown key",
+       "allowed here: \"segment\", \"height\""},
+      {R"({"segment":"quad4","a/b~c":null})", ENTS_UNKNOWN_KEY, "/a~1b~0c: unknown key", ""},
+      {R"({"segment":"quad4","segment":"quad4"})", ENTS_UNKNOWN_KEY, "/segment: the key stands twice", ""},
+      {R"({"segment":"quad4","height":{"type":"sum","of":[{"type":"constant","value":1,"value":2}]}})",
+       ENTS_UNKNOWN_KEY, "/height/of/0/value: the key stands twice", ""},
+      {R"({"segment":"quad5"})", ENTS_BAD_VALUE, "/segment: is \"quad5\"; did you mean \"quad4\"?",
+       "\"bspline16\""},
+      {R"({"segment":4})", ENTS_BAD_VALUE, "/segment: is a number; write \"line2\"", ""},
+      {R"({"segment":null})", ENTS_BAD_VALUE, "/segment: is null", ""},
+      {R"({"segment":"line2","height":[]})", ENTS_BAD_VALUE,
+       "/height: is an array; write an object with \"type\"", ""},
+      {R"({"segment":"line2","height":{}})", ENTS_UNKNOWN_KEY, "/height: the key \"type\" is missing",
+       "\"gaussian\""},
+      {R"({"segment":"line2","height":{"type":"sinus"}})", ENTS_BAD_VALUE, "/height/type: is \"sinus\"",
+       "\"sine\""},
+      {R"({"segment":"line2","height":{"type":"constant"}})", ENTS_UNKNOWN_KEY,
+       "/height: the key \"value\" is missing", ""},
+      {R"({"segment":"line2","height":{"type":"constant","value":1,"phase":0}})", ENTS_UNKNOWN_KEY,
+       "/height/phase: unknown key", "\"value\""},
+      {R"({"segment":"line2","height":{"type":"constant","value":"1"}})", ENTS_BAD_VALUE,
+       "/height/value: is the text \"1\"; write a number", ""},
+      {R"({"segment":"line2","height":{"type":"constant","value":true}})", ENTS_BAD_VALUE,
+       "/height/value: is true or false", ""},
+      {R"({"segment":"line2","height":{"type":"constant","value":1e101}})", ENTS_BAD_VALUE,
+       "/height/value: is 1e+101; write a number from -1e100", ""},
+      {R"({"segment":"line2","height":{"type":"constant","value":1e400}})", ENTS_BAD_VALUE,
+       "/height/value: 1e400 is outside", ""},
+      {R"({"segment":"line2","height":{"type":"sine","amplitude":1,"wave_vector":[1,2],"phase":0}})",
+       ENTS_BAD_VALUE, "/height/wave_vector: has 2 entries; write an array of 1 number",
+       "one per surface coordinate"},
+      {R"({"segment":"tri3","height":{"type":"sine","amplitude":1,"wave_vector":[1],"phase":0}})",
+       ENTS_BAD_VALUE, "/height/wave_vector: has 1 entry; write an array of 2 numbers", ""},
+      {R"({"segment":"tri3","height":{"type":"sine","amplitude":1,"wave_vector":[1,null],"phase":0}})",
+       ENTS_BAD_VALUE, "/height/wave_vector/1: is null", ""},
+      {R"({"segment":"line2","height":{"type":"polynomial","coefficients":[[1]]}})", ENTS_BAD_VALUE,
+       "/height/coefficients/0: is an array", ""},
+      {R"({"segment":"tri3","height":{"type":"polynomial","coefficients":[1]}})", ENTS_BAD_VALUE,
+       "/height/coefficients/0: is a number", "c[i][j]"},
+      {R"({"segment":"tri3","height":{"type":"polynomial","coefficients":[]}})", ENTS_BAD_VALUE,
+       "/height/coefficients: has 0 entries", "1 to 64"},
+      {R"({"segment":"tri3","height":{"type":"polynomial","coefficients":[[1],[]]}})", ENTS_BAD_VALUE,
+       "/height/coefficients/1: has 0 entries", ""},
+      {R"({"segment":"line2","height":{"type":"sum","of":[{"type":"constant","value":1},{"type":"gaussian","amplitude":1,"center":[0],"width":0}]}})",
+       ENTS_BAD_VALUE, "/height/of/1/width: is 0.0; write a number from 1e-100", ""},
+      {R"({"segment":"line2","height":{"type":"sum","of":[]}})", ENTS_BAD_VALUE, "/height/of: has 0 entries",
+       ""},
+      {R"({"segment":"line2","height":{"type":"product","of":{}}})", ENTS_BAD_VALUE,
+       "/height/of: is an object; write an array of height objects", ""},
+      {R"({"segment":"line2","surface_coordinates":[[0]]})", ENTS_BAD_VALUE,
+       "/surface_coordinates: has 1 entries; line2 has 2 master nodes", ""},
+      {R"({"segment":"line2","surface_coordinates":[[0],[1,2]]})", ENTS_BAD_VALUE,
+       "/surface_coordinates/1: has 2 entries", ""},
+      {R"({"segment":"line2","surface_coordinates":[0,1]})", ENTS_BAD_VALUE,
+       "/surface_coordinates/0: is a number", ""},
+      {R"({"segment":"line2","surface_coordinates":null})", ENTS_BAD_VALUE, "/surface_coordinates: is null",
+       ""},
+      {R"({"segment":"line2","projection":"normal"})", ENTS_BAD_VALUE,
+       "/projection: is the text \"normal\"; write an object", ""},
+      {R"({"segment":"line2","projection":{"type":"normal","emitter":[0,0]}})", ENTS_UNKNOWN_KEY,
+       "/projection/emitter: unknown key", ""},
+      {R"({"segment":"line2","projection":{"type":"shadow_point"}})", ENTS_UNKNOWN_KEY,
+       "/projection: the key \"emitter\" is missing", ""},
+      {R"({"segment":"line2","projection":{"type":"shadow_point","emitter":[0,0,0]}})", ENTS_BAD_VALUE,
+       "/projection/emitter: has 3 entries; write an array of 2", ""},
+      {R"({"segment":"tri3","projection":{"type":"shadow_direction","direction":[0,0,0]}})", ENTS_BAD_VALUE,
+       "/projection/direction: is zero", ""},
+      {R"({"segment":"line2","contact":{}})", ENTS_UNKNOWN_KEY, "/contact: the key \"normal\" is missing",
+       ""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":0}}})", ENTS_BAD_VALUE,
+       "/contact/normal/stiffness: is 0.0", ""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":-1}}})", ENTS_BAD_VALUE,
+       "/contact/normal/stiffness: is -1.0", ""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"barrier"}}})", ENTS_BAD_VALUE,
+       "/contact/normal/type: is \"barrier\"", "\"penalty\""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"friction":{}}})",
+       ENTS_UNKNOWN_KEY, "/contact/friction: unknown key", ""},
+      {R"({"segment":"line2","tangent":"exact"})", ENTS_BAD_VALUE, "/tangent: is \"exact\"",
+       "\"consistent\""},
+      {R"({"segment":"line2","master":"stiff"})", ENTS_BAD_VALUE, "/master: is \"stiff\"", "\"rigid\""},
+      {R"({"segment":"line2","penetration_limit":0})", ENTS_BAD_VALUE, "/penetration_limit: is 0.0", ""},
+  });
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+TEST(ModelJson, NestingHasALimit) {
+  for (const char* open : {"[", "{\"a\":"}) {
+    EXPECT_EQ(verdict(repeated(open, 1000000)).status, ENTS_BAD_VALUE);
+    EXPECT_EQ(verdict(repeated(open, 32)).status, ENTS_JSON_SYNTAX);
+  }
+  const auto [status, message] = verdict(repeated("[0,", 40));
+  EXPECT_EQ(message.substr(0, 9), "/1/1/1/1/") << message;
+  EXPECT_NE(message.find("deeper than 32"), std::string::npos) << message;
+
+  const auto nested = [](int levels) { // of sums; the constant is one level more
+    return with_height("line2", repeated(R"({"type":"sum","of":[)", levels) +
+                                    R"({"type":"constant","value":1})" + repeated("]}", levels));
+  };
+  EXPECT_EQ(verdict(nested(max_height_depth - 1)).status, ENTS_OK);
+  const auto [too_deep, advice] = verdict(nested(max_height_depth));
+  EXPECT_EQ(too_deep, ENTS_BAD_VALUE);
+  EXPECT_NE(advice.find("at most 8 levels deep"), std::string::npos) << advice;
+}
+
+TEST(ModelJson, SizesHaveLimits) {
+  const auto [size_status, size_message] = verdict(std::string(largest_json_text + 1, ' '));
+  EXPECT_EQ(size_status, ENTS_BAD_VALUE);
+  EXPECT_NE(size_message.find("67108865 bytes"), std::string::npos) << size_message;
+  EXPECT_EQ(
+      verdict(with_height("line2", R"({"type":"polynomial","coefficients":[0)" + repeated(",0", 64) + "]}"))
+          .status,
+      ENTS_BAD_VALUE);
+  EXPECT_EQ(
+      verdict(with_height("line2", R"({"type":"polynomial","coefficients":[0)" + repeated(",0", 63) + "]}"))
+          .status,
+      ENTS_OK);
+  // a text as long as that stays out of the message
+  const auto [status, message] = verdict(R"({"segment":")" + std::string(1 << 20, 'x') + R"("})");
+  EXPECT_EQ(status, ENTS_BAD_VALUE);
+  EXPECT_LT(message.size(), 512u);
+  EXPECT_LT(verdict(R"({")" + std::string(1 << 20, 'x') + R"(":1})").message.size(), 512u);
+  EXPECT_LT(verdict(R"({")" + std::string(1 << 20, 'x')).message.size(), 512u);
+}
+
+TEST(ModelJson, SmallAndLongNumbersAreNumbers) {
+  const auto value = [](const std::string& number) {
+    return height_1(read_model(with_height("line2", R"({"type":"constant","value":)" + number + "}")), 0.0);
+  };
+  EXPECT_EQ(value("1e-400"), 0.0);
+  EXPECT_EQ(value("0.1"), 0.1);
+  EXPECT_EQ(value("0.1000000000000000055511151231257827021181583404541015625"), 0.1);
+  EXPECT_EQ(value("123456789012345678901234567890"), 123456789012345678901234567890.0);
+  EXPECT_EQ(value("-9007199254740993"), -9007199254740992.0);
+  EXPECT_EQ(value("1E2"), 100.0);
+}
+
+} // namespace
