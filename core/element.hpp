@@ -23,6 +23,14 @@ template <class B> ENTS_INLINE bool inputs_finite(const ElementInput& in) {
          (!in.start || all_finite<T>(in.start)) && (!in.area || all_finite<1>(in.area));
 }
 
+// A block that ents_state_init or an evaluation wrote?
+template <int T> ENTS_INLINE bool is_state(const double* state) {
+  const double history = state[1];
+  return all_finite<2 + T>(state) && state[0] == state_tag(T) &&
+         (history == static_cast<double>(History::none) || history == static_cast<double>(History::open) ||
+          history == static_cast<double>(History::contact));
+}
+
 ENTS_INLINE Status status_of(Found found) {
   switch (found) {
     case Found::yes: return Status::ok;
@@ -51,24 +59,30 @@ template <int N> ENTS_INLINE void copy(const double (&from)[N], double* to) {
   for (int i = 0; i < N; ++i) to[i] = from[i];
 }
 
-// Second variations that few hosts ask for; kept out of the element's own instruction stream.
+// Second variations that few hosts ask for; kept out of the element's own instruction stream. False, and nothing
+// written, where a result would leave the range of double precision.
 template <class B, bool H, bool Rigid>
-ENTS_NOINLINE void write_hessians(const Geometry<B>& g, const Projection<B, H>& p, const Target& t, const Plan& plan,
+ENTS_NOINLINE bool write_hessians(const Geometry<B>& g, const Projection<B, H>& p, const Target& t, const Plan& plan,
                                   const Kinematics<B, H, Rigid>& exact, const ElementOutput& out) {
   constexpr int N = dof_count<B, Rigid>;
-  if (out.wanted & want::xi_hessian) evaluate_xi_hessian(g, p, t, exact, out.xi_hessian);
-  if (!(out.wanted & want::gap_hessian)) return;
-  if (plan.tangent == TangentKind::first_variation) {
-    for (int i = 0; i < N * N; ++i) out.gap_hessian[i] = 0.0;
-    return;
-  }
-  Kinematics<B, H, Rigid> k = exact;
-  const bool small_gap = plan.tangent == TangentKind::small_gap;
-  if (small_gap) evaluate_xi_gradient(p, t, true, k);
+  const bool gap = (out.wanted & want::gap_hessian) != 0;
+  const bool products = gap && plan.tangent != TangentKind::first_variation;
   GapProducts<B, H, Rigid> sum;
-  add_second_variation(p, t, small_gap, 1.0, k, sum);
-  sum.write(out.gap_hessian, N);
-  add_turning_ray(k, k.c, 1.0, out.gap_hessian, N);
+  if (products) {
+    Kinematics<B, H, Rigid> k = exact;
+    const bool small_gap = plan.tangent == TangentKind::small_gap;
+    if (small_gap) evaluate_xi_gradient(p, t, true, k);
+    add_second_variation(p, t, small_gap, 1.0, k, sum);
+    if (!(sum.bound() < largest_result)) return false;
+  }
+  if ((out.wanted & want::xi_hessian) != 0 && !write_xi_hessian(g, p, t, exact, out.xi_hessian)) return false;
+  if (products) {
+    sum.write(out.gap_hessian, N);
+    add_turning_ray(exact, exact.c, 1.0, out.gap_hessian, N);
+  } else if (gap) {
+    for (int i = 0; i < N * N; ++i) out.gap_hessian[i] = 0.0;
+  }
+  return true;
 }
 
 template <class B, bool Rigid> ENTS_INLINE void write_open(const ElementOutput& out) {
@@ -89,6 +103,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   const bool element = (wanted & want::element) != 0;
   if (!inputs_finite<B>(in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
+  if (in.state_begin && !is_state<T>(in.state_begin)) return Status::bad_state;
 
   Geometry<B> g;
   g.set(in.slave, in.master);
@@ -100,18 +115,18 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   // start: the history, else the caller's, else the whole segment
   Projection<B, H> p;
   const double* start = in.start;
-  if (in.state_begin) {
-    if (!all_finite<2 + T>(in.state_begin) || in.state_begin[0] != state_tag(T)) return Status::bad_state;
-    if (in.state_begin[1] != static_cast<double>(History::none)) start = in.state_begin + 2;
-  }
+  if (in.state_begin && in.state_begin[1] != static_cast<double>(History::none)) start = in.state_begin + 2;
   std::int32_t flags = 0;
   Found found = Found::not_converged;
   bool ambiguous = false;
+  std::int32_t spent = 0;
   if (start) {
-    for (int a = 0; a < T; ++a) p.xi[a] = start[a];
+    for (int a = 0; a < T; ++a)  // a start out there has not escaped, it is only bad
+      p.xi[a] = start[a] < -far_outside ? -far_outside : (start[a] > far_outside ? far_outside : start[a]);
     found = project(g, t, p);
   }
   if (found != Found::yes && found != Found::escaped) {
+    if (start) spent = p.evaluations;
     const Search s = search<B, H>(g, t, plan, p);
     found = s.found;
     ambiguous = s.ambiguous;
@@ -156,10 +171,11 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   }
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
 
+  // all that may go out of range first: after it everything is written
   const double stiffness = plan.penalty_stiffness * area, force = stiffness * k.gap;
+  GapProducts<B, H, Rigid> sum;
   if (contact) {
     if (!(stiffness < largest_ingredient) || !(absolute(force) < largest_ingredient)) return Status::out_of_range;
-    GapProducts<B, H, Rigid> sum;
     if (wanted & want::tangent) {
       sum.add(k.gap_gradient, stiffness, k.gap_gradient);
       if (tangent) {
@@ -167,11 +183,18 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
           Kinematics<B, H, Rigid> approximate = k;
           evaluate_xi_gradient(p, t, true, approximate);
           add_second_variation(p, t, true, force, approximate, sum);
+          k.magnitude = approximate.magnitude;
         } else {
           add_second_variation(p, t, small_gap, force, k, sum);
         }
         if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
       }
+    }
+  }
+  if (second && !write_hessians(g, p, t, plan, k, out)) return Status::out_of_range;
+
+  if (contact) {
+    if (wanted & want::tangent) {
       sum.write(out.tangent, out.tangent_leading_dimension);
       if (tangent) add_turning_ray(k, k.c, force, out.tangent, out.tangent_leading_dimension);
     }
@@ -183,7 +206,6 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     write_open<B, Rigid>(out);
   }
 
-  if (second) write_hessians(g, p, t, plan, k, out);
   if (wanted & want::xi) copy(p.xi, out.xi);
   if (wanted & want::gap) *out.gap = k.gap;
   if (wanted & want::normal_gap) *out.normal_gap = k.normal_gap;
@@ -199,7 +221,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     for (int a = 0; a < T; ++a) out.state_end[2 + a] = escaped ? 0.0 : p.xi[a];
   }
   if (wanted & want::flags) *out.flags = flags;
-  if (wanted & want::iterations) *out.iterations = p.evaluations;
+  if (wanted & want::iterations) *out.iterations = spent + p.evaluations;
   return Status::ok;
 }
 

@@ -35,6 +35,8 @@ template <class B, bool H, bool Rigid> struct Kinematics {
 
 // Results made of ingredients below this stay far inside the range of double precision.
 inline constexpr double largest_ingredient = 1e60;
+// A bound of results that leaves room for a few terms more.
+inline constexpr double largest_result = 1e300;
 
 ENTS_INLINE double absolute(double a) { return a < 0 ? -a : a; }
 template <int D> ENTS_INLINE double sum_of_absolutes(const Vec<double, D>& v) {
@@ -164,6 +166,12 @@ template <int N, int Max> struct ProductSum {
       v[count][i] = scale * b[i];
     }
     ++count;
+  }
+  // no entry, and no partial sum of one, is larger
+  ENTS_INLINE double bound() const {
+    double b = 0.0;
+    for (int k = 0; k < count; ++k) b += sum_of_absolutes(u[k]) * sum_of_absolutes(v[k]);
+    return b;
   }
   // lower triangle computed, upper one mirrored: exactly symmetric
   ENTS_INLINE void write(double* out, std::int64_t leading) const {

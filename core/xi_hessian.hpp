@@ -12,10 +12,48 @@
 
 namespace ents::ENTS_ISA {
 
-// F_uu' and (F_xi,u)', F_xixi' at p along y, contracted with xi_u: out = t . D2xi.
+// t . D2xi as the products it is the sum of, so that its size is known before anything is written.
+template <class B, bool Rigid> struct XiHessian {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, max = 3 * T + symmetric_size<T>;
+  int count = 0;
+  double u[max][N], v[max][N];                                // u v^T + v u^T
+  double weight[B::nodes + 1] = {}, weight1[B::nodes + 1] = {};  // of delta X and its derivative: (w w^T)' I
+
+  ENTS_INLINE void add(const double (&a)[N], const double (&b)[N]) {
+    for (int i = 0; i < N; ++i) {
+      u[count][i] = a[i];
+      v[count][i] = b[i];
+    }
+    ++count;
+  }
+  // no entry, and no partial sum of one, is larger
+  ENTS_INLINE double bound() const {
+    double b = 2.0 * sum_of_absolutes(weight) * sum_of_absolutes(weight1);
+    for (int k = 0; k < count; ++k) b += 2.0 * sum_of_absolutes(u[k]) * sum_of_absolutes(v[k]);
+    return b;
+  }
+  // lower triangle computed, upper one mirrored
+  ENTS_INLINE void write(double* out) const {
+    for (int j = 0; j < N; ++j) {
+      double column[N];
+      for (int i = j; i < N; ++i) column[i] = 0.0;
+      for (int k = 0; k < count; ++k)
+        for (int i = j; i < N; ++i) column[i] += u[k][i] * v[k][j] + v[k][i] * u[k][j];
+      if constexpr (!Rigid)
+        for (int n = j / D, i = j; i < N; ++n, i += D)
+          column[i] += weight[n] * weight1[j / D] + weight1[n] * weight[j / D];
+      for (int i = j; i < N; ++i) {
+        out[j * N + i] = column[i];
+        out[i * N + j] = column[i];
+      }
+    }
+  }
+};
+
+// F_uu' and (F_xi,u)', F_xixi' at p along y, contracted with xi_u: sum = t . D2xi.
 template <class B, bool H, bool Rigid>
 ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H>& p, const double (&y)[B::dim - 1],
-                                     const Kinematics<B, H, Rigid>& k, double* out) {
+                                     const Kinematics<B, H, Rigid>& k, XiHessian<B, Rigid>& sum) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, N = dof_count<B, Rigid>;
   using S = Dual<double>;
   S xi[T];
@@ -24,11 +62,6 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
   Surface<B, H, S> s;
   if (!evaluate_surface<2>(g, xi, shape, s)) return;  // it was regular in p
 
-  for (int i = 0; i < N * N; ++i) out[i] = 0.0;
-  const auto add_symmetric = [&](const double(&u)[N], const double(&v)[N]) {
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) out[j * N + i] += u[i] * v[j] + v[i] * u[j];
-  };
   const auto split = [](const S(&f)[N], double(&value)[N], double(&derivative)[N]) {
     for (int i = 0; i < N; ++i) {
       value[i] = f[i].v;
@@ -38,12 +71,11 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
 
   // F_uu = delta X . delta'X + sum_k (w_k z'_k + z_k w'_k)
   if constexpr (!Rigid) {
-    S weight[B::nodes + 1];
-    weight[0] = S(1.0);
-    for (int i = 0; i < B::nodes; ++i) weight[i + 1] = -shape.n[i];
-    for (int j = 0; j <= B::nodes; ++j)
-      for (int i = 0; i <= B::nodes; ++i)
-        for (int c = 0; c < D; ++c) out[(D * j + c) * N + D * i + c] += (weight[i] * weight[j]).d;
+    sum.weight[0] = 1.0;
+    for (int i = 0; i < B::nodes; ++i) {
+      sum.weight[i + 1] = -shape.n[i].v;
+      sum.weight1[i + 1] = -shape.n[i].d;
+    }
     if constexpr (H)
       unroll<T>([&](auto b) {
         // z_k of theory's F_uu: h a^k . dX + the z_k of - d . DD'rho_e + h^2/2 a^kl w_l
@@ -59,8 +91,8 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
         double w0[N], w1[N], z0[N], z1[N];
         split(w_dof, w0, w1);
         split(z_dof, z0, z1);
-        add_symmetric(w0, z1);
-        add_symmetric(w1, z0);
+        sum.add(w0, z1);
+        sum.add(w1, z0);
       });
   }
   // F_xi_a,u = - rho_e,a . p - d . delta rho_e,a
@@ -78,7 +110,7 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
       f1[i] = -f_dof[i].d;
       if constexpr (!Rigid) f1[i] -= q_dof[i].d;
     }
-    add_symmetric(f1, k.xi_gradient[a]);
+    sum.add(f1, k.xi_gradient[a]);
   });
   // F_xixi = rho_e,a . rho_e,b - d . rho_e,ab
   for (int i = 0; i < K; ++i) {
@@ -86,32 +118,59 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
     const double f2 = (dot(s.e[a], s.e[b]) - dot(s.d, s.e2[i])).d;
     double half[N];
     for (int n = 0; n < N; ++n) half[n] = (a == b ? 0.5 : 1.0) * f2 * k.xi_gradient[b][n];
-    add_symmetric(k.xi_gradient[a], half);
+    sum.add(k.xi_gradient[a], half);
   }
 }
 
-// out[T][N][N]; k holds the exact delta xi of this projection.
+// The direction along which t . D2xi is D2xi_a: y = - F_,xixi^-1 t, t the unit vector a.
+template <class B, bool H>
+ENTS_INLINE void direction_of(const Projection<B, H>& p, int a, double (&y)[B::dim - 1]) {
+  double unit[B::dim - 1] = {};
+  unit[a] = -1.0;
+  solve(p.f2, unit, y);
+}
+
+// D2xi_a of the shadow projection but for the terms of a turning ray: the covector of xi_a in the place of that
+// of the gap.
 template <class B, bool H, bool Rigid>
-ENTS_INLINE void evaluate_xi_hessian(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
-                                     const Kinematics<B, H, Rigid>& k, double* out) {
+ENTS_INLINE void sum_shadow_hessian(const Projection<B, H>& p, const Target& t, const Kinematics<B, H, Rigid>& k, int a,
+                                    GapProducts<B, H, Rigid>& sum) {
+  Kinematics<B, H, Rigid> turned = k;
+  turned.c = k.onto[a];
+  evaluate_slopes(p, turned);
+  add_second_variation(p, t, false, 1.0, turned, sum);
+}
+
+// out[T][N][N]; k holds the exact delta xi of this projection. False, and nothing written, where an entry might leave
+// the range of double precision.
+template <class B, bool H, bool Rigid>
+ENTS_INLINE bool write_xi_hessian(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
+                                  const Kinematics<B, H, Rigid>& k, double* out) {
   constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
-  for (int a = 0; a < T; ++a) {
-    double* matrix = out + a * N * N;
-    if (t.kind == ProjectionKind::normal) {
-      double unit[T] = {}, y[T];
-      unit[a] = -1.0;
-      solve(p.f2, unit, y);
-      directional_hessian(g, p, y, k, matrix);
-    } else {
-      Kinematics<B, H, Rigid> turned = k;  // the covector of xi_a in the place of that of the gap
-      turned.c = k.onto[a];
-      evaluate_slopes(p, turned);
-      GapProducts<B, H, Rigid> sum;
-      add_second_variation(p, t, false, 1.0, turned, sum);
-      sum.write(matrix, N);
-      add_turning_ray(k, k.onto[a], 1.0, matrix, N);
+  double bound = 0.0;
+  if (t.kind == ProjectionKind::normal) {
+    XiHessian<B, Rigid> sum[T];
+    for (int a = 0; a < T; ++a) {
+      double y[T];
+      direction_of(p, a, y);
+      directional_hessian(g, p, y, k, sum[a]);
+      bound += sum[a].bound();
+    }
+    if (!(bound < largest_result)) return false;
+    for (int a = 0; a < T; ++a) sum[a].write(out + a * N * N);
+  } else {
+    GapProducts<B, H, Rigid> sum[T];
+    for (int a = 0; a < T; ++a) {
+      sum_shadow_hessian(p, t, k, a, sum[a]);
+      bound += sum[a].bound();
+    }
+    if (!(bound < largest_result)) return false;
+    for (int a = 0; a < T; ++a) {
+      sum[a].write(out + a * N * N, N);
+      add_turning_ray(k, k.onto[a], 1.0, out + a * N * N, N);
     }
   }
+  return true;
 }
 
 }  // namespace ents::ENTS_ISA
