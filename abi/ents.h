@@ -191,10 +191,10 @@ typedef struct ents_input {
 #define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
 #define ENTS_NORMAL        (1 << 3)  /* normal        [d]            n_e, unit normal of the enriched surface */
 #define ENTS_POINT         (1 << 4)  /* point         [d]    [L]     rho_e at the projection */
-#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [dofs]         dg/du,       eq. (3) */
-#define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [dofs][dofs]   d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
-#define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][dofs]    dxi/du,      eq. (3); [1/L] */
-#define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][dofs][dofs] d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
+#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = dofs - multipliers, here and below */
+#define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [n][n]         d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
+#define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][n]       dxi/du,      eq. (3); [1/L] */
+#define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][n][n]    d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
 #define ENTS_ENERGY        (1 << 9)  /* energy        [1]    [F L]   W */
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
 #define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */

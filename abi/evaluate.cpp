@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents_evaluate: arguments checked once, then one kernel call per element.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -41,6 +42,10 @@ struct Array {
   std::int64_t size; // of one element
 };
 
+template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
+  return data ? data + stride * element : nullptr;
+}
+
 std::int64_t leading_dimension(const Plan& plan, const ents_output& out) noexcept {
   return out.tangent_leading_dimension == 0 ? plan.dofs : out.tangent_leading_dimension;
 }
@@ -78,13 +83,33 @@ Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
     return {"state_end", out.state_end, out.state_end_stride, plan.state.size};
   case ENTS_FLAGS:
     return {"flags", out.flags, out.flags_stride, 1};
-  default:
+  case ENTS_ITERATIONS:
     return {"iterations", out.iterations, out.iterations_stride, 1};
+  case ENTS_TRACTION:
+    return {"traction", out.traction, out.traction_stride, d};
+  case ENTS_SLIP:
+    return {"slip", out.slip, out.slip_stride, 1};
+  default:
+    return {"age", out.age, out.age_stride, 1};
   }
 }
 
-std::int32_t check_output(const ents_model& model, std::int64_t count, const ents_output& out,
+// The distance of elements of an array that has elements 0 .. last; 0 is `smallest` where elements may share values.
+std::int32_t check_stride(const char* group, const Array& a, std::int64_t smallest, std::int64_t last,
                           ents_report* report) {
+  if (a.stride < smallest)
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; %sat least %lld is needed", group,
+                          a.name, static_cast<long long>(a.stride), group[0] == 'i' ? "0 (shared) or " : "",
+                          static_cast<long long>(smallest));
+  const auto width = [](std::int64_t n) { return std::bit_width(static_cast<std::uint64_t>(n)); };
+  if (width(a.stride) + width(last) > most_bits)
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; element %lld would lie beyond any memory",
+                          group, a.name, static_cast<long long>(a.stride), static_cast<long long>(last));
+  return ENTS_OK;
+}
+
+std::int32_t check_output(const ents_model& model, std::int64_t first, std::int64_t count,
+                          const ents_output& out, ents_report* report) {
   const Plan& plan = model.plan;
   if ((out.wanted & ~want::all) != 0)
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
@@ -94,22 +119,24 @@ std::int32_t check_output(const ents_model& model, std::int64_t count, const ent
         report, ENTS_BAD_MASK, -1,
         "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
         "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
-  if ((out.wanted & ENTS_TANGENT) != 0 && leading_dimension(plan, out) < plan.dofs)
+  if (count == 0) return ENTS_OK;
+  const std::int64_t last = first + count - 1;
+  if (const std::int64_t leading = leading_dimension(plan, out);
+      (out.wanted & ENTS_TANGENT) != 0 && (leading < plan.dofs || leading > INT32_MAX))
     return report_message(report, ENTS_BAD_COUNT, -1,
-                          "output.tangent_leading_dimension is %lld; at least %d is needed",
-                          static_cast<long long>(out.tangent_leading_dimension), plan.dofs);
+                          "output.tangent_leading_dimension is %lld; 0 or %d .. %d is needed",
+                          static_cast<long long>(leading), plan.dofs, INT32_MAX);
   for (std::uint32_t bits = static_cast<std::uint32_t>(out.wanted); bits != 0; bits &= bits - 1) {
     const Array a = output_array(plan, out, std::countr_zero(bits));
     if (!a.data)
       return report_message(report, ENTS_NULL_ARGUMENT, -1,
                             "output.%s is null but its bit is set in output.wanted", a.name);
-    if (count > 1 && a.stride < a.size)
-      return report_message(report, ENTS_BAD_COUNT, -1, "output.%s_stride is %lld; at least %lld is needed",
-                            a.name, static_cast<long long>(a.stride), static_cast<long long>(a.size));
+    if (last > 0)
+      if (const std::int32_t status = check_stride("output", a, a.size, last, report); status != ENTS_OK)
+        return status;
   }
-  if (out.status && count > 1 && out.status_stride < 1)
-    return report_message(report, ENTS_BAD_COUNT, -1, "output.status_stride is %lld; at least 1 is needed",
-                          static_cast<long long>(out.status_stride));
+  if (out.status && last > 0)
+    return check_stride("output", {"status", out.status, out.status_stride, 1}, 1, last, report);
   return ENTS_OK;
 }
 
@@ -127,28 +154,33 @@ Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
     return {"start", in.start, in.start_stride, t};
   case 4:
     return {"area", in.area, in.area_stride, 1};
-  default:
+  case 5:
     return {"state_begin", in.state_begin, in.state_begin_stride, plan.state.size};
+  default:
+    return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
   }
 }
 
 std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t count, const ents_input& in,
                          ents_report* report) {
-  if (first < 0 || count < 0 || count > INT64_MAX / 4096 || first > INT64_MAX / 4096)
-    return report_message(report, ENTS_BAD_COUNT, -1, "first = %lld, count = %lld: both must be >= 0",
+  constexpr std::int64_t most = std::int64_t{1} << 50;
+  if (first < 0 || count < 0 || first > most - std::min(count, most))
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "first = %lld, count = %lld: both must be >= 0 and end before element 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
-  if (count > 0 && (!in.slave || !in.master))
+  if (const std::int32_t status = check_reserved(in.reserved, "input", report); status != ENTS_OK) return status;
+  if (count == 0) return ENTS_OK;
+  if (!in.slave || !in.master)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.%s is null", in.slave ? "master" : "slave");
-  if (count > 0 && plan.multipliers > 0 && !in.multiplier)
+  if (plan.multipliers > 0 && !in.multiplier)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
                           plan.multipliers);
-  if (count > 1)
+  if (const std::int64_t last = first + count - 1; last > 0)
     for (int i = 0; i < input_arrays; ++i) {
       const Array a = input_array(plan, in, i);
-      if (a.data && a.stride != 0 && a.stride < a.size)
-        return report_message(report, ENTS_BAD_COUNT, -1,
-                              "input.%s_stride is %lld; 0 (shared) or at least %lld is needed", a.name,
-                              static_cast<long long>(a.stride), static_cast<long long>(a.size));
+      if (!a.data || a.stride == 0) continue;
+      if (const std::int32_t status = check_stride("input", a, a.size, last, report); status != ENTS_OK)
+        return status;
     }
   return ENTS_OK;
 }
@@ -160,13 +192,11 @@ std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element
   if (status == ENTS_NON_FINITE)
     for (int i = 0; i < input_arrays; ++i) {
       const Array a = input_array(plan, in, i);
-      const double* v = static_cast<const double*>(a.data);
-      if (!v) continue;
-      v += a.stride * element;
-      for (std::int64_t k = 0; k < a.size; ++k)
-        if (!std::isfinite(v[k]))
-          return report_message(report, status, element, "input.%s[%lld] of element %lld is %s", a.name,
-                                static_cast<long long>(k), e, std::isnan(v[k]) ? "NaN" : "infinite");
+      const double* v = at(static_cast<const double*>(a.data), a.stride, element);
+      const std::int64_t k = first_non_finite(v, a.size);
+      if (k >= 0)
+        return report_message(report, status, element, "input.%s[%lld] of element %lld is %s", a.name,
+                              static_cast<long long>(k), e, std::isnan(v[k]) ? "NaN" : "infinite");
     }
   if (status == ENTS_BAD_VALUE)
     return report_message(report, status, element, "input.area of element %lld is negative", e);
@@ -177,10 +207,6 @@ std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element
         "ents_state_init",
         e);
   return report_message(report, status, element, "element %lld: %s", e, ents_status_text(status));
-}
-
-template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
-  return data ? data + stride * element : nullptr;
 }
 
 std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t count,
@@ -195,7 +221,7 @@ std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t 
   if (!out) return status;
   const Plan& plan = model->plan;
   if ((status = check_input(plan, first, count, *in, report)) != ENTS_OK) return status;
-  if ((status = check_output(*model, count, *out, report)) != ENTS_OK) return status;
+  if ((status = check_output(*model, first, count, *out, report)) != ENTS_OK) return status;
 
   report_ok(report);
   std::int32_t result = ENTS_OK;
@@ -261,9 +287,10 @@ int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents
     ents_surface copy;
     const ents_surface* s = ents::known_struct(surface, copy, "surface", status, report);
     if (!s) return status;
-    if (count < 0)
-      return ents::report_message(report, ENTS_BAD_COUNT, -1, "count = %lld must be >= 0",
+    if (count < 0 || count > std::int64_t{1} << 50)
+      return ents::report_message(report, ENTS_BAD_COUNT, -1, "count = %lld must be 0 .. 2^50",
                                   static_cast<long long>(count));
+    if ((status = ents::check_reserved(s->reserved, "surface", report)) != ENTS_OK) return status;
     if (count > 0 && (!s->master || !s->xi))
       return ents::report_message(report, ENTS_NULL_ARGUMENT, -1, "surface.%s is null",
                                   s->master ? "xi" : "master");
@@ -280,6 +307,8 @@ int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents
                                         nullptr};
       status = static_cast<std::int32_t>(
           plan.surface(plan, s->master, s->surface_coordinates, s->xi + plan.parameters * i, point));
+      if (status == ENTS_NON_FINITE)
+        return ents::explain_non_finite(plan, "surface.", s->master, s->surface_coordinates, s->xi + plan.parameters * i, i, report);
       if (status != ENTS_OK)
         return ents::report_message(report, status, i, "point %lld: %s", static_cast<long long>(i),
                                     ents_status_text(status));

@@ -15,6 +15,9 @@ struct ents_model {
 
 namespace ents {
 
+// Arrays end before this many doubles from their start: no index times a stride leaves the 64 bits of an address.
+inline constexpr int most_bits = 60;
+
 // A usable handle? Best effort for freed ones: their memory may be reused.
 inline std::int32_t check_handle(const ents_model* model, ents_report* report) noexcept {
   if (!model) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
@@ -23,5 +26,13 @@ inline std::int32_t check_handle(const ents_model* model, ents_report* report) n
                          "argument 'model' is not a live handle of this library (already destroyed?)");
   return ENTS_OK;
 }
+
+// Index of the first NaN or infinity; -1 if there is none, or no array.
+std::int64_t first_non_finite(const double* values, std::int64_t size) noexcept;
+
+// Name the entry of a surface's arguments that is NaN or infinite; prefix: what stands before the argument's name.
+std::int32_t explain_non_finite(const Plan& plan, const char* prefix, const double* master,
+                                const double* surface_coordinates, const double* xi, std::int64_t point,
+                                ents_report* report) noexcept;
 
 }  // namespace ents

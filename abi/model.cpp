@@ -43,7 +43,7 @@ std::int32_t collect(const ents_data* data, std::int64_t count, std::vector<Name
     ents_data copy;
     const ents_data* d =
         known_struct(reinterpret_cast<const ents_data*>(position), copy, "data", status, report);
-    if (!d) return status;
+    if (!d || (status = check_reserved(d->reserved, "data", report)) != ENTS_OK) return status;
     if (d->struct_size != stride)
       return report_message(report, ENTS_STRUCT_SIZE, i,
                             "data[%lld].struct_size differs from data[0].struct_size",

@@ -29,7 +29,7 @@ Basis read_segment(const json& value) {
 std::vector<double> read_surface_coordinates(const json& value, const BasisEntry& basis) {
   const std::string path = "/surface_coordinates";
   const auto nodes = static_cast<std::size_t>(basis.nodes);
-  check_array(value, path, nodes, "arrays, one per master node");
+  check_array(value, path, most_json_values, "arrays, one per master node");
   if (value.size() != nodes)
     fail(ENTS_BAD_VALUE, path,
          "has " + std::to_string(value.size()) + " entries; " + basis.name + " has " + std::to_string(nodes) +

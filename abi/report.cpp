@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -8,10 +9,15 @@ namespace ents {
 
 namespace {
 
-void set_report(ents_report* report, std::int32_t status, std::int64_t element) noexcept {
+// Fill the fields the caller's report has; returns the bytes it has for the message.
+std::size_t set_report(ents_report* report, std::int32_t status, std::int64_t element) noexcept {
+  const auto size = static_cast<std::size_t>(report->struct_size);
   report->status = status;
-  report->element = element;
-  report->step_factor = status > 0 ? 0.5 : 1.0;
+  if (size >= offsetof(ents_report, step_factor)) report->element = element;
+  if (size >= offsetof(ents_report, message)) report->step_factor = status > 0 ? 0.5 : 1.0;
+  return size <= offsetof(ents_report, message)
+             ? 0
+             : std::min(size - offsetof(ents_report, message), sizeof report->message);
 }
 
 } // namespace
@@ -19,10 +25,11 @@ void set_report(ents_report* report, std::int32_t status, std::int64_t element) 
 std::int32_t report_status(ents_report* report, std::int32_t status, std::int64_t element,
                            const char* text) noexcept {
   if (report) {
-    set_report(report, status, element);
+    const std::size_t room = set_report(report, status, element);
+    if (room == 0) return status;
     std::size_t length = std::strlen(text);
-    if (length >= sizeof report->message) {
-      length = sizeof report->message - 1;
+    if (length >= room) {
+      length = room - 1;
       while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80)
         --length; // whole UTF-8 characters
     }
@@ -35,10 +42,11 @@ std::int32_t report_status(ents_report* report, std::int32_t status, std::int64_
 std::int32_t report_message(ents_report* report, std::int32_t status, std::int64_t element,
                             const char* format, ...) noexcept {
   if (report) {
-    set_report(report, status, element);
+    const std::size_t room = set_report(report, status, element);
+    if (room == 0) return status;
     std::va_list arguments;
     va_start(arguments, format);
-    std::vsnprintf(report->message, sizeof report->message, format, arguments);
+    std::vsnprintf(report->message, room, format, arguments);
     va_end(arguments);
   }
   return status;

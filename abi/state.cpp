@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // State blocks: made, augmented, moved to another segment; and tributary areas.
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -15,8 +16,10 @@ std::int32_t check_blocks(const ents_model* model, std::int64_t count, const voi
                           const char* name, ents_report* report) {
   if (const std::int32_t status = check_handle(model, report); status != ENTS_OK) return status;
   const std::int32_t size = model->plan.state.size;
-  if (count < 0 || stride < size)
-    return report_message(report, ENTS_BAD_COUNT, -1, "count = %lld must be >= 0 and the stride of '%s' (%lld) at least %d",
+  constexpr std::int64_t most = std::int64_t{1} << most_bits;
+  if (count < 0 || stride < size || (count > 1 && count > most / stride))
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "count = %lld must be >= 0 and the stride of '%s' (%lld) at least %d, together less than any memory",
                           static_cast<long long>(count), name, static_cast<long long>(stride), size);
   if (count > 0 && !array) return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null", name);
   return ENTS_OK;

@@ -145,8 +145,9 @@ private:
       surface_.columns = column;
       first_row_line_ = line_;
     } else if (column != surface_.columns) {
-      fail_line("has " + std::to_string(column) + " numbers, but line " + std::to_string(first_row_line_) +
-                " has " + std::to_string(surface_.columns) + "; all rows have the same length");
+      fail_line("holds " + std::to_string(column) + (column == 1 ? " number" : " numbers") + ", but line " +
+                std::to_string(first_row_line_) + " holds " + std::to_string(surface_.columns) +
+                "; all rows have the same length");
     }
     ++surface_.rows;
   }

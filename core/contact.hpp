@@ -93,41 +93,50 @@ ENTS_INLINE void write_multiplier_tangent(const Plan& plan, const ContactForce<B
   }
 }
 
-// K of a pair in contact. k holds gap gradient and, as far as `tangent` and friction ask, slopes and delta xi.
-template <class B, bool H, bool Rigid>
-ENTS_INLINE bool write_tangent(const Plan& plan, const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
-                               const ContactForce<B::dim - 1>& c, Kinematics<B, H, Rigid>& k, bool exact_xi,
-                               double* out, std::int64_t leading) {
-  constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
-  const double force = c.area * c.normal.force, stiffness = c.area * c.normal.stiffness;
-  const bool small_gap = plan.tangent == TangentKind::small_gap;
-  const bool second = plan.tangent != TangentKind::first_variation;
-  GapProducts<B, H, Rigid> sum;
-  sum.add(k.gap_gradient, stiffness, k.gap_gradient);
-  if (second) {
-    if (exact_xi && small_gap) {
-      Kinematics<B, H, Rigid> approximate = k;
-      evaluate_xi_gradient(p, t, true, approximate);
-      add_second_variation(p, t, true, force, approximate, sum);
-    } else {
-      add_second_variation(p, t, small_gap, force, k, sum);
+// K of a pair in contact: made first, written when its size is known to be in range.
+template <class B, bool H, bool Rigid> struct ContactTangent {
+  static constexpr int N = dof_count<B, Rigid>;
+  GapProducts<B, H, Rigid> normal;
+  FrictionTangent<B, H, Rigid> friction;
+
+  // k holds gap gradient, delta xi (exact, or its small-gap approximation) and slopes as far as `tangent` and
+  // friction ask. False where the tangent would leave the range of double precision.
+  ENTS_INLINE bool evaluate(const Plan& plan, const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
+                            const ContactForce<B::dim - 1>& c, Kinematics<B, H, Rigid>& k, bool exact_xi) {
+    const double force = c.area * c.normal.force, stiffness = c.area * c.normal.stiffness;
+    const bool small_gap = plan.tangent == TangentKind::small_gap;
+    normal.add(k.gap_gradient, stiffness, k.gap_gradient);
+    if (plan.tangent != TangentKind::first_variation) {
+      if (exact_xi && small_gap) {
+        Kinematics<B, H, Rigid> approximate = k;
+        evaluate_xi_gradient(p, t, true, approximate);
+        add_second_variation(p, t, true, force, approximate, normal);
+        k.magnitude = approximate.magnitude;
+      } else {
+        add_second_variation(p, t, small_gap, force, k, normal);
+      }
     }
     if (!(k.magnitude < largest_ingredient)) return false;
+    if (!c.friction) return true;
+    friction_gradient(plan.law, p, k, c.tangential, c.area, stiffness, friction.dt);
+    friction.exact = plan.tangent == TangentKind::consistent;
+    if (friction.exact) friction.second.evaluate(g, p, t, k, c.tangential.force);
+    return friction.bound(k) < largest_result;
   }
-  sum.write(out, leading);
-  if (second) add_turning_ray(k, k.c, force, out, leading);
-  double dt[T][N];
-  if (c.friction) {
-    friction_gradient(plan.law, p, k, c.tangential, c.area, c.normal.stiffness * c.area, dt);
-    add_friction_tangent(g, p, t, k, c.tangential, plan.tangent == TangentKind::consistent, dt, out, leading);
+
+  ENTS_INLINE void write(const Plan& plan, const ContactForce<B::dim - 1>& c, const Kinematics<B, H, Rigid>& k,
+                         double* out, std::int64_t leading) const {
+    normal.write(out, leading);
+    if (plan.tangent != TangentKind::first_variation)
+      add_turning_ray(k, k.c, c.area * c.normal.force, out, leading);
+    if (c.friction) friction.add_to(k, out, leading);
+    if (plan.multipliers > 0) write_multiplier_tangent(plan, c, k, true, friction.dt, out, leading);
+    if (plan.law.symmetrised)
+      for (int j = 0; j < plan.dofs; ++j)
+        for (int i = j + 1; i < plan.dofs; ++i)
+          out[j * leading + i] = out[i * leading + j] = 0.5 * (out[j * leading + i] + out[i * leading + j]);
   }
-  if (plan.multipliers > 0) write_multiplier_tangent(plan, c, k, true, dt, out, leading);
-  if (plan.law.symmetrised)
-    for (int j = 0; j < plan.dofs; ++j)
-      for (int i = j + 1; i < plan.dofs; ++i)
-        out[j * leading + i] = out[i * leading + j] = 0.5 * (out[j * leading + i] + out[i * leading + j]);
-  return true;
-}
+};
 
 // State at the end: history, place, anchor, slip, multipliers.
 template <class B, bool H>

@@ -69,24 +69,30 @@ template <class B, bool H> ENTS_INLINE double penetration_limit(const Plan& plan
   return (B::simplex ? 1.0 : 2.0) * square_root(size);
 }
 
-// Second variations that few hosts ask for; kept out of the element's own instruction stream.
+// Second variations that few hosts ask for; kept out of the element's own instruction stream. False, and nothing
+// written, where a result would leave the range of double precision.
 template <class B, bool H, bool Rigid>
-ENTS_NOINLINE void write_hessians(const Geometry<B>& g, const Projection<B, H>& p, const Target& t, const Plan& plan,
+ENTS_NOINLINE bool write_hessians(const Geometry<B>& g, const Projection<B, H>& p, const Target& t, const Plan& plan,
                                   const Kinematics<B, H, Rigid>& exact, const ElementOutput& out) {
   constexpr int N = dof_count<B, Rigid>;
-  if (out.wanted & want::xi_hessian) evaluate_xi_hessian(g, p, t, exact, out.xi_hessian);
-  if (!(out.wanted & want::gap_hessian)) return;
-  if (plan.tangent == TangentKind::first_variation) {
-    for (int i = 0; i < N * N; ++i) out.gap_hessian[i] = 0.0;
-    return;
-  }
-  Kinematics<B, H, Rigid> k = exact;
-  const bool small_gap = plan.tangent == TangentKind::small_gap;
-  if (small_gap) evaluate_xi_gradient(p, t, true, k);
+  const bool gap = (out.wanted & want::gap_hessian) != 0;
+  const bool products = gap && plan.tangent != TangentKind::first_variation;
   GapProducts<B, H, Rigid> sum;
-  add_second_variation(p, t, small_gap, 1.0, k, sum);
-  sum.write(out.gap_hessian, N);
-  add_turning_ray(k, k.c, 1.0, out.gap_hessian, N);
+  if (products) {
+    Kinematics<B, H, Rigid> k = exact;
+    const bool small_gap = plan.tangent == TangentKind::small_gap;
+    if (small_gap) evaluate_xi_gradient(p, t, true, k);
+    add_second_variation(p, t, small_gap, 1.0, k, sum);
+    if (!(sum.bound() < largest_result)) return false;
+  }
+  if ((out.wanted & want::xi_hessian) != 0 && !write_xi_hessian(g, p, t, exact, out.xi_hessian)) return false;
+  if (products) {
+    sum.write(out.gap_hessian, N);
+    add_turning_ray(exact, exact.c, 1.0, out.gap_hessian, N);
+  } else if (gap) {
+    for (int i = 0; i < N * N; ++i) out.gap_hessian[i] = 0.0;
+  }
+  return true;
 }
 
 // Everything of the law for a pair that is not in contact.
@@ -123,6 +129,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   const bool element = (wanted & want::element) != 0;
   if (!inputs_finite<B>(plan, in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
+  if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
 
   Geometry<B> g;
   g.set(in.slave, in.master);
@@ -133,10 +140,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
 
   // start: the history, else the caller's, else the whole segment
   Projection<B, H> p;
+  std::int32_t spent = 0;
   const double* start = in.start;
   History history = History::none;
   if (in.state_begin) {
-    if (!is_state(plan.state, in.state_begin)) return Status::bad_state;
     history = static_cast<History>(static_cast<int>(in.state_begin[StateLayout::history_at]));
     if (history != History::none) start = in.state_begin + StateLayout::xi_at;
   }
@@ -144,10 +151,12 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   Found found = Found::not_converged;
   bool ambiguous = false;
   if (start) {
-    for (int a = 0; a < T; ++a) p.xi[a] = start[a];
+    for (int a = 0; a < T; ++a)  // a start out there has not escaped, it is only bad
+      p.xi[a] = start[a] < -far_outside ? -far_outside : (start[a] > far_outside ? far_outside : start[a]);
     found = project(g, t, p);
   }
   if (found != Found::yes && found != Found::escaped) {
+    if (start) spent = p.evaluations;
     const Search s = search<B, H>(g, t, plan, p);
     found = s.found;
     ambiguous = s.ambiguous;
@@ -203,10 +212,13 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (c.friction && c.tangential.at_shear_limit) flags |= flag::shear_limit;
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
 
+  // all that may go out of range first: after it everything is written
+  ContactTangent<B, H, Rigid> tangent;
+  if (pair && (wanted & want::tangent) && !tangent.evaluate(plan, g, p, t, c, k, exact_xi)) return Status::out_of_range;
+  if (hessians && !write_hessians(g, p, t, plan, k, out)) return Status::out_of_range;
+
   if (pair) {
-    if ((wanted & want::tangent) &&
-        !write_tangent(plan, g, p, t, c, k, exact_xi, out.tangent, out.tangent_leading_dimension))
-      return Status::out_of_range;
+    if (wanted & want::tangent) tangent.write(plan, c, k, out.tangent, out.tangent_leading_dimension);
     if (wanted & want::residual) write_residual(plan, in, c, k, true, out.residual);
   } else if (element) {
     write_open(plan, in, c, k, out);
@@ -225,7 +237,6 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     if (wanted & want::age) *out.age = end[StateLayout::age_at];
   }
 
-  if (hessians) write_hessians(g, p, t, plan, k, out);
   if (wanted & want::xi) copy(p.xi, out.xi);
   if (wanted & want::gap) *out.gap = k.gap;
   if (wanted & want::normal_gap) *out.normal_gap = k.normal_gap;
@@ -236,7 +247,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (wanted & want::xi_gradient)
     for (int a = 0; a < T; ++a) copy(k.xi_gradient[a], out.xi_gradient + a * N);
   if (wanted & want::flags) *out.flags = flags;
-  if (wanted & want::iterations) *out.iterations = p.evaluations;
+  if (wanted & want::iterations) *out.iterations = spent + p.evaluations;
   return Status::ok;
 }
 

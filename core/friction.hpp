@@ -148,20 +148,28 @@ ENTS_NOINLINE void friction_gradient(const ContactLaw& law, const Projection<B, 
   }
 }
 
-// out += delta xi^a dt_a + t_a D2xi^a. exact: with D2xi.
-template <class B, bool H, bool Rigid>
-ENTS_INLINE void add_friction_tangent(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
-                                      const Kinematics<B, H, Rigid>& k, const FrictionForce<B::dim - 1>& f, bool exact,
-                                      const double (&dt)[B::dim - 1][dof_count<B, Rigid>], double* out,
-                                      std::int64_t leading) {
-  constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
-  for (int j = 0; j < N; ++j)
-    for (int i = 0; i < N; ++i) {
-      double s = k.xi_gradient[0][i] * dt[0][j];
-      if constexpr (T == 2) s += k.xi_gradient[1][i] * dt[1][j];
-      out[j * leading + i] += s;
-    }
-  if (exact) add_contracted_xi_hessian(g, p, t, k, f.force, out, leading);
-}
+// delta xi^a dt_a + t_a D2xi^a
+template <class B, bool H, bool Rigid> struct FrictionTangent {
+  static constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
+  double dt[T][N];
+  bool exact;  // with D2xi
+  ContractedXiHessian<B, H, Rigid> second;
+
+  // no entry, and no partial sum of one, is larger
+  ENTS_INLINE double bound(const Kinematics<B, H, Rigid>& k) const {
+    double b = exact ? second.bound() : 0.0;
+    for (int a = 0; a < T; ++a) b += sum_of_absolutes(k.xi_gradient[a]) * sum_of_absolutes(dt[a]);
+    return b;
+  }
+  ENTS_INLINE void add_to(const Kinematics<B, H, Rigid>& k, double* out, std::int64_t leading) const {
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) {
+        double s = k.xi_gradient[0][i] * dt[0][j];
+        if constexpr (T == 2) s += k.xi_gradient[1][i] * dt[1][j];
+        out[j * leading + i] += s;
+      }
+    if (exact) second.template write<true>(k, out, leading);
+  }
+};
 
 }  // namespace ents::ENTS_ISA

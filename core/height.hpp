@@ -214,13 +214,17 @@ template <class S> ENTS_INLINE HeightJet<2, S> map_height(const MapHeight& map, 
   for (int a = 0; a < 2; ++a) locate(map, a, s[a], cell[a], f[a]);
   R c[4][4];
   load_cell(map.coefficients, map.row_stride, cell[0], cell[1], c);
-  S q[4], q1[4], q11[4];
-  for (int j = 0; j < 4; ++j) cubic_bspline(c[j], f[0], q[j], q1[j], q11[j]);
+  // Along s_2 first: the four columns lie side by side in memory, so one operation serves all of them.
+  S q[4], q2[4], q22[4];
+  for (int i = 0; i < 4; ++i) {
+    const R column[4] = {c[0][i], c[1][i], c[2][i], c[3][i]};
+    cubic_bspline(column, f[1], q[i], q2[i], q22[i]);
+  }
   HeightJet<2, S> jet;
   S unused_1, unused_2;
-  cubic_bspline(q, f[1], jet.h, jet.h1[1], jet.h2[2]);
-  cubic_bspline(q1, f[1], jet.h1[0], jet.h2[1], unused_1);
-  cubic_bspline(q11, f[1], jet.h2[0], unused_1, unused_2);
+  cubic_bspline(q, f[0], jet.h, jet.h1[0], jet.h2[0]);
+  cubic_bspline(q2, f[0], jet.h1[1], jet.h2[1], unused_1);
+  cubic_bspline(q22, f[0], jet.h2[2], unused_1, unused_2);
   const double k1 = map.inverse_spacing[0], k2 = map.inverse_spacing[1];
   jet.h1[0] = jet.h1[0] * k1;
   jet.h1[1] = jet.h1[1] * k2;

@@ -35,6 +35,8 @@ template <class B, bool H, bool Rigid> struct Kinematics {
 
 // Results made of ingredients below this stay far inside the range of double precision.
 inline constexpr double largest_ingredient = 1e60;
+// A bound of results that leaves room for a few terms more.
+inline constexpr double largest_result = 1e300;
 
 ENTS_INLINE double absolute(double a) { return a < 0 ? -a : a; }
 template <int D> ENTS_INLINE double sum_of_absolutes(const Vec<double, D>& v) {
@@ -154,6 +156,23 @@ ENTS_INLINE bool evaluate_xi_gradient(const Projection<B, H>& p, const Target& t
   return true;
 }
 
+// The lower part of a column of a symmetric matrix, and its mirror image.
+template <bool Accumulate, int N>
+ENTS_INLINE void write_column(const double (&column)[N], int j, double* out, std::int64_t leading) {
+  if constexpr (Accumulate) {
+    out[j * leading + j] += column[j];
+    for (int i = j + 1; i < N; ++i) {
+      out[j * leading + i] += column[i];
+      out[i * leading + j] += column[i];
+    }
+  } else {
+    for (int i = j; i < N; ++i) {
+      out[j * leading + i] = column[i];
+      out[i * leading + j] = column[i];
+    }
+  }
+}
+
 // A matrix as a sum of products of dof vectors: sum_k u_k v_k^T, symmetric in total.
 template <int N, int Max> struct ProductSum {
   int count = 0;
@@ -165,6 +184,12 @@ template <int N, int Max> struct ProductSum {
     }
     ++count;
   }
+  // no entry, and no partial sum of one, is larger
+  ENTS_INLINE double bound() const {
+    double b = 0.0;
+    for (int k = 0; k < count; ++k) b += sum_of_absolutes(u[k]) * sum_of_absolutes(v[k]);
+    return b;
+  }
   // lower triangle computed, upper one mirrored: exactly symmetric
   template <bool Accumulate = false> ENTS_INLINE void write(double* out, std::int64_t leading) const {
     for (int j = 0; j < N; ++j) {
@@ -172,18 +197,7 @@ template <int N, int Max> struct ProductSum {
       for (int i = j; i < N; ++i) column[i] = u[0][i] * v[0][j];
       for (int k = 1; k < count; ++k)
         for (int i = j; i < N; ++i) column[i] += u[k][i] * v[k][j];
-      if constexpr (Accumulate) {
-        out[j * leading + j] += column[j];
-        for (int i = j + 1; i < N; ++i) {
-          out[j * leading + i] += column[i];
-          out[i * leading + j] += column[i];
-        }
-      } else {
-        for (int i = j; i < N; ++i) {
-          out[j * leading + i] = column[i];
-          out[i * leading + j] = column[i];
-        }
-      }
+      write_column<Accumulate>(column, j, out, leading);
     }
   }
 };

@@ -46,7 +46,8 @@ StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law) {
 Plan make_plan(const Model& model) {
   const BasisEntry& basis = basis_entry(model.basis);
   const KernelSet& kernels = kernels_of(model.basis);
-  const bool enriched = !model.height.none();
+  // a height that is zero everywhere is none: the plain segment, to the last bit
+  const bool enriched = model.height.bound() > 0.0;
   Plan plan{};
   plan.element = kernels.element[enriched][model.rigid_master];
   plan.surface = kernels.surface[enriched];

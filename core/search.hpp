@@ -102,7 +102,7 @@ ENTS_NOINLINE Search search_window(const Geometry<B>& g, const Target& t, const 
       for (int k = candidates - 1; k > slot; --k) candidate[k] = candidate[k - 1];
       candidate[slot] = j * count[0] + i;
     }
-  Search result{Found::not_converged, false};
+  Search result{candidates > 0 ? Found::not_converged : Found::degenerate, false};
   double best_rank = 0.0;
   int evaluations = rows * count[0];
   bool outside = false, best_inside = false;
@@ -110,7 +110,10 @@ ENTS_NOINLINE Search search_window(const Geometry<B>& g, const Target& t, const 
     place(candidate[k] % count[0], candidate[k] / count[0], p.xi);
     const Found found = project(g, t, p);
     evaluations += p.evaluations;
-    if (found == Found::escaped) outside = true;
+    if (found == Found::escaped && result.found != Found::yes) {
+      outside = true;
+      best = p;
+    }
     if (found != Found::yes) {
       if (result.found != Found::yes && found != Found::escaped) result.found = found;
       continue;
@@ -129,10 +132,7 @@ ENTS_NOINLINE Search search_window(const Geometry<B>& g, const Target& t, const 
       if (max_norm(apart) > 1e-6) result.ambiguous = true;
     }
   }
-  if (result.found != Found::yes && outside) {
-    best = p;
-    result.found = Found::escaped;
-  }
+  if (result.found != Found::yes && outside) result.found = Found::escaped;
   best.evaluations = evaluations;
   return result;
 }
@@ -159,12 +159,15 @@ ENTS_NOINLINE Search search(const Geometry<B>& g, const Target& t, const Plan& p
     if (per_feature * (high[0] - low[0]) / feature + 2.0 > most) {
       Projection<B, false> plain;
       const Found found = search<B, false>(g, t, plan, plain).found;
-      double centre[T], half = 2.0;
+      double above2 = 1e300, centre[T];
       if (found == Found::yes) {
         for (int a = 0; a < T; ++a) {
           centre[a] = plain.xi[a] < low[a] ? low[a] : (plain.xi[a] > high[a] ? high[a] : plain.xi[a]);
         }
-        const double above = square_root(sample(g, t, centre, p));
+        above2 = sample(g, t, centre, p);
+      }
+      if (above2 < 1e300) {
+        const double above = square_root(above2);
         // distance along the surface per unit of xi, from the shorter tangent and their angle
         double shortest = dot(p.s.a[0], p.s.a[0]);
         if constexpr (T == 2) {
@@ -176,7 +179,7 @@ ENTS_NOINLINE Search search(const Geometry<B>& g, const Target& t, const Plan& p
           const double tilt = absolute_dot(plain.s.n, ray_of<B::dim>(t));
           reach = above + plan.height_bound * square_root(1.0 / (tilt * tilt + 1e-12) - 1.0 + 1e-12) + 1e-12;
         }
-        half = 1.5 * reach / square_root(shortest) + 2.0 * feature;
+        const double half = 1.5 * reach / square_root(shortest) + 2.0 * feature;
         for (int a = 0; a < T; ++a) {
           low[a] = centre[a] - half > low[a] ? centre[a] - half : low[a];
           high[a] = centre[a] + half < high[a] ? centre[a] + half : high[a];
@@ -185,7 +188,7 @@ ENTS_NOINLINE Search search(const Geometry<B>& g, const Target& t, const Plan& p
     }
     for (int a = 0; a < T; ++a) {
       const double wish = per_feature * (high[a] - low[a]) / feature + 2.0;
-      count[a] = wish > most ? most : (wish < 5.0 ? 5 : static_cast<int>(wish));
+      count[a] = wish < most ? (wish < 5.0 ? 5 : static_cast<int>(wish)) : most;
     }
     return search_window(g, t, low, high, count, p);
   }

@@ -13,6 +13,11 @@
 
 namespace ents::ENTS_ISA {
 
+// At a fold, on a collapsed edge or where all nodes coincide rounding leaves tangents of about 1e-16 of the
+// segment's size and of its distance, whose normal points anywhere. The smallest that still have a normal:
+inline constexpr double degenerate_size = 1e-12;     // relative to the size of the segment
+inline constexpr double degenerate_distance = 2e-15;  // relative to its distance from the slave node
+
 // One contact element's geometry. Positions are relative to the slave node: what matters (gap, tangents)
 // is then computed from differences, whatever the distance to the host's origin.
 template <class B> struct Geometry {
@@ -20,10 +25,20 @@ template <class B> struct Geometry {
   Vec<double, D> y[B::nodes];         // x_i - x_s
   const double* surface_coordinates;  // [nodes][T] or null: s = xi
   const HeightNode* height;           // null: plain segment
+  double smallest_area2;              // of the tangents, squared: below it there is no normal
 
   ENTS_INLINE void set(const double* slave, const double* master) {
     for (int i = 0; i < B::nodes; ++i)
       for (int k = 0; k < D; ++k) y[i][k] = master[D * i + k] - slave[k];
+    double size2 = 0.0;
+    for (int i = 1; i < B::nodes; ++i) {
+      const Vec<double, D> r = y[i] - y[0];
+      const double r2 = dot(r, r);
+      size2 = r2 > size2 ? r2 : size2;
+    }
+    const double rounding2 = degenerate_distance * degenerate_distance * dot(y[0], y[0]);
+    const double smallest2 = degenerate_size * degenerate_size * size2 + rounding2;
+    smallest_area2 = (T == 2 ? smallest2 * (size2 + rounding2) : smallest2) + 1e-200;
   }
 };
 
@@ -51,9 +66,6 @@ template <class B, bool H, class S> struct Surface {
   V e[T];   // rho_e,a
   V e2[K];  // rho_e,ab
 };
-
-// The smallest area of a segment's tangents, relative to their lengths, that still has a normal.
-inline constexpr double degenerate_area = 1e-12;
 
 // h(s(xi)) by the chain rule
 template <class B, int Order, class S>
@@ -136,14 +148,14 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
   const Vec<S, D> m = normal_of_tangents(s.a);
   const S area2 = dot(m, m);
   S metric[K];
-  metric[0] = dot(s.a[0], s.a[0]);
-  double size2 = value_of(metric[0]);
-  if constexpr (T == 2) {
-    metric[1] = dot(s.a[0], s.a[1]);
-    metric[2] = dot(s.a[1], s.a[1]);
-    size2 *= value_of(metric[2]);
+  if constexpr (H) {
+    metric[0] = dot(s.a[0], s.a[0]);
+    if constexpr (T == 2) {
+      metric[1] = dot(s.a[0], s.a[1]);
+      metric[2] = dot(s.a[1], s.a[1]);
+    }
   }
-  if (!(value_of(area2) > degenerate_area * degenerate_area * size2) || !(value_of(area2) > 1e-200)) return false;
+  if (!(value_of(area2) > g.smallest_area2)) return false;
   s.area = square_root(area2);
   s.n = (1.0 / s.area) * m;
 
@@ -208,7 +220,7 @@ ENTS_INLINE bool enriched_normal(const Surface<B, H, S>& s, Vec<S, B::dim>& norm
     const Vec<S, B::dim> m = normal_of_tangents(s.e);
     const S area2 = dot(m, m);
     const double base = value_of(s.area);
-    if (!(value_of(area2) > degenerate_area * degenerate_area * base * base)) return false;
+    if (!(value_of(area2) > degenerate_size * degenerate_size * base * base)) return false;
     normal = (1.0 / square_root(area2)) * m;
   }
   return true;

@@ -80,8 +80,8 @@ TEST(SurfaceFile, ErrorsNameFileLineAndColumn) {
   expect_error("# a\n\n1 2\n3 nan\n", "map.txt, line 4, column 2: ", "not a number");
   expect_error("1 inf\n", "map.txt, line 1, column 2: ", "not a number");
   expect_error("1 2e999\n", "map.txt, line 1, column 2: ", "outside the range");
-  expect_error("1 2\n3 4 5\n", "map.txt, line 2: ", "has 3 numbers, but line 1 has 2");
-  expect_error("1 2\n3\n", "map.txt, line 2: ", "has 1 numbers, but line 1 has 2");
+  expect_error("1 2\n3 4 5\n", "map.txt, line 2: ", "holds 3 numbers, but line 1 holds 2");
+  expect_error("1 2\n3\n", "map.txt, line 2: ", "holds 1 number, but line 1 holds 2");
   expect_error("1,2,\n", "map.txt, line 1, column 3: ", "missing");
   expect_error("1,,2\n", "map.txt, line 1, column 2: ", "missing");
   expect_error(std::string_view("1 2\0 3", 6), "map.txt: ", "zero bytes");

@@ -102,7 +102,9 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
 
   gnuplot::Job job;
   const double list = 24.0 * static_cast<double>(surface.places.size());
-  job.height = 600 + static_cast<int>(list);
+  // gnuplot centres the base plane: a high surface hangs out below by about this many pixels
+  const double drop = 250 * std::clamp(relief * z_scale / plan - 0.15, 0.0, 1.0);
+  job.height = 600 + static_cast<int>(list + drop);
   job.data = "# x y z h of the enriched surface\n";
   for (const std::size_t j : thinned(surface.rows)) {
     for (const std::size_t i : thinned(surface.columns)) {
@@ -119,9 +121,9 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   if (z_scale > 1)
     subtitle += (subtitle.empty() ? "" : "; ") + std::string("heights drawn ") +
                 std::to_string(static_cast<int>(z_scale)) + " times";
-  const double pixels = job.height, foot = (list + 30) / pixels;
+  const double pixels = job.height, foot = (list + drop + 30) / pixels;
   job.script = "reset\nset minussign\nunset key\nset border 15 linewidth 0.8 linecolor rgb '#999999'\n"
-               "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30,1.15\nset view equal "
+               "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30\nset view equal "
                "xyz\nset xyplane relative 0.02\n"
                "set lmargin at screen 0.02\nset rmargin at screen 0.86\n";
   job.script +=
@@ -139,6 +141,10 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
                 " offset 0.5,-0.5\n";
   job.script +=
       gnuplot::palette(Map::Palette::viridis) + "set pm3d depthorder lighting primary 0.4 specular 0.05\n";
+  for (const std::size_t axis : {0, 1})
+    job.script += std::string("set ").append(1, "xy"[axis]) + "range [" +
+                  number((box.min[axis] - 0.01 * plan) * length) + ":" +
+                  number((box.max[axis] + 0.01 * plan) * length) + "]\n";
   job.script += marks(scaled, z_scale, 0.22 * plan * length, pixels);
   const std::string l = number(length);
   job.script += "splot data using ($1*" + l + "):($2*" + l + "):($3*" + number(length * z_scale) + "):($4*" +

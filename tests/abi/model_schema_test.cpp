@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// model.schema.json and the model reader say the same. From models that use every key, texts are made by
+// removing, adding, renaming and replacing one thing; the reader must agree with the schema's verdict. And
+// what the reader's own messages list as allowed keys and words is what the schema lists.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model_errors.hpp"
+#include "schema_validator.hpp"
+
+namespace {
+
+using nlohmann::json;
+using Pointer = json::json_pointer;
+using namespace ents;
+using ents::testing::SchemaValidator;
+using ents::testing::Verdict;
+
+json schema() {
+  std::ifstream stream(ENTS_SOURCE_DIR "/abi/model.schema.json");
+  return json::parse(stream);
+}
+
+class ModelSchema : public ::testing::Test {
+protected:
+  void SetUp() override {
+    std::filesystem::create_directories(directory_);
+    std::ofstream(directory_ / "matrix.txt") << "1 2 3\n4 5 6\n";
+    std::ofstream(directory_ / "profile.txt") << "1 2 3\n";
+    std::ofstream(directory_ / "scan.txt")
+        << "# Width: 3 um\n# Height: 2 um\n# Value units: um\n1 2 3\n4 5 6\n";
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  Verdict read(const json& model) const {
+    const NamedData data[] = {{"heights", samples_, 2, 3}, {"profile", samples_, 1, 3}};
+    return ents::testing::verdict(model.dump(), directory_, data);
+  }
+
+  // Together they use every key and every word of the schema; EveryPropertyIsUsed holds them to it.
+  static std::vector<json> models() {
+    const json one = {{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1}}, {"phase", 0.5}};
+    const json two = {{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1, 2}}, {"phase", 0.5}};
+    std::vector<json> result = {
+        {{"segment", "line2"},
+         {"height", nullptr},
+         {"surface_coordinates", {{-1}, {1}}},
+         {"projection", {{"type", "normal"}}},
+         {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}}},
+         {"tangent", "consistent"},
+         {"master", "deformable"},
+         {"penetration_limit", 0.1}},
+        {{"segment", "tri3"},
+         {"height", {{"type", "constant"}, {"value", 1}}},
+         {"surface_coordinates", {{0, 0}, {1, 0}, {0, 1}}},
+         {"projection", {{"type", "shadow_point"}, {"emitter", {1, 2, 3}}}},
+         {"tangent", "small_gap"},
+         {"master", "rigid"}},
+        {{"segment", "line2"},
+         {"height", one},
+         {"projection", {{"type", "shadow_direction"}, {"direction", {1, 2}}}},
+         {"tangent", "first_variation"}},
+        {{"segment", "quad4"}, {"height", two}},
+        {{"segment", "line2"}, {"height", {{"type", "polynomial"}, {"coefficients", {1, 2, 3}}}}},
+        {{"segment", "quad4"}, {"height", {{"type", "polynomial"}, {"coefficients", {{1, 2}, {3}}}}}},
+        {{"segment", "line2"},
+         {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0}}, {"width", 1}}}},
+        {{"segment", "quad4"},
+         {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0, 1}}, {"width", 1}}}},
+        {{"segment", "quad4"},
+         {"height", {{"type", "sum"}, {"of", {two, {{"type", "product"}, {"of", {two, two}}}}}}}},
+        {{"segment", "quad4"},
+         {"height",
+          {{"type", "map"},
+           {"file", "scan.txt"},
+           {"boundary", "periodic"},
+           {"size", {1, 2}},
+           {"origin", {0, 0}},
+           {"scale", 2},
+           {"length_unit", 1e-6}}}},
+        {{"segment", "line2"},
+         {"height",
+          {{"type", "map"},
+           {"file", "profile.txt"},
+           {"boundary", "clamped"},
+           {"size", {1}},
+           {"origin", {0}},
+           {"scale", 2}}}},
+        {{"segment", "quad4"},
+         {"height",
+          {{"type", "map"},
+           {"data", "heights"},
+           {"boundary", "clamped"},
+           {"size", {1, 2}},
+           {"origin", {0, 0}},
+           {"scale", 2}}}},
+        {{"segment", "line2"},
+         {"height",
+          {{"type", "map"},
+           {"data", "profile"},
+           {"boundary", "periodic"},
+           {"size", {1}},
+           {"origin", {0}},
+           {"scale", 2}}}},
+        {{"segment", "quad4"},
+         {"height",
+          {{"type", "map"},
+           {"values", {{1, 2}, {3, 4}}},
+           {"boundary", "clamped"},
+           {"size", {1, 2}},
+           {"origin", {0, 0}},
+           {"scale", 2}}}},
+        {{"segment", "line2"},
+         {"height",
+          {{"type", "map"},
+           {"values", {1, 2, 3}},
+           {"boundary", "clamped"},
+           {"size", {1}},
+           {"origin", {0}},
+           {"scale", 2}}}},
+    };
+    for (const BasisEntry& basis : basis_table) result.push_back({{"segment", basis.name}});
+    return result;
+  }
+
+  std::filesystem::path directory_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("ents_model_schema_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const double samples_[6] = {1, 2, 3, 4, 5, 6};
+};
+
+void every_place(const json& value, const Pointer& pointer,
+                 const std::function<void(const Pointer&)>& visit) {
+  visit(pointer);
+  if (value.is_object())
+    for (const auto& [key, child] : value.items()) every_place(child, pointer / key, visit);
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) every_place(value[i], pointer / i, visit);
+}
+
+// What the schema cannot say because it depends on two places of the text, or on a file: the reader's message
+// has one of these parts. Everything else that the schema accepts, the reader accepts.
+bool depends_on_more(const std::string& message) {
+  for (const char* part : {
+           "one per surface coordinate of the segment", // as many entries as the segment has coordinates
+           "the surface coordinates of this master node",
+           "master nodes, write one array for each",
+           "the emitter's position",
+           "any length but zero",
+           "is zero; write any other vector", // 2 in 2D, 3 in 3D, not all zero
+           "c[i] of s1^i",
+           "c[i][j] of s1^i s2^j", // coefficients: flat in 2D, rows in 3D
+           "numbers, the samples along s1",
+           "rows, each an array of numbers",
+           "as in row 0",
+           "is an array; write a number", // values: the same
+           "a clamped map needs at least 2",
+           "one row",
+           "states no units",
+           "\"size\" is missing; the file", // depends on the file or data
+           "there is no such file",
+           "is not a regular file",
+           "no array called",
+       })
+    if (message.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST_F(ModelSchema, TheModelsAreValid) {
+  const SchemaValidator validator(schema());
+  for (const json& model : models()) {
+    EXPECT_TRUE(validator.accepts(model)) << model;
+    EXPECT_EQ(read(model).status, ENTS_OK) << model << "\n" << read(model).message;
+  }
+}
+
+// One change anywhere: same verdict.
+TEST_F(ModelSchema, ReaderAndSchemaAgreeOnEveryChange) {
+  const SchemaValidator validator(schema());
+  std::set<json> replacements = {nullptr,
+                                 true,
+                                 "text",
+                                 "",
+                                 0,
+                                 1,
+                                 -1,
+                                 2.5,
+                                 1e101,
+                                 -1e101,
+                                 1e-101,
+                                 json::array(),
+                                 json::object(),
+                                 {1},
+                                 {1, 2},
+                                 {1, 2, 3},
+                                 {0, 0},
+                                 {"a"},
+                                 {{1, 2}, {3, 4}},
+                                 {{1}, {2}},
+                                 {{"type", "constant"}, {"value", 1}},
+                                 {{"type", "normal"}}};
+  // every word of the schema in every place
+  every_place(schema(), Pointer(), [&](const Pointer& at) {
+    const json value = schema().at(at);
+    const std::string path = at.to_string();
+    if (value.is_string() && (path.find("/enum/") != std::string::npos || path.ends_with("/const")))
+      replacements.insert(value);
+  });
+
+  int accepted = 0, refused = 0;
+  const auto compare = [&](const json& model) {
+    const Verdict got = read(model);
+    if (validator.accepts(model)) {
+      EXPECT_TRUE(got.status == ENTS_OK || depends_on_more(got.message))
+          << model << "\nreader: " << got.message;
+      ++accepted;
+    } else {
+      EXPECT_NE(got.status, ENTS_OK) << model << "\nonly the schema refuses";
+      ++refused;
+    }
+  };
+  for (const json& model : models())
+    every_place(model, Pointer(), [&](const Pointer& at) {
+      for (const json& replacement : replacements) {
+        json changed = model;
+        changed[at] = replacement;
+        compare(changed);
+      }
+      if (model.at(at).is_array()) {
+        json longer = model;
+        for (const int count : {1, 2, 70}) {
+          for (int i = 0; i < count; ++i)
+            longer[at].push_back(model.at(at).empty() ? json(1) : model.at(at).back());
+          compare(longer);
+        }
+      }
+      if (model.at(at).is_object()) {
+        json more = model;
+        more[at]["x"] = 1;
+        compare(more);
+      }
+      if (at.empty()) return;
+      const Pointer parent = at.parent_pointer();
+      if (model.at(parent).is_object()) {
+        json fewer = model, renamed = model;
+        fewer[parent].erase(at.back());
+        compare(fewer);
+        renamed[parent].erase(at.back());
+        renamed[parent][at.back() + "s"] = model.at(at);
+        compare(renamed);
+      } else {
+        json fewer = model;
+        fewer[parent].erase(std::stoul(at.back()));
+        compare(fewer);
+      }
+    });
+  EXPECT_GT(accepted, 100);
+  EXPECT_GT(refused, 1000);
+}
+
+std::set<std::string> words_after(const std::string& message, const std::string& start) {
+  std::set<std::string> words;
+  std::size_t at = message.find(start);
+  if (at == std::string::npos) return words;
+  while ((at = message.find('"', at)) != std::string::npos) {
+    const std::size_t end = message.find('"', at + 1);
+    words.insert(message.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return words;
+}
+
+// What the reader says it takes is what the schema lists, in every object of every model.
+TEST_F(ModelSchema, ReaderTakesNoKeyThatTheSchemaLacks) {
+  const SchemaValidator validator(schema());
+  for (const json& model : models())
+    every_place(model, Pointer(), [&](const Pointer& at) {
+      if (!model.at(at).is_object()) return;
+      json changed = model;
+      changed[at]["no such key"] = 1;
+      const std::vector<const json*> described = validator.object_schemas(model, at);
+      ASSERT_EQ(described.size(), 1u) << model << " at " << at.to_string();
+      std::set<std::string> keys, required;
+      for (const auto& [key, unused] : described[0]->at("properties").items()) keys.insert(key);
+      EXPECT_EQ(words_after(read(changed).message, "llowed here: "), keys) << read(changed).message;
+
+      for (const json& key : described[0]->at("required")) {
+        json fewer = model;
+        fewer[at].erase(key.get<std::string>());
+        EXPECT_EQ(read(fewer).status, ENTS_UNKNOWN_KEY) << fewer;
+      }
+    });
+}
+
+TEST_F(ModelSchema, ReaderTakesNoWordThatTheSchemaLacks) {
+  const json text = schema();
+  const auto listed = [&](const json& list) {
+    std::set<std::string> words;
+    for (const json& word : list) words.insert(word.get<std::string>());
+    return words;
+  };
+  const auto types = [&](const json& branches) { // "type" of every branch of a oneOf
+    std::set<std::string> words;
+    for (const json& branch : branches) {
+      const json& type = branch.at("properties").at("type");
+      if (type.contains("const"))
+        words.insert(type.at("const"));
+      else
+        words.merge(listed(type.at("enum")));
+    }
+    return words;
+  };
+  const json& keys = text.at("properties");
+  const auto read_words = [&](const json& model) { return words_after(read(model).message, "rite "); };
+  EXPECT_EQ(read_words({{"segment", 1}}), listed(keys.at("segment").at("enum")));
+  EXPECT_EQ(read_words({{"segment", "line2"}, {"tangent", 1}}), listed(keys.at("tangent").at("enum")));
+  EXPECT_EQ(read_words({{"segment", "line2"}, {"master", 1}}), listed(keys.at("master").at("enum")));
+  EXPECT_EQ(read_words({{"segment", "line2"}, {"projection", {{"type", 1}}}}),
+            types(keys.at("projection").at("oneOf")));
+  EXPECT_EQ(read_words({{"segment", "line2"}, {"contact", {{"normal", {{"type", 1}}}}}}),
+            types(keys.at("contact").at("properties").at("normal").at("oneOf")));
+  EXPECT_EQ(read_words({{"segment", "line2"}, {"height", {{"type", 1}}}}),
+            types(text.at("$defs").at("height").at("oneOf")));
+  EXPECT_EQ(read_words({{"segment", "line2"},
+                        {"height", {{"type", "map"}, {"values", {1}}, {"size", {1}}, {"boundary", 1}}}}),
+            listed(text.at("$defs").at("boundary").at("enum")));
+}
+
+// The models above reach every property of the schema, so the tests above have seen all of it.
+TEST_F(ModelSchema, EveryPropertyIsUsed) {
+  const json text = schema();
+  const SchemaValidator validator(text);
+  std::set<std::pair<std::string, std::string>> keys_used;
+  for (const json& model : models())
+    every_place(model, Pointer(), [&](const Pointer& at) {
+      if (!model.at(at).is_object()) return;
+      for (const json* object : validator.object_schemas(model, at))
+        for (const auto& [key, unused] : model.at(at).items()) keys_used.insert({object->dump(), key});
+    });
+  every_place(text, Pointer(), [&](const Pointer& at) {
+    const json& object = text.at(at);
+    if (!object.is_object() || !object.contains("additionalProperties")) return;
+    for (const auto& [key, unused] : object.at("properties").items())
+      EXPECT_TRUE(keys_used.count({object.dump(), key})) << key << " at " << at.to_string();
+  });
+}
+
+} // namespace

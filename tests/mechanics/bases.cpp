@@ -1,0 +1,137 @@
+#include "bases.hpp"
+
+#include <complex>
+#include <initializer_list>
+#include <stdexcept>
+
+namespace mechanics {
+
+namespace {
+
+std::vector<std::array<double, 2>> four_by_four() {
+  std::vector<std::array<double, 2>> points;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) points.push_back({2.0 * i - 3.0, 2.0 * j - 3.0});
+  return points;
+}
+
+// Lagrange polynomial of `own` among `nodes`
+template <class S> S lagrange(std::initializer_list<double> nodes, double own, S x) {
+  S value = 1.0;
+  for (const double other : nodes)
+    if (other != own) value *= (x - other) / (own - other);
+  return value;
+}
+
+// Cubic Hermite interpolation between the middle two of four values, with the slopes (p_{i+1} - p_{i-1}) / 2
+template <class S> S catmull_rom(int node, S x) {
+  const S t = 0.5 * (x + 1.0), q = 1.0 - t;
+  double p[4] = {};
+  p[node] = 1.0;
+  return p[1] * (1.0 + 2.0 * t) * q * q + 0.5 * (p[2] - p[0]) * t * q * q + p[2] * t * t * (3.0 - 2.0 * t) -
+         0.5 * (p[3] - p[1]) * t * t * q;
+}
+
+// B-spline over the knots first, first + 1, ..., on the span 3 .. 4
+template <class S> S cox_de_boor(int first, int degree, S t) {
+  if (degree == 0) return first == 3 ? 1.0 : 0.0;
+  const double k = first, d = degree;
+  return (t - k) / d * cox_de_boor(first, degree - 1, t) +
+         (k + d + 1.0 - t) / d * cox_de_boor(first + 1, degree - 1, t);
+}
+
+// One direction; `node` is the natural coordinate of the node.
+template <class S> S on_line(Family family, double node, S x) {
+  switch (family) {
+  case Family::linear:
+    return lagrange({-1.0, 1.0}, node, x);
+  case Family::quadratic:
+    return lagrange({-1.0, 0.0, 1.0}, node, x);
+  case Family::catmull_rom:
+    return catmull_rom(static_cast<int>(node + 3.0) / 2, x);
+  default:
+    return cox_de_boor(static_cast<int>(node + 3.0) / 2, 3, 3.0 + 0.5 * (x + 1.0));
+  }
+}
+
+template <class S> S shape(const Basis& basis, int node, S x, S y) {
+  const double xn = basis.nodes[static_cast<std::size_t>(node)][0];
+  const double yn = basis.nodes[static_cast<std::size_t>(node)][1];
+  if (basis.dimension == 2) return on_line(basis.family, xn, x);
+  if (basis.simplex) {
+    const S l[3] = {1.0 - x - y, x, y}; // area coordinates
+    if (basis.family == Family::linear) return l[node];
+    if (node < 3) return l[node] * (2.0 * l[node] - 1.0);
+    return 4.0 * l[node - 3] * l[(node - 2) % 3];
+  }
+  if (basis.family == Family::serendipity) {
+    if (xn == 0.0) return 0.5 * (1.0 - x * x) * (1.0 + yn * y);
+    if (yn == 0.0) return 0.5 * (1.0 + xn * x) * (1.0 - y * y);
+    return 0.25 * (1.0 + xn * x) * (1.0 + yn * y) * (xn * x + yn * y - 1.0);
+  }
+  return on_line(basis.family, xn, x) * on_line(basis.family, yn, y);
+}
+
+} // namespace
+
+const std::vector<Basis>& bases() {
+  using F = Family;
+  static const std::vector<Basis> table = {
+      {"line2", F::linear, 2, false, {{-1, 0}, {1, 0}}},
+      {"line3", F::quadratic, 2, false, {{-1, 0}, {1, 0}, {0, 0}}},
+      {"catmull_rom4", F::catmull_rom, 2, false, {{-3, 0}, {-1, 0}, {1, 0}, {3, 0}}},
+      {"bspline4", F::bspline, 2, false, {{-3, 0}, {-1, 0}, {1, 0}, {3, 0}}},
+      {"tri3", F::linear, 3, true, {{0, 0}, {1, 0}, {0, 1}}},
+      {"tri6", F::quadratic, 3, true, {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}},
+      {"quad4", F::linear, 3, false, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}},
+      {"quad8",
+       F::serendipity,
+       3,
+       false,
+       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}},
+      {"quad9",
+       F::quadratic,
+       3,
+       false,
+       {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}}},
+      {"catmull_rom16", F::catmull_rom, 3, false, four_by_four()},
+      {"bspline16", F::bspline, 3, false, four_by_four()},
+  };
+  return table;
+}
+
+const Basis& basis_named(const std::string& name) {
+  for (const Basis& basis : bases())
+    if (basis.name == name) return basis;
+  throw std::invalid_argument(name);
+}
+
+std::vector<std::string> basis_names() {
+  std::vector<std::string> names;
+  for (const Basis& basis : bases()) names.push_back(basis.name);
+  return names;
+}
+
+std::vector<double> shape_values(const Basis& basis, const double* xi) {
+  std::vector<double> out;
+  for (int i = 0; i < basis.node_count(); ++i)
+    out.push_back(shape(basis, i, xi[0], basis.dimension == 3 ? xi[1] : 0.0));
+  return out;
+}
+
+// Derivatives by a complex step: f'(x) = Im f(x + i h) / h, without any difference of close numbers.
+Shape shape_functions(const Basis& basis, const double* xi) {
+  using Complex = std::complex<double>;
+  constexpr double h = 1e-30;
+  const double y = basis.dimension == 3 ? xi[1] : 0.0;
+  Shape out;
+  for (int i = 0; i < basis.node_count(); ++i) {
+    const Complex along_1 = shape(basis, i, Complex(xi[0], h), Complex(y));
+    out.value.push_back(along_1.real());
+    out.d1.push_back(along_1.imag() / h);
+    out.d2.push_back(basis.dimension == 3 ? shape(basis, i, Complex(xi[0]), Complex(y, h)).imag() / h : 0.0);
+  }
+  return out;
+}
+
+} // namespace mechanics

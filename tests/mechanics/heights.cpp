@@ -1,0 +1,272 @@
+#include "heights.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace mechanics {
+
+using nlohmann::json;
+
+namespace {
+
+// Coefficients of the cubic B-spline through f: (c_{i-1} + 4 c_i + c_{i+1}) / 6 = f_i, by plain iteration.
+// The matrix is diagonally dominant with ratio 1/2: 80 sweeps leave 2^-80.
+std::vector<double> spline_coefficients(const std::vector<double>& f, bool periodic) {
+  const int n = static_cast<int>(f.size());
+  std::vector<double> c = f;
+  const auto at = [&](int i) {
+    if (periodic) return c[static_cast<std::size_t>(((i % n) + n) % n)];
+    return c[static_cast<std::size_t>(i < 0 ? 0 : (i >= n ? n - 1 : i))];
+  };
+  for (int sweep = 0; sweep < 80; ++sweep)
+    for (int i = 0; i < n; ++i) {
+      // a clamped edge repeats its own coefficient; a single periodic sample neighbours itself
+      double own = 4.0, others = 0.0;
+      for (const int j : {i - 1, i + 1}) {
+        const bool itself = periodic ? n == 1 : (j < 0 || j >= n);
+        own += itself ? 1.0 : 0.0;
+        others += itself ? 0.0 : at(j);
+      }
+      c[static_cast<std::size_t>(i)] = (6.0 * f[static_cast<std::size_t>(i)] - others) / own;
+    }
+  return c;
+}
+
+int wrap(long i, int n, bool periodic) {
+  if (periodic) return static_cast<int>(((i % n) + n) % n);
+  return static_cast<int>(i < 0 ? 0 : (i >= n ? n - 1 : i));
+}
+
+json numbers(Random& random, int count, double bound) {
+  json out = json::array();
+  for (int i = 0; i < count; ++i) out.push_back(random.uniform(-bound, bound));
+  return out;
+}
+
+json table(Random& random, int rows, int columns, double bound) {
+  json out = json::array();
+  for (int i = 0; i < rows; ++i) out.push_back(numbers(random, columns, bound));
+  return out;
+}
+
+// Every number of an array, whatever its nesting, times factor
+json times(const json& value, double factor) {
+  if (value.is_number()) return value.get<double>() * factor;
+  json out = json::array();
+  for (const json& entry : value) out.push_back(times(entry, factor));
+  return out;
+}
+
+} // namespace
+
+Height::Height(const json& text, int parameters) : parameters_(parameters) {
+  if (text.is_null()) return;
+  const std::string type = text.at("type");
+  if (type == "constant") {
+    kind_ = Kind::constant;
+    value_ = text.at("value");
+  } else if (type == "sine") {
+    kind_ = Kind::sine;
+    value_ = text.at("amplitude");
+    vector_ = text.at("wave_vector").get<std::vector<double>>();
+    phase_ = text.value("phase", 0.0);
+  } else if (type == "polynomial") {
+    kind_ = Kind::polynomial;
+    for (const json& row : text.at("coefficients"))
+      table_.push_back(row.is_array() ? row.get<std::vector<double>>()
+                                      : std::vector<double>{row.get<double>()});
+  } else if (type == "gaussian") {
+    kind_ = Kind::gaussian;
+    value_ = text.at("amplitude");
+    vector_ = text.at("center").get<std::vector<double>>();
+    width_ = text.at("width");
+  } else if (type == "map") {
+    kind_ = Kind::map;
+    periodic_ = text.at("boundary") == "periodic";
+    if (parameters == 1)
+      table_ = {text.at("values").get<std::vector<double>>()};
+    else
+      table_ = text.at("values").get<std::vector<std::vector<double>>>();
+    for (auto& row : table_) row = spline_coefficients(row, periodic_);
+    count_ = {static_cast<int>(table_[0].size()), static_cast<int>(table_.size())};
+    if (parameters == 2)
+      for (std::size_t i = 0; i < table_[0].size(); ++i) {
+        std::vector<double> column;
+        for (const auto& row : table_) column.push_back(row[i]);
+        column = spline_coefficients(column, periodic_);
+        for (std::size_t j = 0; j < table_.size(); ++j) table_[j][i] = column[j];
+      }
+    const auto size = text.at("size").get<std::vector<double>>();
+    origin_ = text.value("origin", std::vector<double>(2, 0.0));
+    for (std::size_t a = 0; a < size.size(); ++a)
+      spacing_.push_back(size[a] / (periodic_ ? count_[a] : count_[a] - 1));
+  } else {
+    kind_ = type == "sum" ? Kind::sum : Kind::product;
+    for (const json& part : text.at("of")) parts_.emplace_back(part, parameters);
+  }
+}
+
+double Height::spline(int a, double s, std::array<double, 4>& weights) const {
+  const std::size_t k = static_cast<std::size_t>(a);
+  const double u = (s - origin_[k]) / spacing_[k], first = std::floor(u), f = u - first, g = 1.0 - f;
+  weights = {g * g * g / 6.0, (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0,
+             (4.0 - 6.0 * g * g + 3.0 * g * g * g) / 6.0, f * f * f / 6.0};
+  return first;
+}
+
+double Height::operator()(const double* s) const {
+  switch (kind_) {
+  case Kind::none:
+    return 0.0;
+  case Kind::constant:
+    return value_;
+  case Kind::sine: {
+    double turns = 0.0;
+    for (std::size_t a = 0; a < vector_.size(); ++a) turns += vector_[a] * s[a];
+    return value_ * std::sin(2.0 * std::numbers::pi * turns + phase_);
+  }
+  case Kind::polynomial: {
+    double sum = 0.0, power_1 = 1.0;
+    for (const auto& row : table_) {
+      double power_2 = 1.0;
+      for (const double c : row) {
+        sum += c * power_1 * power_2;
+        if (parameters_ == 2) power_2 *= s[1];
+      }
+      power_1 *= s[0];
+    }
+    return sum;
+  }
+  case Kind::gaussian: {
+    double square = 0.0;
+    for (std::size_t a = 0; a < vector_.size(); ++a) square += (s[a] - vector_[a]) * (s[a] - vector_[a]);
+    return value_ * std::exp(-square / (2.0 * width_ * width_));
+  }
+  case Kind::map: {
+    std::array<double, 4> w1{}, w2{0.0, 1.0, 0.0, 0.0};
+    const long i = static_cast<long>(spline(0, s[0], w1));
+    const long j = parameters_ == 2 ? static_cast<long>(spline(1, s[1], w2)) : 0;
+    double sum = 0.0;
+    for (int b = 0; b < 4; ++b)
+      for (int a = 0; a < 4; ++a)
+        sum += w1[static_cast<std::size_t>(a)] * w2[static_cast<std::size_t>(b)] *
+               table_[static_cast<std::size_t>(wrap(j + b - 1, count_[1], periodic_))]
+                     [static_cast<std::size_t>(wrap(i + a - 1, count_[0], periodic_))];
+    return sum;
+  }
+  case Kind::sum: {
+    double sum = 0.0;
+    for (const Height& part : parts_) sum += part(s);
+    return sum;
+  }
+  case Kind::product: {
+    double product = 1.0;
+    for (const Height& part : parts_) product *= part(s);
+    return product;
+  }
+  }
+  return 0.0;
+}
+
+long Height::cell(const double* s) const {
+  long cell = 0;
+  std::array<double, 4> unused{};
+  if (kind_ == Kind::map)
+    for (int a = 0; a < parameters_; ++a) cell = 4096 * cell + static_cast<long>(spline(a, s[a], unused));
+  for (const Height& part : parts_) cell = 65536 * cell + part.cell(s);
+  return cell;
+}
+
+const std::vector<std::string>& height_kinds() {
+  static const std::vector<std::string> kinds = {"none",     "constant", "sine",    "polynomial",
+                                                 "gaussian", "sum",      "product", "map"};
+  return kinds;
+}
+
+json draw_height(Random& random, const std::string& kind, int parameters) {
+  const int t = parameters;
+  const auto two_of = [&](const char* first, const char* second) {
+    json parts = json::array();
+    parts.push_back(draw_height(random, first, t));
+    parts.push_back(draw_height(random, second, t));
+    return parts;
+  };
+  const auto sign = [&] { return random.coin() ? 1.0 : -1.0; };
+  if (kind == "none") return nullptr;
+  if (kind == "constant") return {{"type", "constant"}, {"value", random.uniform(-0.2, 0.2)}};
+  if (kind == "sine") {
+    json wave_vector = json::array();
+    for (int a = 0; a < t; ++a) wave_vector.push_back(sign() * random.uniform(0.2, t == 1 ? 0.9 : 0.7));
+    return {{"type", "sine"},
+            {"amplitude", random.uniform(0.015, 0.06)},
+            {"wave_vector", wave_vector},
+            {"phase", random.uniform(-3.14, 3.14)}};
+  }
+  if (kind == "polynomial")
+    return {{"type", "polynomial"},
+            {"coefficients", t == 1 ? numbers(random, 5, 0.1) : table(random, 4, 4, 0.05)}};
+  if (kind == "gaussian")
+    return {{"type", "gaussian"},
+            {"amplitude", sign() * random.uniform(0.004, 0.07)},
+            {"center", numbers(random, t, 0.3)},
+            {"width", random.uniform(0.35, 0.8)}};
+  if (kind == "sum") return {{"type", "sum"}, {"of", two_of("sine", "gaussian")}};
+  if (kind == "product") return {{"type", "product"}, {"of", two_of("sine", "polynomial")}};
+  const int columns = 6 + random.below(5), rows = 6 + random.below(5);
+  json size = json::array(), origin = json::array();
+  for (int a = 0; a < t; ++a) {
+    size.push_back(random.uniform(2.2, 3.0));
+    origin.push_back(random.uniform(-1.4, -0.6));
+  }
+  return {{"type", "map"},
+          {"values", t == 1 ? numbers(random, columns, 0.02) : table(random, rows, columns, 0.015)},
+          {"boundary", random.coin() ? "periodic" : "clamped"},
+          {"size", size},
+          {"origin", origin}};
+}
+
+json rescale_height(const json& height, double height_factor, double coordinate_factor) {
+  if (height.is_null()) return height;
+  json out = height;
+  const std::string type = height.at("type");
+  const auto scale = [&](const char* key, double factor) { out[key] = times(height.at(key), factor); };
+  if (type == "constant") scale("value", height_factor);
+  if (type == "sine") {
+    scale("amplitude", height_factor);
+    scale("wave_vector", 1.0 / coordinate_factor);
+  }
+  if (type == "polynomial") {
+    json& c = out["coefficients"];
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const double row = height_factor / std::pow(coordinate_factor, static_cast<double>(i));
+      if (c[i].is_number())
+        c[i] = c[i].get<double>() * row;
+      else
+        for (std::size_t j = 0; j < c[i].size(); ++j)
+          c[i][j] = c[i][j].get<double>() * row / std::pow(coordinate_factor, static_cast<double>(j));
+    }
+  }
+  if (type == "gaussian") {
+    scale("amplitude", height_factor);
+    scale("center", coordinate_factor);
+    scale("width", coordinate_factor);
+  }
+  if (type == "map") {
+    scale("values", height_factor);
+    scale("size", coordinate_factor);
+    scale("origin", coordinate_factor);
+  }
+  if (type == "sum" || type == "product")
+    for (std::size_t i = 0; i < out["of"].size(); ++i)
+      out["of"][i] = rescale_height(height.at("of")[i], type == "product" && i > 0 ? 1.0 : height_factor,
+                                    coordinate_factor);
+  return out;
+}
+
+json negative_height(const json& height) {
+  if (height.is_null()) return height;
+  const json minus_one = {{"type", "constant"}, {"value", -1.0}};
+  return {{"type", "product"}, {"of", json::array({minus_one, height})}};
+}
+
+} // namespace mechanics

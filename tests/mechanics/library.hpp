@@ -1,0 +1,73 @@
+// The library as these tests use it: C++ ownership around ents.h, arrays of elements in, arrays of results
+// out.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ents.h"
+
+namespace mechanics {
+
+// Inputs of `count` elements, one after the other; an array that is empty is not given to the library.
+struct Elements {
+  std::int64_t count = 0;
+  std::vector<double> slave;               // [count][d]
+  std::vector<double> master;              // [count][m][d]
+  std::vector<double> surface_coordinates; // [count][m][d-1]
+  std::vector<double> start;               // [count][d-1]
+  std::vector<double> area;                // [count]
+};
+
+// Outputs of `count` elements; only what was wanted has entries.
+struct Results {
+  std::int32_t status = 0; // of the call
+  std::vector<std::int32_t> statuses, flags, iterations;
+  std::vector<double> xi, gap, normal_gap, normal, point;
+  std::vector<double> gap_gradient, gap_hessian, xi_gradient, xi_hessian;
+  std::vector<double> energy, pressure, residual, tangent;
+
+  bool ok(std::int64_t e) const { return statuses[static_cast<std::size_t>(e)] == ENTS_OK; }
+  bool has_flag(std::int64_t e, std::int32_t flag) const {
+    return (flags[static_cast<std::size_t>(e)] & flag) != 0;
+  }
+};
+
+class Model {
+public:
+  // Throws std::runtime_error with the library's message when the text is refused.
+  explicit Model(const std::string& text);
+
+  int dimension() const { return layout_.dimension; }
+  int nodes() const { return layout_.nodes; }
+  int parameters() const { return layout_.parameters; }
+  int dofs() const { return layout_.dofs; }
+  const ents_model* handle() const { return handle_.get(); }
+
+  // Throws std::runtime_error on a negative status; recoverable ones are in `statuses`.
+  void evaluate(const Elements& elements, std::int32_t wanted, Results& results) const;
+  Results evaluate(const Elements& elements, std::int32_t wanted) const;
+
+private:
+  struct Destroy {
+    void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
+  };
+  std::unique_ptr<ents_model, Destroy> handle_;
+  ents_layout layout_{};
+};
+
+// Points of one segment's enriched surface.
+struct SurfacePoints {
+  std::int32_t status = 0;
+  std::vector<double> point, normal, height, base_point, base_normal;
+};
+// xi [count][d-1]; surface_coordinates may be null
+SurfacePoints evaluate_surface(const Model& model, const double* master, const double* surface_coordinates,
+                               const std::vector<double>& xi);
+
+ents_admissibility check_admissibility(const Model& model, const std::vector<double>& master,
+                                       const std::vector<double>& surface_coordinates, int samples);
+
+} // namespace mechanics
