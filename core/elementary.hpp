@@ -90,12 +90,10 @@ template <class R> ENTS_INLINE void sin_cos_near_zero(R y, R tail, R& sine, R& c
   cosine = w + (((1.0 - w) - half_z) + (z * q - y * tail));
 }
 
-// Sine and cosine of 2 pi (t + offset). t is reduced before the offset is added, so that large counts of
-// turns cost no accuracy of the offset; exact 0 and +-1 at quarter turns.
+// Sine and cosine of 2 pi (t + offset), |offset| <= 1. t is reduced before the offset is added, so that large
+// counts of turns cost no accuracy of the offset; exact 0 and +-1 at quarter turns.
 template <class R> ENTS_INLINE void sin_cos_turns(R t, double offset, R& sine, R& cosine) {
-  R r = t - nearest_integer(t);
-  r = r + offset;
-  r = r - nearest_integer(r);
+  const R r = (t - nearest_integer(t)) + offset;
   const R quarters = nearest_integer(4.0 * r);
   const R f = r - 0.25 * quarters; // exact, |f| <= 1/8
   sin_cos_near_zero(f * two_pi, f * 2.4492935982947064e-16, sine, cosine);

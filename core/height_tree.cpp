@@ -47,7 +47,8 @@ Height Height::constant(std::int32_t dimension, double value) {
 
 Height Height::sine(double amplitude, const std::vector<double>& wave_vector, double phase) {
   Height height(dimension_of(wave_vector));
-  SineHeight sine{amplitude, {0.0, 0.0}, phase / (2.0 * 3.14159265358979323846)};
+  const double turns = phase / (2.0 * 3.14159265358979323846);
+  SineHeight sine{amplitude, {0.0, 0.0}, turns - std::round(turns)};
   for (std::size_t a = 0; a < wave_vector.size(); ++a) {
     sine.wave_vector[a] = wave_vector[a];
     if (wave_vector[a] != 0.0) height.feature_length_[a] = 0.25 / std::fabs(wave_vector[a]);

@@ -128,19 +128,20 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
   double xi[T], step[T] = {}, previous_merit = 0.0, previous_length = 0.0;
   for (int a = 0; a < T; ++a) xi[a] = p.xi[a];
   bool last = false;
+  Found obstacle = Found::not_converged;  // what the iteration met last
   for (p.evaluations = 1; p.evaluations <= max_evaluations; ++p.evaluations) {
     const bool first = p.evaluations == 1;
     double next[T], merit = 0.0;
     bool ok = normal ? evaluate_surface<2>(g, xi, p.N, p.s) : evaluate_surface<1>(g, xi, p.N, p.s);
-    if (!ok && (first || last)) return Found::degenerate;
-    if (ok) {
-      if (normal) {
-        merit = normal_step(p, next);
-      } else if (!shadow_step(p, t, next, merit)) {
-        if (first || last) return Found::grazing;
-        ok = false;
-      }
+    if (!ok) {
+      obstacle = Found::degenerate;
+    } else if (normal) {
+      merit = normal_step(p, next);
+    } else if (!shadow_step(p, t, next, merit)) {
+      obstacle = Found::grazing;
+      ok = false;
     }
+    if (!ok && (first || last)) return obstacle;
     if (last) {
       for (int a = 0; a < T; ++a) p.xi[a] = xi[a];
       return Found::yes;
@@ -152,6 +153,7 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
         p.xi[a] = xi[a];
         step[a] = next[a];
       }
+      obstacle = Found::not_converged;
       const double length = max_norm(step);
       if (!(length < 1e30)) return Found::not_converged;
       if (length <= 1e-15) return Found::yes;
@@ -168,12 +170,12 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
     } else {  // back to the last good point, with half the step
       for (int a = 0; a < T; ++a) step[a] *= 0.5;
       previous_length = 0.0;
-      if (max_norm(step) < 1e-14) return Found::not_converged;
+      if (max_norm(step) < 1e-14) return obstacle;
     }
     for (int a = 0; a < T; ++a) xi[a] = p.xi[a] + step[a];
     if (!last && max_norm(xi) > far_outside) return Found::escaped;
   }
-  return Found::not_converged;
+  return obstacle;
 }
 
 // Is xi on the segment? The tolerance keeps a node on a common edge from falling between two segments.

@@ -30,11 +30,10 @@ template <class B> struct Geometry {
   ENTS_INLINE void set(const double* slave, const double* master) {
     for (int i = 0; i < B::nodes; ++i)
       for (int k = 0; k < D; ++k) y[i][k] = master[D * i + k] - slave[k];
-    double size2 = 0.0;
-    for (int i = 1; i < B::nodes; ++i) {
+    double size2 = 0.0;  // three nodes say how large a segment is
+    for (int i = 1; i < (B::nodes < 3 ? B::nodes : 3); ++i) {
       const Vec<double, D> r = y[i] - y[0];
-      const double r2 = dot(r, r);
-      size2 = r2 > size2 ? r2 : size2;
+      size2 += dot(r, r);
     }
     const double rounding2 = degenerate_distance * degenerate_distance * dot(y[0], y[0]);
     const double smallest2 = degenerate_size * degenerate_size * size2 + rounding2;
