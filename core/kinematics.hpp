@@ -224,9 +224,13 @@ ENTS_INLINE void add_second_variation(const Projection<B, H>& p, const Target& t
     });
   double G[T][T] = {}, P[T][T] = {};
   for (int a = 0; a < T; ++a) P[a][a] = -1.0;
-  if (t.kind == ProjectionKind::normal && !small_gap)
-    for (int a = 0; a < T; ++a)
-      for (int b = 0; b < T; ++b) G[a][b] = k.gap * k.inverse_metric[symmetric_index(a, b)];
+  if (t.kind == ProjectionKind::normal && !small_gap) {
+    G[0][0] = k.gap * k.inverse_metric[0];
+    if constexpr (T == 2) {
+      G[0][1] = G[1][0] = k.gap * k.inverse_metric[1];
+      G[1][1] = k.gap * k.inverse_metric[2];
+    }
+  }
   double HP[T][T];
   for (int a = 0; a < T; ++a)
     for (int b = 0; b < T; ++b)
