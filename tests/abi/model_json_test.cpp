@@ -464,6 +464,7 @@ std::string repeated(const std::string& text, int times) {
 TEST(ModelJson, NestingHasALimit) {
   for (const char* open : {"[", "{\"a\":"}) {
     EXPECT_EQ(verdict(repeated(open, 1000000)).status, ENTS_BAD_VALUE);
+    EXPECT_EQ(verdict(repeated(open, 33)).status, ENTS_BAD_VALUE);
     EXPECT_EQ(verdict(repeated(open, 32)).status, ENTS_JSON_SYNTAX);
   }
   const auto [status, message] = verdict(repeated("[0,", 40));

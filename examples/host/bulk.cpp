@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bulk.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace host {
+
+Bulk::Bulk(const Mesh& mesh, std::vector<ElementSetup> setups) : mesh_(&mesh), setups_(std::move(setups)) {
+  linear_ = std::all_of(setups_.begin(), setups_.end(), [](const ElementSetup& setup) {
+    return setup.material.law == Material::Law::linear_elastic;
+  });
+}
+
+std::vector<StencilGroup> Bulk::stencils(const DofMap& dofs) const {
+  std::vector<StencilGroup> result;
+  for (const ElementGroup& group : mesh_->groups) {
+    StencilGroup stencil;
+    stencil.dofs = node_count(group.type) * mesh_->dimension;
+    stencil.equations.reserve(group.nodes.size() * static_cast<std::size_t>(mesh_->dimension));
+    for (const int node : group.nodes)
+      for (int c = 0; c < mesh_->dimension; ++c) stencil.equations.push_back(dofs.equation(node, c));
+    result.push_back(std::move(stencil));
+  }
+  return result;
+}
+
+template <ElementType Type>
+bool Bulk::assemble_group(std::size_t group_index, const std::vector<double>& displacement,
+                          const std::vector<double>& direction, std::vector<double>& residual,
+                          SparseSystem* system, double* energy) const {
+  constexpr std::size_t nodes = static_cast<std::size_t>(node_count(Type));
+  constexpr std::size_t d = static_cast<std::size_t>(dimension(Type)), dofs = nodes * d;
+  const ElementGroup& group = mesh_->groups[group_index];
+  const ElementSetup& setup = setups_[static_cast<std::size_t>(group.part)];
+  std::array<double, dofs> X{}, u{};
+  std::array<std::size_t, dofs> dof{};
+  ElementResult<static_cast<int>(dofs)> result;
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const auto element = group.element(e);
+    bool moved = false;
+    for (std::size_t a = 0; a < nodes; ++a)
+      for (std::size_t i = 0; i < d; ++i) {
+        dof[d * a + i] = static_cast<std::size_t>(element[a]) * d + i;
+        X[d * a + i] = mesh_->coordinates[dof[d * a + i]];
+        u[d * a + i] = displacement[dof[d * a + i]];
+        moved = moved || (!direction.empty() && direction[dof[d * a + i]] != 0);
+      }
+    if (!evaluate_element<Type>(setup, X, u, system != nullptr || moved, result)) return false;
+    if (moved) {
+      Eigen::Matrix<double, static_cast<int>(dofs), 1> step;
+      for (std::size_t a = 0; a < dofs; ++a) step[static_cast<Eigen::Index>(a)] = direction[dof[a]];
+      result.residual.noalias() += result.tangent * step;
+    }
+    for (std::size_t a = 0; a < dofs; ++a) residual[dof[a]] += result.residual[static_cast<Eigen::Index>(a)];
+    if (system != nullptr) system->add(group_index, e, result.tangent.data());
+    if (energy != nullptr) *energy += result.energy;
+  }
+  return true;
+}
+
+bool Bulk::assemble(const std::vector<double>& displacement, const std::vector<double>& direction,
+                    std::vector<double>& residual, SparseSystem* system, double* energy) const {
+  for (std::size_t g = 0; g < mesh_->groups.size(); ++g) {
+    bool ok = false;
+    switch (mesh_->groups[g].type) {
+    case ElementType::tri3:
+      ok = assemble_group<ElementType::tri3>(g, displacement, direction, residual, system, energy);
+      break;
+    case ElementType::quad4:
+      ok = assemble_group<ElementType::quad4>(g, displacement, direction, residual, system, energy);
+      break;
+    case ElementType::tet4:
+      ok = assemble_group<ElementType::tet4>(g, displacement, direction, residual, system, energy);
+      break;
+    case ElementType::hex8:
+      ok = assemble_group<ElementType::hex8>(g, displacement, direction, residual, system, energy);
+      break;
+    }
+    if (!ok) return false;
+  }
+  return true;
+}
+
+template <ElementType Type>
+void Bulk::stress_of_group(const ElementGroup& group, const std::vector<double>& displacement,
+                           std::vector<double>& sum, std::vector<double>& weight) const {
+  constexpr int nodes = node_count(Type), d = dimension(Type);
+  const std::size_t components = d == 3 ? 6 : 4;
+  const ElementSetup& setup = setups_[static_cast<std::size_t>(group.part)];
+  static const auto points = quadrature<Type>();
+  Eigen::Matrix<double, nodes, d, Eigen::RowMajor> X, u;
+  MaterialPoint material_point;
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const auto element = group.element(e);
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < d; ++i) {
+        const auto dof = static_cast<std::size_t>(element[static_cast<std::size_t>(a)] * d + i);
+        X(a, i) = mesh_->coordinates[dof];
+        u(a, i) = displacement[dof];
+      }
+    // Mean over the quadrature points: where linear elements are most accurate.
+    Matrix3 mean = Matrix3::Zero();
+    double volume = 0;
+    for (const auto& point : points) {
+      const Eigen::Matrix<double, d, d> map = X.transpose() * point.derivatives;
+      Matrix3 H = Matrix3::Zero();
+      H.template topLeftCorner<d, d>() = u.transpose() * (point.derivatives * map.inverse());
+      if (setup.formulation == Formulation::axisymmetric)
+        H(2, 2) = u.col(0).dot(point.values) / X.col(0).dot(point.values);
+      const bool ok = setup.formulation == Formulation::plane_stress
+                          ? evaluate_plane_stress(setup.material, H, false, material_point)
+                          : evaluate(setup.material, H, false, material_point);
+      if (!ok) continue;
+      Matrix3 cauchy = material_point.stress;
+      if (setup.material.law == Material::Law::neo_hooke) {
+        const Matrix3 F = Matrix3::Identity() + H;
+        cauchy = material_point.stress * F.transpose() / F.determinant();
+      }
+      const double part = point.weight * map.determinant();
+      mean += part * cauchy;
+      volume += part;
+    }
+    for (int a = 0; a < nodes; ++a) {
+      const auto node = static_cast<std::size_t>(element[static_cast<std::size_t>(a)]);
+      weight[node] += volume;
+      double* target = sum.data() + node * components;
+      const std::array<double, 6> plane{mean(0, 0), mean(1, 1), mean(2, 2), mean(0, 1), mean(1, 2), mean(0, 2)};
+      for (std::size_t c = 0; c < components; ++c) target[c] += plane[c];
+    }
+  }
+}
+
+std::vector<double> Bulk::nodal_stress(const std::vector<double>& displacement) const {
+  const std::size_t components = mesh_->dimension == 3 ? 6 : 4;
+  const auto nodes = static_cast<std::size_t>(mesh_->node_count());
+  std::vector<double> sum(nodes * components, 0.0), weight(nodes, 0.0);
+  for (const ElementGroup& group : mesh_->groups) switch (group.type) {
+    case ElementType::tri3:
+      stress_of_group<ElementType::tri3>(group, displacement, sum, weight);
+      break;
+    case ElementType::quad4:
+      stress_of_group<ElementType::quad4>(group, displacement, sum, weight);
+      break;
+    case ElementType::tet4:
+      stress_of_group<ElementType::tet4>(group, displacement, sum, weight);
+      break;
+    case ElementType::hex8:
+      stress_of_group<ElementType::hex8>(group, displacement, sum, weight);
+      break;
+    }
+  for (std::size_t node = 0; node < nodes; ++node)
+    for (std::size_t c = 0; c < components; ++c)
+      if (weight[node] > 0) sum[node * components + c] /= weight[node];
+  return sum;
+}
+
+} // namespace host

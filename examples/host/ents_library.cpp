@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ents_library.hpp"
+
+#include <dlfcn.h>
+
+#include "error.hpp"
+
+namespace host {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path program_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::path{} : program.parent_path();
+}
+
+} // namespace
+
+EntsLibrary::EntsLibrary(const fs::path& path) {
+  std::vector<std::string> candidates;
+  if (!path.empty()) {
+    // Without a slash the loader would search the system's folders instead of the one the user means.
+    candidates.push_back(fs::absolute(path).string());
+  } else {
+    if (const fs::path folder = program_folder(); !folder.empty())
+      candidates.push_back((folder / ".." / "lib" / "libents.so").lexically_normal().string());
+    candidates.emplace_back("libents.so");
+  }
+  std::string tried;
+  for (const std::string& candidate : candidates) {
+    handle_ = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle_ != nullptr) {
+      path_ = candidate;
+      break;
+    }
+    const char* reason = dlerror();
+    tried += "\n  " + std::string(reason != nullptr ? reason : candidate.c_str());
+  }
+  if (handle_ == nullptr) {
+    if (!path.empty()) throw InputError("--library: the library cannot be loaded:" + tried);
+    throw JobError("libents.so was not found; build it, or name it with --library FILE. Tried:" + tried);
+  }
+  const auto find = [this](auto& function, const char* name) {
+    void* symbol = dlsym(handle_, name);
+    if (symbol == nullptr) throw InputError(path_ + " is no ents library: it has no function " + name);
+    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(symbol);
+  };
+  try {
+    find(status_text, "ents_status_text");
+    find(version, "ents_version");
+    find(check_contract, "ents_check_contract");
+    auto report = ents_struct<ents_report>();
+    if (check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report) != ENTS_OK)
+      throw InputError(path_ + " (version " + version() + ") does not serve contract " +
+                       std::to_string(ENTS_CONTRACT_MAJOR) + "." + std::to_string(ENTS_CONTRACT_MINOR) +
+                       ", which this program was built for: " + report.message);
+    find(model_create, "ents_model_create");
+    find(model_create_from_file, "ents_model_create_from_file");
+    find(model_destroy, "ents_model_destroy");
+    find(model_layout, "ents_model_layout");
+    find(evaluate, "ents_evaluate");
+    find(state_init, "ents_state_init");
+    find(surface_evaluate, "ents_surface_evaluate");
+    find(model_check, "ents_model_check");
+  } catch (...) {
+    dlclose(handle_);
+    throw;
+  }
+}
+
+EntsLibrary::~EntsLibrary() { dlclose(handle_); }
+
+std::string describe(const EntsLibrary& library, int32_t status, const ents_report& report) {
+  const std::string text = library.status_text(status);
+  return report.message[0] == '\0' ? text : text + ": " + report.message;
+}
+
+EntsModel::EntsModel(const EntsLibrary& library, const std::string& text, const fs::path& directory,
+                     const std::string& where)
+    : library_(&library) {
+  auto report = ents_struct<ents_report>();
+  const std::string folder = directory.empty() ? "." : directory.string();
+  const int32_t status = library.model_create(text.data(), static_cast<int64_t>(text.size()), folder.c_str(),
+                                              nullptr, 0, &model_, &report);
+  if (status != ENTS_OK) throw InputError(where + ": " + describe(library, status, report));
+  read_layout(where);
+}
+
+EntsModel::EntsModel(const EntsLibrary& library, const fs::path& file) : library_(&library) {
+  auto report = ents_struct<ents_report>();
+  const int32_t status = library.model_create_from_file(file.string().c_str(), &model_, &report);
+  if (status != ENTS_OK) throw InputError(file.string() + ": " + describe(library, status, report));
+  read_layout(file.string());
+}
+
+EntsModel::~EntsModel() {
+  auto report = ents_struct<ents_report>();
+  library_->model_destroy(&model_, &report);
+}
+
+void EntsModel::read_layout(const std::string& where) {
+  auto report = ents_struct<ents_report>();
+  layout_ = ents_struct<ents_layout>();
+  const int32_t status = library_->model_layout(model_, &layout_, &report);
+  if (status == ENTS_OK) return;
+  const std::string message = describe(*library_, status, report);
+  library_->model_destroy(&model_, &report);
+  throw JobError(where + ": " + message);
+}
+
+SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& master,
+                             const std::vector<double>& surface_coordinates, const std::vector<double>& xi) {
+  const auto d = static_cast<std::size_t>(model.layout().dimension);
+  const std::size_t count = xi.size() / static_cast<std::size_t>(model.layout().parameters);
+  SurfaceSample sample;
+  sample.point.resize(count * d);
+  sample.normal.resize(count * d);
+  sample.base_point.resize(count * d);
+  sample.base_normal.resize(count * d);
+  sample.height.resize(count);
+  auto surface = ents_struct<ents_surface>();
+  surface.master = master.data();
+  surface.surface_coordinates = surface_coordinates.empty() ? nullptr : surface_coordinates.data();
+  surface.xi = xi.data();
+  surface.point = sample.point.data();
+  surface.normal = sample.normal.data();
+  surface.height = sample.height.data();
+  surface.base_point = sample.base_point.data();
+  surface.base_normal = sample.base_normal.data();
+  auto report = ents_struct<ents_report>();
+  const int32_t status =
+      model.library().surface_evaluate(model.get(), static_cast<int64_t>(count), &surface, &report);
+  if (status != ENTS_OK)
+    throw JobError("the enriched surface cannot be evaluated: " + describe(model.library(), status, report));
+  return sample;
+}
+
+} // namespace host

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include <Eigen/Dense>
+
+namespace host {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double squared(double value) { return value * value; }
+
+Quantity quantity(std::string name, std::string unit, double value, double exact) {
+  return {std::move(name), std::move(unit), value, exact, value / exact - 1};
+}
+
+} // namespace
+
+HertzLine hertz_line(double force, double radius, double contact_modulus) {
+  return {std::sqrt(4 * force * radius / (pi * contact_modulus)),
+          std::sqrt(force * contact_modulus / (pi * radius))};
+}
+
+HertzPoint hertz_point(double approach, double radius, double contact_modulus) {
+  const double contact_radius = std::sqrt(radius * approach);
+  const double force = 4. / 3 * contact_modulus * contact_radius * approach;
+  return {force, contact_radius, 3 * force / (2 * pi * squared(contact_radius))};
+}
+
+double westergaard_full_contact(double amplitude, double wavelength, double contact_modulus) {
+  return pi * contact_modulus * amplitude / wavelength;
+}
+
+double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus) {
+  return std::numbers::sqrt2 * pi * contact_modulus * amplitude / wavelength;
+}
+
+double contact_edge(const SurfaceState& state, double limit) {
+  std::vector<std::size_t> closed;
+  for (std::size_t k = 0; k < state.closed.size(); ++k)
+    if (state.closed[k]) closed.push_back(k);
+  if (closed.size() == state.closed.size()) return limit;
+  if (closed.size() < 4) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(closed.begin(), closed.end(),
+            [&](std::size_t a, std::size_t b) { return state.distance[a] < state.distance[b]; });
+  const double outermost = state.distance[closed.back()];
+  // The outermost node, and its mirror image if both halves are there, left out.
+  const double reach = 1e-6 * outermost;
+  while (closed.size() > 3 && state.distance[closed.back()] > outermost - reach) closed.pop_back();
+  const std::size_t count = std::clamp<std::size_t>(closed.size() / 2, 3, 12);
+  const std::span<const std::size_t> outer = std::span(closed).last(count);
+  const double scale = state.distance[outer.back()];
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(count), 3);
+  Eigen::VectorXd b(static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = state.distance[outer[i]] / scale - 1;
+    A.row(static_cast<Eigen::Index>(i)) << 1, x, x * x;
+    b[static_cast<Eigen::Index>(i)] = squared(state.pressure[outer[i]]);
+  }
+  const Eigen::Vector3d c = A.colPivHouseholderQr().solve(b);
+  // First zero outside of the last node taken: c0 + c1 x + c2 x^2 = 0 with c0 > 0.
+  const double discriminant = c[1] * c[1] - 4 * c[2] * c[0];
+  if (!(discriminant >= 0) || !(c[1] < 0)) return std::min(limit, outermost);
+  const double x = 2 * c[0] / (-c[1] + std::sqrt(discriminant));
+  return std::min(limit, scale * (1 + x));
+}
+
+EdgeBracket edge_bracket(const SurfaceState& state) {
+  EdgeBracket bracket;
+  for (std::size_t k = 0; k < state.closed.size(); ++k)
+    if (state.closed[k])
+      bracket.closed = std::max(bracket.closed, state.distance[k]);
+    else
+      bracket.open = std::min(bracket.open, state.distance[k]);
+  return bracket;
+}
+
+std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState& state) {
+  using Type = ExactSpec::Type;
+  const ExactSpec& exact = scene.exact;
+  if (exact.type == Type::none) return {};
+  const ElementSetup& setup = scene.parts.front().setup;
+  const double modulus = setup.material.contact_modulus();
+  const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
+  const UnitNames& units = scene.units;
+  switch (exact.type) {
+  case Type::hertz_line: {
+    const HertzLine reference = hertz_line(state.force / setup.thickness, exact.radius, modulus);
+    const EdgeBracket bracket = edge_bracket(state);
+    return {quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+            quantity("contact half-width", units.length, contact_edge(state), reference.half_width),
+            {"last closed node", units.length, bracket.closed},
+            {"first open node", units.length, bracket.open}};
+  }
+  case Type::hertz_point: {
+    const HertzPoint reference = hertz_point(state.approach, exact.radius, modulus);
+    double area = 0;
+    for (std::size_t k = 0; k < state.area.size(); ++k)
+      if (state.closed[k]) area += state.area[k] * scene.symmetry_copies;
+    return {quantity("force", units.force, state.force, reference.force),
+            quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+            quantity("contact radius", units.length, std::sqrt(area / pi), reference.radius)};
+  }
+  case Type::westergaard: {
+    const double full = westergaard_full_contact(exact.amplitude, exact.wavelength, modulus);
+    const double edge = contact_edge(state, exact.wavelength / 2);
+    const EdgeBracket bracket = edge_bracket(state);
+    const double sine = std::sin(pi * edge / exact.wavelength);
+    return {quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
+            {"contact half-width / lambda", "", edge / exact.wavelength,
+             std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi,
+             edge / exact.wavelength / (std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi) - 1},
+            {"last closed node / lambda", "", bracket.closed / exact.wavelength},
+            {"first open node / lambda", "", bracket.open / exact.wavelength}};
+  }
+  case Type::double_sine: {
+    const double full = double_sine_full_contact(exact.amplitude, exact.wavelength, modulus);
+    std::vector<Quantity> result;
+    result.push_back({"mean pressure / p*", "", state.mean_pressure / full});
+    // In full contact the problem is linear: taking off the smallest pressure everywhere leaves the state in which
+    // the last point is about to come off.
+    if (std::all_of(state.closed.begin(), state.closed.end(), [](char c) { return c != 0; })) {
+      const double smallest = *std::min_element(state.pressure.begin(), state.pressure.end());
+      result.push_back(quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
+    }
+    return result;
+  }
+  case Type::none:
+    break;
+  }
+  return {};
+}
+
+} // namespace host

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact solutions of elastic contact with a rigid body, and what a computed step says about the same
+// quantities. E* = E / (1 - nu^2).
+//   Hertz, line and point contact: K. L. Johnson, Contact Mechanics, 1985, sections 4.2(a), 4.2(c);
+//   Westergaard's sinusoidal surface in plane strain: ibid., section 13.2;
+//   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace host {
+
+struct HertzLine {
+  double half_width, peak_pressure;
+};
+/// @param force  per length of the cylinder
+HertzLine hertz_line(double force, double radius, double contact_modulus);
+
+struct HertzPoint {
+  double force, radius, peak_pressure;
+};
+/// @param approach  of the sphere relative to points far away
+HertzPoint hertz_point(double approach, double radius, double contact_modulus);
+
+/// p* = pi E* Delta / lambda: mean pressure of full contact with the sine of amplitude Delta.
+double westergaard_full_contact(double amplitude, double wavelength, double contact_modulus);
+
+/// sqrt(2) pi E* Delta / lambda: the same for Delta cos(2 pi x / lambda) cos(2 pi y / lambda).
+double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus);
+
+/// What is known about the slave surface of a step.
+struct SurfaceState {
+  std::vector<double> distance; ///< [slaves] from the axis of the contact, in the plane of the surface
+  std::vector<double> pressure; ///< [slaves]
+  std::vector<double> area;     ///< [slaves] tributary, this mesh's share
+  std::vector<char> closed;     ///< [slaves]
+  double approach = 0;          ///< motion of the master since first touch
+  double force = 0;             ///< of all symmetric copies
+  double mean_pressure = 0;
+};
+
+/// A computed quantity beside its exact value.
+struct Quantity {
+  std::string name, unit;
+  double value = 0;
+  double exact = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN(); ///< relative, with sign
+};
+
+/// Where the pressure vanishes, more finely than the nodes lie: p^2 falls linearly to zero at the edge of a contact
+/// (Hertz, Westergaard: p ~ sqrt(a - x)). Least-squares parabola of p^2 through the outer closed nodes, the outermost
+/// left out (its tributary area is partly open), continued to zero.
+/// @return NaN with fewer than four closed nodes; `limit` at most (full contact)
+double contact_edge(const SurfaceState& state, double limit = std::numeric_limits<double>::infinity());
+
+/// Last closed and first open node: the edge lies between them.
+struct EdgeBracket {
+  double closed = 0, open = std::numeric_limits<double>::infinity();
+};
+EdgeBracket edge_bracket(const SurfaceState& state);
+
+/// The scene's exact solution against a step; empty if the scene has none.
+std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState& state);
+
+} // namespace host

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "json_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace host {
+namespace {
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+} // namespace
+
+Json parse_json(std::string_view text, const std::string& name) {
+  // The parser keeps the last of two equal keys without a word; a scene with a key twice is a mistake.
+  std::vector<std::set<std::string>> seen;
+  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) seen.emplace_back();
+    if (event == Json::parse_event_t::object_end) seen.pop_back();
+    if (event == Json::parse_event_t::key && !seen.back().insert(parsed.get<std::string>()).second)
+      throw InputError(name + ": the key \"" + parsed.get<std::string>() + "\" appears twice in one object");
+    return true;
+  };
+  try {
+    return Json::parse(text.begin(), text.end(), watch);
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    std::string what = error.what();
+    if (const auto start = what.find("syntax error"); start != std::string::npos) what = what.substr(start);
+    throw InputError(name + ":" + std::to_string(line) + ": not valid JSON: " + what);
+  } catch (const Json::exception& error) {
+    throw InputError(name + ": not valid JSON: " + error.what());
+  }
+}
+
+Json parse_json_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": cannot be opened for reading");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_json(text.str(), file.string());
+}
+
+void JsonValue::fail(const std::string& message) const { throw InputError(where_ + ": " + message); }
+
+double JsonValue::number() const {
+  if (!json_->is_number()) fail(std::string("a number is expected, this is ") + json_->type_name());
+  const double value = json_->get<double>();
+  if (!std::isfinite(value)) fail("the number is outside the range of double precision");
+  return value;
+}
+
+double JsonValue::positive() const {
+  const double value = number();
+  if (!(value > 0)) fail("a number > 0 is expected");
+  return value;
+}
+
+int JsonValue::integer(int min, int max) const {
+  if (!json_->is_number_integer()) fail(std::string("an integer is expected, this is ") + json_->dump());
+  const auto value = json_->get<std::int64_t>();
+  if (value < min || value > max)
+    fail("an integer from " + std::to_string(min) + " to " + std::to_string(max) + " is expected");
+  return static_cast<int>(value);
+}
+
+bool JsonValue::boolean() const {
+  if (!json_->is_boolean()) fail(std::string("true or false is expected, this is ") + json_->type_name());
+  return json_->get<bool>();
+}
+
+std::string JsonValue::string() const {
+  if (!json_->is_string()) fail(std::string("a string is expected, this is ") + json_->type_name());
+  return json_->get<std::string>();
+}
+
+std::string JsonValue::word(const std::vector<std::string>& words) const {
+  const std::string value = string();
+  if (std::find(words.begin(), words.end(), value) == words.end())
+    fail("\"" + value + "\" is not one of: " + listed(words));
+  return value;
+}
+
+std::vector<JsonValue> JsonValue::items() const {
+  if (!json_->is_array()) fail(std::string("an array is expected, this is ") + json_->type_name());
+  std::vector<JsonValue> values;
+  values.reserve(json_->size());
+  for (std::size_t i = 0; i < json_->size(); ++i)
+    values.emplace_back((*json_)[i], where_ + "/" + std::to_string(i));
+  return values;
+}
+
+std::vector<double> JsonValue::numbers() const {
+  std::vector<double> values;
+  for (const JsonValue& item : items()) values.push_back(item.number());
+  return values;
+}
+
+std::vector<double> JsonValue::numbers(std::size_t size) const {
+  std::vector<double> values = numbers();
+  if (values.size() != size)
+    fail(std::to_string(size) + " numbers are expected, there are " + std::to_string(values.size()));
+  return values;
+}
+
+JsonObject::JsonObject(const JsonValue& value) : value_(value) {
+  if (!value.json().is_object())
+    value.fail(std::string("an object is expected, this is ") + value.json().type_name());
+}
+
+bool JsonObject::has(const std::string& key) {
+  known_.push_back(key);
+  return value_.json().contains(key);
+}
+
+JsonValue JsonObject::at(const std::string& key) {
+  if (!has(key)) fail("the key \"" + key + "\" is missing");
+  return {value_.json().at(key), value_.where() + "/" + key};
+}
+
+std::vector<std::string> JsonObject::all_keys() {
+  std::vector<std::string> keys;
+  for (const auto& item : value_.json().items()) keys.push_back(item.key());
+  known_ = keys;
+  return keys;
+}
+
+double JsonObject::number_or(const std::string& key, double otherwise) {
+  return has(key) ? at(key).number() : otherwise;
+}
+double JsonObject::positive_or(const std::string& key, double otherwise) {
+  return has(key) ? at(key).positive() : otherwise;
+}
+int JsonObject::integer_or(const std::string& key, int min, int max, int otherwise) {
+  return has(key) ? at(key).integer(min, max) : otherwise;
+}
+bool JsonObject::boolean_or(const std::string& key, bool otherwise) {
+  return has(key) ? at(key).boolean() : otherwise;
+}
+std::string JsonObject::string_or(const std::string& key, const std::string& otherwise) {
+  return has(key) ? at(key).string() : otherwise;
+}
+
+void JsonObject::finish() const {
+  for (const auto& item : value_.json().items()) {
+    if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
+    std::vector<std::string> known = known_;
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    fail("unknown key \"" + item.key() + "\"; known here: " + listed(known));
+  }
+}
+
+} // namespace host

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strict reading of JSON: every key that is not asked for is an error, and every error names the file and
+// the JSON path.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+
+namespace host {
+
+using Json = nlohmann::ordered_json;
+
+/// Parse a file; a syntax error or a duplicate key is an InputError naming it.
+Json parse_json_file(const std::filesystem::path& file);
+
+/// The same from text; `name` stands for the file in messages.
+Json parse_json(std::string_view text, const std::string& name);
+
+/// One JSON value together with where it was found.
+class JsonValue {
+public:
+  JsonValue(const Json& json, std::string where) : json_(&json), where_(std::move(where)) {}
+
+  const Json& json() const { return *json_; }
+  const std::string& where() const { return where_; }
+  [[noreturn]] void fail(const std::string& message) const;
+
+  double number() const;
+  double positive() const;
+  int integer(int min, int max) const;
+  bool boolean() const;
+  std::string string() const;
+  /// One of the given words.
+  std::string word(const std::vector<std::string>& words) const;
+  std::vector<double> numbers() const;
+  /// Exactly `size` numbers.
+  std::vector<double> numbers(std::size_t size) const;
+  /// Elements of an array.
+  std::vector<JsonValue> items() const;
+  bool is_object() const { return json_->is_object(); }
+  bool is_array() const { return json_->is_array(); }
+  bool is_number() const { return json_->is_number(); }
+  bool is_string() const { return json_->is_string(); }
+
+private:
+  const Json* json_;
+  std::string where_;
+};
+
+/// An object whose keys are taken one by one; `finish` complains about those nobody took.
+class JsonObject {
+public:
+  explicit JsonObject(const JsonValue& value);
+
+  bool has(const std::string& key);
+  /// @throws InputError if the key is missing
+  JsonValue at(const std::string& key);
+  /// Keys in the order of the file; taken by this call.
+  std::vector<std::string> all_keys();
+  const std::string& where() const { return value_.where(); }
+  [[noreturn]] void fail(const std::string& message) const { value_.fail(message); }
+
+  double number_or(const std::string& key, double otherwise);
+  double positive_or(const std::string& key, double otherwise);
+  int integer_or(const std::string& key, int min, int max, int otherwise);
+  bool boolean_or(const std::string& key, bool otherwise);
+  std::string string_or(const std::string& key, const std::string& otherwise);
+
+  /// @throws InputError naming the first key that was never asked for and those that could have been
+  void finish() const;
+
+private:
+  JsonValue value_;
+  std::vector<std::string> known_;
+};
+
+} // namespace host

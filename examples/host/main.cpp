@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents-host: the command line.
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.hpp"
+#include "error.hpp"
+
+int main(int argc, char** argv) {
+  using namespace host;
+  CLI::App app{"Reference finite element host of ents, enriched node-to-segment contact.\n"
+               "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n"};
+  app.footer("Exit codes: 0 done, 1 the job failed, 2 the command line or an input file is wrong.\n\n"
+             "Examples:\n"
+             "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
+             "  ents-host run examples/westergaard/scene.json --compare\n"
+             "  ents-host verify golden/*.json\n"
+             "  ents-host check model.json --mesh master.inp");
+  app.require_subcommand(1);
+  CommonOptions common;
+  const auto add_common = [&](CLI::App& command) {
+    command.add_option("--library", common.library,
+                       "libents.so to load [../lib/libents.so from the program's folder, else the system's]");
+    command.add_flag("--json", common.json, "print the result as JSON on stdout, and nothing else there");
+  };
+
+  RunOptions run;
+  CLI::App* run_app = app.add_subcommand("run", "Solve a scene");
+  run_app->add_option("scene", run.scene, "scene file; examples/host/README.md describes its keys")->required();
+  run_app->add_option("--out", run.out,
+                      "folder for result.json, the VTU series (open result.pvd in ParaView) and the pictures; without "
+                      "it only the terminal is told");
+  std::string adapter = "plain";
+  run_app->add_option("--adapter", adapter, "how the contact reaches the library")
+      ->check(CLI::IsMember({"plain"}))
+      ->capture_default_str();
+  run_app->add_option("--explicit", run.explicit_divisions,
+                      "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N");
+  CLI::Option* compare = run_app
+                             ->add_option("--compare", run.compare_divisions,
+                                          "solve the scene as it is and with explicit meshes of N1,N2,... segments per "
+                                          "direction [the scene's own list]; print how they converge and what they cost")
+                             ->delimiter(',')
+                             ->check(CLI::Range(1, 100000))
+                             ->type_name("N1,N2,...")
+                             ->expected(0, 1000)
+                             ->excludes("--explicit");
+  run_app->add_flag("!--no-pictures", run.pictures, "leave the pictures out");
+  add_common(*run_app);
+
+  VerifyOptions verify;
+  CLI::App* verify_app =
+      app.add_subcommand("verify", "Hold the library against golden vectors (100-digit references)");
+  verify_app->add_option("files", verify.files, "golden files")->required()->check(CLI::ExistingFile);
+  verify_app->add_option("--tolerance", verify.tolerance, "largest relative error that passes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  add_common(*verify_app);
+
+  CheckOptions check;
+  CLI::App* check_app = app.add_subcommand(
+      "check", "Is the enrichment of a model admissible? Exit code 1 and what fails, where and by how much, if not");
+  check_app->add_option("model", check.model, "model file (JSON, as ents_model_create_from_file reads it)")->required();
+  check_app->add_option("--mesh", check.mesh,
+                        "where the segments are: a .json file {\"nodes\": [[x, y], ...], \"segments\": [[0, 1], ...]} "
+                        "or an Abaqus/CalculiX deck whose elements are the segments [one segment whose nodes lie "
+                        "at their natural coordinates]");
+  check_app->add_option("--samples", check.samples, "grid points per direction of a segment [as the height asks for]")
+      ->check(CLI::Range(2, 4096));
+  check_app->add_option("--out", check.out, "folder for a picture of the enriched surface and the offences");
+  add_common(*check_app);
+
+  try {
+    app.parse(argc, argv);
+    run.compare = compare->count() > 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2; // 0: --help
+  }
+  try {
+    if (run_app->parsed()) return run_command(common, run);
+    if (verify_app->parsed()) return verify_command(common, verify);
+    return check_command(common, check);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "ents-host: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ents-host: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "master.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace host {
+namespace {
+
+constexpr double margin = 0.05;
+
+std::string where(const Scene& scene) { return scene.contact->model_where; }
+
+void check_sizes(const Scene& scene, const EntsModel& model, std::size_t nodes, const std::string& place) {
+  const ents_layout& layout = model.layout();
+  if (layout.dimension != scene.dimension)
+    throw InputError(where(scene) + "/segment: a segment of dimension " + std::to_string(layout.dimension) +
+                     " in a scene of dimension " + std::to_string(scene.dimension));
+  if (nodes != static_cast<std::size_t>(layout.nodes))
+    throw InputError(place + ": the model's segment has " + std::to_string(layout.nodes) +
+                     " nodes, here are " + std::to_string(nodes));
+}
+
+bool has_triangles(const Json& model) {
+  return model.contains("segment") && model.at("segment").is_string() &&
+         model.at("segment").get<std::string>().starts_with("tri");
+}
+
+} // namespace
+
+double Master::excess(const double* xi) const {
+  const int parameters = model->layout().parameters;
+  if (triangles) return std::max({0., -xi[0], -xi[1], xi[0] + xi[1] - 1});
+  double result = 0;
+  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - border);
+  return result;
+}
+
+Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& mesh) {
+  const ContactSpec& contact = *scene.contact;
+  Master master;
+  master.model = std::make_unique<EntsModel>(library, contact.model.dump(), scene.file.parent_path(), where(scene));
+  master.triangles = has_triangles(contact.model);
+  master.rigid = !contact.rigid.empty();
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  if (master.rigid) {
+    check_sizes(scene, *master.model, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
+    master.segments = 1;
+    master.positions = contact.rigid;
+    master.direction = contact.direction;
+    return master;
+  }
+  const auto found = mesh.face_sets.find(contact.master);
+  if (found == mesh.face_sets.end() || found->second.empty())
+    throw InputError(contact.master_where + ": no faces \"" + contact.master + "\" in the mesh");
+  for (const Face& face : found->second) {
+    check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
+    master.nodes.insert(master.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+  }
+  master.segments = found->second.size();
+  return master;
+}
+
+Master explicit_master(const EntsLibrary& library, const Scene& scene, int divisions) {
+  const ContactSpec& contact = *scene.contact;
+  if (contact.rigid.empty())
+    throw InputError(scene.file.string() + ": only a rigid master has an explicit mesh of plain segments");
+  if (has_triangles(contact.model))
+    throw InputError(where(scene) + "/segment: an explicit mesh is made of lines and quadrilaterals only");
+  const EntsModel enriched(library, contact.model.dump(), scene.file.parent_path(), where(scene));
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  check_sizes(scene, enriched, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
+
+  const auto n = static_cast<std::size_t>(divisions), row = n + 1, rows = d == 2 ? 1 : n + 1;
+  const auto natural = [&](std::size_t i) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; };
+  std::vector<double> xi;
+  for (std::size_t j = 0; j < rows; ++j)
+    for (std::size_t i = 0; i < row; ++i) {
+      xi.push_back(natural(i));
+      if (d == 3) xi.push_back(natural(j));
+    }
+  const SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, xi);
+  const auto point = [&](std::size_t i, std::size_t j, std::size_t c) {
+    return sample.point[(j * row + i) * d + c];
+  };
+
+  Json model;
+  model["segment"] = d == 2 ? "line2" : "quad4";
+  model["height"] = nullptr;
+  model["master"] = "rigid";
+  model["contact"] = contact.model.contains("contact") ? contact.model.at("contact") : Json();
+  if (contact.model.contains("penetration_limit"))
+    model["penetration_limit"] = contact.model.at("penetration_limit");
+
+  Master master;
+  master.model = std::make_unique<EntsModel>(library, model.dump(), scene.file.parent_path(), where(scene));
+  master.direction = contact.direction;
+  master.segments = d == 2 ? n : n * n;
+  master.border = 1 / (1 + margin);
+  const double out = 1 + margin;
+  master.positions.reserve(master.segments * (d == 2 ? 2 : 4) * d);
+  for (std::size_t j = 0; j < (d == 2 ? 1 : n); ++j)
+    for (std::size_t i = 0; i < n; ++i)
+      if (d == 2) {
+        for (const double at : {-out, out})
+          for (std::size_t c = 0; c < d; ++c)
+            master.positions.push_back(0.5 * ((1 - at) * point(i, 0, c) + (1 + at) * point(i + 1, 0, c)));
+      } else {
+        static constexpr std::array<std::array<double, 2>, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+        for (const auto& [s, t] : corners)
+          for (std::size_t c = 0; c < d; ++c)
+            master.positions.push_back(0.25 * ((1 - out * s) * (1 - out * t) * point(i, j, c) +
+                                               (1 + out * s) * (1 - out * t) * point(i + 1, j, c) +
+                                               (1 + out * s) * (1 + out * t) * point(i + 1, j + 1, c) +
+                                               (1 - out * s) * (1 + out * t) * point(i, j + 1, c)));
+      }
+  return master;
+}
+
+} // namespace host

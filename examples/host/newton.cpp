@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simulation: Newton's iteration for one increment.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation.hpp"
+#include "stopwatch.hpp"
+
+namespace host {
+namespace {
+
+/// Master segments are chosen anew during the first iterations and then kept: a node beside a kink of a plain
+/// mesh could otherwise change sides for ever.
+constexpr int free_choices = 4;
+
+} // namespace
+
+bool Simulation::force_controlled() const {
+  return scene_->control == Control::force || scene_->control == Control::mean_pressure;
+}
+
+void Simulation::prescribe(Configuration& at) const {
+  const double all_copies = at.force * scene_->symmetry_copies;
+  for (std::size_t dof = 0; dof < at.displacement.size(); ++dof)
+    if (dofs_->equation(dof) < 0)
+      at.displacement[dof] = prescribed_[dof] * at.load_factor +
+                             (half_space_.empty() ? 0 : half_space_[dof] * all_copies);
+}
+
+void Simulation::find_contact(Configuration& at) {
+  const ContactFields fields = contact_->fields(at.displacement, at.motion);
+  double smallest = std::numeric_limits<double>::infinity(), sum = 0;
+  std::size_t count = 0;
+  for (const double gap : fields.gap)
+    if (!std::isnan(gap)) smallest = std::min(smallest, gap), sum += gap, ++count;
+  if (count == 0) throw JobError("no slave node has a projection on the master: is it in the way of the motion?");
+  if (smallest <= 0) return;
+  // Touch with a little more than the first node; the iteration finds the rest.
+  const double spread = sum / static_cast<double>(count) - smallest;
+  at.motion += smallest + std::max(0.01 * spread, 1e-6 * smallest);
+}
+
+Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
+                                            bool want_tangent) {
+  Evaluation result;
+  result.residual.assign(at.displacement.size(), 0.0);
+  double squared_contact = 0;
+  {
+    const Stopwatch watch;
+    // The tangent of a linear bulk is assembled once.
+    const bool have = bulk_->linear() && !bulk_values_.empty();
+    SparseSystem* system = want_tangent && !have ? system_.get() : nullptr;
+    if (system != nullptr) system->set_zero();
+    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, system);
+    if (want_tangent && have) std::copy(bulk_values_.begin(), bulk_values_.end(), system_->values().begin());
+    if (want_tangent && !have && bulk_->linear())
+      bulk_values_.assign(system_->values().begin(), system_->values().end());
+    timings_.bulk += watch.seconds();
+    if (!ok) {
+      bulk_values_.clear();
+      result.reason = "an element was turned inside out";
+      return result;
+    }
+  }
+  if (contact_) {
+    const Stopwatch watch;
+    auto report = ents_struct<ents_report>();
+    RigidCoupling* coupling = contact_->master().rigid ? &result.coupling : nullptr;
+    const std::int32_t status =
+        contact_->assemble(at.displacement, at.motion, result.residual, want_tangent ? system_.get() : nullptr,
+                           bulk_stencils_.size(), coupling, squared_contact, report);
+    timings_.contact += watch.seconds();
+    if (status != ENTS_OK) {
+      result.reason = describe(contact_->master().model->library(), status, report);
+      result.step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
+      return result;
+    }
+  }
+  double squared_loads = 0, squared_reactions = 0;
+  for (std::size_t dof = 0; dof < result.residual.size(); ++dof) {
+    const double load = at.load_factor * loads_[dof];
+    result.residual[dof] -= load;
+    squared_loads += load * load;
+    if (dofs_->equation(dof) < 0) squared_reactions += result.residual[dof] * result.residual[dof];
+  }
+  result.force_scale = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
+  result.ok = true;
+  return result;
+}
+
+bool Simulation::solve(const Evaluation& at, double motion_step, double force_error, Configuration& next) {
+  const Stopwatch watch;
+  bool ok = solver_->factorize(system_->matrix());
+  if (ok) {
+    // Tied dofs add their residuals in one equation.
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(dofs_->size()), column = residual, row = residual;
+    for (std::size_t dof = 0; dof < at.residual.size(); ++dof) {
+      const int equation = dofs_->equation(dof);
+      if (equation < 0) continue;
+      residual[equation] += at.residual[dof];
+      if (at.coupling.column.empty()) continue;
+      column[equation] += at.coupling.column[dof];
+      row[equation] += at.coupling.row[dof];
+    }
+    Eigen::VectorXd step = solver_->solve(-residual - motion_step * column);
+    double motion = motion_step;
+    if (force_controlled()) {
+      // One more unknown, the motion, and one more equation, the force: eliminated by hand.
+      const Eigen::VectorXd follow = solver_->solve(-column);
+      const double stiffness = at.coupling.diagonal + row.dot(follow);
+      motion = (-force_error - row.dot(step)) / stiffness;
+      step += motion * follow;
+    }
+    // A pivot may be so small that nobody called it zero.
+    ok = std::isfinite(motion) && step.allFinite();
+    if (ok) next.motion += motion;
+    for (std::size_t dof = 0; dof < at.residual.size(); ++dof)
+      if (const int equation = dofs_->equation(dof); ok && equation >= 0) next.displacement[dof] += step[equation];
+  }
+  timings_.solver += watch.seconds();
+  return ok;
+}
+
+NewtonOutcome Simulation::advance(const Target& target) {
+  const Stopwatch watch;
+  NewtonOutcome outcome;
+  Configuration at = now_, next = now_;
+  const bool by_force = force_controlled();
+  const double share = 1. / scene_->symmetry_copies;
+  next.load_factor = target.load_factor;
+  if (scene_->control == Control::force) next.force = target.value * share;
+  if (scene_->control == Control::mean_pressure) next.force = target.value * contact_area();
+  const double motion_step = scene_->control == Control::approach ? target.value - now_.motion : 0;
+
+  const auto choose = [&](const Configuration& configuration) {
+    if (!contact_) return;
+    const Stopwatch contact_watch;
+    const bool changed = contact_->choose(configuration.displacement, configuration.motion);
+    if (changed && !contact_->master().rigid) build_pattern();
+    timings_.contact += contact_watch.seconds();
+  };
+  const auto fail = [&](const std::string& reason, double factor) {
+    outcome.reason = reason, outcome.step_factor = factor;
+    timings_.total += watch.seconds();
+    return outcome;
+  };
+
+  choose(at);
+  if (by_force && now_.force <= 0) {
+    find_contact(at);
+    next.motion = at.motion;
+  }
+  // First the tangent at the present configuration takes the whole jump of loads and prescribed values ...
+  prescribe(next);
+  std::vector<double> jump(at.displacement.size(), 0.0);
+  bool jumps = false;
+  for (std::size_t dof = 0; dof < jump.size(); ++dof)
+    if (dofs_->equation(dof) < 0) {
+      jump[dof] = next.displacement[dof] - at.displacement[dof];
+      jumps = jumps || jump[dof] != 0;
+    }
+  if (!jumps) jump.clear();
+  at.load_factor = next.load_factor;
+  Evaluation state = evaluate(at, jump, true);
+  if (!state.ok) return fail(state.reason, state.step_factor);
+  const auto error_of = [&](const Evaluation& evaluation) {
+    return by_force ? evaluation.coupling.force - next.force : 0;
+  };
+  if (!solve(state, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+
+  // ... then Newton's iteration.
+  for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
+    if (iteration <= free_choices) choose(next);
+    state = evaluate(next, {}, true);
+    if (!state.ok) return fail(state.reason, state.step_factor);
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(dofs_->size());
+    for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
+      if (const int equation = dofs_->equation(dof); equation >= 0) residual[equation] += state.residual[dof];
+    const double norm = residual.norm();
+    double relative = norm == 0 ? 0 : norm / state.force_scale;
+    if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
+    outcome.residuals.push_back(relative);
+    if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
+    if (relative <= scene_->solver.tolerance) {
+      if (contact_) {
+        contact_->accept();
+        if (contact_->master().rigid) next.force = state.coupling.force;
+      }
+      now_ = next;
+      outcome.converged = true;
+      timings_.total += watch.seconds();
+      return outcome;
+    }
+    if (!solve(state, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  }
+  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations", 0.5);
+}
+
+std::vector<double> Simulation::reactions() {
+  Evaluation state = evaluate(now_, {}, false);
+  if (!state.ok) throw JobError(state.reason);
+  for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
+    if (dofs_->equation(dof) >= 0) state.residual[dof] = 0;
+  return state.residual;
+}
+
+} // namespace host

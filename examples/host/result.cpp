@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result.hpp"
+
+#include <cmath>
+#include <fstream>
+
+namespace host {
+namespace {
+
+/// JSON has no NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+const char* control_name(Control control) {
+  switch (control) {
+  case Control::load_factor:
+    return "load_factor";
+  case Control::approach:
+    return "approach";
+  case Control::force:
+    return "force";
+  case Control::mean_pressure:
+    return "mean_pressure";
+  }
+  return "";
+}
+
+Json step_json(const StepRecord& record) {
+  Json step{{"step", record.step},
+            {"value", record.value},
+            {"approach", record.approach},
+            {"force", record.force},
+            {"mean_pressure", number(record.mean_pressure)},
+            {"contact_fraction", record.contact_fraction},
+            {"peak_pressure", record.peak_pressure},
+            {"mean_gap", number(record.mean_gap)},
+            {"iterations", record.iterations()},
+            {"cuts", record.cuts},
+            {"wall_time", record.wall_time}};
+  step["increments"] = Json::array();
+  for (const IncrementRecord& increment : record.increments) {
+    const Convergence rate = convergence(increment.residuals);
+    step["increments"].push_back({{"value", increment.value},
+                                  {"residuals", increment.residuals},
+                                  {"last_reductions", {number(rate.before), number(rate.last)}},
+                                  {"order", number(rate.order)}});
+  }
+  step["exact"] = Json::array();
+  for (const Quantity& quantity : record.exact)
+    step["exact"].push_back({{"name", quantity.name},
+                             {"unit", quantity.unit},
+                             {"value", number(quantity.value)},
+                             {"exact", number(quantity.exact)},
+                             {"relative_error", number(quantity.error)}});
+  return step;
+}
+
+} // namespace
+
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records) {
+  const Scene& scene = simulation.scene();
+  const Sizes sizes = simulation.sizes();
+  const Timings& timings = simulation.timings();
+  Json result{{"title", scene.title},
+              {"scene", scene.file.string()},
+              {"solver", simulation.solver_name()},
+              {"units",
+               {{"length", scene.units.length}, {"force", scene.units.force}, {"pressure", scene.units.pressure}}},
+              {"control", control_name(scene.control)},
+              {"symmetry_copies", scene.symmetry_copies},
+              {"sizes",
+               {{"nodes", sizes.nodes},
+                {"elements", sizes.elements},
+                {"dofs", sizes.dofs},
+                {"equations", sizes.equations},
+                {"contact_elements", sizes.slaves},
+                {"master_segments", sizes.master_segments},
+                {"master_dofs", sizes.master_dofs}}},
+              {"wall_time",
+               {{"setup", timings.setup},
+                {"bulk", timings.bulk},
+                {"contact", timings.contact},
+                {"solver", timings.solver},
+                {"total", timings.total}}}};
+  result["steps"] = Json::array();
+  for (const StepRecord& record : records) result["steps"].push_back(step_json(record));
+  return result;
+}
+
+Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
+  Table table;
+  table.column("step");
+  const bool rigid = scene.contact && !scene.contact->rigid.empty();
+  if (rigid) {
+    table.column("approach", scene.units.length).column("force", scene.units.force);
+    table.column("mean pressure", scene.units.pressure);
+  } else {
+    table.column("load factor");
+  }
+  if (scene.contact) {
+    table.column("peak pressure", scene.units.pressure).column("contact", "%", 3);
+    table.column("mean gap", scene.units.length);
+  }
+  table.column("iterations").column("reduction", "last but one", 2).column("reduction", "last", 2);
+  for (const StepRecord& record : records) {
+    std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step)};
+    if (rigid)
+      row.insert(row.end(), {record.approach, record.force, record.mean_pressure});
+    else
+      row.emplace_back(record.value);
+    if (scene.contact)
+      row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, record.mean_gap});
+    const Convergence rate = convergence(record.increments.back().residuals);
+    row.insert(row.end(), {static_cast<std::int64_t>(record.iterations()), rate.before, rate.last});
+    table.row(std::move(row));
+  }
+  return table;
+}
+
+std::string exact_table(const std::vector<StepRecord>& records) {
+  Table table;
+  table.column("step").column("quantity").column("unit").column("computed", "", 5).column("exact", "", 5);
+  table.column("error", "%", 2);
+  bool any = false;
+  for (const StepRecord& record : records)
+    for (const Quantity& quantity : record.exact) {
+      any = true;
+      // Rows hold quantities of any size: each number is written by itself.
+      table.row({static_cast<std::int64_t>(record.step), quantity.name, quantity.unit,
+                 format_number(quantity.value, 5),
+                 std::isnan(quantity.exact) ? Table::Cell{} : Table::Cell{format_number(quantity.exact, 5)},
+                 std::isnan(quantity.error) ? Table::Cell{} : Table::Cell{format_number(100 * quantity.error, 2)}});
+    }
+  return any ? table.text() : "";
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw JobError(file.string() + ": cannot be written");
+}
+
+} // namespace host

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run says at its end: the JSON result, the table, the files for ParaView and the pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "compare.hpp"
+#include "json_reader.hpp"
+#include "output/table.hpp"
+#include "output/vtu.hpp"
+#include "run.hpp"
+
+namespace host {
+
+/// The whole run. examples/host/README.md describes the keys.
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records);
+
+/// One row per step.
+Table result_table(const Scene& scene, const std::vector<StepRecord>& records);
+
+/// Exact quantities of every step; empty text if the scene has none.
+std::string exact_table(const std::vector<StepRecord>& records);
+
+/// The parts of one step for the VTU series: "bulk", "slave" and "surface" (the enriched master).
+void write_step(vtu::Series& series, Simulation& simulation, const StepRecord& record);
+
+/// @return one line per problem (gnuplot missing, ...)
+std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
+                                       const std::filesystem::path& folder);
+
+/// Difference against segments per direction: compare.svg and .png.
+void draw_comparison(const Scene& scene, const Comparison& comparison, const std::filesystem::path& folder);
+
+/// @throws JobError naming the file
+void write_text(const std::filesystem::path& file, const std::string& text);
+
+} // namespace host

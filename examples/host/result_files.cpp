@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The VTU series of a run.
+#include <cmath>
+
+#include "result.hpp"
+
+namespace host {
+namespace {
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+vtu::Grid bulk_grid(const Simulation& simulation) {
+  const Mesh& mesh = simulation.mesh();
+  const UnitNames& units = simulation.scene().units;
+  vtu::Grid grid;
+  grid.dimension = mesh.dimension;
+  grid.points = mesh.coordinates;
+  for (const ElementGroup& group : mesh.groups) {
+    vtu::Cells cells;
+    cells.type = group.type == ElementType::tri3    ? vtu::Cell::triangle
+                 : group.type == ElementType::quad4 ? vtu::Cell::quad
+                 : group.type == ElementType::tet4  ? vtu::Cell::tetrahedron
+                                                    : vtu::Cell::hexahedron;
+    cells.nodes_per_cell = node_count(group.type);
+    cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
+    grid.cells.push_back(std::move(cells));
+  }
+  grid.point_data.push_back(
+      {with_unit("displacement", units.length), mesh.dimension, simulation.now().displacement});
+  grid.point_data.push_back({with_unit("stress", units.pressure), mesh.dimension == 3 ? 6 : 4,
+                             simulation.bulk().nodal_stress(simulation.now().displacement)});
+  return grid;
+}
+
+vtu::Grid slave_grid(Simulation& simulation, const StepRecord& record) {
+  const UnitNames& units = simulation.scene().units;
+  const int d = simulation.mesh().dimension;
+  vtu::Grid grid = vtu::point_cloud(d, record.positions);
+  grid.point_data.push_back({with_unit("gap", units.length), 1, record.fields.gap});
+  grid.point_data.push_back({with_unit("pressure", units.pressure), 1, record.fields.pressure});
+  grid.point_data.push_back({"normal", d, record.fields.normal});
+  grid.point_data.push_back({"area", 1, simulation.contact()->areas()});
+  return grid;
+}
+
+/// rho_e of one rigid segment, sampled so finely that it looks as smooth as it is; the border of the block
+/// cuts nothing off.
+vtu::Grid surface_grid(Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const Master& master = simulation.contact()->master();
+  const int d = scene.dimension, n1 = d == 2 ? 801 : 257, n2 = d == 2 ? 1 : n1;
+  std::vector<double> positions = master.positions;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] += simulation.now().motion * master.direction[i % static_cast<std::size_t>(d)];
+  std::vector<double> xi;
+  for (int j = 0; j < n2; ++j)
+    for (int i = 0; i < n1; ++i) {
+      xi.push_back(2. * i / (n1 - 1) - 1);
+      if (d == 3) xi.push_back(2. * j / (n2 - 1) - 1);
+    }
+  const SurfaceSample sample = sample_surface(*master.model, positions, {}, xi);
+  vtu::Grid grid = vtu::sampled_surface(d, n1, n2, sample.point);
+  grid.point_data.push_back({with_unit("height", scene.units.length), 1, sample.height});
+  grid.point_data.push_back({"normal", d, sample.normal});
+  return grid;
+}
+
+/// Plain segments as they are.
+vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
+  const Mesh& mesh = simulation.mesh();
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  const auto m = static_cast<std::size_t>(master.model->layout().nodes);
+  vtu::Grid grid;
+  grid.dimension = mesh.dimension;
+  vtu::Cells cells;
+  cells.type = d == 2 ? vtu::Cell::line : master.triangles ? vtu::Cell::triangle : vtu::Cell::quad;
+  cells.nodes_per_cell = d == 2 ? 2 : master.triangles ? 3 : 4;
+  const auto corners = static_cast<std::size_t>(cells.nodes_per_cell);
+  for (std::size_t s = 0; s < master.segments; ++s)
+    for (std::size_t a = 0; a < corners; ++a) {
+      cells.connectivity.push_back(static_cast<std::int64_t>(s * corners + a));
+      for (std::size_t i = 0; i < d; ++i)
+        if (master.rigid) {
+          grid.points.push_back(master.positions[(s * m + a) * d + i] +
+                                simulation.now().motion * master.direction[i]);
+        } else {
+          const std::size_t dof = static_cast<std::size_t>(master.nodes[s * m + a]) * d + i;
+          grid.points.push_back(mesh.coordinates[dof] + simulation.now().displacement[dof]);
+        }
+    }
+  grid.cells.push_back(std::move(cells));
+  return grid;
+}
+
+} // namespace
+
+void write_step(vtu::Series& series, Simulation& simulation, const StepRecord& record) {
+  const double time = record.value;
+  series.add(record.step, time, "bulk", bulk_grid(simulation));
+  if (simulation.contact() == nullptr) return;
+  series.add(record.step, time, "slave", slave_grid(simulation, record));
+  const Master& master = simulation.contact()->master();
+  series.add(record.step, time, "surface",
+             master.rigid && master.segments == 1 && !master.triangles
+                 ? surface_grid(simulation) : segments_grid(simulation, master));
+}
+
+} // namespace host

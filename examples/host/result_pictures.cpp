@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pictures of a run: what a person would rather look at than read.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "output/pictures.hpp"
+#include "result.hpp"
+
+namespace host {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using pictures::Chart;
+using pictures::Curve;
+using pictures::Style;
+
+const Quantity* find(const StepRecord& record, const std::string& name) {
+  for (const Quantity& quantity : record.exact)
+    if (quantity.name == name) return &quantity;
+  return nullptr;
+}
+
+std::string mesh_note(const Simulation& simulation) {
+  const Sizes sizes = simulation.sizes();
+  return std::to_string(sizes.slaves) + " slave nodes, " + std::to_string(sizes.master_segments) +
+         (sizes.master_segments == 1 ? " segment" : " segments");
+}
+
+/// Nodal pressures of the last step against the distance from the axis, with the exact distribution.
+Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
+  const Scene& scene = simulation.scene();
+  const ElementSetup& setup = scene.parts.front().setup;
+  const double modulus = setup.material.contact_modulus();
+  const SurfaceState state = surface_state(simulation, record);
+  Chart chart;
+  chart.title = "Contact pressure, last step";
+  chart.x = {scene.dimension == 2 ? "x" : "distance from the axis", scene.units.length};
+  chart.y = {"pressure", scene.units.pressure};
+  std::vector<std::size_t> order(state.distance.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return state.distance[a] < state.distance[b]; });
+  double edge = 0;
+  for (const std::size_t k : order)
+    if (state.closed[k]) edge = state.distance[k];
+
+  Curve exact{"exact", {}, {}, Style::exact};
+  double end = 0;
+  const auto pressure = [&](double x) {
+    switch (scene.exact.type) {
+    case ExactSpec::Type::hertz_line: {
+      const HertzLine reference = hertz_line(state.force / setup.thickness, scene.exact.radius, modulus);
+      end = reference.half_width;
+      return reference.peak_pressure * std::sqrt(std::max(0., 1 - x * x));
+    }
+    case ExactSpec::Type::hertz_point: {
+      const HertzPoint reference = hertz_point(state.approach, scene.exact.radius, modulus);
+      end = reference.radius;
+      return reference.peak_pressure * std::sqrt(std::max(0., 1 - x * x));
+    }
+    case ExactSpec::Type::westergaard: {
+      const double full = westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, modulus);
+      const double mean = std::min(state.mean_pressure, full), sine = std::sqrt(mean / full);
+      end = scene.exact.wavelength / pi * std::asin(sine);
+      const double at = std::sin(pi * x * end / scene.exact.wavelength);
+      return 2 * mean * std::cos(pi * x * end / scene.exact.wavelength) / (sine * sine) *
+             std::sqrt(std::max(0., sine * sine - at * at));
+    }
+    default:
+      return 0.;
+    }
+  };
+  for (int i = 0; i <= 400; ++i) {
+    const double x = i / 400.;
+    exact.y.push_back(pressure(x));
+    exact.x.push_back(x * end);
+  }
+  if (scene.exact.type != ExactSpec::Type::double_sine) chart.curves.push_back(exact);
+  Curve computed{"computed (slave nodes)", {}, {}, Style::points};
+  for (const std::size_t k : order)
+    if (state.distance[k] <= 1.3 * std::max(edge, end)) {
+      computed.x.push_back(state.distance[k]);
+      computed.y.push_back(state.pressure[k]);
+    }
+  chart.curves.push_back(computed);
+  chart.subtitle = mesh_note(simulation);
+  return chart;
+}
+
+Chart westergaard_curve(const Simulation& simulation, const std::vector<StepRecord>& records) {
+  Chart chart;
+  chart.title = "Mean pressure against contact width";
+  chart.subtitle = "Westergaard: mean pressure / p* = sin²(π a/λ); " + mesh_note(simulation);
+  chart.x = {"a/λ", "", false, 0, 0.5};
+  chart.y = {"mean pressure / p*", "", false, 0, 1.05};
+  Curve exact{"exact", {}, {}, Style::exact}, computed{"computed", {}, {}, Style::points};
+  for (int i = 0; i <= 200; ++i) {
+    exact.x.push_back(i / 400.);
+    exact.y.push_back(std::pow(std::sin(pi * i / 400.), 2));
+  }
+  for (const StepRecord& record : records) {
+    const Quantity* width = find(record, "contact half-width / lambda");
+    const Quantity* mean = find(record, "mean pressure / p*");
+    if (width == nullptr || mean == nullptr) continue;
+    computed.x.push_back(width->value);
+    computed.y.push_back(mean->value);
+  }
+  chart.curves = {exact, computed};
+  return chart;
+}
+
+Chart force_curve(const Simulation& simulation, const std::vector<StepRecord>& records) {
+  const Scene& scene = simulation.scene();
+  const double modulus = scene.parts.front().setup.material.contact_modulus();
+  Chart chart;
+  chart.title = "Force against approach";
+  chart.subtitle = "Hertz: F = 4/3 E* R^{1/2} δ^{3/2}; " + mesh_note(simulation);
+  chart.x = {"approach", scene.units.length, false, 0};
+  chart.y = {"force", scene.units.force, false, 0};
+  Curve exact{"exact", {}, {}, Style::exact}, computed{"computed", {}, {}, Style::points};
+  for (int i = 0; i <= 200; ++i) {
+    const double approach = records.back().approach * i / 200;
+    exact.x.push_back(approach);
+    exact.y.push_back(i == 0 ? 0 : hertz_point(approach, scene.exact.radius, modulus).force);
+  }
+  for (const StepRecord& record : records) {
+    computed.x.push_back(record.approach);
+    computed.y.push_back(record.force);
+  }
+  chart.curves = {exact, computed};
+  return chart;
+}
+
+/// Contact fraction or mean gap of all steps against the mean pressure.
+Chart against_pressure(const Simulation& simulation, const std::vector<StepRecord>& records, bool gap) {
+  const Scene& scene = simulation.scene();
+  Chart chart;
+  chart.title = gap ? "Mean gap against mean pressure" : "Contact fraction against mean pressure";
+  chart.subtitle = mesh_note(simulation);
+  chart.x = {"mean pressure", scene.units.pressure, false, 0};
+  chart.y = gap ? pictures::Axis{"mean gap", scene.units.length, false, 0}
+                : pictures::Axis{"contact area / apparent area", "%", false, 0};
+  Curve curve;
+  for (const StepRecord& record : records) {
+    curve.x.push_back(record.mean_pressure);
+    curve.y.push_back(gap ? record.mean_gap : 100 * record.contact_fraction);
+  }
+  chart.curves = {curve};
+  return chart;
+}
+
+/// Fields on slave nodes that form a regular grid; no maps otherwise.
+pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
+  pictures::Maps maps;
+  const Scene& scene = simulation.scene();
+  if (scene.dimension != 3) return maps;
+  const std::vector<int>& slaves = simulation.contact()->slaves();
+  std::map<double, int> columns, rows;
+  for (const int node : slaves) {
+    columns.emplace(simulation.mesh().node(node)[0], 0);
+    rows.emplace(simulation.mesh().node(node)[1], 0);
+  }
+  if (columns.size() * rows.size() != slaves.size() || columns.size() < 3 || rows.size() < 3) return maps;
+  const auto regular = [](std::map<double, int>& axis) {
+    const double step =
+        (axis.rbegin()->first - axis.begin()->first) / static_cast<double>(axis.size() - 1);
+    int index = 0;
+    bool even = true;
+    for (auto& [position, number] : axis) {
+      even = even && std::abs(position - axis.begin()->first - index * step) < 1e-6 * step;
+      number = index++;
+    }
+    return even;
+  };
+  const bool even_columns = regular(columns), even_rows = regular(rows);
+  if (!even_columns || !even_rows) return maps;
+  maps.title = scene.title;
+  maps.subtitle = "mean pressure " + format_number(record.mean_pressure, 3) + " " + scene.units.pressure +
+                  ", contact " + format_number(100 * record.contact_fraction, 3) + " %";
+  maps.unit = scene.units.length;
+  maps.x_min = columns.begin()->first, maps.x_max = columns.rbegin()->first;
+  maps.y_min = rows.begin()->first, maps.y_max = rows.rbegin()->first;
+  pictures::Map pressure, gap;
+  pressure.title = "contact pressure", gap.title = "gap";
+  pressure.unit = scene.units.pressure, gap.unit = scene.units.length;
+  pressure.blank_zero = true;
+  pressure.clip = 0.99;
+  gap.palette = pictures::Map::Palette::cividis;
+  for (pictures::Map* map : {&pressure, &gap}) {
+    map->columns = static_cast<int>(columns.size()), map->rows = static_cast<int>(rows.size());
+    map->values.assign(slaves.size(), 0.0);
+  }
+  for (std::size_t k = 0; k < slaves.size(); ++k) {
+    const auto position = simulation.mesh().node(slaves[k]);
+    const auto at = static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
+    pressure.values[at] = record.fields.pressure[k];
+    gap.values[at] = std::max(0., record.fields.gap[k]);
+  }
+  maps.maps = {pressure, gap};
+  return maps;
+}
+
+} // namespace
+
+std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
+                                       const std::filesystem::path& folder) {
+  std::vector<std::string> problems;
+  const auto note = [&](const pictures::Outcome& outcome) {
+    if (!outcome.problem.empty() &&
+        std::find(problems.begin(), problems.end(), outcome.problem) == problems.end())
+      problems.push_back(outcome.problem);
+  };
+  std::vector<std::vector<double>> residuals;
+  std::vector<std::string> labels;
+  for (const StepRecord& record : records) {
+    residuals.push_back(record.increments.back().residuals);
+    labels.push_back("step " + std::to_string(record.step));
+  }
+  note(draw(pictures::residual_history("Newton's iteration", residuals, labels), folder, "residuals"));
+  if (simulation.contact() == nullptr) return problems;
+  const ExactSpec::Type type = simulation.scene().exact.type;
+  if (type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine)
+    note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
+  if (type == ExactSpec::Type::westergaard)
+    note(draw(westergaard_curve(simulation, records), folder, "westergaard"));
+  if (type == ExactSpec::Type::hertz_point) note(draw(force_curve(simulation, records), folder, "force"));
+  if (type == ExactSpec::Type::none || type == ExactSpec::Type::double_sine) {
+    note(draw(against_pressure(simulation, records, false), folder, "contact_fraction"));
+    note(draw(against_pressure(simulation, records, true), folder, "mean_gap"));
+    if (const pictures::Maps maps = surface_maps(simulation, records.back()); !maps.maps.empty())
+      note(draw(maps, folder, "pressure_map"));
+  }
+  return problems;
+}
+
+void draw_comparison(const Scene& scene, const Comparison& comparison, const std::filesystem::path& folder) {
+  Chart chart;
+  chart.title = "Explicit mesh of plain segments against one enriched segment";
+  chart.subtitle = scene.title;
+  chart.x = {"segments per direction", "", true};
+  chart.y = {"relative difference of the surface displacement", "", true};
+  Curve curve{"explicit mesh", {}, {}, Style::both, true};
+  for (const CompareRow& row : comparison.explicit_meshes) {
+    curve.x.push_back(row.divisions);
+    curve.y.push_back(row.difference);
+  }
+  chart.curves = {curve};
+  chart.slope_triangle = 2;
+  draw(chart, folder, "compare");
+}
+
+} // namespace host

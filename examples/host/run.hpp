@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Walking through the load steps of a scene.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exact.hpp"
+#include "simulation.hpp"
+
+namespace host {
+
+/// Residuals of one converged increment (a whole step unless it was cut).
+struct IncrementRecord {
+  double value = 0;              ///< of the control at its end
+  std::vector<double> residuals; ///< relative, after each Newton iteration
+};
+
+/// The last two residual reductions r[n-1]/r[n-2], r[n]/r[n-1], and the order of convergence they show:
+/// log of the second over log of the first. NaN with fewer than three residuals.
+struct Convergence {
+  double before = 0, last = 0, order = 0;
+};
+Convergence convergence(const std::vector<double>& residuals);
+
+/// Did Newton's iteration end quadratically? r[n] <= r[n-1]^2 * constant, where residuals below `floor`
+/// (rounding) count as reached.
+bool quadratic(const std::vector<double>& residuals, double constant, double floor);
+
+struct StepRecord {
+  int step = 0; ///< from 1
+  double value = 0;
+  std::vector<IncrementRecord> increments;
+  std::vector<std::string> cuts; ///< why the step was cut
+  double approach = 0;           ///< motion of the rigid master since first touch
+  double force = 0;              ///< on the rigid master, all symmetric copies
+  double mean_pressure = 0;      ///< force / slave area
+  double contact_fraction = 0;   ///< area of closed nodes / slave area
+  double peak_pressure = 0, mean_gap = 0;
+  std::vector<Quantity> exact;
+  ContactFields fields;
+  std::vector<double> positions; ///< [slaves][d] current
+  double wall_time = 0;
+
+  int iterations() const;
+};
+
+/// Where the run tells what it does; empty functions say nothing.
+struct RunObserver {
+  std::function<void(const std::string&)> line;
+  std::function<void(const Simulation&, const StepRecord&)> step_done;
+};
+
+/// Solve all steps, cutting those that fail.
+/// @throws JobError when a step cannot be cut any further
+std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer);
+
+/// The state of the slave surface, for the exact solutions.
+SurfaceState surface_state(Simulation& simulation, const StepRecord& record);
+
+} // namespace host

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace host {
+namespace {
+
+using Materials = std::map<std::string, Material>;
+
+Material read_material(const JsonValue& value) {
+  JsonObject object(value);
+  Material material;
+  material.law = object.at("law").word({"linear_elastic", "neo_hooke"}) == "neo_hooke"
+                     ? Material::Law::neo_hooke
+                     : Material::Law::linear_elastic;
+  material.young = object.at("young").positive();
+  material.poisson = object.at("poisson").number();
+  if (!(material.poisson > -1 && material.poisson < 0.5))
+    object.at("poisson").fail("Poisson's ratio lies between -1 and 0.5");
+  object.finish();
+  return material;
+}
+
+/// {"from": 0, "pieces": [{"to": 1, "divisions": 10, "growth": 1.2}, ...]}
+GridLines read_axis(const JsonValue& value) {
+  JsonObject object(value);
+  GridLines lines{object.at("from").number()};
+  for (const JsonValue& item : object.at("pieces").items()) {
+    JsonObject piece(item);
+    const double to = piece.at("to").number();
+    if (!(to > lines.back())) piece.at("to").fail("grid pieces run upwards: a number > the previous end");
+    const int divisions = piece.at("divisions").integer(1, 100000);
+    const double growth = piece.positive_or("growth", 1);
+    piece.finish();
+    append_graded(lines, to, divisions, growth);
+    if (!std::is_sorted(lines.begin(), lines.end(), std::less_equal<>{}) || !std::isfinite(lines.back()))
+      item.fail("cells vanish: \"growth\" is too far from 1 for so many divisions");
+  }
+  object.finish();
+  if (lines.size() < 2) value.fail("at least one piece is expected");
+  return lines;
+}
+
+Formulation read_formulation(JsonObject& scene, int dimension) {
+  if (dimension == 3) return Formulation::solid;
+  const std::string word = scene.at("formulation").word({"plane_strain", "plane_stress", "axisymmetric"});
+  return word == "plane_strain"   ? Formulation::plane_strain
+         : word == "plane_stress" ? Formulation::plane_stress
+                                  : Formulation::axisymmetric;
+}
+
+PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& materials,
+                   const ElementSetup& common) {
+  JsonObject object(value);
+  PartSpec part;
+  part.name = object.at("name").string();
+  part.setup = common;
+  const JsonValue material = object.at("material");
+  const auto found = materials.find(material.string());
+  if (found == materials.end()) material.fail("no material \"" + material.string() + "\" in /materials");
+  part.setup.material = found->second;
+  if (object.has("deck")) {
+    part.deck = scene.file.parent_path() / object.at("deck").string();
+    part.element_set = object.string_or("element_set", "");
+  } else {
+    static const std::map<std::string, ElementType> types{{"tri3", ElementType::tri3},
+                                                          {"quad4", ElementType::quad4},
+                                                          {"tet4", ElementType::tet4},
+                                                          {"hex8", ElementType::hex8}};
+    const bool plane = scene.dimension == 2;
+    const JsonValue element = object.at("element");
+    part.type = types.at(element.word(plane ? std::vector<std::string>{"tri3", "quad4"}
+                                            : std::vector<std::string>{"tet4", "hex8"}));
+    part.lines = {read_axis(object.at("x")), read_axis(object.at("y"))};
+    if (!plane) part.lines.push_back(read_axis(object.at("z")));
+    if (common.formulation == Formulation::axisymmetric && part.lines[0].front() < 0)
+      object.at("x").fail("x is the radius of an axisymmetric body and starts at 0 or above");
+  }
+  object.finish();
+  return part;
+}
+
+SupportSpec read_support(const JsonValue& value, int dimension) {
+  static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  JsonObject object(value);
+  SupportSpec support;
+  support.where = value.where();
+  support.nodes = object.at("nodes").string();
+  bool any = false;
+  for (int i = 0; i < dimension; ++i) {
+    const char* axis = axes[static_cast<std::size_t>(i)];
+    auto& component = support.displacement.emplace_back();
+    if (object.has(axis)) component = object.at(axis).number(), any = true;
+  }
+  if (!any) value.fail("give the displacement of at least one of the components x, y, z");
+  object.finish();
+  return support;
+}
+
+/// Rows of `dimension` numbers, one per node.
+std::vector<double> read_nodes(const JsonValue& value, int dimension) {
+  std::vector<double> nodes;
+  for (const JsonValue& item : value.items()) {
+    const auto node = item.numbers(static_cast<std::size_t>(dimension));
+    nodes.insert(nodes.end(), node.begin(), node.end());
+  }
+  if (nodes.empty()) value.fail("an array of node positions is expected");
+  return nodes;
+}
+
+ContactSpec read_contact(const JsonValue& value, int dimension) {
+  JsonObject object(value);
+  ContactSpec contact;
+  contact.slave = object.at("slave").string();
+  contact.slave_where = object.at("slave").where();
+  JsonObject master(object.at("master"));
+  if (master.has("faces")) {
+    contact.master = master.at("faces").string();
+    contact.master_where = master.at("faces").where();
+  } else {
+    contact.rigid = read_nodes(master.at("nodes"), dimension);
+    const JsonValue direction = master.at("direction");
+    contact.direction = direction.numbers(static_cast<std::size_t>(dimension));
+    double squared = 0;
+    for (const double component : contact.direction) squared += component * component;
+    if (!(squared > 0)) direction.fail("the direction of the master's motion must not be zero");
+    for (double& component : contact.direction) component /= std::sqrt(squared);
+  }
+  master.finish();
+  const JsonValue model = object.at("model");
+  if (!model.is_object()) model.fail("an object is expected: the library's model");
+  contact.model = model.json();
+  contact.model_where = model.where();
+  // One place says whether the master is rigid: the scene.
+  contact.model["master"] = contact.rigid.empty() ? "deformable" : "rigid";
+  if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
+    model.fail("\"master\" contradicts the scene's master; leave it out here");
+  object.finish();
+  return contact;
+}
+
+ExactSpec read_exact(const JsonValue& value) {
+  using Type = ExactSpec::Type;
+  static const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
+                                                 {"hertz_point", Type::hertz_point},
+                                                 {"westergaard", Type::westergaard},
+                                                 {"double_sine", Type::double_sine}};
+  JsonObject object(value);
+  ExactSpec exact;
+  exact.type = types.at(object.at("type").word({"hertz_line", "hertz_point", "westergaard", "double_sine"}));
+  if (exact.type == Type::hertz_line || exact.type == Type::hertz_point) {
+    exact.radius = object.at("radius").positive();
+  } else {
+    exact.amplitude = object.at("amplitude").positive();
+    exact.wavelength = object.at("wavelength").positive();
+  }
+  object.finish();
+  return exact;
+}
+
+void read_steps(const JsonValue& value, Scene& scene) {
+  static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
+                                                       {"approach", Control::approach},
+                                                       {"force", Control::force},
+                                                       {"mean_pressure", Control::mean_pressure}};
+  JsonObject object(value);
+  const JsonValue control = object.at("control");
+  scene.control =
+      controls.at(control.word({"load_factor", "approach", "force", "mean_pressure"}));
+  if (scene.control != Control::load_factor && (!scene.contact || scene.contact->rigid.empty()))
+    control.fail("only a rigid master can be moved; use load_factor");
+  const JsonValue values = object.at("values");
+  scene.steps = values.numbers();
+  if (scene.steps.empty()) values.fail("at least one step is expected");
+  if (scene.control == Control::force || scene.control == Control::mean_pressure)
+    for (const double step : scene.steps)
+      if (!(step > 0)) values.fail("forces and pressures are > 0 in contact");
+  object.finish();
+}
+
+Scene read(const Json& json, const std::filesystem::path& file) {
+  Scene scene;
+  scene.file = file;
+  JsonObject object(JsonValue(json, file.string() + ": "));
+  scene.title = object.string_or("title", file.parent_path().filename().string());
+  scene.dimension = object.at("dimension").integer(2, 3);
+  ElementSetup common;
+  common.formulation = read_formulation(object, scene.dimension);
+  if (scene.dimension == 2 && common.formulation != Formulation::axisymmetric)
+    common.thickness = object.positive_or("thickness", 1);
+
+  Materials materials;
+  JsonObject material_object(object.at("materials"));
+  for (const std::string& name : material_object.all_keys())
+    materials[name] = read_material(material_object.at(name));
+  for (const JsonValue& item : object.at("parts").items()) {
+    scene.parts.push_back(read_part(item, scene, materials, common));
+    for (std::size_t i = 0; i + 1 < scene.parts.size(); ++i)
+      if (scene.parts[i].name == scene.parts.back().name)
+        item.fail("there is a part \"" + scene.parts[i].name + "\" already");
+  }
+  if (scene.parts.empty()) object.fail("\"parts\" is empty");
+  for (const JsonValue& item : object.at("supports").items())
+    scene.supports.push_back(read_support(item, scene.dimension));
+  if (object.has("tractions"))
+    for (const JsonValue& item : object.at("tractions").items()) {
+      JsonObject traction(item);
+      scene.tractions.push_back({traction.at("faces").string(), item.where(),
+                                 traction.at("value").numbers(static_cast<std::size_t>(scene.dimension))});
+      traction.finish();
+    }
+  if (object.has("periodic"))
+    for (const JsonValue& item : object.at("periodic").items()) {
+      const auto pair = item.items();
+      if (pair.size() != 2) item.fail("a pair of opposite sides is expected");
+      scene.periodic.push_back({pair[0].string(), pair[1].string(), item.where()});
+    }
+  if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
+  scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
+  read_steps(object.at("steps"), scene);
+  if (object.has("half_space")) {
+    const JsonValue value = object.at("half_space");
+    if (scene.dimension != 3 || (scene.control != Control::force && scene.control != Control::mean_pressure))
+      value.fail("the half-space's displacement needs dimension 3 and steps that control force or pressure");
+    JsonObject half_space(value);
+    HalfSpaceSpec spec;
+    spec.where = value.where();
+    for (const JsonValue& item : half_space.at("nodes").items()) spec.nodes.push_back(item.string());
+    spec.point = half_space.at("point").numbers(3);
+    const JsonValue material = half_space.at("material");
+    const auto found = materials.find(material.string());
+    if (found == materials.end()) material.fail("no material \"" + material.string() + "\" in /materials");
+    spec.material = found->second;
+    half_space.finish();
+    scene.half_space = spec;
+  }
+  if (object.has("exact")) {
+    if (!scene.contact || scene.contact->rigid.empty())
+      object.at("exact").fail("the exact solutions are for contact with a rigid master");
+    scene.exact = read_exact(object.at("exact"));
+  }
+  if (object.has("units")) {
+    JsonObject units(object.at("units"));
+    scene.units = {units.string_or("length", ""), units.string_or("force", ""),
+                   units.string_or("pressure", "")};
+    units.finish();
+  }
+  if (object.has("solver")) {
+    JsonObject solver(object.at("solver"));
+    scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
+    scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
+    scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
+    solver.finish();
+  }
+  if (object.has("compare")) {
+    JsonObject compare(object.at("compare"));
+    for (const JsonValue& item : compare.at("divisions").items())
+      scene.compare.divisions.push_back(item.integer(1, 100000));
+    scene.compare.error = compare.positive_or("error", scene.compare.error);
+    compare.finish();
+  }
+  object.finish();
+  return scene;
+}
+
+} // namespace
+
+Scene read_scene(const std::filesystem::path& file) { return read(parse_json_file(file), file); }
+
+Scene read_scene_text(const std::string& text, const std::filesystem::path& file) {
+  return read(parse_json(text, file.string()), file);
+}
+
+} // namespace host

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene file, read and checked. examples/host/README.md describes every key.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "element.hpp"
+#include "json_reader.hpp"
+#include "mesh.hpp"
+
+namespace host {
+
+/// A body: a structured block, or the mesh of a deck.
+struct PartSpec {
+  std::string name;
+  ElementSetup setup;
+  ElementType type = ElementType::quad4; ///< block
+  std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
+  std::filesystem::path deck;
+  std::string element_set;
+};
+
+/// Prescribed displacement components of a node set; they grow with the load factor.
+struct SupportSpec {
+  std::string nodes, where;
+  std::vector<std::optional<double>> displacement; ///< [dimension]
+};
+
+/// Outer boundary of a block that stands for a half-space: its nodes follow the half-space's displacement
+/// under a point load of the scene's total force.
+struct HalfSpaceSpec {
+  std::vector<std::string> nodes;
+  std::string where;
+  std::vector<double> point; ///< where the force acts
+  Material material;
+};
+
+/// Dead load per reference area; grows with the load factor.
+struct TractionSpec {
+  std::string faces, where;
+  std::vector<double> value; ///< [dimension], force / area
+};
+
+/// Opposite sides with the same displacement.
+struct PeriodicSpec {
+  std::string first, second, where;
+};
+
+struct ContactSpec {
+  std::string slave, slave_where; ///< faces whose nodes are the slave nodes
+  std::vector<double> rigid;      ///< rigid master: [m][d], nodes of its one segment; empty: deformable
+  std::string master, master_where; ///< deformable master: faces, each one segment
+  std::vector<double> direction;  ///< rigid master: unit vector of its motion
+  Json model;                     ///< passed on to the library
+  std::string model_where;
+};
+
+/// What the steps prescribe.
+enum class Control {
+  load_factor,   ///< of supports and tractions; a rigid master stays
+  approach,      ///< motion of the rigid master along its direction [L]
+  force,         ///< force on the rigid master along its direction [F], of all symmetric copies together
+  mean_pressure, ///< the same divided by the slave surface's area [F/L^2]
+};
+
+/// Which exact solution the result is held against.
+struct ExactSpec {
+  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine };
+  Type type = Type::none;
+  double radius = 0;                    ///< hertz_line, hertz_point [L]
+  double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
+};
+
+/// Words for tables and pictures; the numbers are never converted.
+struct UnitNames {
+  std::string length, force, pressure;
+};
+
+struct SolverSpec {
+  double tolerance = 1e-10; ///< residual norm relative to the forces present
+  int max_iterations = 25;
+  double min_step = 1e-3; ///< smallest part of a step before the run gives up
+};
+
+/// For --compare: the scene against explicit meshes of plain segments.
+struct CompareSpec {
+  std::vector<int> divisions; ///< segments per direction of each mesh
+  double error = 1e-3;        ///< relative difference at which the prices are compared
+};
+
+struct Scene {
+  std::filesystem::path file; ///< for messages; the model's relative file names start at its folder
+  std::string title;
+  int dimension = 2;
+  std::vector<PartSpec> parts;
+  std::vector<SupportSpec> supports;
+  std::optional<HalfSpaceSpec> half_space;
+  std::vector<TractionSpec> tractions;
+  std::vector<PeriodicSpec> periodic;
+  std::optional<ContactSpec> contact;
+  int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
+  Control control = Control::load_factor;
+  std::vector<double> steps;
+  ExactSpec exact;
+  UnitNames units;
+  SolverSpec solver;
+  CompareSpec compare;
+};
+
+/// @throws InputError naming the file and the JSON path
+Scene read_scene(const std::filesystem::path& file);
+
+/// The same from text; `file` stands for it in messages and gives the folder.
+Scene read_scene_text(const std::string& text, const std::filesystem::path& file);
+
+} // namespace host

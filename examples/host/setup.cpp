@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Simulation: from the scene to mesh, equations and pattern.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "half_space.hpp"
+#include "simulation.hpp"
+#include "stopwatch.hpp"
+
+namespace host {
+namespace {
+
+template <class Map>
+const typename Map::mapped_type& find_set(const Map& sets, const std::string& name, const std::string& where,
+                                          const char* kind) {
+  const auto found = sets.find(name);
+  if (found != sets.end() && !found->second.empty()) return found->second;
+  std::string names;
+  for (const auto& [key, value] : sets) names += (names.empty() ? "" : ", ") + key;
+  throw InputError(where + ": no " + kind + " \"" + name + "\"; there are: " + names);
+}
+
+const std::vector<int>& find_nodes(const Mesh& mesh, const std::string& name, const std::string& where) {
+  return find_set(mesh.node_sets, name, where, "nodes");
+}
+
+const std::vector<Face>& find_faces(const Mesh& mesh, const std::string& name, const std::string& where) {
+  return find_set(mesh.face_sets, name, where, "faces");
+}
+
+/// Pairs of nodes on opposite sides: equal coordinates but for one axis.
+std::vector<std::pair<int, int>> opposite_nodes(const Mesh& mesh, const PeriodicSpec& spec) {
+  const std::vector<int>& first = find_nodes(mesh, spec.first, spec.where);
+  const std::vector<int>& second = find_nodes(mesh, spec.second, spec.where);
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  const auto offset = [&](int a, int b, std::size_t i) { return mesh.node(b)[i] - mesh.node(a)[i]; };
+  if (first.size() != second.size())
+    throw InputError(spec.where + ": the sides have " + std::to_string(first.size()) + " and " +
+                     std::to_string(second.size()) + " nodes; periodic sides have the same mesh");
+  // The axis across is the one along which the two centres differ most.
+  std::array<double, 3> apart{};
+  for (std::size_t n = 0; n < first.size(); ++n)
+    for (std::size_t i = 0; i < d; ++i) apart[i] += offset(first[n], second[n], i);
+  std::size_t across = 0;
+  for (std::size_t i = 1; i < d; ++i)
+    if (std::abs(apart[i]) > std::abs(apart[across])) across = i;
+  const double tolerance = 1e-9 * std::abs(apart[across]) / static_cast<double>(first.size());
+  std::map<std::array<long long, 3>, int> by_place;
+  const auto place = [&](int node, int shift, std::size_t axis) {
+    std::array<long long, 3> key{};
+    for (std::size_t i = 0; i < d; ++i)
+      if (i != across) key[i] = std::llround(mesh.node(node)[i] / (4 * tolerance)) + (i == axis ? shift : 0);
+    return key;
+  };
+  for (const int node : first) by_place[place(node, 0, across)] = node;
+  std::vector<std::pair<int, int>> pairs;
+  for (const int node : second) {
+    auto found = by_place.find(place(node, 0, across));
+    for (std::size_t axis = 0; axis < d && found == by_place.end(); ++axis) // rounding fell to the other side
+      for (const int shift : {-1, 1})
+        if (found == by_place.end()) found = by_place.find(place(node, shift, axis));
+    if (found == by_place.end())
+      throw InputError(spec.where + ": a node of " + spec.second + " has no partner on " + spec.first);
+    pairs.emplace_back(node, found->second);
+  }
+  return pairs;
+}
+
+} // namespace
+
+Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divisions) : scene_(&scene) {
+  const Stopwatch watch;
+  build_mesh();
+  build_equations();
+  build_contact(library, divisions);
+  const bool symmetric = !contact_ || contact_->symmetric_tangent();
+  system_ = std::make_unique<SparseSystem>(dofs_->size(), symmetric);
+  solver_ = LinearSolver::create(symmetric);
+  bulk_stencils_ = bulk_->stencils(*dofs_);
+  now_.displacement.assign(static_cast<std::size_t>(dofs_->dofs()), 0.0);
+  if (contact_) contact_->choose(now_.displacement, now_.motion);
+  build_pattern();
+  timings_.setup += watch.seconds();
+  timings_.total += watch.seconds();
+}
+
+void Simulation::build_mesh() {
+  mesh_.dimension = scene_->dimension;
+  std::vector<ElementSetup> setups;
+  for (const PartSpec& part : scene_->parts) {
+    const int index = static_cast<int>(setups.size());
+    if (part.lines.empty())
+      add_deck(mesh_, part.name, part.deck, part.element_set, index);
+    else
+      add_block(mesh_, part.name, part.type, part.lines, index);
+    setups.push_back(part.setup);
+  }
+  bulk_ = std::make_unique<Bulk>(mesh_, setups);
+}
+
+void Simulation::build_equations() {
+  dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension);
+  const auto d = static_cast<std::size_t>(mesh_.dimension);
+  const std::size_t total = static_cast<std::size_t>(mesh_.node_count()) * d;
+  prescribed_.assign(total, 0.0);
+  loads_.assign(total, 0.0);
+  for (const PeriodicSpec& spec : scene_->periodic)
+    for (const auto& [node, owner] : opposite_nodes(mesh_, spec)) dofs_->tie(node, owner);
+  for (const SupportSpec& support : scene_->supports)
+    for (const int node : find_nodes(mesh_, support.nodes, support.where + "/nodes"))
+      for (std::size_t i = 0; i < d; ++i)
+        if (support.displacement[i]) {
+          dofs_->prescribe(node, static_cast<int>(i));
+          prescribed_[static_cast<std::size_t>(node) * d + i] = *support.displacement[i];
+        }
+  if (scene_->half_space) {
+    half_space_.assign(total, 0.0);
+    std::array<double, 3> direction{}, position{};
+    std::copy(scene_->contact->direction.begin(), scene_->contact->direction.end(), direction.begin());
+    for (const std::string& name : scene_->half_space->nodes)
+      for (const int node : find_nodes(mesh_, name, scene_->half_space->where + "/nodes")) {
+        for (std::size_t i = 0; i < 3; ++i) position[i] = mesh_.node(node)[i] - scene_->half_space->point[i];
+        const auto displacement = boussinesq(scene_->half_space->material, position, direction);
+        for (std::size_t i = 0; i < 3; ++i) {
+          dofs_->prescribe(node, static_cast<int>(i));
+          half_space_[static_cast<std::size_t>(node) * d + i] = displacement[i];
+        }
+      }
+  }
+  for (const TractionSpec& traction : scene_->tractions) {
+    const std::vector<Face>& faces = find_faces(mesh_, traction.faces, traction.where + "/faces");
+    const std::vector<int> nodes = nodes_of(faces);
+    const ElementSetup& setup = scene_->parts.front().setup;
+    const auto areas = tributary_areas(mesh_, faces, nodes, setup.thickness,
+                                       setup.formulation == Formulation::axisymmetric);
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (std::size_t i = 0; i < d; ++i)
+        loads_[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * traction.value[i];
+  }
+  dofs_->number();
+  if (dofs_->size() == 0) throw InputError(scene_->file.string() + ": /supports leave nothing to solve for");
+}
+
+void Simulation::build_contact(const EntsLibrary* library, int divisions) {
+  if (!scene_->contact) {
+    if (divisions > 0) throw InputError(scene_->file.string() + ": a scene without contact has no explicit mesh");
+    return;
+  }
+  if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
+  const std::vector<Face>& slaves = find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
+  Master master = divisions > 0 ? explicit_master(*library, *scene_, divisions)
+                                : scene_master(*library, *scene_, mesh_);
+  const ElementSetup& setup = scene_->parts.front().setup;
+  contact_ = std::make_unique<Contact>(std::move(master), mesh_, *dofs_, slaves, setup.thickness,
+                                       setup.formulation == Formulation::axisymmetric);
+}
+
+void Simulation::build_pattern() {
+  std::vector<const StencilGroup*> groups;
+  for (const StencilGroup& group : bulk_stencils_) groups.push_back(&group);
+  StencilGroup contact;
+  if (contact_) {
+    contact = contact_->stencil();
+    groups.push_back(&contact);
+  }
+  system_->build(groups);
+  solver_->analyze(system_->matrix());
+  bulk_values_.clear();
+}
+
+Sizes Simulation::sizes() const {
+  Sizes sizes;
+  sizes.nodes = static_cast<std::size_t>(mesh_.node_count());
+  for (const ElementGroup& group : mesh_.groups) sizes.elements += group.size();
+  sizes.dofs = static_cast<std::size_t>(dofs_->dofs());
+  sizes.equations = static_cast<std::size_t>(dofs_->size());
+  if (contact_) {
+    const Master& master = contact_->master();
+    sizes.slaves = contact_->slaves().size();
+    sizes.master_segments = master.segments;
+    const std::size_t d = static_cast<std::size_t>(mesh_.dimension), n = master.segments;
+    if (!master.rigid)
+      sizes.master_dofs = std::set<int>(master.nodes.begin(), master.nodes.end()).size() * d;
+    else if (n == 1)
+      sizes.master_dofs = master.positions.size();
+    else if (d == 2)
+      sizes.master_dofs = (n + 1) * d;
+    else { // n = k x k segments of an explicit mesh have (k + 1)^2 nodes
+      const auto k = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(n))));
+      sizes.master_dofs = (k + 1) * (k + 1) * d;
+    }
+  }
+  return sizes;
+}
+
+} // namespace host

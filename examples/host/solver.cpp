@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#ifdef ENTS_HOST_CHOLMOD
+#include <Eigen/CholmodSupport>
+#endif
+#ifdef ENTS_HOST_UMFPACK
+#include <Eigen/UmfPackSupport>
+#endif
+
+namespace host {
+namespace {
+
+using Matrix = SparseSystem::Matrix;
+
+/// LU of a matrix with all its entries.
+class GeneralSolver final : public LinearSolver {
+public:
+#ifdef ENTS_HOST_UMFPACK
+  using Decomposition = Eigen::UmfPackLU<Matrix>;
+  std::string name() const override { return "UMFPACK LU"; }
+#else
+  using Decomposition = Eigen::SparseLU<Matrix>;
+  std::string name() const override { return "Eigen SparseLU"; }
+#endif
+  void analyze(const Matrix& matrix) override { lu_.analyzePattern(matrix); }
+  bool factorize(const Matrix& matrix) override {
+    lu_.factorize(matrix);
+    return lu_.info() == Eigen::Success;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) override {
+    return lu_.solve(right_hand_side);
+  }
+
+private:
+  Decomposition lu_;
+};
+
+/// Cholesky of the lower triangle. A tangent that is symmetric and not positive definite (beyond a bifurcation,
+/// or on the way there during Newton's iteration) goes to LU.
+class SymmetricSolver final : public LinearSolver {
+public:
+#ifdef ENTS_HOST_CHOLMOD
+  using Decomposition = Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>;
+  std::string name() const override { return "CHOLMOD supernodal Cholesky"; }
+  SymmetricSolver() { cholesky_.cholmod().print = 0; } // an indefinite matrix is no news for the terminal
+#else
+  using Decomposition = Eigen::SimplicialLLT<Matrix, Eigen::Lower>;
+  std::string name() const override { return "Eigen simplicial Cholesky"; }
+#endif
+  void analyze(const Matrix& matrix) override {
+    cholesky_.analyzePattern(matrix);
+    analyzed_general_ = false;
+  }
+  bool factorize(const Matrix& matrix) override {
+    cholesky_.factorize(matrix);
+    use_general_ = cholesky_.info() != Eigen::Success;
+    if (!use_general_) return true;
+    full_ = matrix.selfadjointView<Eigen::Lower>();
+    if (!analyzed_general_) general_.analyze(full_);
+    analyzed_general_ = true;
+    return general_.factorize(full_);
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) override {
+    return use_general_ ? general_.solve(right_hand_side) : Eigen::VectorXd(cholesky_.solve(right_hand_side));
+  }
+
+private:
+  Decomposition cholesky_;
+  GeneralSolver general_;
+  Matrix full_; // UMFPACK reads the matrix again when it solves
+  bool analyzed_general_ = false, use_general_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<LinearSolver> LinearSolver::create(bool symmetric) {
+  if (symmetric) return std::make_unique<SymmetricSolver>();
+  return std::make_unique<GeneralSolver>();
+}
+
+} // namespace host

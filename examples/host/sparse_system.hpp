@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The global tangent: its sparsity pattern is built once, every element knows where its entries go.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+namespace host {
+
+/// Equations of elements of one size; a negative equation (a prescribed value) has no row.
+struct StencilGroup {
+  int dofs = 0;
+  std::vector<int> equations; ///< [elements][dofs]
+
+  std::size_t size() const { return dofs == 0 ? 0 : equations.size() / static_cast<std::size_t>(dofs); }
+};
+
+class SparseSystem {
+public:
+  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+  /// @param symmetric  only the lower triangle is stored
+  SparseSystem(int size, bool symmetric) : size_(size), symmetric_(symmetric) {}
+
+  /// Pattern of all groups together, entries zero.
+  void build(std::span<const StencilGroup* const> groups);
+
+  bool symmetric() const { return symmetric_; }
+  const Matrix& matrix() const { return matrix_; }
+  std::span<double> values() {
+    return {matrix_.valuePtr(), static_cast<std::size_t>(matrix_.nonZeros())};
+  }
+  void set_zero() {
+    for (double& value : values()) value = 0;
+  }
+
+  /// Add an element matrix; its group is the g-th of `build`.
+  /// @param tangent            [dofs][dofs] column-major
+  void add(std::size_t group, std::size_t element, const double* tangent);
+
+private:
+  std::int32_t slot(int row, int column) const;
+
+  int size_;
+  bool symmetric_;
+  Matrix matrix_;
+  struct Slots {
+    int dofs = 0;
+    std::vector<std::int32_t> at; ///< [elements][entries]; -1: no row or no column
+    std::vector<char> doubled; ///< elements in which two dofs share an equation (symmetric storage only)
+  };
+  std::vector<Slots> slots_;
+};
+
+} // namespace host
