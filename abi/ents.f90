@@ -62,12 +62,19 @@ module ents
   integer(c_int32_t), parameter :: ENTS_STATE = 8192
   integer(c_int32_t), parameter :: ENTS_FLAGS = 16384
   integer(c_int32_t), parameter :: ENTS_ITERATIONS = 32768
+  integer(c_int32_t), parameter :: ENTS_TRACTION = 65536
+  integer(c_int32_t), parameter :: ENTS_SLIP = 131072
+  integer(c_int32_t), parameter :: ENTS_AGE = 262144
 
   ! ents_output%flags
   integer(c_int32_t), parameter :: ENTS_FLAG_CONTACT = 1
   integer(c_int32_t), parameter :: ENTS_FLAG_OUTSIDE = 2
   integer(c_int32_t), parameter :: ENTS_FLAG_FAR_SIDE = 4
   integer(c_int32_t), parameter :: ENTS_FLAG_SEARCHED = 8
+  integer(c_int32_t), parameter :: ENTS_FLAG_STICK = 16
+  integer(c_int32_t), parameter :: ENTS_FLAG_SLIP = 32
+  integer(c_int32_t), parameter :: ENTS_FLAG_SHEAR_LIMIT = 64
+  integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
 
   type, bind(c) :: ents_report
     integer(c_int32_t) :: struct_size = 0
@@ -95,6 +102,10 @@ module ents
     integer(c_int32_t) :: state_size = 0
     integer(c_int32_t) :: symmetric_tangent = 0
     integer(c_int32_t) :: own_surface_coordinates = 0
+    integer(c_int32_t) :: multipliers = 0
+    integer(c_int32_t) :: friction = 0
+    integer(c_int32_t) :: augmentable = 0
+    integer(c_int32_t) :: reserved = 0
   end type ents_layout
 
   type, bind(c) :: ents_input
@@ -112,6 +123,8 @@ module ents
     integer(c_int64_t) :: area_stride = 0
     type(c_ptr) :: state_begin = c_null_ptr ! (state_size, elements)
     integer(c_int64_t) :: state_begin_stride = 0
+    type(c_ptr) :: multiplier = c_null_ptr ! (multipliers, elements)
+    integer(c_int64_t) :: multiplier_stride = 0
   end type ents_input
 
   type, bind(c) :: ents_output
@@ -152,6 +165,12 @@ module ents
     integer(c_int64_t) :: flags_stride = 0
     type(c_ptr) :: iterations = c_null_ptr ! (elements), int32
     integer(c_int64_t) :: iterations_stride = 0
+    type(c_ptr) :: traction = c_null_ptr ! (d, elements)
+    integer(c_int64_t) :: traction_stride = 0
+    type(c_ptr) :: slip = c_null_ptr ! (elements)
+    integer(c_int64_t) :: slip_stride = 0
+    type(c_ptr) :: age = c_null_ptr ! (elements)
+    integer(c_int64_t) :: age_stride = 0
   end type ents_output
 
   type, bind(c) :: ents_surface
@@ -282,6 +301,52 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_state_init
+
+    ! Uzawa: the multipliers of the end states into the begin states; solve the increment again.
+    function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
+      bind(c, name="ents_state_augment")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      real(c_double), intent(inout) :: state_begin(*)
+      integer(c_int64_t), value :: begin_stride
+      real(c_double), intent(in) :: state_end(*)
+      integer(c_int64_t), value :: end_stride
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_augment
+
+    ! The state of a slave node that moves on to another segment. masters: (d, m); surface coordinates: c_loc of (d-1, m) or
+    ! c_null_ptr.
+    function ents_state_transfer(model, old_master, old_surface_coordinates, new_master, new_surface_coordinates, state, moved, &
+      report) result(status) bind(c, name="ents_state_transfer")
+      import :: c_double, c_int32_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      real(c_double), intent(in) :: old_master(*)
+      type(c_ptr), value :: old_surface_coordinates
+      real(c_double), intent(in) :: new_master(*)
+      type(c_ptr), value :: new_surface_coordinates
+      real(c_double), intent(in) :: state(*)
+      real(c_double), intent(inout) :: moved(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_transfer
+
+    ! Tributary areas of slave nodes. facet: zero-terminated name; connectivity: (nodes of the facet, facets), counted from 0;
+    ! positions: (d, nodes); areas: (nodes).
+    function ents_tributary_areas(facet, facets, connectivity, nodes, positions, thickness, areas, report) result(status) &
+      bind(c, name="ents_tributary_areas")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
+      character(kind=c_char), intent(in) :: facet(*)
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), value :: thickness
+      real(c_double), intent(inout) :: areas(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_tributary_areas
 
     ! Points of the enriched surface, for pictures, meshes and checks.
     function ents_surface_evaluate(model, count, surface, report) result(status) bind(c, name="ents_surface_evaluate")

@@ -147,10 +147,14 @@ typedef struct ents_layout {
   int32_t dimension;           /* d: 2 or 3 */
   int32_t nodes;               /* m: master nodes of the segment */
   int32_t parameters;          /* d-1: convective coordinates xi; also surface coordinates per master node */
-  int32_t dofs;                /* d (m+1), or d for a rigid master */
+  int32_t dofs;                /* d (m+1), or d for a rigid master; plus multipliers */
   int32_t state_size;          /* per element */
   int32_t symmetric_tangent;   /* 1 if K = K^T always */
   int32_t own_surface_coordinates; /* 1 if the model text carries them */
+  int32_t multipliers;         /* dofs of multipliers, after those of the nodes: 0, 1, or d with friction */
+  int32_t friction;            /* 1 if the law has friction */
+  int32_t augmentable;         /* 1 if the multipliers live in the state: ents_state_augment */
+  int32_t reserved;
 } ents_layout;
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
@@ -176,6 +180,9 @@ typedef struct ents_input {
   const double *state_begin;         /* [state_size] begin of increment, read only; null: no history.
                                         A state that has seen a projection overrides `start` */
   int64_t state_begin_stride;
+  const double *multiplier;          /* [multipliers] values of the multiplier dofs: lambda_n [F/A], then with friction
+                                        lambda_a [F L/A], covariant in xi; required if the layout has any */
+  int64_t multiplier_stride;
 } ents_input;
 
 /* What to compute. What is not asked for is neither computed nor touched. */
@@ -184,10 +191,10 @@ typedef struct ents_input {
 #define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
 #define ENTS_NORMAL        (1 << 3)  /* normal        [d]            n_e, unit normal of the enriched surface */
 #define ENTS_POINT         (1 << 4)  /* point         [d]    [L]     rho_e at the projection */
-#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [dofs]         dg/du,       eq. (3) */
-#define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [dofs][dofs]   d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
-#define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][dofs]    dxi/du,      eq. (3); [1/L] */
-#define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][dofs][dofs] d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
+#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = dofs - multipliers, here and below */
+#define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [n][n]         d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
+#define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][n]       dxi/du,      eq. (3); [1/L] */
+#define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][n][n]    d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
 #define ENTS_ENERGY        (1 << 9)  /* energy        [1]    [F L]   W */
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
 #define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
@@ -195,11 +202,18 @@ typedef struct ents_input {
 #define ENTS_STATE         (1 << 13) /* state_end     [state_size] */
 #define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
 #define ENTS_ITERATIONS    (1 << 15) /* iterations    [1] int32: surface evaluations the projection took */
+#define ENTS_TRACTION      (1 << 16) /* traction      [d]    [F/A]   tangential traction on the master, spatial vector */
+#define ENTS_SLIP          (1 << 17) /* slip          [1]    [L]     accumulated slip of the state, end of increment */
+#define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
 
 #define ENTS_FLAG_CONTACT  1   /* the element carries pressure */
 #define ENTS_FLAG_OUTSIDE  2   /* the projection lies outside the segment: open, R = 0, K = 0 */
 #define ENTS_FLAG_FAR_SIDE 4   /* slave beyond a centre of curvature: the projection is not a minimum of the distance */
 #define ENTS_FLAG_SEARCHED 8   /* the whole segment was searched */
+#define ENTS_FLAG_STICK    16  /* friction: elastic */
+#define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
+#define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
+#define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A
  * pointer may be null unless its bit is set in `wanted`. */
@@ -225,6 +239,9 @@ typedef struct ents_output {
   double *state_end;     int64_t state_end_stride;
   int32_t *flags;        int64_t flags_stride;
   int32_t *iterations;   int64_t iterations_stride;
+  double *traction;      int64_t traction_stride;
+  double *slip;          int64_t slip_stride;
+  double *age;           int64_t age_stride;
 } ents_output;
 
 /* Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges). count = 1 is the single
@@ -240,6 +257,33 @@ ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t c
 /* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. */
 ENTS_API int32_t ents_state_init(const ents_model *model, int64_t count, double *state,
                                  int64_t stride, ents_report *report);
+
+/* Augmented Lagrangian with multipliers in the state (Uzawa): after a converged solve, put the multipliers
+ * of the end states into the begin states and solve the increment again, until penetration and slip are small. The rest
+ * of `state_begin` stays: it is still the begin of the increment. Both arrays: stride >= state_size. */
+ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, double *state_begin, int64_t begin_stride,
+                                    const double *state_end, int64_t end_stride, ents_report *report);
+
+/* A slave node moves on to another segment: `state` as seen from the new one. The anchor of friction and the
+ * multipliers move with the material of the master surface, so that no slip history is lost: through the
+ * surface coordinates where the model uses any, else to the closest point of the new segment (extended over its border).
+ *   old_master, new_master  [m][d] positions, [L], both at the same instant (the begin of the increment)
+ *   old_..., new_surface_coordinates  [m][d-1] or null: the model's own, else s = xi (then positions decide)
+ *   state, moved            [state_size] in, out; may not overlap
+ * Recoverable: NO_PROJECTION, DEGENERATE_SEGMENT. */
+ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_master, const double *old_surface_coordinates,
+                                     const double *new_master, const double *new_surface_coordinates,
+                                     const double *state, double *moved, ents_report *report);
+
+/* Tributary areas of slave nodes: of each facet, the part of its area that belongs to each node (row sums for linear
+ * facets; lumped in proportion to the integral of N_i^2 for quadratic ones, so that all are positive).
+ *   facet         "line2", "line3", "tri3", "tri6", "quad4", "quad8", "quad9"
+ *   connectivity  [facets][nodes of the facet], 0 <= index < nodes
+ *   positions     [nodes][d], [L]
+ *   thickness     2D: the area of a length, [L]; axisymmetric bodies: 0, the areas are then of the full turn about the second axis. 3D: ignored
+ *   areas         [nodes] out, [A]; 0 for nodes on no facet */
+ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
+                                      const double *positions, double thickness, double *areas, ents_report *report);
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 

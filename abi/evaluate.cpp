@@ -28,8 +28,11 @@ static_assert(want::xi_gradient == ENTS_XI_GRADIENT && want::xi_hessian == ENTS_
 static_assert(want::energy == ENTS_ENERGY && want::pressure == ENTS_PRESSURE);
 static_assert(want::residual == ENTS_RESIDUAL && want::tangent == ENTS_TANGENT && want::state == ENTS_STATE);
 static_assert(want::flags == ENTS_FLAGS && want::iterations == ENTS_ITERATIONS);
+static_assert(want::traction == ENTS_TRACTION && want::slip == ENTS_SLIP && want::age == ENTS_AGE);
 static_assert(flag::contact == ENTS_FLAG_CONTACT && flag::outside == ENTS_FLAG_OUTSIDE);
 static_assert(flag::far_side == ENTS_FLAG_FAR_SIDE && flag::searched == ENTS_FLAG_SEARCHED);
+static_assert(flag::stick == ENTS_FLAG_STICK && flag::slip == ENTS_FLAG_SLIP);
+static_assert(flag::shear_limit == ENTS_FLAG_SHEAR_LIMIT && flag::changed == ENTS_FLAG_CHANGED);
 
 // An array of an input or output struct, as the checks and messages need it.
 struct Array {
@@ -48,7 +51,7 @@ std::int64_t leading_dimension(const Plan& plan, const ents_output& out) noexcep
 }
 
 Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
-  const std::int64_t d = plan.dimension, t = plan.parameters, n = plan.dofs;
+  const std::int64_t d = plan.dimension, t = plan.parameters, all = plan.dofs, n = all - plan.multipliers;
   switch (1 << bit) {
   case ENTS_XI:
     return {"xi", out.xi, out.xi_stride, t};
@@ -73,15 +76,21 @@ Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
   case ENTS_PRESSURE:
     return {"pressure", out.pressure, out.pressure_stride, 1};
   case ENTS_RESIDUAL:
-    return {"residual", out.residual, out.residual_stride, n};
+    return {"residual", out.residual, out.residual_stride, all};
   case ENTS_TANGENT:
-    return {"tangent", out.tangent, out.tangent_stride, (n - 1) * leading_dimension(plan, out) + n};
+    return {"tangent", out.tangent, out.tangent_stride, (all - 1) * leading_dimension(plan, out) + all};
   case ENTS_STATE:
-    return {"state_end", out.state_end, out.state_end_stride, plan.state_size};
+    return {"state_end", out.state_end, out.state_end_stride, plan.state.size};
   case ENTS_FLAGS:
     return {"flags", out.flags, out.flags_stride, 1};
-  default:
+  case ENTS_ITERATIONS:
     return {"iterations", out.iterations, out.iterations_stride, 1};
+  case ENTS_TRACTION:
+    return {"traction", out.traction, out.traction_stride, d};
+  case ENTS_SLIP:
+    return {"slip", out.slip, out.slip_stride, 1};
+  default:
+    return {"age", out.age, out.age_stride, 1};
   }
 }
 
@@ -105,7 +114,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   if ((out.wanted & ~want::all) != 0)
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
                           static_cast<unsigned>(out.wanted & ~want::all));
-  if ((out.wanted & (want::element & ~want::state)) != 0 && !model.model.has_contact)
+  if ((out.wanted & want::needs_law) != 0 && model.model.law.normal == NormalKind::none)
     return report_status(
         report, ENTS_BAD_MASK, -1,
         "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
@@ -131,7 +140,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   return ENTS_OK;
 }
 
-constexpr int input_arrays = 6;
+constexpr int input_arrays = 7;
 Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes;
   switch (index) {
@@ -145,8 +154,10 @@ Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
     return {"start", in.start, in.start_stride, t};
   case 4:
     return {"area", in.area, in.area_stride, 1};
+  case 5:
+    return {"state_begin", in.state_begin, in.state_begin_stride, plan.state.size};
   default:
-    return {"state_begin", in.state_begin, in.state_begin_stride, plan.state_size};
+    return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
   }
 }
 
@@ -161,6 +172,9 @@ std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t coun
   if (count == 0) return ENTS_OK;
   if (!in.slave || !in.master)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.%s is null", in.slave ? "master" : "slave");
+  if (plan.multipliers > 0 && !in.multiplier)
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
+                          plan.multipliers);
   if (const std::int64_t last = first + count - 1; last > 0)
     for (int i = 0; i < input_arrays; ++i) {
       const Array a = input_array(plan, in, i);
@@ -217,7 +231,8 @@ std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t 
                                   at(in->surface_coordinates, in->surface_coordinates_stride, e),
                                   at(in->start, in->start_stride, e),
                                   at(in->area, in->area_stride, e),
-                                  at(in->state_begin, in->state_begin_stride, e)};
+                                  at(in->state_begin, in->state_begin_stride, e),
+                                  at(in->multiplier, in->multiplier_stride, e)};
     const ElementOutput results = {out->wanted,
                                    at(out->xi, out->xi_stride, e),
                                    at(out->gap, out->gap_stride, e),
@@ -235,7 +250,10 @@ std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t 
                                    at(out->state_end, out->state_end_stride, e),
                                    leading_dimension(plan, *out),
                                    at(out->flags, out->flags_stride, e),
-                                   at(out->iterations, out->iterations_stride, e)};
+                                   at(out->iterations, out->iterations_stride, e),
+                                   at(out->traction, out->traction_stride, e),
+                                   at(out->slip, out->slip_stride, e),
+                                   at(out->age, out->age_stride, e)};
     const std::int32_t outcome = static_cast<std::int32_t>(plan.element(plan, element, results));
     if (out->status) *at(out->status, out->status_stride, e) = outcome;
     if (outcome < 0) return explain(plan, outcome, e, *in, report);
@@ -258,28 +276,6 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
     return ents::evaluate(model, first, count, input, output, report);
-  });
-}
-
-int32_t ents_state_init(const ents_model* model, int64_t count, double* state, int64_t stride,
-                        ents_report* report) {
-  return ents::at_the_door(report, [&] {
-    if (const std::int32_t status = ents::check_handle(model, report); status != ENTS_OK) return status;
-    const ents::Plan& plan = model->plan;
-    constexpr std::int64_t most = std::int64_t{1} << ents::most_bits;
-    if (count < 0 || stride < plan.state_size || (count > 1 && count > most / stride))
-      return ents::report_message(
-          report, ENTS_BAD_COUNT, -1,
-          "count = %lld must be >= 0 and stride = %lld at least %d, together less than any memory",
-          static_cast<long long>(count), static_cast<long long>(stride), plan.state_size);
-    if (count > 0 && !state)
-      return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'state' is null");
-    for (int64_t e = 0; e < count; ++e) {
-      double* block = state + e * stride;
-      for (std::int32_t i = 0; i < plan.state_size; ++i) block[i] = 0.0;
-      block[0] = ents::state_tag(plan.parameters);
-    }
-    return ents::report_ok(report);
   });
 }
 

@@ -135,9 +135,12 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.nodes = model->plan.nodes;
     out.parameters = model->plan.parameters;
     out.dofs = model->plan.dofs;
-    out.state_size = model->plan.state_size;
-    out.symmetric_tangent = 1;
+    out.state_size = model->plan.state.size;
+    out.symmetric_tangent = !model->model.law.has_friction() || model->model.law.symmetrised;
     out.own_surface_coordinates = model->model.own_surface_coordinates;
+    out.multipliers = model->plan.multipliers;
+    out.friction = model->model.law.has_friction();
+    out.augmentable = model->model.law.multiplier_in_state();
     ents::give_back(out, layout);
     return ents::report_ok(report);
   });

@@ -68,14 +68,59 @@ void read_projection(const json& value, Model& model) {
   for (double& r : model.ray) r /= std::sqrt(squared);
 }
 
-void read_contact(const json& value, Model& model) {
-  check_keys(value, "/contact", {"normal"}, {});
-  const json& normal = value.at("normal");
-  const std::string path = "/contact/normal";
-  read_type(normal, path, {"penalty"});
+void read_normal(const json& normal, const std::string& path, ContactLaw& law) {
+  switch (read_type(normal, path,
+                    {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier"})) {
+    case 1: {
+      check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
+      law.normal = NormalKind::power;
+      law.stiffness = read_double(normal, path, "coefficient", Range::positive);
+      const double exponent = read_double(normal, path, "exponent", Range::positive);
+      if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
+        fail(ENTS_BAD_VALUE, member(path, "exponent"), "must be 1, 1.5, 2, ... 20 (a multiple of 1/2)");
+      law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
+      return;
+    }
+    case 2:
+      check_keys(normal, path, {"type", "pressure", "clearance"}, {});
+      law.normal = NormalKind::exponential;
+      law.pressure = read_double(normal, path, "pressure", Range::positive);
+      law.clearance = read_double(normal, path, "clearance", Range::positive);
+      return;
+    case 0: law.normal = NormalKind::penalty; break;
+    case 3: law.normal = NormalKind::augmented; break;
+    case 4: law.normal = NormalKind::augmented_multiplier; break;
+    default: law.normal = NormalKind::multiplier; break;
+  }
   check_keys(normal, path, {"type", "stiffness"}, {});
-  model.has_contact = true;
-  model.penalty_stiffness = read_double(normal, path, "stiffness", Range::positive);
+  law.stiffness = read_double(normal, path, "stiffness", Range::positive);
+}
+
+void read_friction(const json& friction, const std::string& path, ContactLaw& law) {
+  const bool rough = read_type(friction, path, {"coulomb", "rough"}) == 1;
+  if (rough) {
+    check_keys(friction, path, {"type", "stiffness"}, {});
+    law.friction = FrictionKind::rough;
+  } else {
+    check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
+    law.friction = FrictionKind::coulomb;
+    law.friction_coefficient = read_double(friction, path, "coefficient", Range::positive);
+    law.shear_limit = friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
+  }
+  law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
+}
+
+void read_contact(const json& value, Model& model) {
+  const std::string path = "/contact";
+  check_keys(value, path, {"normal"}, {"friction", "symmetrised"});
+  read_normal(value.at("normal"), member(path, "normal"), model.law);
+  if (value.contains("friction") && !value.at("friction").is_null())
+    read_friction(value.at("friction"), member(path, "friction"), model.law);
+  if (value.contains("symmetrised")) {
+    const json& symmetrised = value.at("symmetrised");
+    if (!symmetrised.is_boolean()) fail(ENTS_BAD_VALUE, member(path, "symmetrised"), "must be true or false");
+    model.law.symmetrised = symmetrised.get<bool>();
+  }
 }
 
 } // namespace

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One contact element: projection, gap, penalty law, residual and tangent. What is not wanted is not computed.
-//
-// Penalty law, A the tributary area: W = eps A g^2 / 2 for g < 0, R = lambda dg, K = lambda' dg dg^T + lambda D2g
-// with lambda = eps A g, lambda' = eps A.
+// One contact element: projection, gap, law, residual and tangent. What is not wanted is not computed.
 #pragma once
 
+#include "core/contact.hpp"
 #include "core/search.hpp"
-#include "core/xi_hessian.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -16,19 +13,13 @@ template <int N> ENTS_INLINE bool all_finite(const double* v) {
   return zero == 0.0;
 }
 
-template <class B> ENTS_INLINE bool inputs_finite(const ElementInput& in) {
+template <class B> ENTS_INLINE bool inputs_finite(const Plan& plan, const ElementInput& in) {
   constexpr int D = B::dim, T = D - 1;
+  for (int i = 0; i < plan.multipliers; ++i)
+    if (!all_finite<1>(in.multiplier + i)) return false;
   return all_finite<D>(in.slave) && all_finite<D * B::nodes>(in.master) &&
          (!in.surface_coordinates || all_finite<T * B::nodes>(in.surface_coordinates)) &&
          (!in.start || all_finite<T>(in.start)) && (!in.area || all_finite<1>(in.area));
-}
-
-// A block that ents_state_init or an evaluation wrote?
-template <int T> ENTS_INLINE bool is_state(const double* state) {
-  const double history = state[1];
-  return all_finite<2 + T>(state) && state[0] == state_tag(T) &&
-         (history == static_cast<double>(History::none) || history == static_cast<double>(History::open) ||
-          history == static_cast<double>(History::contact));
 }
 
 ENTS_INLINE Status status_of(Found found) {
@@ -59,6 +50,25 @@ template <int N> ENTS_INLINE void copy(const double (&from)[N], double* to) {
   for (int i = 0; i < N; ++i) to[i] = from[i];
 }
 
+inline constexpr int largest_state = 16;
+
+// A block of this layout, with finite numbers and a known history?
+ENTS_INLINE bool is_state(const StateLayout& layout, const double* state) {
+  double zero = 0.0;
+  for (int i = 0; i < layout.size; ++i) zero += 0.0 * state[i];
+  const double history = state[StateLayout::history_at];
+  return zero == 0.0 && state[StateLayout::tag_at] == layout.tag &&
+         (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
+}
+
+// The model's limit, or the size of the segment.
+template <class B, bool H> ENTS_INLINE double penetration_limit(const Plan& plan, const Projection<B, H>& p) {
+  if (plan.penetration_limit > 0.0) return plan.penetration_limit;
+  double size = dot(p.s.a[0], p.s.a[0]);
+  if constexpr (B::dim == 3) size += dot(p.s.a[1], p.s.a[1]);
+  return (B::simplex ? 1.0 : 2.0) * square_root(size);
+}
+
 // Second variations that few hosts ask for; kept out of the element's own instruction stream. False, and nothing
 // written, where a result would leave the range of double precision.
 template <class B, bool H, bool Rigid>
@@ -85,15 +95,31 @@ ENTS_NOINLINE bool write_hessians(const Geometry<B>& g, const Projection<B, H>& 
   return true;
 }
 
-template <class B, bool Rigid> ENTS_INLINE void write_open(const ElementOutput& out) {
-  constexpr int N = dof_count<B, Rigid>;
-  if (out.wanted & want::energy) *out.energy = 0.0;
-  if (out.wanted & want::pressure) *out.pressure = 0.0;
-  if (out.wanted & want::residual)
-    for (int i = 0; i < N; ++i) out.residual[i] = 0.0;
-  if (out.wanted & want::tangent)
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) out.tangent[j * out.tangent_leading_dimension + i] = 0.0;
+// Everything of the law for a pair that is not in contact.
+template <class B, bool H, bool Rigid>
+ENTS_INLINE void write_open(const Plan& plan, const ElementInput& in, const ContactForce<B::dim - 1>& c,
+                            const Kinematics<B, H, Rigid>& k, const ElementOutput& out) {
+  if (out.wanted & want::residual) write_residual(plan, in, c, k, false, out.residual);
+  if (out.wanted & want::tangent) {
+    const std::int64_t leading = out.tangent_leading_dimension;
+    for (int j = 0; j < dof_count<B, Rigid>; ++j)
+      for (int i = 0; i < dof_count<B, Rigid>; ++i) out.tangent[j * leading + i] = 0.0;
+    const double dt[B::dim - 1][dof_count<B, Rigid>] = {};
+    if (plan.multipliers > 0) write_multiplier_tangent(plan, c, k, false, dt, out.tangent, leading);
+  }
+}
+
+// T^a = A^ab t_b rho_e,a / A: the tangential traction that the slave exerts on the master
+template <class B, bool H>
+ENTS_INLINE void write_traction(const Projection<B, H>& p, const ContactForce<B::dim - 1>& c, double* out) {
+  constexpr int D = B::dim, T = D - 1;
+  Vec<double, D> v = Vec<double, D>::zero();
+  if (c.friction && c.area > 0.0) {
+    double raised[T];
+    multiply<T>(c.tangential.inverse_metric, c.tangential.force, raised);
+    for (int a = 0; a < T; ++a) add_scaled(v, raised[a] / c.area, p.s.e[a]);
+  }
+  for (int i = 0; i < D; ++i) out[i] = v[i];
 }
 
 template <class B, bool H, bool Rigid>
@@ -101,9 +127,9 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>;
   const std::int32_t wanted = out.wanted;
   const bool element = (wanted & want::element) != 0;
-  if (!inputs_finite<B>(in)) return Status::non_finite;
+  if (!inputs_finite<B>(plan, in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
-  if (in.state_begin && !is_state<T>(in.state_begin)) return Status::bad_state;
+  if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
 
   Geometry<B> g;
   g.set(in.slave, in.master);
@@ -114,12 +140,16 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
 
   // start: the history, else the caller's, else the whole segment
   Projection<B, H> p;
+  std::int32_t spent = 0;
   const double* start = in.start;
-  if (in.state_begin && in.state_begin[1] != static_cast<double>(History::none)) start = in.state_begin + 2;
+  History history = History::none;
+  if (in.state_begin) {
+    history = static_cast<History>(static_cast<int>(in.state_begin[StateLayout::history_at]));
+    if (history != History::none) start = in.state_begin + StateLayout::xi_at;
+  }
   std::int32_t flags = 0;
   Found found = Found::not_converged;
   bool ambiguous = false;
-  std::int32_t spent = 0;
   if (start) {
     for (int a = 0; a < T; ++a)  // a start out there has not escaped, it is only bad
       p.xi[a] = start[a] < -far_outside ? -far_outside : (start[a] > far_outside ? far_outside : start[a]);
@@ -141,69 +171,70 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (!(absolute(k.gap) < largest_ingredient) || !(max_norm(p.xi) < 1e15)) return Status::out_of_range;
   if (escaped || !on_segment<B>(p.xi)) flags |= flag::outside;
   if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) flags |= flag::far_side;
-  const double area = in.area ? *in.area : 1.0;
-  const bool contact = element && k.gap < 0.0 && !(flags & flag::outside);
-  if (contact) {
+
+  ContactForce<T> c{};
+  c.area = in.area ? *in.area : 1.0;
+  if (element) c.normal = normal_force(plan.law, k.gap, normal_multiplier(plan, in));
+  const bool pair = element && c.normal.contact && !(flags & flag::outside);
+  if (pair) {
     flags |= flag::contact;
     if (flags & flag::far_side) return Status::singular_projection;
     if (ambiguous) return Status::ambiguous_projection;
     // a ray that leaves the surface from behind would push the slave further in
     if (t.kind != ProjectionKind::normal && !(dot(k.normal, k.ray) > 1e-6)) return Status::grazing_ray;
-    double limit = plan.penetration_limit;
-    if (limit == 0.0) {
-      double size = dot(p.s.a[0], p.s.a[0]);
-      if constexpr (T == 2) size += dot(p.s.a[1], p.s.a[1]);
-      limit = (B::simplex ? 1.0 : 2.0) * square_root(size);
-    }
-    if (-k.gap > limit) return Status::deep_penetration;
+    if (-k.gap > penetration_limit(plan, p)) return Status::deep_penetration;
+    if (!(c.area * c.normal.stiffness < largest_ingredient) ||
+        !(absolute(c.area * c.normal.force) < largest_ingredient))
+      return Status::out_of_range;
+    // a pair that has just come into contact has no anchor yet: it gets one at the end
+    c.friction = plan.law.has_friction() && (history == History::stick || history == History::slip);
+  } else if (element && flags & flag::outside) {
+    c.normal.energy = 0.0;
   }
 
-  const bool tangent = contact && (wanted & want::tangent) && plan.tangent != TangentKind::first_variation;
-  const bool second = (wanted & (want::gap_hessian | want::xi_hessian)) != 0;
-  if ((wanted & want::kinematics) || (contact && (wanted & (want::residual | want::tangent))))
-    evaluate_gap_gradient(p, k);
-  const bool exact_xi = (wanted & (want::xi_gradient | want::xi_hessian | want::gap_hessian)) != 0;
-  const bool small_gap = plan.tangent == TangentKind::small_gap;
-  if (exact_xi || tangent) {
-    if (t.kind != ProjectionKind::normal && (second || tangent)) evaluate_surface<2>(g, p.xi, p.N, p.s);
-    if (t.kind == ProjectionKind::normal || second || tangent) evaluate_slopes(p, k);
+  const bool forces = pair && (wanted & (want::residual | want::tangent));
+  const bool second = pair && (wanted & want::tangent) && plan.tangent != TangentKind::first_variation;
+  const bool hessians = (wanted & (want::gap_hessian | want::xi_hessian)) != 0;
+  const bool exact_xi = (wanted & (want::xi_gradient | want::xi_hessian | want::gap_hessian)) != 0 || (forces && c.friction);
+  const bool friction_tangent = c.friction && (wanted & want::tangent);
+  if ((wanted & want::kinematics) || forces) evaluate_gap_gradient(p, k);
+  if (t.kind != ProjectionKind::normal && (hessians || second || friction_tangent))
+    evaluate_surface<2>(g, p.xi, p.N, p.s);
+  if (exact_xi || second) {
+    if (t.kind == ProjectionKind::normal || hessians || second) evaluate_slopes(p, k);
+    const bool small_gap = plan.tangent == TangentKind::small_gap;
     if (!evaluate_xi_gradient(p, t, !exact_xi && small_gap, k)) return Status::singular_projection;
   }
+  if (c.friction)
+    evaluate_friction(plan.law, p, in.state_begin + plan.state.anchor_at, tangential_multiplier(plan, in),
+                      -c.area * c.normal.force, c.area, c.tangential);
+  if (c.friction) flags |= c.tangential.slip ? flag::slip : flag::stick;
+  if (c.friction && c.tangential.at_shear_limit) flags |= flag::shear_limit;
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
 
   // all that may go out of range first: after it everything is written
-  const double stiffness = plan.penalty_stiffness * area, force = stiffness * k.gap;
-  GapProducts<B, H, Rigid> sum;
-  if (contact) {
-    if (!(stiffness < largest_ingredient) || !(absolute(force) < largest_ingredient)) return Status::out_of_range;
-    if (wanted & want::tangent) {
-      sum.add(k.gap_gradient, stiffness, k.gap_gradient);
-      if (tangent) {
-        if (exact_xi && small_gap) {
-          Kinematics<B, H, Rigid> approximate = k;
-          evaluate_xi_gradient(p, t, true, approximate);
-          add_second_variation(p, t, true, force, approximate, sum);
-          k.magnitude = approximate.magnitude;
-        } else {
-          add_second_variation(p, t, small_gap, force, k, sum);
-        }
-        if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
-      }
-    }
-  }
-  if (second && !write_hessians(g, p, t, plan, k, out)) return Status::out_of_range;
+  ContactTangent<B, H, Rigid> tangent;
+  if (pair && (wanted & want::tangent) && !tangent.evaluate(plan, g, p, t, c, k, exact_xi)) return Status::out_of_range;
+  if (hessians && !write_hessians(g, p, t, plan, k, out)) return Status::out_of_range;
 
-  if (contact) {
-    if (wanted & want::tangent) {
-      sum.write(out.tangent, out.tangent_leading_dimension);
-      if (tangent) add_turning_ray(k, k.c, force, out.tangent, out.tangent_leading_dimension);
-    }
-    if (wanted & want::residual)
-      for (int i = 0; i < N; ++i) out.residual[i] = force * k.gap_gradient[i];
-    if (wanted & want::energy) *out.energy = 0.5 * force * k.gap;
-    if (wanted & want::pressure) *out.pressure = -plan.penalty_stiffness * k.gap;
+  if (pair) {
+    if (wanted & want::tangent) tangent.write(plan, c, k, out.tangent, out.tangent_leading_dimension);
+    if (wanted & want::residual) write_residual(plan, in, c, k, true, out.residual);
   } else if (element) {
-    write_open<B, Rigid>(out);
+    write_open(plan, in, c, k, out);
+  }
+  if (wanted & want::energy) *out.energy = c.area * c.normal.energy;
+  if (wanted & want::pressure) *out.pressure = pair ? 0.0 - c.normal.force : 0.0;
+  if (wanted & want::traction) write_traction(p, c, out.traction);
+  if (element && (wanted & (want::state | want::slip | want::age | want::flags))) {
+    double end[largest_state];
+    end_state(plan, in, p, c, pair, escaped, end);
+    if (in.state_begin && end[StateLayout::history_at] != in.state_begin[StateLayout::history_at])
+      flags |= flag::changed;
+    if (wanted & want::state)
+      for (int i = 0; i < plan.state.size; ++i) out.state_end[i] = end[i];
+    if (wanted & want::slip) *out.slip = plan.state.slip_at >= 0 ? end[plan.state.slip_at] : 0.0;
+    if (wanted & want::age) *out.age = end[StateLayout::age_at];
   }
 
   if (wanted & want::xi) copy(p.xi, out.xi);
@@ -211,15 +242,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (wanted & want::normal_gap) *out.normal_gap = k.normal_gap;
   if (wanted & want::normal) copy(k.normal.c, out.normal);
   if (wanted & want::point)
-    for (int c = 0; c < D; ++c) out.point[c] = in.slave[c] - p.s.d[c];
+    for (int i = 0; i < D; ++i) out.point[i] = in.slave[i] - p.s.d[i];
   if (wanted & want::gap_gradient) copy(k.gap_gradient, out.gap_gradient);
   if (wanted & want::xi_gradient)
     for (int a = 0; a < T; ++a) copy(k.xi_gradient[a], out.xi_gradient + a * N);
-  if (wanted & want::state) {
-    out.state_end[0] = state_tag(T);
-    out.state_end[1] = static_cast<double>(escaped ? History::none : contact ? History::contact : History::open);
-    for (int a = 0; a < T; ++a) out.state_end[2 + a] = escaped ? 0.0 : p.xi[a];
-  }
   if (wanted & want::flags) *out.flags = flags;
   if (wanted & want::iterations) *out.iterations = spent + p.evaluations;
   return Status::ok;

@@ -5,12 +5,14 @@
 #include "core/element.hpp"
 #include "core/kernel_table.hpp"
 #include "core/surface_point.hpp"
+#include "core/transfer.hpp"
 
 namespace ents::ENTS_ISA {
 
 template <class B> inline constexpr KernelSet kernels_of = {
     {{evaluate_element<B, false, false>, evaluate_element<B, false, true>},
      {evaluate_element<B, true, false>, evaluate_element<B, true, true>}},
-    {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>}};
+    {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>},
+    {transfer_state<B, false>, transfer_state<B, true>}};
 
 }  // namespace ents::ENTS_ISA

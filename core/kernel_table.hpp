@@ -10,6 +10,7 @@ namespace ents {
 struct KernelSet {
   ElementKernel element[2][2];
   SurfaceKernel surface[2];
+  TransferKernel transfer[2];
 };
 
 namespace portable {

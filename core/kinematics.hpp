@@ -156,6 +156,23 @@ ENTS_INLINE bool evaluate_xi_gradient(const Projection<B, H>& p, const Target& t
   return true;
 }
 
+// The lower part of a column of a symmetric matrix, and its mirror image.
+template <bool Accumulate, int N>
+ENTS_INLINE void write_column(const double (&column)[N], int j, double* out, std::int64_t leading) {
+  if constexpr (Accumulate) {
+    out[j * leading + j] += column[j];
+    for (int i = j + 1; i < N; ++i) {
+      out[j * leading + i] += column[i];
+      out[i * leading + j] += column[i];
+    }
+  } else {
+    for (int i = j; i < N; ++i) {
+      out[j * leading + i] = column[i];
+      out[i * leading + j] = column[i];
+    }
+  }
+}
+
 // A matrix as a sum of products of dof vectors: sum_k u_k v_k^T, symmetric in total.
 template <int N, int Max> struct ProductSum {
   int count = 0;
@@ -174,16 +191,13 @@ template <int N, int Max> struct ProductSum {
     return b;
   }
   // lower triangle computed, upper one mirrored: exactly symmetric
-  ENTS_INLINE void write(double* out, std::int64_t leading) const {
+  template <bool Accumulate = false> ENTS_INLINE void write(double* out, std::int64_t leading) const {
     for (int j = 0; j < N; ++j) {
       double column[N];
       for (int i = j; i < N; ++i) column[i] = u[0][i] * v[0][j];
       for (int k = 1; k < count; ++k)
         for (int i = j; i < N; ++i) column[i] += u[k][i] * v[k][j];
-      for (int i = j; i < N; ++i) {
-        out[j * leading + i] = column[i];
-        out[i * leading + j] = column[i];
-      }
+      write_column<Accumulate>(column, j, out, leading);
     }
   }
 };
@@ -210,9 +224,13 @@ ENTS_INLINE void add_second_variation(const Projection<B, H>& p, const Target& t
     });
   double G[T][T] = {}, P[T][T] = {};
   for (int a = 0; a < T; ++a) P[a][a] = -1.0;
-  if (t.kind == ProjectionKind::normal && !small_gap)
-    for (int a = 0; a < T; ++a)
-      for (int b = 0; b < T; ++b) G[a][b] = k.gap * k.inverse_metric[symmetric_index(a, b)];
+  if (t.kind == ProjectionKind::normal && !small_gap) {
+    G[0][0] = k.gap * k.inverse_metric[0];
+    if constexpr (T == 2) {
+      G[0][1] = G[1][0] = k.gap * k.inverse_metric[1];
+      G[1][1] = k.gap * k.inverse_metric[2];
+    }
+  }
   double HP[T][T];
   for (int a = 0; a < T; ++a)
     for (int b = 0; b < T; ++b)

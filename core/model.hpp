@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/contact_law.hpp"
 #include "core/height_tree.hpp"
 
 namespace ents {
@@ -66,8 +67,7 @@ struct Model {
   std::vector<double> surface_coordinates; // [m][parameters]
   ProjectionKind projection = ProjectionKind::normal;
   double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
-  bool has_contact = false;
-  double penalty_stiffness = 0.0; // [F/L^3] (force per area and gap), > 0 with contact
+  ContactLaw law;                  // normal kind `none`: kinematics only
   TangentKind tangent = TangentKind::consistent;
   bool rigid_master = false;      // dofs of the slave alone
   double penetration_limit = 0.0; // [L]; 0: the size of the segment

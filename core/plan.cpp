@@ -26,6 +26,23 @@ const KernelSet& kernels_of(Basis basis) {
 
 }  // namespace
 
+StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law) {
+  StateLayout s{-1, -1, -1, StateLayout::xi_at + parameters, 0.0};
+  if (law.has_friction()) {
+    s.anchor_at = s.size;
+    s.slip_at = s.anchor_at + parameters;
+    s.size = s.slip_at + 1;
+  }
+  if (law.multiplier_in_state()) {
+    s.multiplier_at = s.size;
+    s.size += law.has_friction() ? 1 + parameters : 1;
+  }
+  constexpr double ents = 1701737587.0;  // the four letters
+  const int layout = (StateLayout::version * 4 + parameters) * 4 + 2 * law.has_friction() + law.multiplier_in_state();
+  s.tag = ents * 4096.0 + layout;
+  return s;
+}
+
 Plan make_plan(const Model& model) {
   const BasisEntry& basis = basis_entry(model.basis);
   const KernelSet& kernels = kernels_of(model.basis);
@@ -34,6 +51,7 @@ Plan make_plan(const Model& model) {
   Plan plan{};
   plan.element = kernels.element[enriched][model.rigid_master];
   plan.surface = kernels.surface[enriched];
+  plan.transfer = kernels.transfer[enriched];
   plan.height = enriched ? &model.height.root() : nullptr;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
@@ -42,13 +60,14 @@ Plan make_plan(const Model& model) {
   plan.projection = model.projection;
   plan.tangent = model.tangent;
   for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
-  plan.penalty_stiffness = model.has_contact ? model.penalty_stiffness : 0.0;
+  plan.law = model.law;
   plan.penetration_limit = model.penetration_limit;
   plan.dimension = basis.parameters + 1;
   plan.nodes = basis.nodes;
   plan.parameters = basis.parameters;
-  plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1);
-  plan.state_size = state_size_of(basis.parameters);
+  plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
+  plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
+  plan.state = make_state_layout(basis.parameters, model.law);
   return plan;
 }
 

@@ -43,14 +43,27 @@ enum : std::int32_t {
   state = 1 << 13,
   flags = 1 << 14,
   iterations = 1 << 15,
-  all = (1 << 16) - 1,
+  traction = 1 << 16,
+  slip = 1 << 17,
+  age = 1 << 18,
+  all = (1 << 19) - 1,
   kinematics = gap_gradient | gap_hessian | xi_gradient | xi_hessian,
-  element = energy | pressure | residual | tangent | state,
+  needs_law = energy | pressure | residual | tangent | traction | slip | age,
+  element = needs_law | state,
 };
 }
 
 namespace flag {
-enum : std::int32_t { contact = 1, outside = 2, far_side = 4, searched = 8 };
+enum : std::int32_t {
+  contact = 1,
+  outside = 2,
+  far_side = 4,
+  searched = 8,
+  stick = 16,
+  slip = 32,
+  shear_limit = 64,
+  changed = 128
+};
 }
 
 struct ElementInput {
@@ -60,6 +73,7 @@ struct ElementInput {
   const double* start;                // or null
   const double* area;                 // or null: 1
   const double* state_begin;          // or null
+  const double* multiplier;           // [multipliers] if the law has multiplier dofs
 };
 
 struct ElementOutput {
@@ -68,6 +82,7 @@ struct ElementOutput {
       *pressure, *residual, *tangent, *state_end;
   std::int64_t tangent_leading_dimension;
   std::int32_t *flags, *iterations;
+  double *traction, *slip, *age;
 };
 
 struct SurfacePoint {
@@ -75,14 +90,34 @@ struct SurfacePoint {
   double *curvature, *base_curvature;                          // largest |kappa| of rho_e and of rho; each or null
 };
 
+// State block of an element: where its parts are; -1: not part of it.
+enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 };  // stick: also without friction
+struct StateLayout {
+  static constexpr std::int32_t version = 1;
+  static constexpr std::int32_t tag_at = 0, history_at = 1;
+  static constexpr std::int32_t age_at = 2;  // increments since the last change of status
+  static constexpr std::int32_t xi_at = 3;   // [T]
+  std::int32_t anchor_at;                    // [T], friction
+  std::int32_t slip_at;                      // accumulated slip [L], friction
+  std::int32_t multiplier_at;                // [1] or, with friction, [1 + T]: augmented Lagrangian
+  std::int32_t size;
+  double tag;  // "ents", version and layout in one exactly representable number
+};
+StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law);
+
 struct Plan;
 using ElementKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&);
 using SurfaceKernel = Status (*)(const Plan&, const double* master, const double* surface_coordinates,
                                  const double* xi, const SurfacePoint&);
 
+using TransferKernel = Status (*)(const Plan&, const double* old_master, const double* old_coordinates,
+                                  const double* new_master, const double* new_coordinates, const double* state,
+                                  double* moved);
+
 struct Plan {
   ElementKernel element;
   SurfaceKernel surface;
+  TransferKernel transfer;
   const HeightNode* height;           // null: plain
   const double* surface_coordinates;  // the model's own, or null
   double feature_length[2];           // of the height, in s
@@ -90,19 +125,13 @@ struct Plan {
   ProjectionKind projection;
   TangentKind tangent;
   double ray[3];
-  double penalty_stiffness;
+  ContactLaw law;
   double penetration_limit;  // 0: the size of the segment
-  std::int32_t dimension, nodes, parameters, dofs, state_size;
+  std::int32_t dimension, nodes, parameters;
+  std::int32_t multipliers;  // dofs after those of the nodes
+  std::int32_t dofs;         // with multipliers
+  StateLayout state;
 };
-
-// State block of an element: tag, history, xi[T].
-inline constexpr std::int32_t state_version = 1;
-constexpr std::int32_t state_size_of(std::int32_t parameters) { return 2 + parameters; }
-// "ents", version and size in one exactly representable number
-constexpr double state_tag(std::int32_t parameters) {
-  return 1701737587.0 * 4096.0 + state_version * 64.0 + state_size_of(parameters);
-}
-enum class History : std::int32_t { none = 0, open = 1, contact = 2 };
 
 // The plan of a model; the model must outlive it.
 Plan make_plan(const Model& model);

@@ -122,7 +122,7 @@ ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step
 // From p.xi to the projection near it. On success p holds the surface at the projection; after `escaped`,
 // at the last point on the way out.
 template <class B, bool H>
-ENTS_INLINE Found project(const Geometry<B>& g, const Target& t, Projection<B, H>& p) {
+ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B, H>& p) {
   constexpr int T = B::dim - 1;
   const bool normal = t.kind == ProjectionKind::normal;
   double xi[T], step[T] = {}, previous_merit = 0.0, previous_length = 0.0;

@@ -15,7 +15,11 @@
 #define ENTS_ISA portable
 #endif
 
-#if defined(__GNUC__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ENTS_INLINE inline  // instrumented code inlined by force would take minutes to compile
+#define ENTS_LAMBDA_INLINE
+#define ENTS_NOINLINE
+#elif defined(__GNUC__)
 #define ENTS_INLINE inline __attribute__((always_inline))
 #define ENTS_LAMBDA_INLINE __attribute__((always_inline))
 #define ENTS_NOINLINE __attribute__((noinline))

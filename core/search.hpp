@@ -60,7 +60,7 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
 
 // Regular samples in a window; Newton from the best local minima among them.
 template <class B, bool H>
-Search search_window(const Geometry<B>& g, const Target& t, const double (&low)[B::dim - 1],
+ENTS_NOINLINE Search search_window(const Geometry<B>& g, const Target& t, const double (&low)[B::dim - 1],
                      const double (&high)[B::dim - 1], const int (&count)[B::dim - 1], Projection<B, H>& best) {
   constexpr int T = B::dim - 1, max_samples = 1024, max_candidates = 8;
   double value[max_samples];
@@ -139,7 +139,7 @@ Search search_window(const Geometry<B>& g, const Target& t, const double (&low)[
 
 // The whole segment.
 template <class B, bool H>
-Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& p) {
+ENTS_NOINLINE Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& p) {
   constexpr int T = B::dim - 1;
   double low[T], high[T];
   int count[T];

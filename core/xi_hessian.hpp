@@ -33,7 +33,7 @@ template <class B, bool Rigid> struct XiHessian {
     return b;
   }
   // lower triangle computed, upper one mirrored
-  ENTS_INLINE void write(double* out) const {
+  template <bool Accumulate = false> ENTS_INLINE void write(double* out, std::int64_t leading) const {
     for (int j = 0; j < N; ++j) {
       double column[N];
       for (int i = j; i < N; ++i) column[i] = 0.0;
@@ -42,17 +42,14 @@ template <class B, bool Rigid> struct XiHessian {
       if constexpr (!Rigid)
         for (int n = j / D, i = j; i < N; ++n, i += D)
           column[i] += weight[n] * weight1[j / D] + weight1[n] * weight[j / D];
-      for (int i = j; i < N; ++i) {
-        out[j * N + i] = column[i];
-        out[i * N + j] = column[i];
-      }
+      write_column<Accumulate>(column, j, out, leading);
     }
   }
 };
 
 // F_uu' and (F_xi,u)', F_xixi' at p along y, contracted with xi_u: sum = t . D2xi.
 template <class B, bool H, bool Rigid>
-ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H>& p, const double (&y)[B::dim - 1],
+ENTS_NOINLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H>& p, const double (&y)[B::dim - 1],
                                      const Kinematics<B, H, Rigid>& k, XiHessian<B, Rigid>& sum) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, N = dof_count<B, Rigid>;
   using S = Dual<double>;
@@ -122,54 +119,65 @@ ENTS_INLINE void directional_hessian(const Geometry<B>& g, const Projection<B, H
   }
 }
 
-// The direction along which t . D2xi is D2xi_a: y = - F_,xixi^-1 t, t the unit vector a.
+// The direction along which the blocks change in t . D2xi: y = - F_,xixi^-1 t.
 template <class B, bool H>
-ENTS_INLINE void direction_of(const Projection<B, H>& p, int a, double (&y)[B::dim - 1]) {
-  double unit[B::dim - 1] = {};
-  unit[a] = -1.0;
-  solve(p.f2, unit, y);
+ENTS_INLINE void direction_of(const Projection<B, H>& p, const double (&t)[B::dim - 1], double (&y)[B::dim - 1]) {
+  double minus[B::dim - 1];
+  for (int a = 0; a < B::dim - 1; ++a) minus[a] = -t[a];
+  solve(p.f2, minus, y);
 }
 
-// D2xi_a of the shadow projection but for the terms of a turning ray: the covector of xi_a in the place of that
-// of the gap.
-template <class B, bool H, bool Rigid>
-ENTS_INLINE void sum_shadow_hessian(const Projection<B, H>& p, const Target& t, const Kinematics<B, H, Rigid>& k, int a,
-                                    GapProducts<B, H, Rigid>& sum) {
-  Kinematics<B, H, Rigid> turned = k;
-  turned.c = k.onto[a];
-  evaluate_slopes(p, turned);
-  add_second_variation(p, t, false, 1.0, turned, sum);
-}
+// t_a D2xi^a of either projection, its size known before it is written. k holds the exact delta xi.
+template <class B, bool H, bool Rigid> struct ContractedXiHessian {
+  static constexpr int T = B::dim - 1;
+  bool normal;
+  XiHessian<B, Rigid> blocks;        // normal projection
+  GapProducts<B, H, Rigid> products; // shadow: the covector t_a c^a in the place of that of the gap
+  Vec<double, B::dim> covector;
 
-// out[T][N][N]; k holds the exact delta xi of this projection. False, and nothing written, where an entry might leave
-// the range of double precision.
+  ENTS_NOINLINE void evaluate(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
+                              const Kinematics<B, H, Rigid>& k, const double (&weight)[T]) {
+    normal = t.kind == ProjectionKind::normal;
+    if (normal) {
+      double y[T];
+      direction_of(p, weight, y);
+      directional_hessian(g, p, y, k, blocks);
+      return;
+    }
+    Kinematics<B, H, Rigid> turned = k;
+    turned.c = weight[0] * k.onto[0];
+    if constexpr (T == 2) add_scaled(turned.c, weight[1], k.onto[1]);
+    covector = turned.c;
+    evaluate_slopes(p, turned);
+    add_second_variation(p, t, false, 1.0, turned, products);
+  }
+  ENTS_INLINE double bound() const { return normal ? blocks.bound() : products.bound(); }
+  template <bool Accumulate>
+  ENTS_INLINE void write(const Kinematics<B, H, Rigid>& k, double* out, std::int64_t leading) const {
+    if (normal) {
+      blocks.template write<Accumulate>(out, leading);
+    } else {
+      products.template write<Accumulate>(out, leading);
+      add_turning_ray(k, covector, 1.0, out, leading);
+    }
+  }
+};
+
+// out[T][N][N]. False, and nothing written, where an entry would leave the range of double precision.
 template <class B, bool H, bool Rigid>
 ENTS_INLINE bool write_xi_hessian(const Geometry<B>& g, const Projection<B, H>& p, const Target& t,
                                   const Kinematics<B, H, Rigid>& k, double* out) {
   constexpr int T = B::dim - 1, N = dof_count<B, Rigid>;
+  ContractedXiHessian<B, H, Rigid> hessian[T];
   double bound = 0.0;
-  if (t.kind == ProjectionKind::normal) {
-    XiHessian<B, Rigid> sum[T];
-    for (int a = 0; a < T; ++a) {
-      double y[T];
-      direction_of(p, a, y);
-      directional_hessian(g, p, y, k, sum[a]);
-      bound += sum[a].bound();
-    }
-    if (!(bound < largest_result)) return false;
-    for (int a = 0; a < T; ++a) sum[a].write(out + a * N * N);
-  } else {
-    GapProducts<B, H, Rigid> sum[T];
-    for (int a = 0; a < T; ++a) {
-      sum_shadow_hessian(p, t, k, a, sum[a]);
-      bound += sum[a].bound();
-    }
-    if (!(bound < largest_result)) return false;
-    for (int a = 0; a < T; ++a) {
-      sum[a].write(out + a * N * N, N);
-      add_turning_ray(k, k.onto[a], 1.0, out + a * N * N, N);
-    }
+  for (int a = 0; a < T; ++a) {
+    double unit[T] = {};
+    unit[a] = 1.0;
+    hessian[a].evaluate(g, p, t, k, unit);
+    bound += hessian[a].bound();
   }
+  if (!(bound < largest_result)) return false;
+  for (int a = 0; a < T; ++a) hessian[a].template write<false>(k, out + a * N * N, N);
   return true;
 }
 

@@ -35,6 +35,7 @@ program procedures
   call expect(layout%dimension == 3 .and. layout%nodes == 4 .and. layout%parameters == 2 .and. layout%dofs == 15, "layout")
   call check_evaluate()
   call check_state()
+  call check_areas()
   call check_surface()
   call check_admissibility()
   call expect(ents_model_destroy(model, report) == ENTS_OK .and. .not. c_associated(model), "model_destroy clears the handle")
@@ -120,7 +121,53 @@ contains
     call expect(ents_state_init(model, 2_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_OK, "state_init")
     call expect(all(same(state(layout%state_size + 1, :), -7d0)), "state_init keeps to state_size")
     call expect(ents_state_init(model, -1_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_BAD_COUNT, "count < 0")
+    call check_transfer(state(:, 1))
+    call check_augment()
   end subroutine check_state
+
+  ! From the right edge of the segment to the left one of its neighbour.
+  subroutine check_transfer(state)
+    real(c_double), intent(inout) :: state(:)
+    real(c_double) :: moved(size(state)), neighbour(3, 4)
+    neighbour = master
+    neighbour(1, :) = neighbour(1, :) + 2
+    state(2) = 1 ! a projection has been seen, at xi = (1, 1/2)
+    state(4:5) = [1d0, 0.5d0]
+    call expect(ents_state_transfer(model, master, c_null_ptr, neighbour, c_null_ptr, state, moved, report) == ENTS_OK, &
+      "state_transfer: " // ents_string(report%message))
+    call expect(all(abs(moved(4:5) - [-1d0, 0.5d0]) < 1d-12), "the place on the neighbour")
+  end subroutine check_transfer
+
+  subroutine check_augment()
+    character(*), parameter :: text = '{"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 8.0}}}'
+    type(c_ptr) :: augmented
+    type(ents_layout) :: sizes
+    real(c_double), allocatable :: begin(:), end(:)
+    call expect(ents_model_create(text, len(text, c_int64_t), c_null_ptr, c_null_ptr, 0_c_int64_t, augmented, report) == ENTS_OK, &
+      "augmented model: " // ents_string(report%message))
+    call ents_init(sizes)
+    call expect(ents_model_layout(augmented, sizes, report) == ENTS_OK .and. sizes%augmentable == 1, "augmentable")
+    allocate (begin(sizes%state_size), end(sizes%state_size))
+    call expect(ents_state_init(augmented, 1_c_int64_t, begin, size(begin, kind=c_int64_t), report) == ENTS_OK, "state_init")
+    end = begin
+    end(sizes%state_size) = 3
+    call expect(ents_state_augment(augmented, 1_c_int64_t, begin, size(begin, kind=c_int64_t), end, size(end, kind=c_int64_t), &
+      report) == ENTS_OK, "state_augment")
+    call expect(same(begin(sizes%state_size), 3d0), "the multiplier moves to the begin state")
+    call expect(ents_model_destroy(augmented, report) == ENTS_OK, "model_destroy")
+  end subroutine check_augment
+
+  ! Two unit squares side by side, each a quarter of its area per node.
+  subroutine check_areas()
+    real(c_double) :: positions(3, 6) = reshape( &
+      [0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 2d0, 0d0, 0d0, 0d0, 1d0, 0d0, 1d0, 1d0, 0d0, 2d0, 1d0, 0d0], [3, 6])
+    integer(c_int64_t) :: connectivity(4, 2) = reshape([0_c_int64_t, 1_c_int64_t, 4_c_int64_t, 3_c_int64_t, &
+      1_c_int64_t, 2_c_int64_t, 5_c_int64_t, 4_c_int64_t], [4, 2])
+    real(c_double) :: areas(6)
+    call expect(ents_tributary_areas("quad4" // c_null_char, 2_c_int64_t, connectivity, 6_c_int64_t, positions, 0d0, areas, &
+      report) == ENTS_OK, "tributary_areas: " // ents_string(report%message))
+    call expect(all(abs(areas - [0.25d0, 0.5d0, 0.25d0, 0.25d0, 0.5d0, 0.25d0]) < 1d-15), "areas")
+  end subroutine check_areas
 
   subroutine check_surface()
     type(ents_surface) :: surface

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a pair whose slave moves on to another segment: points of the master surface (projection,
+// anchor) and tangential multipliers as the new segment sees them.
+#pragma once
+
+#include "core/element.hpp"
+
+namespace ents::ENTS_ISA {
+
+// s(xi) of a segment and its gradient [t][a]
+template <class B>
+ENTS_INLINE void coordinates_at(const double* c, const double (&xi)[B::dim - 1], double (&s)[B::dim - 1],
+                                double (&s1)[B::dim - 1][B::dim - 1]) {
+  constexpr int T = B::dim - 1;
+  Shape<double, T, B::nodes> N;
+  B::template shape<1>(xi, N);
+  for (int t = 0; t < T; ++t) {
+    s[t] = 0.0;
+    for (int a = 0; a < T; ++a) s1[t][a] = 0.0;
+    for (int i = 0; i < B::nodes; ++i) {
+      s[t] += N.n[i] * c[T * i + t];
+      for (int a = 0; a < T; ++a) s1[t][a] += N.d1[a][i] * c[T * i + t];
+    }
+  }
+}
+
+// xi with s(xi) = wanted, by Newton's method from the middle; exact after one step for affine s.
+template <class B>
+ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::dim - 1], double (&xi)[B::dim - 1]) {
+  constexpr int T = B::dim - 1;
+  domain_centre<B>(xi);
+  for (int iteration = 0; iteration < max_evaluations; ++iteration) {
+    double s[T], s1[T][T], step[T];
+    coordinates_at<B>(c, xi, s, s1);
+    for (int t = 0; t < T; ++t) s[t] = wanted[t] - s[t];
+    if constexpr (T == 1) {
+      if (s1[0][0] == 0.0) return false;
+      step[0] = s[0] / s1[0][0];
+    } else {
+      const double det = s1[0][0] * s1[1][1] - s1[0][1] * s1[1][0];
+      if (det == 0.0) return false;
+      step[0] = (s1[1][1] * s[0] - s1[0][1] * s[1]) / det;
+      step[1] = (s1[0][0] * s[1] - s1[1][0] * s[0]) / det;
+    }
+    for (int a = 0; a < T; ++a) xi[a] += step[a];
+    const double length = max_norm(step);
+    if (!(length < 1e6)) return false;
+    if (length < 1e-14 * (1.0 + max_norm(xi))) return true;
+  }
+  return max_norm(xi) < 1e6;
+}
+
+template <class B, bool H>
+Status transfer_state(const Plan& plan, const double* old_master, const double* old_coordinates,
+                      const double* new_master, const double* new_coordinates, const double* state, double* moved) {
+  constexpr int D = B::dim, T = D - 1;
+  const StateLayout& layout = plan.state;
+  if (!all_finite<D * B::nodes>(old_master) || !all_finite<D * B::nodes>(new_master) ||
+      (old_coordinates && !all_finite<T * B::nodes>(old_coordinates)) ||
+      (new_coordinates && !all_finite<T * B::nodes>(new_coordinates)))
+    return Status::non_finite;
+  if (!is_state(layout, state)) return Status::bad_state;
+  double end[largest_state];
+  for (int i = 0; i < layout.size; ++i) end[i] = state[i];
+  const bool seen = state[StateLayout::history_at] != static_cast<double>(History::none);
+  const int points[2] = {StateLayout::xi_at, layout.anchor_at};
+  Projection<B, H> from, to;
+  for (int which = 0; seen && which < 2; ++which) {
+    if (points[which] < 0) continue;
+    const double* old_xi = state + points[which];
+    double xi[T];
+    Geometry<B> g;
+    g.set(old_master, old_master);
+    g.surface_coordinates = old_coordinates ? old_coordinates : plan.surface_coordinates;
+    g.height = plan.height;
+    for (int a = 0; a < T; ++a) from.xi[a] = old_xi[a];
+    if (!evaluate_surface<1>(g, from.xi, from.N, from.s)) return Status::degenerate_segment;
+    if (old_coordinates && new_coordinates) {
+      double s[T], s1[T][T];
+      coordinates_at<B>(old_coordinates, from.xi, s, s1);
+      if (!locate_coordinates<B>(new_coordinates, s, xi)) return Status::no_projection;
+    } else {
+      double point[D];
+      for (int c = 0; c < D; ++c) point[c] = old_master[c] - from.s.d[c];
+      g.set(point, new_master);
+      g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
+      Target t{};
+      t.kind = ProjectionKind::normal;
+      if (search<B, H>(g, t, plan, to).found != Found::yes) return Status::no_projection;
+      for (int a = 0; a < T; ++a) xi[a] = to.xi[a];
+    }
+    for (int a = 0; a < T; ++a) end[points[which] + a] = xi[a];
+    if (which == 1 && layout.multiplier_at >= 0) {
+      // the multiplier's spatial vector, lowered with the new tangents
+      g.set(new_master, new_master);
+      g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
+      if (!evaluate_surface<1>(g, xi, to.N, to.s)) return Status::degenerate_segment;
+      double metric[symmetric_size<T>], inverse[symmetric_size<T>], covariant[T], raised[T];
+      for (int k = 0; k < symmetric_size<T>; ++k) metric[k] = dot(from.s.e[k / 2], from.s.e[(k + 1) / 2]);
+      invert(metric, determinant(metric), inverse);
+      for (int a = 0; a < T; ++a) covariant[a] = state[layout.multiplier_at + 1 + a];
+      multiply<T>(inverse, covariant, raised);
+      Vec<double, D> traction = Vec<double, D>::zero();
+      for (int a = 0; a < T; ++a) add_scaled(traction, raised[a], from.s.e[a]);
+      for (int a = 0; a < T; ++a) end[layout.multiplier_at + 1 + a] = dot(traction, to.s.e[a]);
+    }
+  }
+  for (int i = 0; i < layout.size; ++i) moved[i] = end[i];
+  return Status::ok;
+}
+
+}  // namespace ents::ENTS_ISA
