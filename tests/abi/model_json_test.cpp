@@ -91,7 +91,7 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
 }
 
 TEST(ModelJson, DirectionsOfAnyLengthBecomeUnitVectors) {
-  for (const std::string length : {"1", "1e-99", "1e99", "7"}) {
+  for (const std::string length : {"1", "1e-200", "1e99", "7"}) {
     const Model model =
         read_model(R"({"segment": "tri3", "projection": {"type": "shadow_direction", "direction": [)" +
                    length + ", -" + length + ", 0]}}");
@@ -387,6 +387,8 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
        "\"gaussian\""},
       {R"({"segment":"line2","height":{"type":"sinus"}})", ENTS_BAD_VALUE, "/height/type: is \"sinus\"",
        "\"sine\""},
+      {R"({"segment":"line2","height":{"type":"xyz"}})", ENTS_BAD_VALUE,
+       "/height/type: is \"xyz\"; write \"constant\"", ""},
       {R"({"segment":"line2","height":{"type":"constant"}})", ENTS_UNKNOWN_KEY,
        "/height: the key \"value\" is missing", ""},
       {R"({"segment":"line2","height":{"type":"constant","value":1,"phase":0}})", ENTS_UNKNOWN_KEY,

@@ -48,9 +48,9 @@ TEST(NumberText, TellsTooLargeFromTooSmall) {
         "1" + std::string(400, '0') + ".5", std::string("1e99999999999999999999")})
     EXPECT_EQ(read_number(text, value), NumberText::too_large) << text;
   EXPECT_EQ(value, 7.0);
-  for (const std::string& text :
-       {std::string("1e-400"), std::string("-1000e-400"), "0." + std::string(400, '0') + "1",
-        std::string("0e999999"), std::string("1e-99999999999999999999")})
+  for (const std::string& text : {std::string("1e-400"), std::string("-1000e-400"),
+                                  "0." + std::string(400, '0') + "1", "0." + std::string(400, '0') + "1e50",
+                                  std::string("0e999999"), std::string("1e-99999999999999999999")})
     EXPECT_EQ(read(text), 0.0) << text;
   EXPECT_EQ(read("4.9406564584124654e-324"), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(read("1.7976931348623157e308"), std::numeric_limits<double>::max());
