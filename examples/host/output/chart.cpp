@@ -153,19 +153,17 @@ std::string free_corner(const Chart& chart, const Scale& x, const Scale& y, std:
   return "";
 }
 
-std::string style_of(const Curve& curve, std::size_t index, std::size_t count,
-                     std::size_t points_per_marker) {
-  static constexpr const char* markers[] = {"7",  "5",  "9",
-                                            "13", "11", "15"}; // filled: circle, square, triangle ...
+std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
+  static constexpr const char* markers[] = {"7", "5", "9", "13", "11", "15"}; // filled: circle, square ...
   const std::string color =
       " linecolor rgb '" +
       (curve.style == Style::exact ? std::string(gnuplot::ink) : gnuplot::curve_color(index, count)) + "'";
-  const std::string marker = std::string(" pointtype ") +
-                             markers[count > std::size(markers) ? 0 : index % std::size(markers)] +
-                             " pointsize 0.75";
+  std::string marker = " pointtype ";
+  marker += markers[count > std::size(markers) ? 0 : index % std::size(markers)];
+  marker += curve.x.size() > 60 && curve.style == Style::points ? " pointsize 0.6" : " pointsize 0.85";
   switch (curve.style) {
   case Style::exact:
-    return "with lines linewidth 1.6" + color;
+    return "with lines linewidth 1.2" + color;
   case Style::line:
     return "with lines linewidth 1.8" + color;
   case Style::points:
@@ -180,7 +178,8 @@ std::string style_of(const Curve& curve, std::size_t index, std::size_t count,
   case Style::both:
     break;
   }
-  return "with linespoints linewidth 1.3 pointinterval " + std::to_string(points_per_marker) + marker + color;
+  const std::size_t every = std::max<std::size_t>(1, curve.x.size() / 30);
+  return "with linespoints linewidth 1.3 pointinterval " + std::to_string(every) + marker + color;
 }
 
 std::string guides(const Chart& chart, const Scale& x, const Scale& y) {
@@ -248,9 +247,9 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   job.data = "# " + chart.title + "\n# " + gnuplot::axis_label(chart.x.label, chart.x.unit) + "   " +
              gnuplot::axis_label(chart.y.label, chart.y.unit) + "\n";
 
-  std::string plot;
+  std::string computed, exact; // the exact line lies on top: dense markers do not hide it
   std::size_t block = 0, entries = 0, letters = 0, colored = 0;
-  const auto computed = static_cast<std::size_t>(std::count_if(
+  const auto colors = static_cast<std::size_t>(std::count_if(
       chart.curves.begin(), chart.curves.end(), [](auto& c) { return c.style != Style::exact; }));
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
@@ -259,15 +258,17 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
     job.data += "\n\n# " + label + "\n";
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       job.data += number(curve.x[i]) + " " + number(curve.y[i]) + "\n";
-    plot += std::string(plot.empty() ? "plot" : ", \\\n ") + " data index " + std::to_string(block++);
+    const bool on_top = curve.style == Style::exact;
+    std::string& plot = on_top ? exact : computed;
+    plot += ", \\\n data index " + std::to_string(block++);
     plot += " using ($1*" + number(x.unit) + "):($2*" + number(y.unit) + ") ";
-    const std::size_t every = std::max<std::size_t>(1, curve.x.size() / 30);
-    plot += style_of(curve, curve.style == Style::exact ? 0 : colored++, computed, every);
+    plot += style_of(curve, on_top ? 0 : colored++, colors);
     plot += label.empty() ? " notitle" : " title " + gnuplot::text(label);
     if (!label.empty())
       ++entries, letters = std::max(letters, static_cast<std::size_t>(display_width(label)));
   }
-  if (plot.empty()) return {{}, "picture " + name + ": nothing to draw"};
+  const std::string curves = computed + exact;
+  if (curves.empty()) return {{}, "picture " + name + ": nothing to draw"};
 
   const std::string corner = free_corner(chart, x, y, entries, letters);
   if (chart.equal_axes) // as high as the data ask for
@@ -284,7 +285,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   if (chart.equal_axes) job.script += "set size ratio -1\n";
   job.script += gnuplot::titles(chart.title, chart.subtitle) + axis_settings('x', chart.x, x) +
                 axis_settings('y', chart.y, y);
-  job.script += guides(chart, x, y) + slope_triangle(chart, x, y) + plot + "\n";
+  job.script += guides(chart, x, y) + slope_triangle(chart, x, y) + "plot" + curves.substr(1) + "\n";
   return gnuplot::render(job, directory, name);
 }
 
@@ -294,7 +295,7 @@ Chart residual_history(std::string title, const std::vector<std::vector<double>>
   chart.title = std::move(title);
   chart.subtitle = "near the solution an iteration should square the residual (quadratic convergence)";
   chart.x.label = "Newton iteration";
-  chart.y.label = "residual norm / first residual norm";
+  chart.y.label = "relative residual norm";
   chart.y.logarithmic = true;
   std::size_t longest = 0;
   for (const auto& step : steps) longest = std::max(longest, step.size());

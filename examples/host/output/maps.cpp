@@ -37,7 +37,7 @@ Range range_of(const Map& map) {
     out.max = std::max(std::abs(out.min), std::abs(out.max));
     out.min = -out.max;
   }
-  if (!(out.max > out.min)) out.max = out.min + std::max(1e-12, std::abs(out.min));
+  if (!(out.max > out.min)) out.max = out.min + (out.min != 0 ? std::abs(out.min) : 1); // a constant map
   return out;
 }
 

@@ -67,7 +67,7 @@ struct Chart {
 Outcome draw(const Chart& chart, const std::filesystem::path& directory, const std::string& name);
 
 /// Residual norms per Newton iteration, one curve per load step, semi-logarithmic.
-/// @param steps  [steps][iterations] residual norms relative to the first, > 0
+/// @param steps  [steps][iterations] residual norms, relative to the size of the forces; 0 is left out
 /// @param labels one per step, or empty
 Chart residual_history(std::string title, const std::vector<std::vector<double>>& steps,
                        const std::vector<std::string>& labels = {});
