@@ -1,0 +1,151 @@
+// Random elements of a law with states, anchors and multipliers, near contact.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "differences.hpp"
+#include "scene.hpp"
+
+namespace laws {
+
+using mechanics::Basis;
+using mechanics::Random;
+using nlohmann::json;
+
+struct Method {
+  std::string name;
+  json normal, friction;
+};
+inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+// Every normal law with every kind of friction. Lengths are of order 1, gaps of order 0.05.
+inline std::vector<Method> methods() {
+  const std::vector<json> normals = {
+      {{"type", "penalty"}, {"stiffness", 100.0}},
+      {{"type", "power"}, {"coefficient", 400.0}, {"exponent", 1.5}},
+      {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}},
+      {{"type", "augmented"}, {"stiffness", 100.0}},
+      {{"type", "augmented_multiplier"}, {"stiffness", 100.0}},
+      {{"type", "multiplier"}, {"stiffness", 100.0}}};
+  const std::vector<std::pair<std::string, json>> frictions = {
+      {"frictionless", nullptr},
+      {"coulomb", {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}},
+      {"shear_limit", {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}, {"shear_limit", 0.8}}},
+      {"rough", {{"type", "rough"}, {"stiffness", 80.0}}}};
+  std::vector<Method> all;
+  for (const json& normal : normals)
+    for (const auto& [name, friction] : frictions)
+      all.push_back({normal["type"].get<std::string>() + "_" + name, normal, friction});
+  return all;
+}
+
+// Elements with a state that has been in contact at an anchor, and values of the multiplier dofs.
+struct LawElements {
+  mechanics::Elements at;
+  std::vector<double> state, multiplier;
+  ents_layout layout{};
+};
+
+inline ents_layout layout_of(const ents_model* model) {
+  ents_layout layout{};
+  layout.struct_size = sizeof layout;
+  if (ents_model_layout(model, &layout, nullptr) != ENTS_OK) throw std::runtime_error("ents_model_layout");
+  return layout;
+}
+
+// elastic: how far, in natural coordinates, the anchor may lie from the projection
+inline LawElements draw(Random& random, const mechanics::Scene& scene, const mechanics::Model& model,
+                        std::int64_t count, double elastic) {
+  LawElements e;
+  e.at = draw_elements(random, scene, model, count, -0.1, 0.02);
+  e.layout = layout_of(model.handle());
+  const std::size_t n = static_cast<std::size_t>(count), size = static_cast<std::size_t>(e.layout.state_size),
+                    t = static_cast<std::size_t>(e.layout.parameters),
+                    m = static_cast<std::size_t>(e.layout.multipliers);
+  e.at.area.resize(n);
+  for (double& area : e.at.area) area = random.uniform(0.2, 1.5);
+  e.state.resize(n * size);
+  ents_state_init(model.handle(), count, e.state.data(), e.layout.state_size, nullptr);
+  e.multiplier.resize(n * m);
+  for (std::size_t i = 0; i < n; ++i) {
+    double* s = &e.state[i * size];
+    s[1] = 2.0;  // in contact at the begin of the increment
+    std::size_t next = 3;
+    for (std::size_t a = 0; a < t; ++a) s[next++] = e.at.start[i * t + a];
+    if (e.layout.friction) {
+      for (std::size_t a = 0; a < t; ++a) s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
+      s[next++] = random.uniform(0.0, 1.0);  // slip so far
+    }
+    if (e.layout.augmentable) {
+      s[next++] = random.uniform(0.0, 3.0);
+      while (next < size) s[next++] = random.uniform(-0.5, 0.5);
+    }
+    for (std::size_t k = 0; k < m; ++k)
+      e.multiplier[i * m + k] = k == 0 ? random.uniform(0.0, 3.0) : random.uniform(-0.5, 0.5);
+  }
+  return e;
+}
+
+struct LawResults {
+  std::vector<std::int32_t> status, flags;
+  std::vector<double> residual, tangent, pressure, traction, state;
+};
+
+inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r) {
+  const ents_layout& l = e.layout;
+  const std::int64_t count = e.at.count, d = l.dimension, n = l.dofs;
+  const auto sized = [&](auto& array, std::int64_t entries) { array.resize(static_cast<std::size_t>(count * entries)); };
+  sized(r.status, 1);
+  sized(r.flags, 1);
+  sized(r.residual, n);
+  if (wanted & ENTS_TANGENT) sized(r.tangent, n * n);
+  sized(r.pressure, 1);
+  sized(r.traction, d);
+  sized(r.state, l.state_size);
+  ents_input in{};
+  in.struct_size = sizeof in;
+  in.slave = e.at.slave.data();
+  in.slave_stride = d;
+  in.master = e.at.master.data();
+  in.master_stride = d * l.nodes;
+  in.surface_coordinates = e.at.surface_coordinates.empty() ? nullptr : e.at.surface_coordinates.data();
+  in.surface_coordinates_stride = l.parameters * l.nodes;
+  in.area = e.at.area.data();
+  in.area_stride = 1;
+  in.state_begin = e.state.data();
+  in.state_begin_stride = l.state_size;
+  in.multiplier = e.multiplier.data();
+  in.multiplier_stride = l.multipliers;
+  ents_output out{};
+  out.struct_size = sizeof out;
+  out.wanted = wanted;
+  out.status = r.status.data();
+  out.status_stride = 1;
+  out.flags = r.flags.data();
+  out.flags_stride = 1;
+  out.residual = r.residual.data();
+  out.residual_stride = n;
+  out.tangent = r.tangent.data();
+  out.tangent_stride = n * n;
+  out.pressure = r.pressure.data();
+  out.pressure_stride = 1;
+  out.traction = r.traction.data();
+  out.traction_stride = d;
+  out.state_end = r.state.data();
+  out.state_end_stride = l.state_size;
+  ents_report report{};
+  report.struct_size = sizeof report;
+  if (ents_evaluate(model.handle(), 0, count, &in, &out, &report) < 0) throw std::runtime_error(report.message);
+}
+
+inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method) {
+  json text = scene.model();
+  text["contact"] = {{"normal", method.normal}, {"friction", method.friction}};
+  return mechanics::Model(text.dump());
+}
+
+}  // namespace laws

@@ -1,0 +1,188 @@
+// The cone, invariance, and the life of a state: begin untouched, cut and uncut increments, augmentation, transfer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "law_elements.hpp"
+#include "samples.hpp"
+
+namespace laws {
+namespace {
+
+double length_of(const double* v, std::size_t d) {
+  double s = 0.0;
+  for (std::size_t i = 0; i < d; ++i) s += v[i] * v[i];
+  return std::sqrt(s);
+}
+
+const Method coulomb = {"coulomb",
+                        {{"type", "penalty"}, {"stiffness", 100.0}},
+                        {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}};
+
+// |t| = |A^ab t_b rho_e,a|: two multiplications with the metric and its inverse and a norm, each within a few units in the last
+// place times the metric's condition (below 10 here).
+TEST(Cone, TractionNeverExceedsMuTimesPressure) {
+  Random random(5);
+  double worst = 0.0;
+  std::int64_t slips = 0;
+  for (const Basis& basis : mechanics::bases())
+    for (const char* projection : mechanics::projections) {
+      const mechanics::Scene scene = draw_scene(random, basis, "sine", projection);
+      const mechanics::Model model = model_of(scene, coulomb);
+      const LawElements e = draw(random, scene, model, mechanics::samples(1000), 0.05);
+      LawResults r;
+      evaluate(model, e, ENTS_FLAGS | ENTS_PRESSURE | ENTS_TRACTION, r);
+      const std::size_t d = static_cast<std::size_t>(e.layout.dimension);
+      for (std::size_t i = 0; i < r.status.size(); ++i) {
+        if (r.status[i] != ENTS_OK || !(r.flags[i] & ENTS_FLAG_CONTACT)) continue;
+        const double limit = 0.3 * r.pressure[i], t = length_of(&r.traction[i * d], d);
+        worst = std::max(worst, (t - limit) / limit);
+        if (r.flags[i] & ENTS_FLAG_SLIP) {
+          ++slips;
+          EXPECT_NEAR(t, limit, 1e-14 * limit);
+        }
+      }
+    }
+  EXPECT_GT(slips, mechanics::samples(5000));
+  EXPECT_LE(worst, 1e-14);
+  std::cout << slips << " slipping elements, worst (|t| - mu p) / mu p: " << worst << "\n";
+}
+
+// Forces balance: gap and xi do not change when everything moves together. Normal projection: so do moments.
+TEST(Balance, OfForcesAndOfMomentsWithFriction) {
+  Random random(6);
+  double worst_force = 0.0, worst_moment = 0.0;
+  for (const Basis& basis : mechanics::bases()) {
+    const mechanics::Scene scene = draw_scene(random, basis, "sine", "normal");
+    const mechanics::Model model = model_of(scene, coulomb);
+    const LawElements e = draw(random, scene, model, mechanics::samples(1000), 0.05);
+    LawResults r;
+    evaluate(model, e, ENTS_FLAGS | ENTS_RESIDUAL, r);
+    const std::size_t d = static_cast<std::size_t>(e.layout.dimension), n = static_cast<std::size_t>(e.layout.dofs);
+    for (std::size_t i = 0; i < r.status.size(); ++i) {
+      if (r.status[i] != ENTS_OK || !(r.flags[i] & (ENTS_FLAG_STICK | ENTS_FLAG_SLIP))) continue;
+      const double* R = &r.residual[i * n];
+      const std::vector<double> x = mechanics::dofs_of(e.at, static_cast<std::int64_t>(i), basis);
+      double force[3] = {}, moment[3] = {};
+      for (std::size_t node = 0; node < n / d; ++node) {
+        double p[3] = {}, f[3] = {};
+        for (std::size_t c = 0; c < d; ++c) {
+          f[c] = R[node * d + c];
+          p[c] = x[node * d + c] - x[c];
+          force[c] += f[c];
+        }
+        for (int c = 0; c < 3; ++c) moment[c] += p[(c + 1) % 3] * f[(c + 2) % 3] - p[(c + 2) % 3] * f[(c + 1) % 3];
+      }
+      const double scale = mechanics::largest_entry(R, n);
+      worst_force = std::max(worst_force, length_of(force, 3) / scale);
+      worst_moment = std::max(worst_moment, length_of(moment, 3) / scale);
+    }
+  }
+  EXPECT_LE(worst_force, 1e-13);
+  EXPECT_LE(worst_moment, 1e-12);
+  std::cout << "worst force " << worst_force << ", worst moment " << worst_moment << "\n";
+}
+
+// A slave node over a flat line2 from (0, 0) to (length, 0), pressed in by 0.01.
+struct Slide {
+  explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})")
+      : model(R"({"segment": "line2", "contact": {"normal": )" + normal +
+              R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})") {
+    elements.layout = layout_of(model.handle());
+    elements.at.count = 1;
+    elements.at.area = {1.0};
+    elements.state.resize(static_cast<std::size_t>(elements.layout.state_size));
+    elements.multiplier.resize(static_cast<std::size_t>(elements.layout.multipliers));
+    ents_state_init(model.handle(), 1, elements.state.data(), elements.layout.state_size, nullptr);
+  }
+  void segment(double from, double to) { elements.at.master = {from, 0.0, to, 0.0}; }
+  void evaluate_at(double x, double y = -0.01) {
+    elements.at.slave = {x, y};
+    evaluate(model, elements, ENTS_FLAGS | ENTS_RESIDUAL | ENTS_TRACTION | ENTS_STATE, results);
+    ASSERT_EQ(results.status[0], ENTS_OK);
+  }
+  void commit() { elements.state = results.state; }
+
+  mechanics::Model model;
+  LawElements elements;
+  LawResults results;
+};
+
+TEST(State, SticksThenSlipsAtTheConeAndComesBack) {
+  Slide s;
+  s.segment(0.0, 1.0);
+  s.evaluate_at(0.3);
+  EXPECT_EQ(s.results.traction[0], 0.0) << "no anchor before the first contact";
+  s.commit();
+  s.evaluate_at(0.305);
+  EXPECT_NEAR(s.results.traction[0], 50 * 0.005, 1e-13) << "elastic: stiffness times slip";
+  s.evaluate_at(0.4);
+  EXPECT_NEAR(s.results.traction[0], 0.5 * 1.0, 1e-14) << "mu p";
+  s.commit();
+  s.evaluate_at(0.4 - 0.01);
+  EXPECT_NEAR(s.results.traction[0], 0.0, 1e-13) << "unloaded by the elastic slip mu p / stiffness";
+}
+
+TEST(State, TrialsLeaveNoTrace) {
+  Slide once, often;
+  for (Slide* s : {&once, &often}) {
+    s->segment(0.0, 1.0);
+    s->evaluate_at(0.3);
+    s->commit();
+  }
+  for (int i = 0; i < 50; ++i) often.evaluate_at(0.2 + 0.01 * i);
+  for (Slide* s : {&once, &often}) s->evaluate_at(0.32);
+  EXPECT_EQ(once.results.state, often.results.state);
+  EXPECT_EQ(once.results.residual, often.results.residual);
+}
+
+// One long segment against a row of ten: the state moves along with ents_state_transfer.
+TEST(State, RowOfSegmentsSlidesLikeOneLongSegment) {
+  Slide one, row;
+  one.segment(0.0, 10.0);
+  double x = 0.45;
+  int at = 0;
+  row.segment(0.0, 1.0);
+  double worst = 0.0;
+  for (int increment = 0; increment < 180; ++increment, x += increment % 7 == 3 ? -0.031 : 0.061) {
+    if (const int now = static_cast<int>(std::floor(x)); now != at) {
+      const std::vector<double> before = row.elements.at.master;
+      row.segment(now, now + 1);
+      std::vector<double> moved(row.elements.state.size());
+      ASSERT_EQ(ents_state_transfer(row.model.handle(), before.data(), nullptr, row.elements.at.master.data(), nullptr,
+                                    row.elements.state.data(), moved.data(), nullptr),
+                ENTS_OK);
+      row.elements.state = moved;
+      at = now;
+    }
+    one.evaluate_at(x);
+    row.evaluate_at(x);
+    worst = std::max(worst, std::fabs(one.results.traction[0] - row.results.traction[0]));
+    EXPECT_EQ(one.results.flags, row.results.flags) << "increment " << increment;
+    one.commit();
+    row.commit();
+  }
+  EXPECT_GT(at, 5);
+  EXPECT_LE(worst, 1e-10);
+  std::cout << "worst difference of the traction: " << worst << "\n";
+}
+
+// Uzawa: with the slave held at a penetration, multipliers grow by stiffness times gap; the begin of the increment stays.
+TEST(State, AugmentationMovesTheMultipliersOnly) {
+  Slide s(R"({"type": "augmented", "stiffness": 100})");
+  s.segment(0.0, 1.0);
+  s.evaluate_at(0.3);
+  s.commit();
+  s.evaluate_at(0.302);
+  const std::vector<double> begin = s.elements.state;
+  const std::size_t size = begin.size();
+  ASSERT_EQ(ents_state_augment(s.model.handle(), 1, s.elements.state.data(), s.elements.layout.state_size,
+                               s.results.state.data(), s.elements.layout.state_size, nullptr),
+            ENTS_OK);
+  EXPECT_NEAR(s.elements.state[size - 2], begin[size - 2] + 1.0, 1e-12);
+  for (std::size_t i = 0; i + 2 < size; ++i) EXPECT_EQ(s.elements.state[i], begin[i]) << i;
+}
+
+}  // namespace
+}  // namespace laws

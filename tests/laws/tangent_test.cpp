@@ -1,0 +1,141 @@
+// K is the derivative of R along a random direction of all dofs, multipliers included: open, stick, slip, at the
+// shear limit, for every method, basis and projection, with and without height.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <iostream>
+
+#include "law_elements.hpp"
+#include "samples.hpp"
+
+namespace laws {
+namespace {
+
+// As in tests/mechanics/element_derivatives_test.cpp: rounding 1e-15 / step; truncation step^4 over the fourth power of the length
+// in which the response changes: the elastic slip, the distance of the gap from the end of the law (0.005 here,
+// but any smaller value occurs). An element that misses the tolerance is repeated with an eighth of the step, at most
+// three times (then rounding is 5e-9), and has to pass.
+constexpr double step = 1e-4;
+constexpr double tolerance = 1e-7;
+constexpr std::int32_t branch = ENTS_FLAG_CONTACT | ENTS_FLAG_STICK | ENTS_FLAG_SLIP | ENTS_FLAG_SHEAR_LIMIT | ENTS_FLAG_OUTSIDE;
+
+struct Count {
+  std::int64_t checked = 0, open = 0, stick = 0, slip = 0, limit = 0, crossing = 0, flagged = 0, repeated = 0;
+};
+
+class LawTangent : public testing::TestWithParam<Method> {
+protected:
+  // The elements of the stencil: every dof moves along v.
+  static LawElements moved(const LawElements& e, const Basis& basis, const std::vector<double>& v, double t) {
+    LawElements out = e;
+    const std::size_t nodes = static_cast<std::size_t>(basis.dofs()), m = static_cast<std::size_t>(e.layout.multipliers),
+                      points = mechanics::stencil_points, count = static_cast<std::size_t>(e.at.count);
+    const std::size_t size = static_cast<std::size_t>(e.layout.state_size);
+    std::vector<double> node_directions;
+    for (std::size_t i = 0; i < count; ++i)
+      node_directions.insert(node_directions.end(), &v[i * (nodes + m)], &v[i * (nodes + m)] + nodes);
+    out.at = mechanics::stencil(e.at, basis, node_directions, t, {});
+    out.state.resize(count * points * size);
+    out.multiplier.resize(count * points * m);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < points; ++k) {
+        std::copy_n(&e.state[i * size], size, &out.state[(i * points + k) * size]);
+        for (std::size_t a = 0; a < m; ++a)
+          out.multiplier[(i * points + k) * m + a] =
+              e.multiplier[i * m + a] + mechanics::stencil_offsets[k] * t * v[i * (nodes + m) + nodes + a];
+      }
+    return out;
+  }
+
+  static double error_of(const LawResults& centre, const LawResults& points, std::size_t e, const double* v, std::size_t n,
+                         double t) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      double exact = 0.0;
+      for (std::size_t j = 0; j < n; ++j) exact += centre.tangent[(e * n + j) * n + i] * v[j];
+      worst = std::max(worst, std::fabs(mechanics::difference(&points.residual[mechanics::stencil_points * e * n + i], n, t) - exact));
+    }
+    if (worst == 0.0) return 0.0;  // open: nothing, and its derivative nothing
+    return worst / mechanics::largest_entry(&centre.tangent[e * n * n], n * n);
+  }
+
+  static bool same_branch(const LawResults& centre, const LawResults& points, std::size_t e, bool& flagged) {
+    flagged = centre.status[e] != ENTS_OK;
+    bool same = true;
+    for (std::size_t k = mechanics::stencil_points * e; k < mechanics::stencil_points * (e + 1); ++k) {
+      flagged = flagged || points.status[k] != ENTS_OK;
+      same = same && (points.flags[k] & branch) == (centre.flags[e] & branch);
+    }
+    return same;
+  }
+
+  void check(const mechanics::Scene& scene, const mechanics::Model& model, const LawElements& e, Random& random) {
+    const std::size_t n = static_cast<std::size_t>(e.layout.dofs);
+    const std::vector<double> v = mechanics::draw_directions(random, e.at.count, e.layout.dofs);
+    LawResults centre, points;
+    std::array<LawResults, 3> finer;
+    evaluate(model, e, ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS, centre);
+    evaluate(model, moved(e, *scene.basis, v, step), ENTS_RESIDUAL | ENTS_FLAGS, points);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(e.at.count); ++i) {
+      bool flagged = false;
+      const bool same = same_branch(centre, points, i, flagged);
+      count_.flagged += flagged;
+      count_.crossing += !flagged && !same;
+      if (flagged || !same) continue;
+      double error = error_of(centre, points, i, &v[i * n], n, step);
+      count_.repeated += !(error <= tolerance);
+      double t = step;
+      for (LawResults& again : finer) {
+        if (error <= tolerance) break;
+        t /= 8.0;
+        if (again.status.empty()) evaluate(model, moved(e, *scene.basis, v, t), ENTS_RESIDUAL | ENTS_FLAGS, again);
+        error = error_of(centre, again, i, &v[i * n], n, t);
+      }
+      ++count_.checked;
+      count_.open += (centre.flags[i] & ENTS_FLAG_CONTACT) == 0;
+      count_.stick += (centre.flags[i] & ENTS_FLAG_STICK) != 0;
+      count_.slip += (centre.flags[i] & ENTS_FLAG_SLIP) != 0;
+      count_.limit += (centre.flags[i] & ENTS_FLAG_SHEAR_LIMIT) != 0;
+      worst_.see(error, [&] { return scene.basis->name + " " + scene.projection + " " + scene.height.dump() + " element " + std::to_string(i); });
+    }
+  }
+
+  Count count_;
+  mechanics::Worst worst_;
+};
+
+TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
+  const std::int64_t goal = mechanics::samples(100000);
+  Random random(1991);
+  int round = 0;
+  while (count_.checked < goal && round < 50) {
+    ++round;
+    for (const Basis& basis : mechanics::bases())
+      for (const char* projection : mechanics::projections)
+        for (const char* height : {"none", "sine", "gaussian"}) {
+          const mechanics::Scene scene = draw_scene(random, basis, height, projection);
+          const mechanics::Model model = model_of(scene, GetParam());
+          // far and near the border of stick and slip
+          check(scene, model, draw(random, scene, model, mechanics::samples(300), random.coin() ? 0.05 : 0.01), random);
+        }
+  }
+  EXPECT_GE(count_.checked, goal);
+  EXPECT_LE(worst_.error, tolerance) << worst_.where;
+  EXPECT_LE(count_.repeated, count_.checked / 50);
+  EXPECT_GT(count_.open, goal / 100);
+  if (!GetParam().friction.is_null()) {
+    EXPECT_GT(count_.stick, goal / 100);
+    const bool slips = GetParam().friction["type"] == "coulomb", limited = GetParam().friction.contains("shear_limit");
+    EXPECT_TRUE(!slips || count_.slip > goal / 100);
+    EXPECT_TRUE(!limited || count_.limit > goal / 100);
+  }
+  std::cout << GetParam().name << ": " << count_.checked << " checked (" << count_.open << " open, " << count_.stick << " stick, "
+            << count_.slip << " slip, " << count_.limit << " at the shear limit; skipped: " << count_.flagged << " flagged, "
+            << count_.crossing << " across a border), worst error " << worst_.error << ", " << count_.repeated << " repeated\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Method, LawTangent, testing::ValuesIn(methods()),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+}  // namespace
+}  // namespace laws
