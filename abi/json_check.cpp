@@ -163,6 +163,11 @@ void check_array(const json& value, const std::string& path, std::size_t most, s
              " " + std::string(of_what));
 }
 
+bool read_bool(const json& value, const std::string& path) {
+  if (!value.is_boolean()) fail(ENTS_BAD_VALUE, path, "is " + kind_of(value) + "; write true or false");
+  return value.get<bool>();
+}
+
 const std::string& read_text(const json& value, const std::string& path) {
   if (!value.is_string()) fail(ENTS_BAD_VALUE, path, "is " + kind_of(value) + "; write a text");
   return value.get_ref<const std::string&>();

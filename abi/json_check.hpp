@@ -45,6 +45,8 @@ std::vector<double> read_vector(const nlohmann::json& value, const std::string& 
 void check_array(const nlohmann::json& value, const std::string& path, std::size_t most,
                  std::string_view of_what);
 
+bool read_bool(const nlohmann::json& value, const std::string& path);
+
 const std::string& read_text(const nlohmann::json& value, const std::string& path);
 
 // Index of the text among `names`.

@@ -71,26 +71,34 @@ void read_projection(const json& value, Model& model) {
 void read_normal(const json& normal, const std::string& path, ContactLaw& law) {
   switch (read_type(normal, path,
                     {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier"})) {
-    case 1: {
-      check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
-      law.normal = NormalKind::power;
-      law.stiffness = read_double(normal, path, "coefficient", Range::positive);
-      const double exponent = read_double(normal, path, "exponent", Range::positive);
-      if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
-        fail(ENTS_BAD_VALUE, member(path, "exponent"), "must be 1, 1.5, 2, ... 20 (a multiple of 1/2)");
-      law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
-      return;
-    }
-    case 2:
-      check_keys(normal, path, {"type", "pressure", "clearance"}, {});
-      law.normal = NormalKind::exponential;
-      law.pressure = read_double(normal, path, "pressure", Range::positive);
-      law.clearance = read_double(normal, path, "clearance", Range::positive);
-      return;
-    case 0: law.normal = NormalKind::penalty; break;
-    case 3: law.normal = NormalKind::augmented; break;
-    case 4: law.normal = NormalKind::augmented_multiplier; break;
-    default: law.normal = NormalKind::multiplier; break;
+  case 1: {
+    check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
+    law.normal = NormalKind::power;
+    law.stiffness = read_double(normal, path, "coefficient", Range::positive);
+    const double exponent = read_double(normal, path, "exponent", Range::positive);
+    if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
+      fail(ENTS_BAD_VALUE, member(path, "exponent"), "is not among 1, 1.5, 2, 2.5 .. 20; write one of them");
+    law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
+    return;
+  }
+  case 2:
+    check_keys(normal, path, {"type", "pressure", "clearance"}, {});
+    law.normal = NormalKind::exponential;
+    law.pressure = read_double(normal, path, "pressure", Range::positive);
+    law.clearance = read_double(normal, path, "clearance", Range::positive);
+    return;
+  case 0:
+    law.normal = NormalKind::penalty;
+    break;
+  case 3:
+    law.normal = NormalKind::augmented;
+    break;
+  case 4:
+    law.normal = NormalKind::augmented_multiplier;
+    break;
+  default:
+    law.normal = NormalKind::multiplier;
+    break;
   }
   check_keys(normal, path, {"type", "stiffness"}, {});
   law.stiffness = read_double(normal, path, "stiffness", Range::positive);
@@ -105,7 +113,8 @@ void read_friction(const json& friction, const std::string& path, ContactLaw& la
     check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
     law.friction = FrictionKind::coulomb;
     law.friction_coefficient = read_double(friction, path, "coefficient", Range::positive);
-    law.shear_limit = friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
+    law.shear_limit =
+        friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
   }
   law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
 }
@@ -116,11 +125,8 @@ void read_contact(const json& value, Model& model) {
   read_normal(value.at("normal"), member(path, "normal"), model.law);
   if (value.contains("friction") && !value.at("friction").is_null())
     read_friction(value.at("friction"), member(path, "friction"), model.law);
-  if (value.contains("symmetrised")) {
-    const json& symmetrised = value.at("symmetrised");
-    if (!symmetrised.is_boolean()) fail(ENTS_BAD_VALUE, member(path, "symmetrised"), "must be true or false");
-    model.law.symmetrised = symmetrised.get<bool>();
-  }
+  if (value.contains("symmetrised"))
+    model.law.symmetrised = read_bool(value.at("symmetrised"), member(path, "symmetrised"));
 }
 
 } // namespace

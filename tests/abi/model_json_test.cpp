@@ -45,7 +45,9 @@ TEST(ModelJson, TheSegmentAloneIsAModel) {
   EXPECT_EQ(model.height.dimension(), 2);
   EXPECT_FALSE(model.own_surface_coordinates);
   EXPECT_EQ(model.projection, ProjectionKind::normal);
-  EXPECT_FALSE(model.has_contact);
+  EXPECT_EQ(model.law.normal, NormalKind::none);
+  EXPECT_EQ(model.law.friction, FrictionKind::none);
+  EXPECT_FALSE(model.law.symmetrised);
   EXPECT_EQ(model.tangent, TangentKind::consistent);
   EXPECT_FALSE(model.rigid_master);
   EXPECT_EQ(model.penetration_limit, 0.0);
@@ -77,8 +79,8 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
   EXPECT_EQ(model.ray[0], 0.3);
   EXPECT_EQ(model.ray[1], 6.0);
   EXPECT_EQ(model.ray[2], 0.0);
-  EXPECT_TRUE(model.has_contact);
-  EXPECT_EQ(model.penalty_stiffness, 1e5);
+  EXPECT_EQ(model.law.normal, NormalKind::penalty);
+  EXPECT_EQ(model.law.stiffness, 1e5);
   EXPECT_EQ(model.tangent, TangentKind::small_gap);
   EXPECT_TRUE(model.rigid_master);
   EXPECT_EQ(model.penetration_limit, 0.125);
@@ -88,6 +90,41 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
   EXPECT_EQ(other.tangent, TangentKind::first_variation);
   EXPECT_FALSE(other.rigid_master);
   EXPECT_EQ(other.surface_coordinates, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
+ContactLaw law_of(const std::string& contact) {
+  return read_model(R"({"segment": "line2", "contact": )" + contact + "}").law;
+}
+
+TEST(ModelJson, EveryLawEndsInItsPlace) {
+  const ContactLaw power = law_of(R"({"normal": {"type": "power", "coefficient": 2e5, "exponent": 2.5}})");
+  EXPECT_EQ(power.normal, NormalKind::power);
+  EXPECT_EQ(power.stiffness, 2e5);
+  EXPECT_EQ(power.twice_exponent, 5);
+  const ContactLaw soft =
+      law_of(R"({"normal": {"type": "exponential", "pressure": 3, "clearance": 0.01}, "symmetrised": true})");
+  EXPECT_EQ(soft.normal, NormalKind::exponential);
+  EXPECT_EQ(soft.pressure, 3.0);
+  EXPECT_EQ(soft.clearance, 0.01);
+  EXPECT_TRUE(soft.symmetrised);
+  EXPECT_EQ(law_of(R"({"normal": {"type": "augmented", "stiffness": 1}})").normal, NormalKind::augmented);
+  EXPECT_EQ(law_of(R"({"normal": {"type": "augmented_multiplier", "stiffness": 1}})").normal,
+            NormalKind::augmented_multiplier);
+  EXPECT_EQ(law_of(R"({"normal": {"type": "multiplier", "stiffness": 7}})").normal, NormalKind::multiplier);
+  EXPECT_EQ(law_of(R"({"normal": {"type": "multiplier", "stiffness": 7}})").stiffness, 7.0);
+
+  const std::string start = R"({"normal": {"type": "penalty", "stiffness": 1}, "friction": )";
+  const ContactLaw coulomb =
+      law_of(start + R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 4, "shear_limit": 5}})");
+  EXPECT_EQ(coulomb.friction, FrictionKind::coulomb);
+  EXPECT_EQ(coulomb.friction_coefficient, 0.3);
+  EXPECT_EQ(coulomb.friction_stiffness, 4.0);
+  EXPECT_EQ(coulomb.shear_limit, 5.0);
+  EXPECT_EQ(law_of(start + R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 4}})").shear_limit, 0.0);
+  const ContactLaw rough = law_of(start + R"({"type": "rough", "stiffness": 6}})");
+  EXPECT_EQ(rough.friction, FrictionKind::rough);
+  EXPECT_EQ(rough.friction_stiffness, 6.0);
+  EXPECT_EQ(law_of(start + "null}").friction, FrictionKind::none);
 }
 
 TEST(ModelJson, DirectionsOfAnyLengthBecomeUnitVectors) {
@@ -448,8 +485,14 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
        "/contact/normal/stiffness: is -1.0", ""},
       {R"({"segment":"line2","contact":{"normal":{"type":"barrier"}}})", ENTS_BAD_VALUE,
        "/contact/normal/type: is \"barrier\"", "\"penalty\""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"frictoin":{}}})",
+       ENTS_UNKNOWN_KEY, "/contact/frictoin: unknown key", "did you mean \"friction\"?"},
       {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"friction":{}}})",
-       ENTS_UNKNOWN_KEY, "/contact/friction: unknown key", ""},
+       ENTS_UNKNOWN_KEY, "/contact/friction: the key \"type\" is missing", "\"coulomb\""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"power","coefficient":1,"exponent":1.3}}})",
+       ENTS_BAD_VALUE, "/contact/normal/exponent: is not among", ""},
+      {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"symmetrised":1}})",
+       ENTS_BAD_VALUE, "/contact/symmetrised: is a number; write true or false", ""},
       {R"({"segment":"line2","tangent":"exact"})", ENTS_BAD_VALUE, "/tangent: is \"exact\"",
        "\"consistent\""},
       {R"({"segment":"line2","master":"stiff"})", ENTS_BAD_VALUE, "/master: is \"stiff\"", "\"rigid\""},

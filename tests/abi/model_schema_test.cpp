@@ -128,6 +128,21 @@ protected:
            {"origin", {0}},
            {"scale", 2}}}},
     };
+    const json penalty = {{"type", "penalty"}, {"stiffness", 1e5}};
+    for (const json& contact : std::vector<json>{
+             {{"normal", penalty},
+              {"friction",
+               {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}, {"shear_limit", 5}}}},
+             {{"normal", penalty},
+              {"friction", {{"type", "rough"}, {"stiffness", 1e4}}},
+              {"symmetrised", true}},
+             {{"normal", penalty}, {"friction", nullptr}, {"symmetrised", false}},
+             {{"normal", {{"type", "power"}, {"coefficient", 1e5}, {"exponent", 1.5}}}},
+             {{"normal", {{"type", "exponential"}, {"pressure", 1e5}, {"clearance", 0.01}}}},
+             {{"normal", {{"type", "augmented"}, {"stiffness", 1e5}}}},
+             {{"normal", {{"type", "augmented_multiplier"}, {"stiffness", 1e5}}}},
+             {{"normal", {{"type", "multiplier"}, {"stiffness", 1e5}}}}})
+      result.push_back({{"segment", "line2"}, {"contact", contact}});
     for (const BasisEntry& basis : basis_table) result.push_back({{"segment", basis.name}});
     return result;
   }
@@ -188,6 +203,10 @@ TEST_F(ModelSchema, ReaderAndSchemaAgreeOnEveryChange) {
   const SchemaValidator validator(schema());
   std::set<json> replacements = {nullptr,
                                  true,
+                                 false,
+                                 1.5,
+                                 1.25,
+                                 30,
                                  "text",
                                  "",
                                  0,
@@ -311,6 +330,7 @@ TEST_F(ModelSchema, ReaderTakesNoWordThatTheSchemaLacks) {
   const auto types = [&](const json& branches) { // "type" of every branch of a oneOf
     std::set<std::string> words;
     for (const json& branch : branches) {
+      if (branch.contains("type") && branch.at("type") == "null") continue;
       const json& type = branch.at("properties").at("type");
       if (type.contains("const"))
         words.insert(type.at("const"));
@@ -328,6 +348,11 @@ TEST_F(ModelSchema, ReaderTakesNoWordThatTheSchemaLacks) {
             types(keys.at("projection").at("oneOf")));
   EXPECT_EQ(read_words({{"segment", "line2"}, {"contact", {{"normal", {{"type", 1}}}}}}),
             types(keys.at("contact").at("properties").at("normal").at("oneOf")));
+  EXPECT_EQ(
+      read_words(
+          {{"segment", "line2"},
+           {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}, {"friction", {{"type", 1}}}}}}),
+      types(keys.at("contact").at("properties").at("friction").at("oneOf")));
   EXPECT_EQ(read_words({{"segment", "line2"}, {"height", {{"type", 1}}}}),
             types(text.at("$defs").at("height").at("oneOf")));
   EXPECT_EQ(read_words({{"segment", "line2"},

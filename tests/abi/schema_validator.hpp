@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -40,6 +41,7 @@ private:
     if (type == "object") return value.is_object();
     if (type == "array") return value.is_array();
     if (type == "number") return value.is_number();
+    if (type == "boolean") return value.is_boolean();
     if (type == "string") return value.is_string();
     if (type == "null") return value.is_null();
     throw std::logic_error("type " + type + " is not known to the test's validator");
@@ -65,6 +67,8 @@ private:
         good = good && (!value.is_number() || value >= rule);
       else if (keyword == "maximum")
         good = good && (!value.is_number() || value <= rule);
+      else if (keyword == "multipleOf")
+        good = good && (!value.is_number() || std::fmod(value.get<double>(), rule.get<double>()) == 0.0);
       else if (keyword == "minItems")
         good = good && (!value.is_array() || value.size() >= rule.get<std::size_t>());
       else if (keyword == "maxItems")
