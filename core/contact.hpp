@@ -17,6 +17,22 @@ template <int T> struct ContactForce {
   FrictionForce<T> tangential; // (friction)
 };
 
+// May every force, residual and traction of the pair be computed without leaving the range of double precision?
+template <int T>
+ENTS_INLINE bool law_in_range(const Plan& plan, const ElementInput& in, const ContactForce<T>& c, double gap) {
+  double size = c.area * (absolute(c.normal.force) + c.normal.stiffness);
+  if (c.friction) size += sum_of_absolutes(c.tangential.force);
+  if (plan.multipliers > 0) {  // they come back in the residual, over a stiffness
+    size += c.area * (1.0 + absolute(gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.stiffness));
+    if (plan.multipliers > 1) {
+      double tangential = c.friction ? sum_of_absolutes(c.tangential.force) : 0.0;
+      for (int a = 1; a < plan.multipliers; ++a) tangential += c.area * absolute(in.multiplier[a]);
+      size += tangential / plan.law.friction_stiffness;
+    }
+  }
+  return size < largest_ingredient;
+}
+
 // The tangential multiplier: a dof, in the state, or none.
 ENTS_INLINE const double* tangential_multiplier(const Plan& plan, const ElementInput& in) {
   if (!plan.law.has_friction()) return nullptr;
@@ -121,7 +137,18 @@ template <class B, bool H, bool Rigid> struct ContactTangent {
     friction_gradient(plan.law, p, k, c.tangential, c.area, stiffness, friction.dt);
     friction.exact = plan.tangent == TangentKind::consistent;
     if (friction.exact) friction.second.evaluate(g, p, t, k, c.tangential.force);
-    return friction.bound(k) < largest_result;
+    double bound = friction.bound(k);
+    if (plan.multipliers > 0) {  // their rows: dt over a stiffness, and the products of write_multiplier_tangent
+      for (const auto& row : friction.dt) bound += sum_of_absolutes(row) / plan.law.friction_stiffness;
+      double by_multiplier = c.area;
+      if (c.tangential.slip)
+        by_multiplier += c.area * sum_of_absolutes(c.tangential.direction) *
+                         (sum_of_absolutes(c.tangential.raised) + c.tangential.limit_by_pressure);
+      double nodes = 0.0;
+      for (const auto& row : k.xi_gradient) nodes += sum_of_absolutes(row);
+      bound += by_multiplier * (nodes + 1.0 / plan.law.friction_stiffness);
+    }
+    return bound < largest_result;
   }
 
   ENTS_INLINE void write(const Plan& plan, const ContactForce<B::dim - 1>& c, const Kinematics<B, H, Rigid>& k,

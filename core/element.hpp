@@ -111,7 +111,8 @@ ENTS_INLINE void write_open(const Plan& plan, const ElementInput& in, const Cont
 
 // T^a = A^ab t_b rho_e,a / A: the tangential traction that the slave exerts on the master
 template <class B, bool H>
-ENTS_INLINE void write_traction(const Projection<B, H>& p, const ContactForce<B::dim - 1>& c, double* out) {
+ENTS_INLINE void evaluate_traction(const Projection<B, H>& p, const ContactForce<B::dim - 1>& c,
+                                   double (&out)[B::dim]) {
   constexpr int D = B::dim, T = D - 1;
   Vec<double, D> v = Vec<double, D>::zero();
   if (c.friction && c.area > 0.0) {
@@ -183,9 +184,6 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     // a ray that leaves the surface from behind would push the slave further in
     if (t.kind != ProjectionKind::normal && !(dot(k.normal, k.ray) > 1e-6)) return Status::grazing_ray;
     if (-k.gap > penetration_limit(plan, p)) return Status::deep_penetration;
-    if (!(c.area * c.normal.stiffness < largest_ingredient) ||
-        !(absolute(c.area * c.normal.force) < largest_ingredient))
-      return Status::out_of_range;
     // a pair that has just come into contact has no anchor yet: it gets one at the end
     c.friction = plan.law.has_friction() && (history == History::stick || history == History::slip);
   } else if (element && flags & flag::outside) {
@@ -213,6 +211,24 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
 
   // all that may go out of range first: after it everything is written
+  const double energy = c.area * c.normal.energy;
+  double traction[D] = {}, end[largest_state];
+  if (element) {
+    if (!law_in_range(plan, in, c, k.gap)) return Status::out_of_range;
+    if ((wanted & want::energy) && !(absolute(energy) < largest_result)) return Status::out_of_range;
+    if (wanted & want::traction) {
+      evaluate_traction(p, c, traction);
+      if (!(sum_of_absolutes(traction) < largest_result)) return Status::out_of_range;
+    }
+    if (wanted & (want::state | want::slip | want::age | want::flags)) {
+      end_state(plan, in, p, c, pair, escaped, end);
+      double size = 0.0;
+      for (int i = 0; i < plan.state.size; ++i) size += absolute(end[i]);
+      if (!(size < largest_result)) return Status::out_of_range;
+      if (in.state_begin && end[StateLayout::history_at] != in.state_begin[StateLayout::history_at])
+        flags |= flag::changed;
+    }
+  }
   ContactTangent<B, H, Rigid> tangent;
   if (pair && (wanted & want::tangent) && !tangent.evaluate(plan, g, p, t, c, k, exact_xi)) return Status::out_of_range;
   if (hessians && !write_hessians(g, p, t, plan, k, out)) return Status::out_of_range;
@@ -223,14 +239,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   } else if (element) {
     write_open(plan, in, c, k, out);
   }
-  if (wanted & want::energy) *out.energy = c.area * c.normal.energy;
+  if (wanted & want::energy) *out.energy = energy;
   if (wanted & want::pressure) *out.pressure = pair ? 0.0 - c.normal.force : 0.0;
-  if (wanted & want::traction) write_traction(p, c, out.traction);
-  if (element && (wanted & (want::state | want::slip | want::age | want::flags))) {
-    double end[largest_state];
-    end_state(plan, in, p, c, pair, escaped, end);
-    if (in.state_begin && end[StateLayout::history_at] != in.state_begin[StateLayout::history_at])
-      flags |= flag::changed;
+  if (element) {
+    if (wanted & want::traction) copy(traction, out.traction);
     if (wanted & want::state)
       for (int i = 0; i < plan.state.size; ++i) out.state_end[i] = end[i];
     if (wanted & want::slip) *out.slip = plan.state.slip_at >= 0 ? end[plan.state.slip_at] : 0.0;

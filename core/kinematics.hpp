@@ -38,7 +38,6 @@ inline constexpr double largest_ingredient = 1e60;
 // A bound of results that leaves room for a few terms more.
 inline constexpr double largest_result = 1e300;
 
-ENTS_INLINE double absolute(double a) { return a < 0 ? -a : a; }
 template <int D> ENTS_INLINE double sum_of_absolutes(const Vec<double, D>& v) {
   double s = 0.0;
   for (int c = 0; c < D; ++c) s += absolute(v[c]);

@@ -57,6 +57,15 @@ template <int K> ENTS_INLINE bool is_minimum(const double (&f2)[K], const double
   return f2[0] > 1e-8 * metric[0] && determinant(f2) > 1e-8 * determinant(metric);
 }
 
+// Smallest eigenvalue of f2 with respect to the metric.
+ENTS_INLINE double smallest_eigenvalue(const double (&f2)[1], const double (&metric)[1]) { return f2[0] / metric[0]; }
+ENTS_INLINE double smallest_eigenvalue(const double (&f2)[3], const double (&metric)[3]) {
+  const double det = determinant(metric);
+  const double half = 0.5 * (metric[2] * f2[0] - 2.0 * metric[1] * f2[1] + metric[0] * f2[2]) / det;
+  const double square = half * half - determinant(f2) / det;
+  return half - (square > 0.0 ? square_root(square) : 0.0);
+}
+
 // Newton step of the normal projection; returns F.
 template <class B, bool H>
 ENTS_INLINE double normal_step(Projection<B, H>& p, double (&step)[B::dim - 1]) {
@@ -67,8 +76,16 @@ ENTS_INLINE double normal_step(Projection<B, H>& p, double (&step)[B::dim - 1]) 
     p.metric[k] = dot(p.s.e[k / 2], p.s.e[(k + 1) / 2]);
     p.f2[k] = p.metric[k] - dot(p.s.d, p.s.e2[k]);
   }
-  // away from a minimum the metric alone (Gauss-Newton) still descends
-  solve(is_minimum(p.f2, p.metric) ? p.f2 : p.metric, r, step);
+  if (is_minimum(p.f2, p.metric)) {
+    solve(p.f2, r, step);
+  } else {
+    // beyond a centre of curvature: shifted so that the smallest eigenvalue (1 - distance / radius) counts
+    // with its absolute value; the step descends and is as long as the curvature allows
+    double shifted[K];
+    const double smallest = smallest_eigenvalue(p.f2, p.metric), size = absolute(smallest);
+    for (int k = 0; k < K; ++k) shifted[k] = p.f2[k] + ((size > 0.1 ? size : 0.1) - smallest) * p.metric[k];
+    solve(shifted, r, step);
+  }
   return 0.5 * dot(p.s.d, p.s.d);
 }
 

@@ -94,7 +94,8 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       // the multiplier's spatial vector, lowered with the new tangents
       g.set(new_master, new_master);
       g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
-      if (!evaluate_surface<1>(g, xi, to.N, to.s)) return Status::degenerate_segment;
+      Vec<double, D> normal;
+      if (!evaluate_surface<1>(g, xi, to.N, to.s) || !enriched_normal(from.s, normal)) return Status::degenerate_segment;
       double metric[symmetric_size<T>], inverse[symmetric_size<T>], covariant[T], raised[T];
       for (int k = 0; k < symmetric_size<T>; ++k) metric[k] = dot(from.s.e[k / 2], from.s.e[(k + 1) / 2]);
       invert(metric, determinant(metric), inverse);
@@ -105,6 +106,9 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       for (int a = 0; a < T; ++a) end[layout.multiplier_at + 1 + a] = dot(traction, to.s.e[a]);
     }
   }
+  double size = 0.0;
+  for (int i = 0; i < layout.size; ++i) size += absolute(end[i]);
+  if (!(size < largest_result)) return Status::out_of_range;
   for (int i = 0; i < layout.size; ++i) moved[i] = end[i];
   return Status::ok;
 }

@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 double squared(double value) { return value * value; }
 
 Quantity quantity(std::string name, std::string unit, double value, double exact) {
-  return {std::move(name), std::move(unit), value, exact, value / exact - 1};
+  return {std::move(name), std::move(unit), value, exact, value / exact - 1, true};
 }
 
 } // namespace
@@ -94,7 +94,7 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const HertzLine reference = hertz_line(state.force / setup.thickness, exact.radius, modulus);
     const EdgeBracket bracket = edge_bracket(state);
     return {quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-            quantity("contact half-width", units.length, contact_edge(state), reference.half_width),
+            quantity("half-width", units.length, contact_edge(state), reference.half_width),
             {"last closed node", units.length, bracket.closed},
             {"first open node", units.length, bracket.open}};
   }
@@ -112,10 +112,9 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const double edge = contact_edge(state, exact.wavelength / 2);
     const EdgeBracket bracket = edge_bracket(state);
     const double sine = std::sin(pi * edge / exact.wavelength);
+    const double exact_edge = std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi;
     return {quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
-            {"contact half-width / lambda", "", edge / exact.wavelength,
-             std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi,
-             edge / exact.wavelength / (std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi) - 1},
+            quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
             {"last closed node / lambda", "", bracket.closed / exact.wavelength},
             {"first open node / lambda", "", bracket.open / exact.wavelength}};
   }

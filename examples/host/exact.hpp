@@ -47,8 +47,9 @@ struct SurfaceState {
 struct Quantity {
   std::string name, unit;
   double value = 0;
-  double exact = std::numeric_limits<double>::quiet_NaN();
+  double exact = std::numeric_limits<double>::quiet_NaN(); ///< NaN: nothing to compare with
   double error = std::numeric_limits<double>::quiet_NaN(); ///< relative, with sign
+  bool compared = false;
 };
 
 /// Where the pressure vanishes, more finely than the nodes lie: p^2 falls linearly to zero at the edge of a contact

@@ -35,10 +35,10 @@ void Simulation::find_contact(Configuration& at) {
   for (const double gap : fields.gap)
     if (!std::isnan(gap)) smallest = std::min(smallest, gap), sum += gap, ++count;
   if (count == 0) throw JobError("no slave node has a projection on the master: is it in the way of the motion?");
-  if (smallest <= 0) return;
   // Touch with a little more than the first node; the iteration finds the rest.
   const double spread = sum / static_cast<double>(count) - smallest;
-  at.motion += smallest + std::max(0.01 * spread, 1e-6 * smallest);
+  const double overlap = std::max(0.01 * spread, 1e-6 * std::abs(smallest));
+  at.motion += std::max(0., smallest + overlap);
 }
 
 Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -117,20 +118,33 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
 }
 
 std::string exact_table(const std::vector<StepRecord>& records) {
-  Table table;
-  table.column("step").column("quantity").column("unit").column("computed", "", 5).column("exact", "", 5);
-  table.column("error", "%", 2);
-  bool any = false;
+  // A quantity may be known in some steps only (full contact): its cells are empty in the others.
+  std::vector<const Quantity*> columns;
   for (const StepRecord& record : records)
-    for (const Quantity& quantity : record.exact) {
-      any = true;
-      // Rows hold quantities of any size: each number is written by itself.
-      table.row({static_cast<std::int64_t>(record.step), quantity.name, quantity.unit,
-                 format_number(quantity.value, 5),
-                 std::isnan(quantity.exact) ? Table::Cell{} : Table::Cell{format_number(quantity.exact, 5)},
-                 std::isnan(quantity.error) ? Table::Cell{} : Table::Cell{format_number(100 * quantity.error, 2)}});
+    for (const Quantity& quantity : record.exact)
+      if (std::none_of(columns.begin(), columns.end(),
+                       [&](const Quantity* column) { return column->name == quantity.name; }))
+        columns.push_back(&quantity);
+  if (columns.empty()) return "";
+  Table table;
+  table.column("step");
+  for (const Quantity* column : columns) {
+    table.column(column->name, column->unit, 5);
+    if (column->compared) table.column("exact", column->unit, 5).column("error", "%", 2);
+  }
+  for (const StepRecord& record : records) {
+    std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step)};
+    for (const Quantity* column : columns) {
+      const auto found = std::find_if(record.exact.begin(), record.exact.end(),
+                                      [&](const Quantity& quantity) { return quantity.name == column->name; });
+      const Quantity unknown{"", "", std::numeric_limits<double>::quiet_NaN()}; // shown as a dash
+      const Quantity& quantity = found == record.exact.end() ? unknown : *found;
+      row.emplace_back(quantity.value);
+      if (column->compared) row.insert(row.end(), {quantity.exact, 100 * quantity.error});
     }
-  return any ? table.text() : "";
+    table.row(std::move(row));
+  }
+  return table.text();
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

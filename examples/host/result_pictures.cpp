@@ -102,7 +102,7 @@ Chart westergaard_curve(const Simulation& simulation, const std::vector<StepReco
     exact.y.push_back(std::pow(std::sin(pi * i / 400.), 2));
   }
   for (const StepRecord& record : records) {
-    const Quantity* width = find(record, "contact half-width / lambda");
+    const Quantity* width = find(record, "half-width / lambda");
     const Quantity* mean = find(record, "mean pressure / p*");
     if (width == nullptr || mean == nullptr) continue;
     computed.x.push_back(width->value);

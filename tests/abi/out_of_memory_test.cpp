@@ -108,9 +108,9 @@ TEST(OutOfMemory, HeightMapsAndModelsInFiles) {
   const Folder folder;
   folder.write("scan.txt", "# Width: 2.0 m\n# Height: 2.0 m\n# Value units: m\n0.1\t0.2\t0.1\n0.3\t0.1\t0.0\n0.2 0.1 0.1\n");
   const std::string text = R"({"segment": "quad4", "height": {"type": "map", "file": "scan.txt", "boundary": "clamped"}})";
-  const std::string path = folder.write("model.json", text);
+  const std::string path = folder.write("model.json", text), directory = folder.name();
   fail_every_allocation([&](ents_model** model, ents_report* report) {
-    return ents_model_create(text.c_str(), -1, folder.name().c_str(), nullptr, 0, model, report);
+    return ents_model_create(text.c_str(), -1, directory.c_str(), nullptr, 0, model, report);
   });
   fail_every_allocation([&](ents_model** model, ents_report* report) {
     return ents_model_create_from_file(path.c_str(), model, report);
@@ -146,10 +146,10 @@ TEST(OutOfMemory, WhileReportingAnotherMistake) {
 // The counters themselves: they see an allocation, and one that fails.
 TEST(OutOfMemory, TheWatchSees) {
   memory_watch(2, 0);
-  int* first = new int(1);
+  void* first = ::operator new(8);
   bool threw = false;
   try {
-    delete new int(2);
+    ::operator delete(::operator new(8));
   } catch (const std::bad_alloc&) {
     threw = true;
   }
@@ -157,7 +157,7 @@ TEST(OutOfMemory, TheWatchSees) {
   EXPECT_TRUE(threw);
   EXPECT_EQ(memory_left(), 1);
   EXPECT_GE(memory_allocations(), 2);
-  delete first;
+  ::operator delete(first);
 }
 
 } // namespace

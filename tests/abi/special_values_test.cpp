@@ -30,7 +30,7 @@ void forget(Results& results) {
 std::string complaint(const Element& element, int32_t status, int32_t wanted, const Results& results,
                       const ents_report& report) {
   bool finite = true, finite_state = all_finite(element[state_begin]);
-  for (int i = 0; i < state_begin; ++i) finite = finite && all_finite(element[i]);
+  for (int i = 0; i < input_count; ++i) finite = finite && (i == state_begin || all_finite(element[i]));
   const bool negative_area = !element[area].empty() && element[area][0] < 0.0;
   if (results.status != status) return "the status array differs from the returned status";
   if (report.status != status) return "the report's status differs from the returned one";
@@ -45,9 +45,9 @@ std::string complaint(const Element& element, int32_t status, int32_t wanted, co
   for (int i = 0; i < output_count; ++i)
     for (const double v : results[i]) {
       const bool written = !is_untouched(v);
-      if (written && (status != ENTS_OK || !(wanted & (1 << i))))
+      if (written && (status != ENTS_OK || !(wanted & outputs[i].bit)))
         return std::string(outputs[i].name) + " was touched";
-      if (status == ENTS_OK && (wanted & (1 << i)) && !std::isfinite(v))
+      if (status == ENTS_OK && (wanted & outputs[i].bit) && !std::isfinite(v))
         return std::string(outputs[i].name) + " is not finite";
     }
   return {};
@@ -76,12 +76,6 @@ struct Tally {
   }
 };
 
-Element with_state(const Model& model, Element element) {
-  element[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
-  call::state_init(model.get(), int64_t{1}, element[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
-  return element;
-}
-
 // Kinematics and element; without kinematics an element outside its segment is an open one.
 constexpr int32_t masks[] = {want_all, want_element | want_values, want_values, ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN};
 
@@ -91,7 +85,7 @@ TEST(SpecialValues, EachInputScalarInTurn) {
   for (const ModelKind& kind : some_kinds()) {
     const Model model(text(kind));
     Results results(model.layout);
-    Element element = with_state(model, draw(model, basis(kind.basis), random));
+    Element element = with_history(model, draw(model, basis(kind.basis), random), random);
     if (element[surface_coordinates].empty())
       for (const auto& node : basis(kind.basis).nodes)
         element[surface_coordinates].insert(element[surface_coordinates].end(), node.begin(), node.end());
@@ -120,7 +114,7 @@ TEST(SpecialValues, HundredThousandRandomCorruptions) {
     Results results(model.layout);
     for (int repeat = 0; repeat < 50; ++repeat) {
       Element element = draw(model, basis(kind.basis), random);
-      if (random.below(4) == 0) element = with_state(model, std::move(element));
+      if (random.below(4) > 0) element = with_history(model, std::move(element), random);
       if (random.below(8) == 0) element[start].clear();
       const int corruptions = 1 + random.below(6);
       for (int k = 0; k < corruptions; ++k) {
@@ -187,9 +181,17 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
                                        R"({"type": "shadow_direction", "direction": )" + triple + "}"};
     std::string height = heights[random.below(6)];
     if (random.below(4) == 0) height = R"({"type": "product", "of": [)" + heights[1 + random.below(5)] + ", " + heights[1 + random.below(5)] + "]}";
+    const std::string with_stiffness[] = {"penalty", "augmented", "augmented_multiplier", "multiplier"};
+    const std::string normals[] = {
+        R"({"type": ")" + with_stiffness[random.below(4)] + R"(", "stiffness": )" + any() + "}",
+        R"({"type": "power", "exponent": )" + number(0.5 * (2 + random.below(39))) + R"(, "coefficient": )" + any() + "}",
+        R"({"type": "exponential", "pressure": )" + any() + R"(, "clearance": )" + any() + "}"};
+    const std::string frictions[] = {
+        "null", R"({"type": "rough", "stiffness": )" + any() + "}",
+        R"({"type": "coulomb", "stiffness": )" + any() + R"(, "coefficient": )" + any() + R"(, "shear_limit": )" + any() + "}"};
     const Model model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height + R"(, "projection": )" +
-                      projections[random.below(3)] + R"(, "contact": {"normal": {"type": "penalty", "stiffness": )" + any() +
-                      R"(}}, "penetration_limit": )" + any() + "}");
+                      projections[random.below(3)] + R"(, "contact": {"normal": )" + normals[random.below(3)] +
+                      R"(, "friction": )" + frictions[random.below(3)] + R"(}, "penetration_limit": )" + any() + "}");
     Results results(model.layout);
     for (int k = 0; k < 10; ++k) {
       Element element;
@@ -205,6 +207,9 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
         for (const auto& node : b.nodes)
           for (const double x : node) element[surface_coordinates].push_back(x * stretch[1]);
       if (random.below(2) == 0) element[start] = centre(b);
+      if (random.below(2) == 0) element[area] = {std::stod(any())};
+      for (int i = 0; i < model.layout.multipliers; ++i) element[multiplier].push_back(std::stod(any()));
+      if (random.below(2) == 0) element = with_history(model, std::move(element), random);
       tally.check(model, element, masks[random.below(4)], results);
     }
   }

@@ -225,6 +225,25 @@ json draw_height(Random& random, const std::string& kind, int parameters) {
           {"origin", origin}};
 }
 
+json draw_texture(Random& random, int parameters) {
+  const auto wave = [&](double amplitude, double longest) {
+    json wave_vector = json::array();
+    for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(-longest, longest));
+    return json{{"type", "sine"}, {"amplitude", amplitude}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3, 3)}};
+  };
+  const int choice = random.below(4);
+  if (choice == 0) return wave(random.uniform(0.01, 0.05), 2.5);
+  if (choice == 1) {
+    json parts = json::array();
+    parts.push_back(wave(random.uniform(0.01, 0.04), 1.0));
+    parts.push_back(wave(random.uniform(0.005, 0.02), 2.5));
+    return {{"type", "sum"}, {"of", parts}};
+  }
+  json map = draw_height(random, "map", parameters);
+  if (choice == 2) return map;
+  return draw_height(random, height_kinds()[static_cast<std::size_t>(random.below(7))], parameters);
+}
+
 json rescale_height(const json& height, double height_factor, double coordinate_factor) {
   if (height.is_null()) return height;
   json out = height;

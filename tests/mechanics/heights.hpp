@@ -44,6 +44,9 @@ const std::vector<std::string>& height_kinds();
 // `unit`.
 nlohmann::json draw_height(Random& random, const std::string& kind, int parameters);
 
+// Several waves across the segment, in one direction or two, or rough samples, or any of the above.
+nlohmann::json draw_texture(Random& random, int parameters);
+
 // The same surface in another unit of length: h times height_factor, s times coordinate_factor.
 nlohmann::json rescale_height(const nlohmann::json& height, double height_factor, double coordinate_factor);
 

@@ -55,6 +55,17 @@ struct Page {
   std::string size(double w, double h) const { return number(w / width) + "," + number(h / height); }
 };
 
+/// The pixels of a map along one axis.
+struct Span {
+  double min, max, step;
+};
+
+Span pixels_along(double min, double max, int count, bool at_nodes) {
+  if (!at_nodes || count < 2) return {min, max, (max - min) / count};
+  const double step = (max - min) / (count - 1);
+  return {min - 0.5 * step, max + 0.5 * step, step};
+}
+
 std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const Page& page) {
   const Map& map = maps.maps[index];
   const Range range = range_of(map);
@@ -63,15 +74,16 @@ std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const
   const int length_power = gnuplot::common_power(
       std::max({std::abs(maps.x_min), std::abs(maps.x_max), std::abs(maps.y_min), std::abs(maps.y_max)}));
   const double length = std::pow(10.0, -length_power);
-  const double dx = (maps.x_max - maps.x_min) / map.columns * length,
-               dy = (maps.y_max - maps.y_min) / map.rows * length;
+  // A pixel is centred on its sample: samples on the border have half of their pixels outside.
+  const Span x = pixels_along(maps.x_min * length, maps.x_max * length, map.columns, map.at_nodes);
+  const Span y = pixels_along(maps.y_min * length, maps.y_max * length, map.rows, map.at_nodes);
 
   std::string out =
       "set lmargin at " + page.x(frame.left) + "\nset rmargin at " + page.x(frame.left + frame.width) + "\n";
   out += "set bmargin at " + page.y(frame.bottom) + "\nset tmargin at " +
          page.y(frame.bottom + frame.height) + "\n";
-  out += "set xrange [" + number(maps.x_min * length) + ":" + number(maps.x_max * length) + "]\n";
-  out += "set yrange [" + number(maps.y_min * length) + ":" + number(maps.y_max * length) + "]\n";
+  out += "set xrange [" + number(x.min) + ":" + number(x.max) + "]\n";
+  out += "set yrange [" + number(y.min) + ":" + number(y.max) + "]\n";
   out += "set cbrange [" + number(range.min * unit) + ":" + number(range.max * unit) + "]\n" +
          gnuplot::palette(map.palette);
   out += "set xlabel " + gnuplot::text(gnuplot::axis_label(maps.x_label, maps.unit, length_power)) + "\n";
@@ -95,12 +107,12 @@ std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const
   }
   const std::string column =
       map.blank_zero ? "($3 == 0 ? NaN : $3*" + number(unit) + ")" : "($3*" + number(unit) + ")";
-  const auto centre = [](int axis, double start, double step) {
-    return std::string("(").append(number(start + 0.5 * step)) + "+$" + std::to_string(axis) + "*" +
-           number(step) + ")";
+  const auto centre = [](const char* index_column, const Span& span) {
+    return std::string("(").append(number(span.min + 0.5 * span.step)) + "+" + index_column + "*" +
+           number(span.step) + ")";
   };
-  out += "plot data index " + std::to_string(index) + " matrix using " + centre(1, maps.x_min * length, dx) +
-         ":" + centre(2, maps.y_min * length, dy) + ":" + column + " with image notitle\n";
+  out += "plot data index " + std::to_string(index) + " matrix using " + centre("$1", x) + ":" +
+         centre("$2", y) + ":" + column + " with image notitle\n";
   return out;
 }
 

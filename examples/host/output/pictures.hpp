@@ -78,7 +78,8 @@ struct Map {
   std::string unit;
   int columns = 0, rows = 0;
   std::vector<double> values; ///< [rows][columns], first row at y_min; NaN: white
-  bool blank_zero = false;    ///< show 0 as white: no contact
+  bool at_nodes = false;   ///< the outer samples lie on the border of the rectangle, else half a pixel inside
+  bool blank_zero = false; ///< show 0 as white: no contact
   double clip =
       1; ///< fraction of the non-blank values inside the colours; the extremes are written below the map
   enum class Palette { viridis, cividis, magma, diverging } palette = Palette::viridis;

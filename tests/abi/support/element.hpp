@@ -20,7 +20,7 @@ struct InputArray {
   const double* ents_input::*pointer;
   int64_t ents_input::*stride;
 };
-enum InputIndex { slave, master, surface_coordinates, start, area, state_begin, input_count };
+enum InputIndex { slave, master, surface_coordinates, start, area, state_begin, multiplier, input_count };
 inline constexpr InputArray inputs[input_count] = {
     {"slave", &ents_input::slave, &ents_input::slave_stride},
     {"master", &ents_input::master, &ents_input::master_stride},
@@ -28,45 +28,50 @@ inline constexpr InputArray inputs[input_count] = {
     {"start", &ents_input::start, &ents_input::start_stride},
     {"area", &ents_input::area, &ents_input::area_stride},
     {"state_begin", &ents_input::state_begin, &ents_input::state_begin_stride},
+    {"multiplier", &ents_input::multiplier, &ents_input::multiplier_stride},
 };
 inline std::size_t size_of_input(const ents_layout& l, int index) {
   const int sizes[input_count] = {l.dimension, l.dimension * l.nodes, l.parameters * l.nodes, l.parameters, 1,
-                                  l.state_size};
+                                  l.state_size, l.multipliers};
   return static_cast<std::size_t>(sizes[index]);
 }
 
-// Outputs of doubles; their bits in `wanted` are 1 << index. Then come the two of int32_t.
+// Outputs of doubles. There are two more of int32_t, flags and iterations.
 struct OutputArray {
+  int32_t bit;
   const char* name;
   double* ents_output::*pointer;
   int64_t ents_output::*stride;
 };
-inline constexpr int output_count = 14;
+inline constexpr int output_count = 17;
 inline constexpr OutputArray outputs[output_count] = {
-    {"xi", &ents_output::xi, &ents_output::xi_stride},
-    {"gap", &ents_output::gap, &ents_output::gap_stride},
-    {"normal_gap", &ents_output::normal_gap, &ents_output::normal_gap_stride},
-    {"normal", &ents_output::normal, &ents_output::normal_stride},
-    {"point", &ents_output::point, &ents_output::point_stride},
-    {"gap_gradient", &ents_output::gap_gradient, &ents_output::gap_gradient_stride},
-    {"gap_hessian", &ents_output::gap_hessian, &ents_output::gap_hessian_stride},
-    {"xi_gradient", &ents_output::xi_gradient, &ents_output::xi_gradient_stride},
-    {"xi_hessian", &ents_output::xi_hessian, &ents_output::xi_hessian_stride},
-    {"energy", &ents_output::energy, &ents_output::energy_stride},
-    {"pressure", &ents_output::pressure, &ents_output::pressure_stride},
-    {"residual", &ents_output::residual, &ents_output::residual_stride},
-    {"tangent", &ents_output::tangent, &ents_output::tangent_stride},
-    {"state_end", &ents_output::state_end, &ents_output::state_end_stride},
+    {ENTS_XI, "xi", &ents_output::xi, &ents_output::xi_stride},
+    {ENTS_GAP, "gap", &ents_output::gap, &ents_output::gap_stride},
+    {ENTS_NORMAL_GAP, "normal_gap", &ents_output::normal_gap, &ents_output::normal_gap_stride},
+    {ENTS_NORMAL, "normal", &ents_output::normal, &ents_output::normal_stride},
+    {ENTS_POINT, "point", &ents_output::point, &ents_output::point_stride},
+    {ENTS_GAP_GRADIENT, "gap_gradient", &ents_output::gap_gradient, &ents_output::gap_gradient_stride},
+    {ENTS_GAP_HESSIAN, "gap_hessian", &ents_output::gap_hessian, &ents_output::gap_hessian_stride},
+    {ENTS_XI_GRADIENT, "xi_gradient", &ents_output::xi_gradient, &ents_output::xi_gradient_stride},
+    {ENTS_XI_HESSIAN, "xi_hessian", &ents_output::xi_hessian, &ents_output::xi_hessian_stride},
+    {ENTS_ENERGY, "energy", &ents_output::energy, &ents_output::energy_stride},
+    {ENTS_PRESSURE, "pressure", &ents_output::pressure, &ents_output::pressure_stride},
+    {ENTS_RESIDUAL, "residual", &ents_output::residual, &ents_output::residual_stride},
+    {ENTS_TANGENT, "tangent", &ents_output::tangent, &ents_output::tangent_stride},
+    {ENTS_STATE, "state_end", &ents_output::state_end, &ents_output::state_end_stride},
+    {ENTS_TRACTION, "traction", &ents_output::traction, &ents_output::traction_stride},
+    {ENTS_SLIP, "slip", &ents_output::slip, &ents_output::slip_stride},
+    {ENTS_AGE, "age", &ents_output::age, &ents_output::age_stride},
 };
 inline std::size_t size_of_output(const ents_layout& l, int index) {
-  const int n = l.dofs, t = l.parameters;
-  const int sizes[output_count] = {t,         1,         1, l.dimension, l.dimension, n, n * n, t * n,
-                                   t * n * n, 1,         1, n,           n * n,       l.state_size};
+  const int all = l.dofs, n = all - l.multipliers, t = l.parameters, d = l.dimension;
+  const int sizes[output_count] = {t, 1, 1, d, d, n, n * n, t * n, t * n * n, 1, 1, all, all * all, l.state_size, d, 1, 1};
   return static_cast<std::size_t>(sizes[index]);
 }
 
-inline constexpr int32_t want_all = (1 << 16) - 1;
-inline constexpr int32_t want_element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE;
+inline constexpr int32_t want_all = (1 << 19) - 1;
+inline constexpr int32_t want_element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE |
+                                        ENTS_TRACTION | ENTS_SLIP | ENTS_AGE;
 // What an element outside its segment has, too.
 inline constexpr int32_t want_values =
     ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_FLAGS | ENTS_ITERATIONS;
@@ -85,7 +90,7 @@ struct Results {
   // By its bit: results.of(ENTS_GAP)
   const std::vector<double>& of(int32_t bit) const {
     int i = 0;
-    while (1 << i != bit) ++i;
+    while (outputs[i].bit != bit) ++i;
     return (*this)[i];
   }
   double gap() const { return of(ENTS_GAP)[0]; }
@@ -246,7 +251,25 @@ inline Element draw(const Model& model, const Basis& b, Random& random, double l
   for (std::size_t c = 0; c < d; ++c) e[slave].push_back(at.point[c] + gap * at.normal[c]);
   for (const double x : xi) e[start].push_back(x + random(-0.02, 0.02));
   e[area] = {random(0.1, 2.0)};
+  for (int i = 0; i < model.layout.multipliers; ++i) e[multiplier].push_back(i == 0 ? random(0.0, 20.0) : random(-5.0, 5.0));
   return e;
+}
+
+// The same with a state block: a new one.
+inline Element with_new_state(const Model& model, Element element) {
+  element[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
+  call::state_init(model.get(), int64_t{1}, element[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
+  return element;
+}
+
+// The same with the state of an increment before: the slave has moved on since, so that friction sticks or slips.
+inline Element with_history(const Model& model, Element element, Random& random) {
+  element = with_new_state(model, std::move(element));
+  Element before = element;
+  for (double& x : before[slave]) x += random(-0.02, 0.02);
+  Results results(model.layout);
+  if (evaluate(model, before, ENTS_STATE, results) == ENTS_OK) element[state_begin] = results.of(ENTS_STATE);
+  return element;
 }
 
 } // namespace test

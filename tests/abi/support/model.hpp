@@ -146,38 +146,70 @@ inline std::string projection(const std::string& kind, int dimension, double siz
   return R"({"type": "normal"})";
 }
 
+// The normal laws, then laws with friction.
+inline const std::vector<std::string>& contact_kinds() {
+  static const std::vector<std::string> kinds = [] {
+    const std::string penalty = R"({"type": "penalty", "stiffness": 1000.0})",
+                      coulomb = R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 500.0})",
+                      limited = R"({"type": "coulomb", "coefficient": 0.5, "stiffness": 300.0, "shear_limit": 4.0})",
+                      rough = R"({"type": "rough", "stiffness": 500.0})";
+    const auto type = [](const std::string& name) { return R"({"type": ")" + name + R"(", "stiffness": 1000.0})"; };
+    const auto law = [](const std::string& normal, const std::string& friction) {
+      return R"({"normal": )" + normal + (friction.empty() ? "" : R"(, "friction": )" + friction) + "}";
+    };
+    return std::vector<std::string>{
+        law(penalty, ""),
+        law(R"({"type": "power", "coefficient": 2000.0, "exponent": 1.5})", ""),
+        law(R"({"type": "exponential", "pressure": 10.0, "clearance": 0.01})", ""),
+        law(type("augmented"), ""),
+        law(type("augmented_multiplier"), ""),
+        law(type("multiplier"), ""),
+        law(penalty, coulomb),
+        law(penalty, rough),
+        law(R"({"type": "power", "coefficient": 2000.0, "exponent": 2})", limited),
+        law(type("augmented"), coulomb),
+        law(type("augmented_multiplier"), coulomb),
+        law(type("multiplier"), limited),
+    };
+  }();
+  return kinds;
+}
+
 struct ModelKind {
   std::string basis;
   std::string height = "none";
   std::string projection = "normal";
   std::string more = ""; // further keys: ", \"tangent\": \"small_gap\""
+  std::size_t contact = 0; // of contact_kinds()
 };
 
 inline std::string text(const ModelKind& kind) {
   const int dimension = basis(kind.basis).dimension;
   return R"({"segment": ")" + kind.basis + R"(", "height": )" + height(kind.height, dimension) +
          R"(, "projection": )" + projection(kind.projection, dimension) +
-         R"(, "contact": {"normal": {"type": "penalty", "stiffness": 1000.0}})" + kind.more + "}";
+         R"(, "contact": )" + contact_kinds()[kind.contact] + kind.more + "}";
 }
 
-// Every basis with every height and every projection; rigid masters and the approximate tangents among them.
+// Every basis with every height and every projection; every law, rigid masters and the approximate tangents among them.
 inline std::vector<ModelKind> all_kinds() {
   const std::vector<std::string> more = {"", R"(, "master": "rigid")", R"(, "tangent": "small_gap")",
                                          R"(, "tangent": "first_variation")", ""};
   std::vector<ModelKind> kinds;
   for (const Basis& b : bases())
     for (const std::string& h : height_kinds())
-      for (const std::string& p : projection_kinds()) kinds.push_back({b.name, h, p, more[kinds.size() % more.size()]});
+      for (const std::string& p : projection_kinds()) 
+        kinds.push_back({b.name, h, p, more[kinds.size() % more.size()], (7 * kinds.size()) % contact_kinds().size()});
   return kinds;
 }
 
-// A few per basis, all heights and projections among them: for tests that do much with each.
+// A few per basis, all heights, projections and laws among them: for tests that do much with each.
 inline std::vector<ModelKind> some_kinds() {
   std::vector<ModelKind> kinds;
   for (std::size_t i = 0; i < bases().size(); ++i)
     for (std::size_t j = 0; j < 3; ++j)
       kinds.push_back({bases()[i].name, height_kinds()[(3 * i + 2 * j) % height_kinds().size()],
-                       projection_kinds()[(i + j) % 3], i % 4 == 3 && j == 1 ? R"(, "master": "rigid")" : ""});
+                       projection_kinds()[(i + j) % 3], 
+                       i % 4 == 3 && j == 1 ? R"(, "master": "rigid")" : "", (3 * i + 5 * j) % contact_kinds().size()});
   return kinds;
 }
 

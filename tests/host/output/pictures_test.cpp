@@ -108,6 +108,10 @@ TEST_F(Pictures, MapsWithBlanksAndAClippedPeak) {
   expect_drawn(draw(maps, folder_, "maps"), "maps");
   EXPECT_NE(content("maps.gp").find("set cbrange [0:4]"), std::string::npos);
   EXPECT_NE(content("maps.gp").find("peak 1000"), std::string::npos);
+  maps.maps[0].at_nodes = true; // 3 columns from 0 to 1: pixels of 0.5, the outer ones centred on the border
+  expect_drawn(draw(maps, folder_, "nodes"), "nodes");
+  EXPECT_NE(content("nodes.gp").find("set xrange [-0.25:1.25]"), std::string::npos);
+  EXPECT_NE(content("nodes.gp").find("(0+$1*0.5)"), std::string::npos);
   maps.maps[0].values.pop_back();
   EXPECT_THROW(draw(maps, folder_, "maps"), std::invalid_argument);
 }

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The host's floating-point environment - rounding, traps, flags, flush to zero - is as it was after every call, on
+// success and on every error, and the results do not depend on it.
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <functional>
+#include <limits>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+#include "support/element.hpp"
+
+namespace {
+
+using namespace test;
+
+// Everything a host can see or set.
+struct Environment {
+  int rounding = 0, traps = 0, flags = 0;
+  unsigned control = 0; // MXCSR, sticky flags included
+  bool operator==(const Environment&) const = default;
+};
+
+Environment current() {
+  Environment e;
+  e.rounding = std::fegetround();
+  e.traps = fegetexcept();
+  e.flags = std::fetestexcept(FE_ALL_EXCEPT);
+#if defined(__SSE2__)
+  e.control = _mm_getcsr();
+#endif
+  return e;
+}
+
+struct Setting {
+  const char* name;
+  int rounding;
+  int traps;
+  bool flush;    // results and inputs that are denormal count as 0
+  int raised;    // flags that stand already (without traps: a standing flag would trap)
+};
+constexpr int usual_traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+const Setting settings[] = {
+    {"default", FE_TONEAREST, 0, false, 0},
+    {"upward", FE_UPWARD, 0, false, 0},
+    {"downward", FE_DOWNWARD, 0, false, 0},
+    {"towards zero", FE_TOWARDZERO, 0, false, 0},
+    {"traps", FE_TONEAREST, usual_traps, false, 0},
+    {"all traps, upward", FE_UPWARD, FE_ALL_EXCEPT, false, 0},
+    {"flush to zero", FE_TONEAREST, 0, true, 0},
+    {"flush to zero, downward, traps, flags", FE_DOWNWARD, FE_UNDERFLOW, true, FE_INVALID | FE_INEXACT},
+    {"flags", FE_TONEAREST, 0, false, FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT},
+};
+
+// `body` in a setting; nothing else of the test may run in it. Returns the environments just before and after.
+template <class Body> std::pair<Environment, Environment> in(const Setting& setting, Body&& body) {
+  std::fenv_t saved;
+  std::fegetenv(&saved);
+  fedisableexcept(FE_ALL_EXCEPT);
+  std::feclearexcept(FE_ALL_EXCEPT);
+  std::feraiseexcept(setting.raised);
+  std::fesetround(setting.rounding);
+#if defined(__SSE2__)
+  if (setting.flush) _mm_setcsr(_mm_getcsr() | 0x8040u); // FTZ and DAZ
+#endif
+  feenableexcept(setting.traps);
+  const Environment before = current();
+  body();
+  const Environment after = current();
+  std::fesetenv(&saved);
+  return {before, after};
+}
+
+#define EXPECT_KEPT(setting, body)                                                                             \
+  do {                                                                                                         \
+    const auto environments = in(setting, body);                                                               \
+    EXPECT_EQ(environments.first.rounding, environments.second.rounding) << (setting).name;                    \
+    EXPECT_EQ(environments.first.traps, environments.second.traps) << (setting).name;                          \
+    EXPECT_EQ(environments.first.flags, environments.second.flags) << (setting).name;                          \
+    EXPECT_EQ(environments.first.control, environments.second.control) << (setting).name;                      \
+  } while (false)
+
+TEST(FloatingPointEnvironment, IsKeptByTenThousandEvaluationsAndTheirErrors) {
+  Random random(41);
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308, 5e-324};
+  int calls = 0, failed = 0;
+  for (const ModelKind& kind : all_kinds()) {
+    const Model model(text(kind));
+    Results results(model.layout);
+    for (const Setting& setting : settings)
+      for (int repeat = 0; repeat < 5; ++repeat) {
+        Element e = draw(model, basis(kind.basis), random);
+        if (repeat == 1) e[start].clear();
+        if (repeat == 2) e[slave][0] = bad[random.below(4)];
+        if (repeat == 3) e[master].assign(e[master].size(), 0.5);
+        if (repeat == 4) e = with_history(model, std::move(e), random);
+        const ents_input input = input_of(e);
+        const ents_output output = output_of(results, want_all);
+        int32_t status = 0;
+        EXPECT_KEPT(setting, [&] { status = ents_evaluate(model.get(), 0, 1, &input, &output, nullptr); });
+        ++calls;
+        failed += status != ENTS_OK;
+      }
+  }
+  EXPECT_GE(calls, 10000);
+  EXPECT_GT(failed, calls / 4);
+  EXPECT_LT(failed, 3 * calls / 4);
+}
+
+TEST(FloatingPointEnvironment, IsKeptByEveryOtherFunction) {
+  const std::string good = text({"quad4", "map", "shadow_point"});
+  const std::string texts[] = {good, R"({"segment": "quad5"})", R"({"segment": "line2", "penetration_limit": 1e999})",
+                               R"({"segment": "line2", "penetration_limit": 1e-320})", "{"};
+  const Model model(good);
+  Random random(42);
+  Element e = draw(model, basis("quad4"), random);
+  const std::vector<double> xi = {0.3, 0.2};
+  for (const Setting& setting : settings) {
+    for (const std::string& t : texts) {
+      ents_model* made = nullptr;
+      ents_report report = new_report();
+      EXPECT_KEPT(setting, [&] { ents_model_create(t.c_str(), -1, nullptr, nullptr, 0, &made, &report); });
+      EXPECT_EQ(made != nullptr, t == good) << report.message;
+      EXPECT_KEPT(setting, [&] { ents_model_destroy(&made, &report); });
+    }
+    for (const double scale : {1.0, 1e200, 0.0}) {
+      std::vector<double> nodes = e[master], point(3), state(static_cast<std::size_t>(model.layout.state_size));
+      for (double& x : nodes) x *= scale;
+      ents_surface surface{};
+      surface.struct_size = sizeof surface;
+      surface.master = nodes.data();
+      surface.xi = xi.data();
+      surface.point = point.data();
+      ents_admissibility result{};
+      result.struct_size = sizeof result;
+      ents_layout layout{};
+      layout.struct_size = sizeof layout;
+      EXPECT_KEPT(setting, [&] { ents_surface_evaluate(model.get(), 1, &surface, nullptr); });
+      EXPECT_KEPT(setting, [&] { ents_model_check(model.get(), nodes.data(), nullptr, &result, nullptr); });
+      EXPECT_KEPT(setting, [&] { ents_state_init(model.get(), 1, state.data(), model.layout.state_size, nullptr); });
+      EXPECT_KEPT(setting, [&] { ents_model_layout(model.get(), &layout, nullptr); });
+      std::vector<double> moved = state;
+      EXPECT_KEPT(setting, [&] {
+        ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), nullptr);
+      });
+      const std::int64_t connectivity[] = {0, 1, 2, 3};
+      double areas[4];
+      EXPECT_KEPT(setting, [&] { ents_tributary_areas("quad4", 1, connectivity, 4, nodes.data(), 1.0, areas, nullptr); });
+    }
+  }
+}
+
+TEST(FloatingPointEnvironment, DoesNotChangeResults) {
+  Random random(43);
+  int compared = 0;
+  for (const ModelKind& kind : all_kinds()) {
+    // made and evaluated in the setting: the model's own numbers are the same, too
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      const Model reference(text(kind));
+      Element e = draw(reference, basis(kind.basis), random);
+      if (repeat == 1) {
+        e[start].clear();
+        e = with_history(reference, std::move(e), random);
+        e[slave][0] += 3e-310; // denormal parts that flushing would drop
+      }
+      Results expected(reference.layout);
+      const int32_t expected_status = test::evaluate(reference, e, want_all, expected);
+      for (const Setting& setting : settings) {
+        Results results(reference.layout);
+        const ents_input input = input_of(e);
+        const ents_output output = output_of(results, want_all);
+        int32_t status = -1;
+        ents_model* model = nullptr;
+        const std::string model_text = text(kind);
+        in(setting, [&] {
+          ents_model_create(model_text.c_str(), -1, nullptr, nullptr, 0, &model, nullptr);
+          status = ents_evaluate(model, 0, 1, &input, &output, nullptr);
+        });
+        ents_model_destroy(&model, nullptr);
+        ASSERT_EQ(status, expected_status) << setting.name << " " << model_text;
+        ASSERT_TRUE(same_bits(results, expected)) << setting.name << " " << model_text;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 4000);
+}
+
+// Coordinates that are denormal as a whole: flushed they would be one point, and another verdict.
+TEST(FloatingPointEnvironment, DenormalInputsGiveTheSameWithFlushToZero) {
+  const Model model(R"({"segment": "line2"})");
+  Element e;
+  e[master] = {-1.0, 0.0, 1.0, 0.0};
+  e[slave] = {3e-310, -2e-310};
+  Results plain(model.layout), flushed(model.layout);
+  ASSERT_EQ(test::evaluate(model, e, want_values, plain), ENTS_OK);
+  EXPECT_EQ(plain.gap(), -2e-310);
+  const ents_input input = input_of(e);
+  const ents_output output = output_of(flushed, want_values);
+  in(settings[6], [&] { ents_evaluate(model.get(), 0, 1, &input, &output, nullptr); });
+  EXPECT_TRUE(same_bits(plain.of(ENTS_GAP), flushed.of(ENTS_GAP)));
+  EXPECT_TRUE(same_bits(plain.of(ENTS_XI), flushed.of(ENTS_XI)));
+}
+
+} // namespace
