@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A batch of n elements is n single calls, bit for bit: with packed, padded and shared inputs, in ranges, and when some
+// of the elements fail.
+#include <gtest/gtest.h>
+
+#include "support/element.hpp"
+
+namespace {
+
+using namespace test;
+
+constexpr std::size_t count = 7;
+
+// The arrays of a batch: input i is shared by all elements if bit i of `shared` is set, else `padding` doubles lie between.
+struct Batch {
+  Batch(const Model& model, const std::vector<Element>& given, unsigned shared, std::size_t padding) : elements(given) {
+    input.struct_size = sizeof input;
+    output.struct_size = sizeof output;
+    for (int i = 0; i < input_count; ++i) {
+      auto& array = in[static_cast<std::size_t>(i)];
+      const std::size_t size = elements[0][i].size();
+      if (size == 0) continue;
+      const bool all = (shared >> i) & 1u;
+      for (Element& e : elements) {
+        if (all) e[i] = elements[0][i];
+        if (all && !array.empty()) continue;
+        array.insert(array.end(), e[i].begin(), e[i].end());
+        array.insert(array.end(), all ? 0 : padding, 1e300);
+      }
+      input.*inputs[i].pointer = array.data();
+      input.*inputs[i].stride = all ? 0 : static_cast<int64_t>(size + padding);
+    }
+    for (int i = 0; i < output_count; ++i) {
+      auto& array = out[static_cast<std::size_t>(i)];
+      stride.push_back(size_of_output(model.layout, i) + padding);
+      array.assign(count * stride.back(), -7.0);
+      output.*outputs[i].pointer = array.data();
+      output.*outputs[i].stride = static_cast<int64_t>(stride.back());
+    }
+    integers.assign(3, std::vector<int32_t>(count * (1 + padding), -7));
+    output.flags = integers[0].data();
+    output.iterations = integers[1].data();
+    output.status = integers[2].data();
+    output.flags_stride = output.iterations_stride = output.status_stride = static_cast<int64_t>(1 + padding);
+    output.wanted = want_all;
+  }
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
+
+  std::vector<Element> elements;
+  std::array<std::vector<double>, input_count> in;
+  std::array<std::vector<double>, output_count> out;
+  std::vector<std::size_t> stride;
+  std::vector<std::vector<int32_t>> integers;
+  ents_input input{};
+  ents_output output{};
+};
+
+// Each element of the batch against a call of its own.
+void expect_singles(const Model& model, const Batch& batch, std::size_t first, std::size_t last) {
+  for (std::size_t e = first; e < last; ++e) {
+    Results single(model.layout);
+    for (auto& array : single.real) array.assign(array.size(), -7.0);
+    single.flags = single.iterations = -7;
+    const int32_t status = test::evaluate(model, batch.elements[e], want_all, single);
+    const std::size_t s = static_cast<std::size_t>(batch.output.status_stride);
+    ASSERT_EQ(batch.integers[0][e * s], single.flags) << e;
+    ASSERT_EQ(batch.integers[1][e * s], single.iterations) << e;
+    ASSERT_EQ(batch.integers[2][e * s], status) << e;
+    for (int i = 0; i < output_count; ++i) {
+      const auto& array = batch.out[static_cast<std::size_t>(i)];
+      const std::size_t at = e * batch.stride[static_cast<std::size_t>(i)];
+      const std::vector<double> part(array.begin() + static_cast<std::ptrdiff_t>(at),
+                                     array.begin() + static_cast<std::ptrdiff_t>(at + single[i].size()));
+      ASSERT_TRUE(same_bits(part, single[i])) << outputs[i].name << " of element " << e;
+    }
+  }
+}
+
+std::vector<Element> draw_batch(const Model& model, const Basis& b, Random& random, bool with_states) {
+  std::vector<Element> elements;
+  const Element base = draw(model, b, random);
+  for (std::size_t e = 0; e < count; ++e) {
+    Element one = draw(model, b, random);
+    if (one[surface_coordinates].empty() != base[surface_coordinates].empty()) one[surface_coordinates] = base[surface_coordinates];
+    elements.push_back(with_states ? with_history(model, std::move(one), random) : std::move(one));
+  }
+  return elements;
+}
+
+TEST(Batch, EveryPatternOfStrides) {
+  Random random(81);
+  for (const ModelKind& kind : some_kinds()) {
+    const Model model(text(kind));
+    const std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, true);
+    for (unsigned shared = 0; shared < 1u << input_count; ++shared) {
+      Batch batch(model, elements, shared, shared % 3);
+      const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, nullptr);
+      ASSERT_GE(status, 0);
+      expect_singles(model, batch, 0, count);
+      if (HasFatalFailure()) FAIL() << "shared inputs " << shared << " " << text(kind);
+    }
+  }
+}
+
+TEST(Batch, EveryKindOfModelWithoutHistory) {
+  Random random(82);
+  for (const ModelKind& kind : all_kinds()) {
+    const Model model(text(kind));
+    Batch batch(model, draw_batch(model, basis(kind.basis), random, false), 0, 2);
+    const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, nullptr);
+    ASSERT_GE(status, 0);
+    expect_singles(model, batch, 0, count);
+    if (HasFatalFailure()) FAIL() << text(kind);
+  }
+}
+
+TEST(Batch, EveryRange) {
+  Random random(83);
+  const ModelKind kind = {"quad4", "sum", "normal", "", 6};
+  const Model model(text(kind));
+  const std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, true);
+  for (std::size_t first = 0; first <= count; ++first)
+    for (std::size_t last = first; last <= count; ++last) {
+      Batch batch(model, elements, 0, 1);
+      const int32_t status = call::evaluate(model.get(), static_cast<int64_t>(first), static_cast<int64_t>(last - first),
+                                            &batch.input, &batch.output, nullptr);
+      ASSERT_GE(status, 0);
+      expect_singles(model, batch, first, last);
+      for (std::size_t e = 0; e < count; ++e)
+        if (e < first || e >= last) ASSERT_EQ(batch.integers[2][2 * e], -7) << "element " << e << " is outside the range";
+    }
+}
+
+// Elements that fail in the middle of a batch do not change the others; the first of them is what is returned.
+TEST(Batch, RecoverableElementsLeaveTheOthersAlone) {
+  Random random(84);
+  const ModelKind kind = {"quad8", "gaussian"};
+  const Model model(text(kind));
+  std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, false);
+  for (const std::size_t e : {2, 5}) elements[e][master].assign(elements[e][master].size(), 0.5);
+  Batch batch(model, elements, 0, 0);
+  ents_report report = new_report();
+  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, &report),
+            ENTS_DEGENERATE_SEGMENT);
+  EXPECT_EQ(report.element, 2);
+  EXPECT_EQ(report.status, ENTS_DEGENERATE_SEGMENT);
+  EXPECT_NE(std::string(report.message).find("element 2"), std::string::npos) << report.message;
+  EXPECT_GT(report.step_factor, 0.0);
+  EXPECT_LT(report.step_factor, 1.0);
+  expect_singles(model, batch, 0, count);
+}
+
+// A caller's mistake ends the batch: elements before it are done, elements after it are not.
+TEST(Batch, MistakesEndTheBatch) {
+  Random random(85);
+  const ModelKind kind = {"line3", "sine"};
+  const Model model(text(kind));
+  std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, false);
+  elements[1][master].assign(elements[1][master].size(), 0.5); // recoverable, before the mistake
+  elements[4][master][3] = std::numeric_limits<double>::quiet_NaN();
+  Batch batch(model, elements, 0, 0);
+  ents_report report = new_report();
+  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, &report), ENTS_NON_FINITE);
+  EXPECT_EQ(report.element, 4);
+  EXPECT_EQ(report.step_factor, 1.0);
+  EXPECT_STREQ(report.message, "input.master[3] of element 4 is NaN");
+  expect_singles(model, batch, 0, 5);
+  for (std::size_t e = 5; e < count; ++e) EXPECT_EQ(batch.integers[2][e], -7);
+}
+
+} // namespace

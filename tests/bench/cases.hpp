@@ -1,0 +1,57 @@
+// What is timed: contact elements by basis, height, wanted results and kind of call.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace bench {
+
+enum class Call {
+  single, // one element per call, 16 different ones in turn: everything stays in the first cache
+  batch,  // 64 elements per call
+  stream  // 1e5 elements per call, from and to main memory
+};
+
+struct Case {
+  std::string basis;
+  std::string variant; // plain, enriched, constant, map, rigid, ...
+  std::string level;   // gap, kinematics1, kinematics2, R, RK
+  Call call = Call::single;
+
+  std::string name() const; // quad4/enriched/RK/single
+};
+
+// The grid basis x {plain, enriched} x level x call, and what shows that absent things cost nothing.
+std::vector<Case> all_cases();
+
+// Elements in contact, ready to be evaluated again and again.
+class Job {
+public:
+  explicit Job(const Case& c);
+
+  // One call; elements follow each other from call to call where there are several in the arrays.
+  void run() {
+    ents_evaluate(model_.handle(), next_, per_call_, &input_, &output_, nullptr);
+    next_ += per_call_;
+    if (next_ == elements_.count) next_ = 0;
+  }
+  std::int64_t elements_per_call() const { return per_call_; }
+  double mean_surface_evaluations() const { return surface_evaluations_; }
+  double* results() { return storage_.data(); }
+
+private:
+  Job(const Case& c, mechanics::Random random);
+
+  mechanics::Scene scene_;
+  mechanics::Model model_;
+  mechanics::Elements elements_;
+  std::int64_t next_ = 0, per_call_ = 1;
+  ents_input input_{};
+  ents_output output_{};
+  std::vector<double> storage_;
+  double surface_evaluations_ = 0.0;
+};
+
+} // namespace bench

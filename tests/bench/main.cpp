@@ -1,0 +1,109 @@
+// ents-bench: what a contact element costs.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cases.hpp"
+#include "summary.hpp"
+
+namespace {
+
+constexpr char summary_cases[] = "/(plain|enriched)/(R|RK)/(single|batch)$";
+
+void print_help() {
+  std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
+
+Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
+  BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
+  VARIANT  plain (no height), enriched (a sine); for line2, quad4 and quad9 also constant, map, coordinates (a sine of surface
+           coordinates), rigid (master), first_variation, small_gap (tangents; all with the sine)
+  LEVEL    gap; R residual; RK residual and tangent; kinematics1 xi, gap and first variations; kinematics2 and second ones
+  CALL     single: 16 different elements in turn, one per call; batch: 64 per call; stream: 100000 per call (quad9: 25000), through main
+           memory; line2, tri3, quad4, quad9
+Every element is in contact; its projection starts 1e-2 (natural coordinates) beside the solution and converges to rounding.
+Counters: ns_per_element; surface_evaluations, the mean number that the projection takes. Times are CPU times of the thread.
+
+  --summary                       only R and RK, single and batch, as one table
+  --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
+  --benchmark_list_tests          names only
+  --benchmark_format=json         on the terminal; --benchmark_out=FILE --benchmark_out_format=json into a file
+  --benchmark_repetitions=N       15 if not given; medians are reported
+  --benchmark_min_time=SECONDS    of one repetition; 0.02 if not given
+Cases are interleaved at random, so that a slow second of the machine does not hit one of them alone
+(--benchmark_enable_random_interleaving=false turns this off). The other --benchmark_ flags are those of Google Benchmark.
+
+exit status: 0 done; 1 a case failed; 2 the command line is wrong)");
+}
+
+void register_case(const bench::Case& c) {
+  const auto run = [c](benchmark::State& state) {
+    std::unique_ptr<bench::Job> job;
+    try {
+      job = std::make_unique<bench::Job>(c);
+    } catch (const std::exception& error) {
+      state.SkipWithError(error.what());
+      return;
+    }
+    for (auto _ : state) {
+      job->run();
+      benchmark::DoNotOptimize(job->results());
+      benchmark::ClobberMemory();
+    }
+    using benchmark::Counter;
+    const double elements = static_cast<double>(job->elements_per_call());
+    state.counters[bench::nanoseconds] =
+        Counter(1e-9 * elements, Counter::kIsIterationInvariantRate | Counter::kInvert);
+    state.counters["surface_evaluations"] = job->mean_surface_evaluations();
+  };
+  benchmark::RegisterBenchmark(c.name().c_str(), run)->Unit(benchmark::kNanosecond);
+}
+
+// Is a flag given by the user?
+bool given(int argc, char** argv, const char* flag) {
+  for (int i = 1; i < argc; ++i)
+    if (std::strncmp(argv[i], flag, std::strlen(flag)) == 0) return true;
+  return false;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  bool summary = false;
+  std::vector<std::string> arguments = {argv[0]};
+  const std::pair<const char*, const char*> defaults[] = {{"--benchmark_repetitions", "15"},
+                                                          {"--benchmark_min_time", "0.02"},
+                                                          {"--benchmark_enable_random_interleaving", "true"},
+                                                          {"--benchmark_report_aggregates_only", "true"}};
+  for (const auto& [flag, value] : defaults)
+    if (!given(argc, argv, flag)) arguments.push_back(std::string(flag) + "=" + value);
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--help" || argument == "-h") {
+      print_help();
+      return 0;
+    }
+    if (argument == "--summary") summary = true;
+    else arguments.push_back(argument);
+  }
+  if (summary && !given(argc, argv, "--benchmark_filter"))
+    arguments.push_back(std::string("--benchmark_filter=") + summary_cases);
+
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  benchmark::Initialize(&count, pointers.data());
+  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+  for (const bench::Case& c : bench::all_cases()) register_case(c);
+  if (!summary) return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 1;
+  bench::Medians medians;
+  if (benchmark::RunSpecifiedBenchmarks(&medians) == 0) return 1;
+  bench::print_summary(std::cout, medians);
+  return 0;
+}
