@@ -89,9 +89,10 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
   return result;
 }
 
-bool Simulation::solve(const Evaluation& at, double motion_step, double force_error, Configuration& next) {
+bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
+                       Configuration& next) {
   const Stopwatch watch;
-  bool ok = solver_->factorize(system_->matrix());
+  bool ok = !factorize || solver_->factorize(system_->matrix());
   if (ok) {
     // Tied dofs add their residuals in one equation.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(dofs_->size()), column = residual, row = residual;
@@ -162,12 +163,15 @@ NewtonOutcome Simulation::advance(const Target& target) {
     }
   if (!jumps) jump.clear();
   at.load_factor = next.load_factor;
-  Evaluation state = evaluate(at, jump, true);
+  // A guess: the factors left by the last increment serve it as well as new ones.
+  const bool factorize = !factors_fit_;
+  factors_fit_ = false;
+  Evaluation state = evaluate(at, jump, factorize);
   if (!state.ok) return fail(state.reason, state.step_factor);
   const auto error_of = [&](const Evaluation& evaluation) {
     return by_force ? evaluation.coupling.force - next.force : 0;
   };
-  if (!solve(state, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
 
   // ... then Newton's iteration.
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
@@ -188,11 +192,11 @@ NewtonOutcome Simulation::advance(const Target& target) {
         if (contact_->master().rigid) next.force = state.coupling.force;
       }
       now_ = next;
-      outcome.converged = true;
+      outcome.converged = factors_fit_ = true;
       timings_.total += watch.seconds();
       return outcome;
     }
-    if (!solve(state, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
+    if (!solve(state, true, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
   }
   return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations", 0.5);
 }

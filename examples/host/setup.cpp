@@ -169,6 +169,7 @@ void Simulation::build_pattern() {
   system_->build(groups);
   solver_->analyze(system_->matrix());
   bulk_values_.clear();
+  factors_fit_ = false;
 }
 
 Sizes Simulation::sizes() const {

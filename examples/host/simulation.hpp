@@ -96,7 +96,8 @@ private:
   /// Move the master until it touches: Newton's iteration for a given force needs a contact to start from.
   void find_contact(Configuration& at);
   bool force_controlled() const;
-  bool solve(const Evaluation& at, double motion_step, double force_error, Configuration& next);
+  /// @param factorize  false: the factors at hand will do
+  bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error, Configuration& next);
 
   const Scene* scene_;
   Mesh mesh_;
@@ -107,6 +108,7 @@ private:
   std::unique_ptr<SparseSystem> system_;
   std::unique_ptr<LinearSolver> solver_;
   std::vector<double> bulk_values_; ///< tangent of a linear bulk
+  bool factors_fit_ = false;        ///< the solver holds factors of a tangent close to the present one
   std::vector<double> prescribed_;  ///< [dofs] per load factor
   std::vector<double> half_space_;  ///< [dofs] per force of all copies, or empty
   std::vector<double> loads_;       ///< [dofs] per load factor
