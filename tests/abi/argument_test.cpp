@@ -231,7 +231,8 @@ TEST_F(Arguments, Destroying) {
 // What is not a model is refused as far as its memory can be read (the header: best effort).
 TEST_F(Arguments, ForeignHandles) {
   alignas(64) unsigned char memory[4096];
-  for (const unsigned char filling : {0x00, 0x65, 0xff}) {
+  for (const int value : {0x00, 0x65, 0xff}) {
+    const auto filling = static_cast<unsigned char>(value);
     std::memset(memory, filling, sizeof memory);
     auto* foreign = reinterpret_cast<ents_model*>(memory);
     const auto refused_by = [&](int32_t status, const char* function) {

@@ -128,7 +128,9 @@ TEST(Batch, EveryRange) {
       ASSERT_GE(status, 0);
       expect_singles(model, batch, first, last);
       for (std::size_t e = 0; e < count; ++e)
-        if (e < first || e >= last) ASSERT_EQ(batch.integers[2][2 * e], -7) << "element " << e << " is outside the range";
+        if (e < first || e >= last) {
+          ASSERT_EQ(batch.integers[2][2 * e], -7) << "element " << e << " is outside the range";
+        }
     }
 }
 

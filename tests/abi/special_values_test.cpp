@@ -57,7 +57,7 @@ std::string describe(const Model& model, const Element& element) {
   std::string text = model.text();
   for (int i = 0; i < input_count; ++i) {
     text += std::string("\n  ") + inputs[i].name + ":";
-    for (const double v : element[i]) text += " " + number(v);
+    for (const double v : element[i]) (text += " ") += number(v);
   }
   return text;
 }
@@ -167,15 +167,21 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
   for (int repeat = 0; repeat < 1000; ++repeat) {
     const Basis& b = bases()[static_cast<std::size_t>(random.below(static_cast<int>(bases().size())))];
     const bool line = b.dimension == 2;
-    const std::string pair = "[" + any() + (line ? "]" : ", " + any() + "]"), triple = "[" + any() + ", " + (line ? "" : any() + ", ") + any() + "]";
+    const auto list = [](const std::vector<std::string>& entries) {
+      std::string joined;
+      for (const std::string& entry : entries) joined += (joined.empty() ? "[" : ", ") + entry;
+      return joined + "]";
+    };
+    const std::string pair = line ? list({any()}) : list({any(), any()});
+    const std::string triple = line ? list({any(), any()}) : list({any(), any(), any()});
     const std::string heights[] = {
         "null",
         R"({"type": "constant", "value": )" + any() + "}",
         R"({"type": "sine", "amplitude": )" + any() + R"(, "wave_vector": )" + pair + "}",
         R"({"type": "gaussian", "amplitude": )" + any() + R"(, "center": )" + pair + R"(, "width": )" + any() + "}",
-        R"({"type": "polynomial", "coefficients": [)" + (line ? any() + ", " + any() + ", " + any() : pair + ", " + pair) + "]}",
-        R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": [)" +
-            (line ? any() + ", " + any() : pair + ", " + pair) + "]}",
+        R"({"type": "polynomial", "coefficients": )" + (line ? list({any(), any(), any()}) : list({pair, pair})) + "}",
+        R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": )" +
+            (line ? list({any(), any()}) : list({pair, pair})) + "}",
     };
     const std::string projections[] = {R"({"type": "normal"})", R"({"type": "shadow_point", "emitter": )" + triple + "}",
                                        R"({"type": "shadow_direction", "direction": )" + triple + "}"};

@@ -120,7 +120,9 @@ TEST(StructSize, Layout) {
   layout.struct_size = sizeof layout;
   try_sizes<ents_layout>("layout", layout, [&](ents_layout* l, ents_report* report) {
     const int32_t status = call::model_layout(model.get(), l, report);
-    if (status == ENTS_OK && l->struct_size >= 12) EXPECT_EQ(l->nodes, 4);
+    if (status == ENTS_OK && l->struct_size >= 12) {
+      EXPECT_EQ(l->nodes, 4);
+    }
     return status;
   }, 0, ENTS_OK);
 }
@@ -215,8 +217,12 @@ TEST(StructSize, Report) {
         EXPECT_EQ(callers.value().status, status);
         EXPECT_TRUE(callers.untouched(known, std::min(sizeof known, static_cast<std::size_t>(size)), zero_tail));
         const std::size_t has = static_cast<std::size_t>(size);
-        if (has >= offsetof(ents_report, step_factor)) EXPECT_EQ(callers.value().element, -1);
-        if (has >= offsetof(ents_report, message)) EXPECT_EQ(callers.value().step_factor, 1.0);
+        if (has >= offsetof(ents_report, step_factor)) {
+          EXPECT_EQ(callers.value().element, -1);
+        }
+        if (has >= offsetof(ents_report, message)) {
+          EXPECT_EQ(callers.value().step_factor, 1.0);
+        }
         if (has > offsetof(ents_report, message)) {
           const std::size_t room = std::min(has - offsetof(ents_report, message), sizeof known.message);
           EXPECT_LT(strnlen(callers.value().message, room), room) << "not terminated";
