@@ -64,7 +64,7 @@ TEST_F(Arguments, NoElementsNoComplaint) {
   ents_surface surface{};
   surface.struct_size = sizeof surface;
   EXPECT_EQ(call::surface_evaluate(model.get(), int64_t{0}, &surface, &report), ENTS_OK);
-  EXPECT_EQ(ents_tributary_areas("quad4", 0, nullptr, 0, nullptr, 1.0, nullptr, &report), ENTS_OK);
+  EXPECT_EQ(call::tributary_areas("quad4", 0, nullptr, 0, nullptr, 1.0, nullptr, &report), ENTS_OK);
   EXPECT_STREQ(report.message, "");
 }
 
@@ -189,14 +189,14 @@ TEST_F(Arguments, NullArgumentsByName) {
       {"'model'", [&] { return call::model_check(nullptr, nodes, nullptr, &result, &report); }},
       {"'master'", [&] { return call::model_check(live, nullptr, nullptr, &result, &report); }},
       {"'result'", [&] { return call::model_check(live, nodes, nullptr, nullptr, &report); }},
-      {"'old_master'", [&] { return ents_state_transfer(live, nullptr, nullptr, nodes, nullptr, state.data(), areas, &report); }},
-      {"'new_master'", [&] { return ents_state_transfer(live, nodes, nullptr, nullptr, nullptr, state.data(), areas, &report); }},
-      {"'state'", [&] { return ents_state_transfer(live, nodes, nullptr, nodes, nullptr, nullptr, areas, &report); }},
-      {"'moved'", [&] { return ents_state_transfer(live, nodes, nullptr, nodes, nullptr, state.data(), nullptr, &report); }},
-      {"'facet'", [&] { return ents_tributary_areas(nullptr, 1, connectivity, 4, nodes, 1.0, areas, &report); }},
-      {"connectivity", [&] { return ents_tributary_areas("quad4", 1, nullptr, 4, nodes, 1.0, areas, &report); }},
-      {"positions", [&] { return ents_tributary_areas("quad4", 1, connectivity, 4, nullptr, 1.0, areas, &report); }},
-      {"areas", [&] { return ents_tributary_areas("quad4", 1, connectivity, 4, nodes, 1.0, nullptr, &report); }},
+      {"'old_master'", [&] { return call::state_transfer(live, nullptr, nullptr, nodes, nullptr, state.data(), areas, &report); }},
+      {"'new_master'", [&] { return call::state_transfer(live, nodes, nullptr, nullptr, nullptr, state.data(), areas, &report); }},
+      {"'state'", [&] { return call::state_transfer(live, nodes, nullptr, nodes, nullptr, nullptr, areas, &report); }},
+      {"'moved'", [&] { return call::state_transfer(live, nodes, nullptr, nodes, nullptr, state.data(), nullptr, &report); }},
+      {"'facet'", [&] { return call::tributary_areas(nullptr, 1, connectivity, 4, nodes, 1.0, areas, &report); }},
+      {"connectivity", [&] { return call::tributary_areas("quad4", 1, nullptr, 4, nodes, 1.0, areas, &report); }},
+      {"positions", [&] { return call::tributary_areas("quad4", 1, connectivity, 4, nullptr, 1.0, areas, &report); }},
+      {"areas", [&] { return call::tributary_areas("quad4", 1, connectivity, 4, nodes, 1.0, nullptr, &report); }},
   };
   for (const auto& [name, make] : calls) {
     report = new_report();
@@ -318,10 +318,10 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
   int64_t connectivity[4] = {0, 1, 2, 3};
   double areas[4];
   for (const int64_t bad : {int64_t{-1}, INT64_MIN, INT64_MAX}) {
-    EXPECT_EQ(ents_tributary_areas("quad4", bad, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
-    EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, bad, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
+    EXPECT_EQ(call::tributary_areas("quad4", bad, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
+    EXPECT_EQ(call::tributary_areas("quad4", 1, connectivity, bad, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
     connectivity[2] = bad;
-    EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_VALUE);
+    EXPECT_EQ(call::tributary_areas("quad4", 1, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_VALUE);
     EXPECT_NE(std::string(report.message).find("connectivity[2]"), std::string::npos) << report.message;
     connectivity[2] = 2;
   }

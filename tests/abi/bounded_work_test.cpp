@@ -10,13 +10,16 @@ using namespace test;
 
 // Evaluations of the surface by one iteration from a start value: at most 30, and one count beyond.
 constexpr int per_iteration = 31;
-// A search: at most 1024 samples and 8 iterations (enriched), and before it the start value's own iteration; to place
-// the samples of a fine texture the plain segment is searched first: at most 25 samples and 8 iterations.
+// A search: at most 1024 samples and 8 iterations (enriched), and before it the start value's own iteration;
+// to place the samples of a fine texture the plain segment is searched first: at most 25 samples and 8
+// iterations.
 constexpr int most = per_iteration + 1024 + 8 * per_iteration + 25 + 8 * per_iteration;
 
 std::string fine_texture(const Basis& b) {
-  return R"({"segment": ")" + std::string(b.name) + R"(", "height": {"type": "sine", "amplitude": 0.001, "wave_vector": )" +
-         (b.dimension == 2 ? "[5e4]" : "[4e3, 7e3]") + R"(}, "contact": {"normal": {"type": "penalty", "stiffness": 1}}})";
+  return R"({"segment": ")" + std::string(b.name) +
+         R"(", "height": {"type": "sine", "amplitude": 0.001, "wave_vector": )" +
+         (b.dimension == 2 ? "[5e4]" : "[4e3, 7e3]") +
+         R"(}, "contact": {"normal": {"type": "penalty", "stiffness": 1}}})";
 }
 
 TEST(BoundedWork, IterationsStayBelowTheirBound) {
@@ -41,7 +44,8 @@ TEST(BoundedWork, IterationsStayBelowTheirBound) {
       if (test::evaluate(model, e, want_element | want_values, results) != ENTS_OK) continue;
       ++ok;
       worst = std::max(worst, results.iterations);
-      if (!(results.flags & ENTS_FLAG_SEARCHED)) worst_from_start = std::max(worst_from_start, results.iterations);
+      if (!(results.flags & ENTS_FLAG_SEARCHED))
+        worst_from_start = std::max(worst_from_start, results.iterations);
       ASSERT_GE(results.iterations, 1);
     }
   }
@@ -63,7 +67,8 @@ TEST(BoundedWork, NearStartsTakeFewIterations) {
     Results results(model.layout);
     for (int i = 0; i < 20; ++i) {
       const Element e = draw(model, basis(kind.basis), random); // starts 0.02 off
-      if (test::evaluate(model, e, want_values, results) != ENTS_OK || (results.flags & ENTS_FLAG_SEARCHED)) continue;
+      if (test::evaluate(model, e, want_values, results) != ENTS_OK || (results.flags & ENTS_FLAG_SEARCHED))
+        continue;
       sum += results.iterations;
       worst = std::max(worst, results.iterations);
       ++count;

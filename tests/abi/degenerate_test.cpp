@@ -21,7 +21,8 @@ TEST(Degenerate, ZeroLengthOrZeroAreaIsADegenerateSegment) {
 
     Element point; // all nodes in one point
     point[slave] = above_centre(b, -0.1);
-    for (std::size_t i = 0; i < b.nodes.size(); ++i) point[master].insert(point[master].end(), {0.3, 0.1}), point[master].resize(d * (i + 1), 0.2);
+    for (std::size_t i = 0; i < b.nodes.size(); ++i)
+      point[master].insert(point[master].end(), {0.3, 0.1}), point[master].resize(d * (i + 1), 0.2);
     for (const bool searched : {false, true}) {
       Element e = posed(point, pose, b.dimension);
       if (!searched) e[start] = centre(b);
@@ -41,9 +42,9 @@ TEST(Degenerate, ZeroLengthOrZeroAreaIsADegenerateSegment) {
   });
 }
 
-// Where rho turns back on itself it has no tangent: a line3 whose middle node lies beyond the quarter points folds
-// on the segment. The slave lies beyond the fold, so the fold is the closest point. (Enriched, the surface jumps
-// there by twice the height; the fold itself is not on it.)
+// Where rho turns back on itself it has no tangent: a line3 whose middle node lies beyond the quarter points
+// folds on the segment. The slave lies beyond the fold, so the fold is the closest point. (Enriched, the
+// surface jumps there by twice the height; the fold itself is not on it.)
 TEST(Degenerate, ProjectionOnAFoldHasNoNormal) {
   const Basis& b = basis("line3");
   for (const Pose& pose : poses(2)) {
@@ -63,8 +64,8 @@ TEST(Degenerate, ProjectionOnAFoldHasNoNormal) {
   }
 }
 
-// A quad4 with two neighbouring corners exchanged is twisted by half a turn: on the line through its middle, eta = 0, the
-// first tangent vanishes and the normal turns over.
+// A quad4 with two neighbouring corners exchanged is twisted by half a turn: on the line through its middle,
+// eta = 0, the first tangent vanishes and the normal turns over.
 TEST(Degenerate, TwistedSegmentHasNoNormalInItsMiddle) {
   const Basis& b = basis("quad4");
   for (const std::string& p : projection_kinds())
@@ -74,11 +75,13 @@ TEST(Degenerate, TwistedSegmentHasNoNormalInItsMiddle) {
       Results results(model.layout);
       Element e;
       e[master] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
-      e[slave] = p == "normal" ? std::vector<double>{0.0, 0.0, -0.01} : std::vector<double>{-0.002, 0.001, -0.01};
+      e[slave] =
+          p == "normal" ? std::vector<double>{0.0, 0.0, -0.01} : std::vector<double>{-0.002, 0.001, -0.01};
       e[start] = {0.0, 0.0};
       e = posed(e, pose, 3);
       const int32_t status = test::evaluate(model, e, want_all, results);
-      EXPECT_TRUE(status == ENTS_DEGENERATE_SEGMENT || status == ENTS_GRAZING_RAY) << status << ", gap " << results.gap();
+      EXPECT_TRUE(status == ENTS_DEGENERATE_SEGMENT || status == ENTS_GRAZING_RAY)
+          << status << ", gap " << results.gap();
     }
 }
 

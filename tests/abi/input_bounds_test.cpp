@@ -121,7 +121,7 @@ TEST(InputBounds, OtherFunctionsReadTheirArraysAndNothingBeside) {
       result.samples = 5;
       call::model_check(model.get(), nodes.data(), nullptr, &result, nullptr);
       std::vector<double> moved = e[state_begin];
-      EXPECT_EQ(ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), nullptr),
+      EXPECT_EQ(call::state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), nullptr),
                 ENTS_OK);
     }
   }
@@ -129,7 +129,7 @@ TEST(InputBounds, OtherFunctionsReadTheirArraysAndNothingBeside) {
   const Fenced positions(square, Fenced::at_back);
   const int64_t connectivity[] = {0, 1, 2, 3};
   double areas[4];
-  EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, 4, positions.data(), 0.0, areas, nullptr), ENTS_OK);
+  EXPECT_EQ(call::tributary_areas("quad4", 1, connectivity, 4, positions.data(), 0.0, areas, nullptr), ENTS_OK);
 }
 
 // The text is not zero-terminated and ends where access ends.

@@ -278,12 +278,12 @@ TEST(OutputBounds, StateSurfaceAndAreas) {
   const int64_t connectivity[] = {0, 1, 2};
   const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5};
   Guarded areas(4);
-  ASSERT_EQ(ents_tributary_areas("tri3", 1, connectivity, 4, positions, 1.0, areas.data(), nullptr), ENTS_OK);
+  ASSERT_EQ(call::tributary_areas("tri3", 1, connectivity, 4, positions, 1.0, areas.data(), nullptr), ENTS_OK);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(areas.written(k));
   EXPECT_TRUE(areas.guards_intact());
   areas.refill();
   const int64_t wrong[] = {0, 1, 4};
-  EXPECT_EQ(ents_tributary_areas("tri3", 1, wrong, 4, positions, 1.0, areas.data(), nullptr), ENTS_BAD_VALUE);
+  EXPECT_EQ(call::tributary_areas("tri3", 1, wrong, 4, positions, 1.0, areas.data(), nullptr), ENTS_BAD_VALUE);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_FALSE(areas.written(k));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library says nothing but through its reports and leaves the process as it is: no byte on standard output or error,
-// no open file, no changed locale, directory, mask, environment or signal handler.
+// The library says nothing but through its reports and leaves the process as it is: no byte on standard
+// output or error, no open file, no changed locale, directory, mask, environment or signal handler.
 #include <gtest/gtest.h>
 
 #include <clocale>
@@ -44,9 +44,15 @@ void work(const std::filesystem::path& folder) {
       call::model_check(model.get(), e[master].data(), nullptr, &result, &report);
     }
   }
-  const char* texts[] = {"", "{", R"({"segment": 7})", R"({"segment": "quad4", "segment": "quad4"})", "\xff\xfe",
-                         R"({"segment": "line2", "height": {"type": "map", "file": "missing", "boundary": "clamped"}})"};
-  for (const char* t : texts) call::model_create(t, int64_t{-1}, folder.c_str(), nullptr, int64_t{0}, &made, &report);
+  const char* texts[] = {
+      "",
+      "{",
+      R"({"segment": 7})",
+      R"({"segment": "quad4", "segment": "quad4"})",
+      "\xff\xfe",
+      R"({"segment": "line2", "height": {"type": "map", "file": "missing", "boundary": "clamped"}})"};
+  for (const char* t : texts)
+    call::model_create(t, int64_t{-1}, folder.c_str(), nullptr, int64_t{0}, &made, &report);
   for (const char* name : {"model.json", "broken.json", "missing.json", "."}) {
     call::model_create_from_file((folder / name).c_str(), &made, &report);
     call::model_destroy(&made, &report);
@@ -67,7 +73,8 @@ Process observe() {
   Process p;
   for (int s = 1; s < 65; ++s) {
     struct sigaction action {};
-    if (sigaction(s, nullptr, &action) == 0) p.handlers[s] = {reinterpret_cast<void*>(action.sa_handler), action.sa_flags};
+    if (sigaction(s, nullptr, &action) == 0)
+      p.handlers[s] = {reinterpret_cast<void*>(action.sa_handler), action.sa_flags};
   }
   p.locale = std::setlocale(LC_ALL, nullptr);
   p.decimal_point = std::localeconv()->decimal_point;
@@ -76,7 +83,8 @@ Process observe() {
   p.mask = umask(0);
   umask(p.mask);
   p.open_files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) p.open_files += entry.is_symlink();
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    p.open_files += entry.is_symlink();
   return p;
 }
 
@@ -85,8 +93,9 @@ protected:
   Silence() : folder(std::filesystem::temp_directory_path() / ("ents_silence_" + std::to_string(getpid()))) {
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "scan.txt") << "0.1 0.2 0.3\n0.2 0.1 0.0\n";
-    std::ofstream(folder / "model.json") << R"({"segment": "quad4", "height": {"type": "map", "file": "scan.txt",)"
-                                            R"( "boundary": "periodic", "size": [1, 1]}})";
+    std::ofstream(folder / "model.json")
+        << R"({"segment": "quad4", "height": {"type": "map", "file": "scan.txt",)"
+           R"( "boundary": "periodic", "size": [1, 1]}})";
     std::ofstream(folder / "broken.json") << "{\"segment\": ";
   }
   ~Silence() override { std::filesystem::remove_all(folder); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// State blocks: what is not one of this model, version and size is refused, whatever byte of it is wrong; a block goes
-// through memory unharmed.
+// State blocks: what is not one of this model, version and size is refused, whatever byte of it is wrong; a
+// block goes through memory unharmed.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -75,7 +75,8 @@ TEST_F(State, EveryBitOfTheTagCounts) {
     expect_refused(model, e, "history " + number(history));
   }
   for (std::size_t i = 0; i < good[state_begin].size(); ++i)
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
       Element e = good;
       e[state_begin][i] = bad;
       expect_refused(model, e, "entry " + std::to_string(i));
@@ -98,8 +99,9 @@ TEST_F(State, BlocksOfOtherModelsAreRefused) {
     }
 }
 
-// A block cut off at any byte and filled with zeros. Within the tag and the history a cut is seen for certain; later
-// numbers of their own have no check, but then the block is at least one of the right kind, and the results finite.
+// A block cut off at any byte and filled with zeros. Within the tag and the history a cut is seen for
+// certain; later numbers of their own have no check, but then the block is at least one of the right kind,
+// and the results finite.
 TEST_F(State, TruncatedBlocks) {
   for (const std::size_t contact : {0u, 6u, 9u}) {
     const Model model(text({"quad4", "sine", "normal", "", contact}));
@@ -110,9 +112,11 @@ TEST_F(State, TruncatedBlocks) {
       Element e = good;
       std::memset(reinterpret_cast<char*>(e[state_begin].data()) + kept, 0, bytes - kept);
       if (same_bits(e[state_begin], good[state_begin])) continue;
-      // the last bytes of the history are those that say which one it is: cut to nothing it reads "none", a new block's
+      // the last bytes of the history are those that say which one it is: cut to nothing it reads "none", a
+      // new block's
       const double history = e[state_begin][1];
-      if (e[state_begin][0] != good[state_begin][0] || (history != 0.0 && history != 2.0 && history != good[state_begin][1])) {
+      if (e[state_begin][0] != good[state_begin][0] ||
+          (history != 0.0 && history != 2.0 && history != good[state_begin][1])) {
         expect_refused(model, e, "cut after byte " + std::to_string(kept));
         continue;
       }
@@ -131,7 +135,8 @@ TEST_F(State, RestartGivesTheSameBits) {
   for (const ModelKind& kind : some_kinds()) {
     const Model model(text(kind));
     Element e = with_history(model, draw(model, basis(kind.basis), random), random);
-    std::string file(reinterpret_cast<const char*>(e[state_begin].data()), e[state_begin].size() * sizeof(double));
+    std::string file(reinterpret_cast<const char*>(e[state_begin].data()),
+                     e[state_begin].size() * sizeof(double));
     Results expected(model.layout), results(model.layout);
     const int32_t status = test::evaluate(model, e, want_all, expected);
     std::memcpy(e[state_begin].data(), file.data(), file.size());
@@ -148,11 +153,15 @@ TEST_F(State, TransferAndAugmentRefuseForeignBlocks) {
   std::vector<double> state(size, 0.0), moved(size, -7.0), good(size);
   call::state_init(model.get(), int64_t{1}, good.data(), int64_t{model.layout.state_size}, nullptr);
   ents_report report = new_report();
-  EXPECT_EQ(ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), &report), ENTS_BAD_STATE);
+  EXPECT_EQ(call::state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(),
+                                 moved.data(), &report),
+            ENTS_BAD_STATE);
   for (const double v : moved) EXPECT_EQ(v, -7.0);
   const auto stride = static_cast<int64_t>(size);
-  EXPECT_EQ(ents_state_augment(model.get(), 1, good.data(), stride, state.data(), stride, &report), ENTS_BAD_STATE);
-  EXPECT_EQ(ents_state_augment(model.get(), 1, state.data(), stride, good.data(), stride, &report), ENTS_BAD_STATE);
+  EXPECT_EQ(call::state_augment(model.get(), 1, good.data(), stride, state.data(), stride, &report),
+            ENTS_BAD_STATE);
+  EXPECT_EQ(call::state_augment(model.get(), 1, state.data(), stride, good.data(), stride, &report),
+            ENTS_BAD_STATE);
   for (const double v : state) EXPECT_EQ(v, 0.0);
 }
 

@@ -19,7 +19,8 @@ struct Pose {
 inline std::vector<Pose> poses(int d) {
   std::vector<Pose> all;
   for (const double size : {1e-6, 1.0, 1e6})
-    for (const Rotation& turn : {rotation(d, 0.0, 0.0), rotation(d, 0.7, -1.1), rotation(d, 2.9, 2.3)}) all.push_back({size, turn});
+    for (const Rotation& turn : {rotation(d, 0.0, 0.0), rotation(d, 0.7, -1.1), rotation(d, 2.9, 2.3)})
+      all.push_back({size, turn});
   return all;
 }
 
@@ -40,8 +41,10 @@ inline std::string vector_text(const std::vector<double>& v) {
 }
 
 // A model whose lengths and ray are in the pose. Heights as in support/model.hpp.
-inline Model model_in(const Pose& pose, const Basis& b, const std::string& height_kind, const std::string& projection_kind,
-               const std::string& more = "") {
+inline Model
+model_in(const Pose& pose, const Basis& b, const std::string& height_kind, const std::string& projection_kind,
+         const std::string& more = "",
+         const std::string& contact = R"({"normal": {"type": "penalty", "stiffness": 1000.0}})") {
   const int d = b.dimension;
   std::vector<double> ray = d == 2 ? std::vector<double>{0.2, 1.0} : std::vector<double>{0.2, -0.1, 1.0};
   std::string way = R"({"type": "normal"})";
@@ -53,13 +56,14 @@ inline Model model_in(const Pose& pose, const Basis& b, const std::string& heigh
     pose.turn.apply(ray.data(), d);
     way = R"({"type": "shadow_direction", "direction": )" + vector_text(ray) + "}";
   }
-  return Model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height(height_kind, d, pose.size) +
-               R"(, "projection": )" + way +
-               R"(, "contact": {"normal": {"type": "penalty", "stiffness": 1000.0}})" + more + "}");
+  return Model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" +
+               height(height_kind, d, pose.size) + R"(, "projection": )" + way + R"(, "contact": )" +
+               contact + more + "}");
 }
 
 // Every basis, with and without height, every projection, every pose.
-inline void everywhere(const std::function<void(const Basis&, const std::string&, const std::string&, const Pose&)>& visit) {
+inline void everywhere(
+    const std::function<void(const Basis&, const std::string&, const std::string&, const Pose&)>& visit) {
   for (const Basis& b : bases())
     for (const char* h : {"none", "sine"})
       for (const std::string& p : projection_kinds())
@@ -67,6 +71,12 @@ inline void everywhere(const std::function<void(const Basis&, const std::string&
           SCOPED_TRACE(std::string(b.name) + " " + h + " " + p + " size " + number(pose.size));
           visit(b, h, p, pose);
         }
+}
+
+inline bool all_zero(const std::vector<double>& v) {
+  for (const double x : v)
+    if (x != 0.0) return false;
+  return true;
 }
 
 inline std::vector<double> above_centre(const Basis& b, double gap) {
