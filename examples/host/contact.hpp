@@ -57,6 +57,10 @@ public:
                         SparseSystem* system, std::size_t group, RigidCoupling* coupling,
                         double& squared_force, ents_report& report);
 
+  /// How many slave nodes the last `assemble` found open that were closed before, closed that were open, or closed on
+  /// another segment: Newton's iteration is quadratic once there are none.
+  int status_changes() const { return status_changes_; }
+
   /// The increment is accepted: what the last `assemble` left becomes the history.
   void accept();
 
@@ -77,6 +81,8 @@ private:
   std::vector<double> areas_;
   std::vector<int> segment_, segment_begin_; ///< [slaves] chosen; chosen when the history was written
   std::vector<double> state_begin_, state_end_; ///< [slaves][state_size]
+  std::vector<int> closed_on_; ///< [slaves] segment on which the last `assemble` found the node closed; -1: open
+  int status_changes_ = 0;
   // The elements of the present choice, in the order of `active_`.
   std::vector<std::size_t> active_; ///< slaves with a segment
   std::vector<double> slave_positions_, master_positions_, active_areas_, state_in_, state_out_;

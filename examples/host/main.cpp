@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     run.compare = compare->count() > 0;
+    std::erase(run.compare_divisions, 0); // what CLI11 makes of --compare without a list
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2; // 0: --help
   }

@@ -185,6 +185,7 @@ NewtonOutcome Simulation::advance(const Target& target) {
     double relative = norm == 0 ? 0 : norm / state.force_scale;
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
     outcome.residuals.push_back(relative);
+    outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
     if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
     if (relative <= scene_->solver.tolerance) {
       if (contact_) {

@@ -140,7 +140,7 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
       const double value = complete ? to : from + (to - from) * (done + size);
       const NewtonOutcome outcome = simulation.advance({value, last != 0 ? value / last : 1});
       if (outcome.converged) {
-        record.increments.push_back({value, outcome.residuals});
+        record.increments.push_back({value, outcome.residuals, outcome.status_changes});
         done = complete ? 1 : done + size;
         size = std::min(2 * size, 1 - done);
         continue;

@@ -47,6 +47,7 @@ struct Target {
 struct NewtonOutcome {
   bool converged = false;
   std::vector<double> residuals; ///< relative to the forces present, after each iteration
+  std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
   std::string reason;            ///< why it failed
   double step_factor = 0.5;      ///< suggested for the next try
 };
