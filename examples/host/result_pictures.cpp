@@ -117,7 +117,7 @@ Chart force_curve(const Simulation& simulation, const std::vector<StepRecord>& r
   const double modulus = scene.parts.front().setup.material.contact_modulus();
   Chart chart;
   chart.title = "Force against approach";
-  chart.subtitle = "Hertz: F = 4/3 E* R^{1/2} δ^{3/2}; " + mesh_note(simulation);
+  chart.subtitle = "Hertz: F = 4/3 E* √(R δ³); " + mesh_note(simulation);
   chart.x = {"approach", scene.units.length, false, 0};
   chart.y = {"force", scene.units.force, false, 0};
   Curve exact{"exact", {}, {}, Style::exact}, computed{"computed", {}, {}, Style::points};

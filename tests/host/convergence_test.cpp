@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One enriched segment and the explicit fine mesh of the same geometry converge to each other: chords of a curved surface miss it
-// by (length^2 / 8) * curvature, so the solutions differ in the second order of the segments' length.
+// One enriched segment and the explicit fine mesh of the same geometry converge to each other: chords of a
+// curved surface miss it by (length^2 / 8) * curvature, so the solutions differ in the second order of the
+// segments' length.
 #include <cmath>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace host {
 namespace {
 
-/// @param divisions  each twice the one before and odd: with one segment more or less than a doubling the ratio of lengths is exact,
+/// @param divisions  each twice the one before and odd: with one segment more or less than a doubling the
+/// ratio of lengths is exact,
 ///                   and no mesh line lies where the axis of symmetry is
 void expect_second_order(const std::string& scene, const std::string& divisions) {
   const Json result = test::run_scene(scene, "--compare" + (divisions.empty() ? "" : " " + divisions));
@@ -28,7 +30,8 @@ void expect_second_order(const std::string& scene, const std::string& divisions)
     if (coarser > 0) {
       const double order = std::log(before / difference) / std::log(static_cast<double>(n) / coarser);
       std::printf(", order %.2f", order);
-      // The next term of the expansion and the slave nodes' position on their segments disturb it: 15 % for factors of two.
+      // The next term of the expansion and the slave nodes' position on their segments disturb it: 15 % for
+      // factors of two.
       EXPECT_NEAR(order, 2, 0.3) << n;
     }
     std::printf("\n");

@@ -33,8 +33,7 @@ inline ProgramOutput ents_host(const std::string& arguments) {
 
 /// The JSON result of a scene of examples/.
 inline Json run_scene(const std::string& name, const std::string& options = "") {
-  const ProgramOutput output =
-      ents_host("run \"" EXAMPLES "/" + name + "/scene.json\" --json " + options);
+  const ProgramOutput output = ents_host("run \"" EXAMPLES "/" + name + "/scene.json\" --json " + options);
   if (output.exit_code != 0) throw std::runtime_error(output.text);
   return Json::parse(output.text);
 }
