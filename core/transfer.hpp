@@ -98,7 +98,9 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       if (!evaluate_surface<1>(g, xi, to.N, to.s) || !enriched_normal(from.s, normal)) return Status::degenerate_segment;
       double metric[symmetric_size<T>], inverse[symmetric_size<T>], covariant[T], raised[T];
       for (int k = 0; k < symmetric_size<T>; ++k) metric[k] = dot(from.s.e[k / 2], from.s.e[(k + 1) / 2]);
-      invert(metric, determinant(metric), inverse);
+      const double det = determinant(metric);
+      if (!(det > 0.0)) return Status::degenerate_segment;
+      invert(metric, det, inverse);
       for (int a = 0; a < T; ++a) covariant[a] = state[layout.multiplier_at + 1 + a];
       multiply<T>(inverse, covariant, raised);
       Vec<double, D> traction = Vec<double, D>::zero();
