@@ -25,7 +25,7 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int search_budget = 20000; // evaluations of the surface
+inline constexpr int search_budget = 10000; // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
@@ -41,7 +41,8 @@ template <class B, bool H> struct Candidates {
   double best_rank = no_bound, tie = 0.0;
   bool inside = false;
   int evaluations = 0;
-  bool no_normal = false; // somewhere in the last box
+  bool no_normal = false;  // somewhere in the last box
+  bool degenerate = false; // a box, or what is left of one, without a normal
 
   // Newton's method from xi, whose result is kept in `p`.
   ENTS_NOINLINE bool attempt(const double (&xi)[T], Projection<B, H>& p) {
@@ -130,6 +131,12 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
   ++all.evaluations;
   all.no_normal = !evaluate_surface<2>(g, xi, N, s);
   if (all.no_normal) {
+    const Vec<Ball, D> m = normal_of_tangents(s.a);
+    const Ball area2 = dot(m, m);
+    if (area2.v + area2.r <= g.smallest_area2) { // nowhere in the box
+      all.degenerate = true;
+      return Verdict::drop;
+    }
     // no normal somewhere in the box: the height is anywhere within its bound
     s.d = -combine(N.n, g.y);
     const double height = H ? plan.height_bound : 0.0;
@@ -251,7 +258,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     Box<T> waiting[most_waiting];
     waiting[0] = box;
     int count = 1;
-    bool certain = true, degenerate = false;
+    bool certain = true;
     while (count > 0) {
       box = waiting[--count];
       if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
@@ -264,7 +271,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       if (judge(plan, box, all, p, a, towards) == Verdict::drop) continue;
       if (box.w[a] < smallest_box || count + 2 > most_waiting) {
         certain = false;
-        degenerate = degenerate || all.no_normal;
+        all.degenerate = all.degenerate || all.no_normal;
         continue;
       }
       box.w[a] *= 0.5;
@@ -275,7 +282,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       waiting[count++] = towards[a] > 0.0 ? upper : box;
     }
     if (!certain) all.result.ambiguous = true;
-    if (degenerate && all.result.found == Found::not_converged) all.result.found = Found::degenerate;
+    if (all.degenerate && all.result.found == Found::not_converged) all.result.found = Found::degenerate;
   }
   best.evaluations = all.evaluations;
   return all.result;

@@ -13,6 +13,12 @@ inline constexpr std::int64_t sample_divisor = 50;
 #else
 inline constexpr std::int64_t sample_divisor = 1;
 #endif
+/// How many of `count` samples to take.
 constexpr std::int64_t samples(std::int64_t count) { return (count + sample_divisor - 1) / sample_divisor; }
+
+/// Is this one of the samples to take?
+template <class Random> bool is_taken(Random& random) {
+  return sample_divisor == 1 || random.below(static_cast<int>(sample_divisor)) == 0;
+}
 
 } // namespace test
