@@ -72,6 +72,11 @@ private:
   void gather_master(std::size_t segment, const std::vector<double>& displacement, double motion,
                      double* positions) const;
   ents_input input() const;
+  /// Projections on the segment without its height, for elements whose own is not known yet: the point of a rough surface
+  /// straight ahead of the node, at the price of a plain segment. Searching the whole enriched one would find a closer point
+  /// somewhere else, or two that are equally close.
+  /// @return false: none found, the library shall search
+  bool start_from_base();
 
   Master master_;
   const Mesh* mesh_;
