@@ -62,7 +62,8 @@ std::int32_t check_tree_size(const Plan& plan, const MasterMesh& mesh, const dou
 std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree, ents_report* report) noexcept {
   if (is_tree(plan, mesh, tree)) return ENTS_OK;
   return report_message(report, ENTS_BAD_STATE, -1,
-                        "argument 'tree' is not a tree of %lld segments in %dD; make it with ents_tree_build",
+                        "argument 'tree' is not a whole tree of %lld segments in %dD; make it with ents_tree_build (again, if "
+                        "ents_tree_refit has failed)",
                         static_cast<long long>(mesh.segments), plan.dimension);
 }
 

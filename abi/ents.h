@@ -179,7 +179,8 @@ typedef struct ents_master_mesh {
  *   ents_tree_build   once; O(n log n), needs d doubles per segment of memory of its own while it works (NO_MEMORY)
  *   ents_tree_refit   whenever positions have changed; O(n). ents_detect finds the right segments only in a tree that
  *                     has been refitted to the positions
- * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE. */
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE, BAD_STATE (not a tree
+ * of this surface; after an error it has to be built again). */
 ENTS_API int32_t ents_tree_size(const ents_model *model, int64_t segments, int64_t *size, ents_report *report);
 ENTS_API int32_t ents_tree_build(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
                                  ents_report *report);

@@ -81,7 +81,7 @@ ENTS_INLINE void narrow_by(Vec<Ball, D>& x, const Ball (&xi)[T], F&& derivative)
   for (int k = 0; k < D; ++k) x[k].r = lesser(x[k].r, radius[k]);
 }
 
-// Of rho_,ab and rho_,a, from the higher derivatives: evaluate_surface calls it before it computes with them.
+// Of rho_,ab, rho_,a and rho, from the higher derivatives: evaluate_surface calls it before it computes with them.
 template <int Order, class B, class Surface>
 ENTS_INLINE void narrow(const Ball (&xi)[B::dim - 1], Surface& s) {
   constexpr int T = B::dim - 1;
@@ -94,6 +94,7 @@ ENTS_INLINE void narrow(const Ball (&xi)[B::dim - 1], Surface& s) {
       narrow_by(s.a[a], xi, [&](int b) {
         return B::second[symmetric_index(a, b)] ? &s.a2[symmetric_index(a, b)] : nullptr;
       });
+  narrow_by(s.d, xi, [&](int a) { return &s.a[a]; });
 }
 
 // Range of a height map over a box: the differences of B-spline coefficients are the coefficients of the

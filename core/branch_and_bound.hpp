@@ -142,9 +142,7 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
       return Verdict::drop;
     }
     // no normal somewhere in the box: the height is anywhere within its bound
-    s.d = -combine(N.n, g.y);
-    const double height = H ? all.plan.height_bound : 0.0;
-    return normal && least_length(s.d) - height > all.limit() ? Verdict::drop : Verdict::halve;
+    if (H) return normal && least_length(s.d) - all.plan.height_bound > all.limit() ? Verdict::drop : Verdict::halve;
   }
   for (int a = 0; a < T; ++a) narrow_by(s.e[a], xi, [&](int b) { return &s.e2[symmetric_index(a, b)]; });
   Vec<double, D> d, e[T];

@@ -126,6 +126,7 @@ bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
   const Tree t(plan, mesh.segments);
   const int d = t.d;
+  tree[0] = 0.0;  // no tree until all boxes are there
   std::vector<double> centre(static_cast<std::size_t>(t.segments * d));
   double* order = t.order(tree);
   for (segment = 0; segment < t.segments; ++segment) {
@@ -153,7 +154,6 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
         return x != y ? x < y : a < b;
       });
     }
-  tree[0] = tag + d;
   tree[1] = static_cast<double>(t.segments);
   return refit_tree(plan, mesh, tree, segment);
 }
@@ -161,6 +161,7 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
   const Tree t(plan, mesh.segments);
   const int d = t.d;
+  tree[0] = 0.0;
   for (std::int64_t node = 2 * t.leaves() - 1; node > 0; --node) {
     double* box = t.box(tree, node);
     for (int k = 0; k < d; ++k) box[k] = infinity, box[d + k] = -infinity;
@@ -182,6 +183,7 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
       for (const std::int64_t child : {2 * node, 2 * node + 1}) join(t.box(tree, child), t.box(tree, child) + d);
     }
   }
+  tree[0] = tag + d;
   return Status::ok;
 }
 

@@ -124,14 +124,15 @@ ENTS_INLINE Vec<S, D> combine(const S (&w)[M], const Vec<double, D> (&y)[M]) {
   return v;
 }
 
-// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal.
+// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface is
+// complete but for it.
 template <int Order, class B, bool H, class S>
 ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1],
                                   Shape<S, B::dim - 1, B::nodes>& N, Surface<B, H, S>& s) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   // the curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc
   constexpr bool bent = H && !is_flat<B>;
-  constexpr int basis_order = bent ? Order + 1 : Order;
+  constexpr int basis_order = bent || is_range<S> ? Order + 1 : Order;
   B::template shape<basis_order>(xi, N);
   s.d = -combine(N.n, g.y);
   for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g.y);
@@ -155,17 +156,18 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       metric[2] = dot(s.a[1], s.a[1]);
     }
   }
-  if (!(value_of(area2) > g.smallest_area2)) return false;
-  s.area = square_root(area2);
-  s.n = (1.0 / s.area) * m;
-
   if constexpr (!H) {
     for (int a = 0; a < T; ++a) s.e[a] = s.a[a];
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
       if constexpr (Order > 1 && B::second[k]) s.e2[k] = s.a2[k];
       else s.e2[k] = Vec<S, D>::zero();
     });
-  } else {
+  }
+  if (!(value_of(area2) > g.smallest_area2)) return false;
+  s.area = square_root(area2);
+  s.n = (1.0 / s.area) * m;
+
+  if constexpr (H) {
     invert(metric, area2, s.dual_metric);
     for (int a = 0; a < T; ++a) {
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];

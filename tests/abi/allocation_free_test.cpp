@@ -44,6 +44,17 @@ public:
     surface_.xi = xi_.data();
     surface_.point = results_.real[4].data();
     admissibility_.struct_size = sizeof admissibility_;
+    for (int i = 0; i < model_.layout.nodes; ++i) connectivity_.push_back(i);
+    mesh_.struct_size = sizeof mesh_;
+    mesh_.segments = 1, mesh_.connectivity = connectivity_.data();
+    mesh_.nodes = model_.layout.nodes, mesh_.positions = elements_[0][master].data();
+    int64_t size = 0;
+    ents_tree_size(model_.get(), 1, &size, nullptr);
+    tree_.resize(static_cast<std::size_t>(size));
+    ents_tree_build(model_.get(), &mesh_, tree_.data(), size, nullptr);
+    detection_.struct_size = sizeof detection_;
+    detection_.slave = elements_[0][slave].data(), detection_.reach = 1;
+    detection_.segment = &segment_, detection_.xi = xi_.data();
   }
   void run() {
     for (const ents_input& input : input_) {
@@ -57,6 +68,11 @@ public:
     ents_model_layout(model_.get(), &model_.layout, &report_);
     admissibility_.samples = 5;
     ents_model_check(model_.get(), elements_[0][master].data(), nullptr, &admissibility_, &report_);
+    ents_tree_refit(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), &report_);
+    for (const int64_t before : {-1, 0}) {
+      segment_ = before;
+      ents_detect(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1, &detection_, &report_);
+    }
     ents_status_text(-7);
     ents_check_contract(9, 9, &report_);
   }
@@ -65,7 +81,11 @@ private:
   Model model_;
   Results results_;
   std::vector<Element> elements_;
-  std::vector<double> state_, xi_;
+  std::vector<double> state_, xi_, tree_;
+  std::vector<int64_t> connectivity_;
+  int64_t segment_ = -1;
+  ents_master_mesh mesh_{};
+  ents_detection detection_{};
   std::vector<ents_input> input_;
   ents_output output_, element_output_;
   ents_surface surface_{};

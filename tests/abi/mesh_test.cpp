@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole master surfaces at the door: elements gathered from a mesh are those of the caller's own arrays; mistakes have names.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "support/element.hpp"
+
+namespace {
+
+using namespace test;
+
+// Three elements, each with nodes of its own, as a mesh; numbered backwards.
+struct MeshOfElements {
+  MeshOfElements(const Model& model, const Basis& basis, Random& random) {
+    mesh.struct_size = sizeof mesh;
+    const int64_t count = 3, m = model.layout.nodes;
+    for (int64_t e = 0; e < count; ++e) elements.push_back(draw(model, basis, random));
+    for (Element& element : elements) // all or none
+      if (elements[0][surface_coordinates].empty() || element[surface_coordinates].empty())
+        for (Element& each : elements) each[surface_coordinates].clear();
+    for (int64_t e = 0; e < count; ++e) {
+      Element& element = elements[static_cast<std::size_t>(count - 1 - e)];
+      positions.insert(positions.end(), element[master].begin(), element[master].end());
+      coordinates.insert(coordinates.end(), element[surface_coordinates].begin(), element[surface_coordinates].end());
+      for (int64_t i = 0; i < m; ++i) connectivity.push_back(e * m + i);
+      segments.push_back(count - 1 - e);
+    }
+    mesh.segments = count, mesh.nodes = count * m;
+    mesh.connectivity = connectivity.data(), mesh.positions = positions.data();
+    if (!coordinates.empty()) mesh.surface_coordinates = coordinates.data();
+  }
+  std::vector<Element> elements;
+  std::vector<int64_t> connectivity, segments; // of each element
+  std::vector<double> positions, coordinates;
+  ents_master_mesh mesh{};
+};
+
+TEST(Mesh, GivesTheBitsOfTheCallersArrays) {
+  Random random(81);
+  for (const ModelKind& kind : all_kinds()) {
+    const Model model(text(kind));
+    const MeshOfElements m(model, basis(kind.basis), random);
+    for (std::size_t e = 0; e < m.elements.size(); ++e) {
+      Results expected(model.layout), results(model.layout);
+      test::evaluate(model, m.elements[e], want_all, expected);
+      ents_input input = input_of(m.elements[e]);
+      input.master = input.surface_coordinates = nullptr;
+      input.mesh = &m.mesh, input.segment = &m.segments[e];
+      const ents_output output = output_of(results, want_all);
+      call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, nullptr);
+      ASSERT_TRUE(same_bits(results, expected)) << text(kind);
+    }
+  }
+}
+
+class MeshMistakes : public testing::Test {
+protected:
+  MeshMistakes() {
+    mesh_.struct_size = sizeof mesh_;
+    mesh_.segments = 2, mesh_.nodes = 3;
+    mesh_.connectivity = connectivity_, mesh_.positions = positions_;
+    call::tree_size(model_.get(), int64_t{2}, &size_, nullptr);
+    tree_.resize(static_cast<std::size_t>(size_));
+    call::tree_build(model_.get(), &mesh_, tree_.data(), size_, nullptr);
+    io_.struct_size = sizeof io_;
+    io_.slave = slave_, io_.reach = 1, io_.segment = segment_, io_.xi = xi_;
+    io_.gap = gap_, io_.flags = flags_;
+  }
+  int32_t build() { return call::tree_build(model_.get(), &mesh_, tree_.data(), size_, &report_); }
+  int32_t refit() { return call::tree_refit(model_.get(), &mesh_, tree_.data(), size_, &report_); }
+  int32_t detect() {
+    return call::detect(model_.get(), &mesh_, tree_.data(), size_, int64_t{0}, int64_t{2}, &io_, &report_);
+  }
+  // `mistake` gives this status and a message with these words; without it all is well again.
+  void expect(int32_t status, const char* words, const std::function<int32_t()>& call_it) {
+    EXPECT_EQ(call_it(), status) << words;
+    EXPECT_NE(std::strstr(report_.message, words), nullptr) << report_.message;
+  }
+
+  Model model_{R"({"segment": "line2"})"};
+  int64_t connectivity_[4] = {0, 1, 1, 2};
+  double positions_[6] = {0, 0, 1, 0, 2, 0};
+  ents_master_mesh mesh_{};
+  int64_t size_ = 0;
+  std::vector<double> tree_;
+  double slave_[4] = {0.5, 0.1, 1.5, 0.1}, xi_[2] = {0, 0}, gap_[2] = {7, 7};
+  int64_t segment_[2] = {-1, -1};
+  int32_t flags_[2] = {7, 7};
+  ents_detection io_{};
+  ents_report report_ = new_report();
+};
+
+TEST_F(MeshMistakes, NoneGivesTheProjections) {
+  ASSERT_EQ(detect(), ENTS_OK) << report_.message;
+  EXPECT_EQ(segment_[0], 0);
+  EXPECT_EQ(segment_[1], 1);
+  EXPECT_NEAR(gap_[1], 0.1, 1e-16);
+  EXPECT_NEAR(xi_[1], 0.0, 1e-15);
+  EXPECT_EQ(flags_[0], ENTS_FLAG_SEARCHED);
+}
+
+TEST_F(MeshMistakes, InTheMesh) {
+  connectivity_[3] = 3;
+  expect(ENTS_BAD_VALUE, "node 1 of segment 1 is 3; nodes are 0 .. 2", [&] { return build(); });
+  connectivity_[3] = -1;
+  expect(ENTS_BAD_STATE, "ents_tree_refit has failed", [&] { return detect(); });
+  connectivity_[3] = 2;
+  ASSERT_EQ(build(), ENTS_OK);
+  connectivity_[3] = -1;
+  expect(ENTS_BAD_VALUE, "node 1 of segment 1 is -1", [&] { return detect(); });
+  expect(ENTS_BAD_VALUE, "node 1 of segment 1 is -1", [&] { return refit(); });
+  connectivity_[3] = 2;
+  ASSERT_EQ(build(), ENTS_OK);
+  positions_[3] = std::numeric_limits<double>::quiet_NaN();
+  segment_[0] = -1, segment_[1] = -1;
+  expect(ENTS_NON_FINITE, "mesh.positions of node 1", [&] { return detect(); });
+  expect(ENTS_NON_FINITE, "mesh.positions of node 1", [&] { return refit(); });
+  positions_[3] = 0.0;
+  ASSERT_EQ(build(), ENTS_OK);
+  mesh_.segments = -1;
+  expect(ENTS_BAD_COUNT, "mesh.segments = -1", [&] { return detect(); });
+  mesh_.segments = 2;
+  mesh_.positions = nullptr;
+  expect(ENTS_NULL_ARGUMENT, "mesh.positions is null", [&] { return detect(); });
+  mesh_.positions = positions_;
+  mesh_.reserved = 1;
+  expect(ENTS_STRUCT_SIZE, "mesh.reserved", [&] { return detect(); });
+  mesh_.reserved = 0;
+  EXPECT_EQ(detect(), ENTS_OK);
+}
+
+TEST_F(MeshMistakes, InTheTree) {
+  --size_;
+  expect(ENTS_BAD_COUNT, "(ents_tree_size)", [&] { return build(); });
+  expect(ENTS_BAD_COUNT, "(ents_tree_size)", [&] { return detect(); });
+  ++size_;
+  tree_[0] += 1.0;
+  expect(ENTS_BAD_STATE, "ents_tree_build", [&] { return refit(); });
+  expect(ENTS_BAD_STATE, "ents_tree_build", [&] { return detect(); });
+  EXPECT_EQ(build(), ENTS_OK);
+  mesh_.segments = 1; // a tree of two
+  expect(ENTS_BAD_STATE, "not a whole tree of 1 segments", [&] { return detect(); });
+  EXPECT_EQ(call::detect(model_.get(), &mesh_, nullptr, size_, int64_t{0}, int64_t{2}, &io_, &report_), ENTS_NULL_ARGUMENT);
+  int64_t size = 0;
+  EXPECT_EQ(call::tree_size(model_.get(), int64_t{-1}, &size, &report_), ENTS_BAD_COUNT);
+  EXPECT_EQ(call::tree_size(model_.get(), std::numeric_limits<int64_t>::max(), &size, &report_), ENTS_BAD_COUNT);
+  EXPECT_EQ(call::tree_size(model_.get(), int64_t{1}, nullptr, &report_), ENTS_NULL_ARGUMENT);
+}
+
+TEST_F(MeshMistakes, InTheSlaves) {
+  slave_[2] = std::numeric_limits<double>::infinity();
+  expect(ENTS_NON_FINITE, "detection.slave[0] of node 1 is infinite", [&] { return detect(); });
+  EXPECT_EQ(segment_[0], 0) << "nodes before the mistake are done";
+  EXPECT_EQ(segment_[1], -1);
+  EXPECT_EQ(gap_[1], 7.0);
+  slave_[2] = 1.5;
+  segment_[1] = 2;
+  expect(ENTS_BAD_VALUE, "detection.segment of node 1 is 2; -1 or 0 .. 1", [&] { return detect(); });
+  segment_[1] = 1;
+  xi_[1] = std::numeric_limits<double>::quiet_NaN();
+  expect(ENTS_NON_FINITE, "detection.xi of node 1", [&] { return detect(); });
+  xi_[1] = 0.0;
+  for (const double reach : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    io_.reach = reach;
+    expect(ENTS_BAD_VALUE, "detection.reach", [&] { return detect(); });
+  }
+  io_.reach = 1.0;
+  io_.xi = nullptr;
+  expect(ENTS_NULL_ARGUMENT, "detection.xi is null", [&] { return detect(); });
+  io_.xi = xi_;
+  EXPECT_EQ(detect(), ENTS_OK);
+}
+
+TEST_F(MeshMistakes, InAnElement) {
+  Results results(model_.layout);
+  const ents_output output = output_of(results, ENTS_GAP);
+  ents_input input{};
+  input.struct_size = sizeof input;
+  input.slave = slave_, input.mesh = &mesh_;
+  const auto evaluate = [&] { return call::evaluate(model_.get(), int64_t{0}, int64_t{1}, &input, &output, &report_); };
+  expect(ENTS_NULL_ARGUMENT, "input.segment is null", evaluate);
+  segment_[0] = 0;
+  input.segment = segment_;
+  EXPECT_EQ(evaluate(), ENTS_OK);
+  for (const int64_t segment : {int64_t{-1}, int64_t{2}}) {
+    segment_[0] = segment;
+    expect(ENTS_BAD_VALUE, "input.segment of element 0", evaluate);
+    EXPECT_EQ(results.status, ENTS_BAD_VALUE);
+  }
+  segment_[0] = 1;
+  input.master = positions_;
+  expect(ENTS_BAD_VALUE, "input.master and input.mesh are both given", evaluate);
+  input.master = nullptr, input.mesh = nullptr;
+  expect(ENTS_NULL_ARGUMENT, "input.master is null", evaluate);
+}
+
+// A surface without segments has a tree, and nothing on it.
+TEST_F(MeshMistakes, NoSegmentsNoComplaint) {
+  mesh_.segments = 0;
+  ASSERT_EQ(build(), ENTS_OK) << report_.message;
+  ASSERT_EQ(detect(), ENTS_OK) << report_.message;
+  EXPECT_EQ(segment_[0], -1);
+}
+
+} // namespace
