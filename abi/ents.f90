@@ -19,7 +19,7 @@ module ents
 
   ! What this module promises: pass both to ents_check_contract.
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 0
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 1
 
   ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
   integer(c_int32_t), parameter :: ENTS_OK = 0
@@ -74,6 +74,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_STICK = 16
   integer(c_int32_t), parameter :: ENTS_FLAG_SLIP = 32
   integer(c_int32_t), parameter :: ENTS_FLAG_SHEAR_LIMIT = 64
+  integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
 
   type, bind(c) :: ents_report
@@ -108,6 +109,28 @@ module ents
     integer(c_int32_t) :: reserved = 0
   end type ents_layout
 
+  type, bind(c) :: ents_master_mesh
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: segments = 0
+    type(c_ptr) :: connectivity = c_null_ptr ! (m, segments), counted from 0
+    integer(c_int64_t) :: nodes = 0
+    type(c_ptr) :: positions = c_null_ptr ! (d, nodes)
+    type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m, segments)
+  end type ents_master_mesh
+
+  type, bind(c) :: ents_detection
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: slave = c_null_ptr ! (d, nodes)
+    real(c_double) :: reach = 0
+    type(c_ptr) :: segment = c_null_ptr ! (nodes), int64, counted from 0
+    type(c_ptr) :: xi = c_null_ptr ! (d-1, nodes)
+    type(c_ptr) :: gap = c_null_ptr ! (nodes)
+    type(c_ptr) :: flags = c_null_ptr ! (nodes), int32
+    type(c_ptr) :: other = c_null_ptr ! (nodes), int64
+  end type ents_detection
+
   type, bind(c) :: ents_input
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: reserved = 0
@@ -125,6 +148,9 @@ module ents
     integer(c_int64_t) :: state_begin_stride = 0
     type(c_ptr) :: multiplier = c_null_ptr ! (multipliers, elements)
     integer(c_int64_t) :: multiplier_stride = 0
+    type(c_ptr) :: mesh = c_null_ptr ! c_loc of an ents_master_mesh
+    type(c_ptr) :: segment = c_null_ptr ! (elements), int64, counted from 0
+    integer(c_int64_t) :: segment_stride = 0
   end type ents_input
 
   type, bind(c) :: ents_output
@@ -205,9 +231,11 @@ module ents
 
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
-    module procedure init_report, init_data, init_layout, init_input, init_output, init_surface, init_admissibility
+    module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
+      init_surface, init_admissibility
   end interface ents_init
-  private :: init_report, init_data, init_layout, init_input, init_output, init_surface, init_admissibility
+  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_surface, &
+    init_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -302,6 +330,50 @@ module ents
       integer(c_int32_t) :: status
     end function ents_state_init
 
+    ! Doubles that the tree of a master surface takes.
+    function ents_tree_size(model, segments, size, report) result(status) bind(c, name="ents_tree_size")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: segments
+      integer(c_int64_t), intent(inout) :: size
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_tree_size
+
+    ! Make the tree: once.
+    function ents_tree_build(model, mesh, tree, size, report) result(status) bind(c, name="ents_tree_build")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(inout) :: tree(*)
+      integer(c_int64_t), value :: size
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_tree_build
+
+    ! Fit it to new positions.
+    function ents_tree_refit(model, mesh, tree, size, report) result(status) bind(c, name="ents_tree_refit")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(inout) :: tree(*)
+      integer(c_int64_t), value :: size
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_tree_refit
+
+    ! Project slave nodes on a whole surface.
+    function ents_detect(model, mesh, tree, size, first, count, detection, report) result(status) bind(c, name="ents_detect")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(in) :: tree(*)
+      integer(c_int64_t), value :: size, first, count
+      type(ents_detection), intent(in), target :: detection
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_detect
+
     ! Uzawa: the multipliers of the end states into the begin states; solve the increment again.
     function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
       bind(c, name="ents_state_augment")
@@ -389,6 +461,16 @@ contains
     type(ents_layout), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_layout
+
+  subroutine init_master_mesh(x)
+    type(ents_master_mesh), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_master_mesh
+
+  subroutine init_detection(x)
+    type(ents_detection), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_detection
 
   subroutine init_input(x)
     type(ents_input), intent(out) :: x

@@ -51,7 +51,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 0
+#define ENTS_CONTRACT_MINOR 1
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -159,6 +159,58 @@ typedef struct ents_layout {
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
 
+/* ---- whole surfaces --------------------------------------------------------------------------- */
+
+/* A master surface: many segments of the model's basis over one set of nodes. The arrays stay the caller's. */
+typedef struct ents_master_mesh {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  int64_t segments;
+  const int64_t *connectivity;       /* [segments][m], 0 <= index < nodes */
+  int64_t nodes;
+  const double *positions;           /* [nodes][d] current positions, [L], finite */
+  const double *surface_coordinates; /* [segments][m][d-1] s of each segment's nodes (a seam has two values in one node);
+                                        null: the model's own, else s = xi */
+} ents_master_mesh;
+
+/* Detection: which segment is a slave node projected on? A tree of boxes around the enriched segments answers for any
+ * number of threads. It lives in the caller's memory:
+ *   ents_tree_size    doubles that it takes (about segments * (1 + d))
+ *   ents_tree_build   once; O(n log n), needs d doubles per segment of memory of its own while it works (NO_MEMORY)
+ *   ents_tree_refit   whenever positions have changed; O(n). ents_detect finds the right segments only in a tree that
+ *                     has been refitted to the positions
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE. */
+ENTS_API int32_t ents_tree_size(const ents_model *model, int64_t segments, int64_t *size, ents_report *report);
+ENTS_API int32_t ents_tree_build(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
+                                 ents_report *report);
+ENTS_API int32_t ents_tree_refit(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
+                                 ents_report *report);
+
+/* Slave nodes and what was found for them. */
+typedef struct ents_detection {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  const double *slave;               /* [count][d] positions, [L], finite */
+  double reach;                      /* [L], > 0: a projection with a larger |gap| is none */
+  int64_t *segment;                  /* [count] in: the segment of before, or -1; out: the segment, -1: nothing within reach */
+  double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
+  double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow) */
+  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, ENTS_FLAG_AMBIGUOUS */
+  int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or -1 */
+} ents_detection;
+
+/* Project the slave nodes first .. first + count - 1 on the surface.
+ *   normal   the closest of all projections on all segments
+ *   shadow   the lit point: of all points on the ray the one nearest to the light
+ * A slave with a projection of before that is still on that segment and within reach keeps it: it stays on the branch it was
+ * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
+ * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
+ * one on the segment with the smaller number is given), or the proof took too long.
+ * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one.
+ * Returns 0 or a negative status; then nothing is written from the node with the error on. */
+ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
+                             int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
+
 /* ---- evaluation ------------------------------------------------------------------------------- */
 
 /* Inputs of contact elements: one slave node and one master segment each. `..._stride` is the
@@ -183,6 +235,10 @@ typedef struct ents_input {
   const double *multiplier;          /* [multipliers] values of the multiplier dofs: lambda_n [F/A], then with friction
                                         lambda_a [F L/A], covariant in xi; required if the layout has any */
   int64_t multiplier_stride;
+  const ents_master_mesh *mesh;      /* with `segment`: nodes and surface coordinates come from here instead of `master`
+                                        and `surface_coordinates`, which are then null */
+  const int64_t *segment;            /* [1] index of the segment in `mesh`; as ents_detect gives it, but never -1 */
+  int64_t segment_stride;
 } ents_input;
 
 /* What to compute. What is not asked for is neither computed nor touched. */
@@ -213,6 +269,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_STICK    16  /* friction: elastic */
 #define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
+#define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
 #define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A

@@ -5,6 +5,7 @@
 
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
+#include "abi/mesh.hpp"
 
 namespace ents {
 
@@ -169,12 +170,22 @@ std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t coun
                           static_cast<long long>(first), static_cast<long long>(count));
   if (const std::int32_t status = check_reserved(in.reserved, "input", report); status != ENTS_OK) return status;
   if (count == 0) return ENTS_OK;
-  if (!in.slave || !in.master)
-    return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.%s is null", in.slave ? "master" : "slave");
+  if (!in.slave) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.slave is null");
+  if (in.mesh && !in.segment) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.segment is null, but input.mesh is not");
+  if (in.mesh && (in.master || in.surface_coordinates))
+    return report_message(report, ENTS_BAD_VALUE, -1, "input.%s and input.mesh are both given; one must be null",
+                          in.master ? "master" : "surface_coordinates");
+  if (!in.mesh && !in.master)
+    return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.master is null (and input.mesh, too)");
   if (plan.multipliers > 0 && !in.multiplier)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
                           plan.multipliers);
-  if (const std::int64_t last = first + count - 1; last > 0)
+  const std::int64_t last = first + count - 1;
+  if (in.mesh && last > 0 && in.segment_stride != 0)
+    if (const std::int32_t status = check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
+        status != ENTS_OK)
+      return status;
+  if (last > 0)
     for (int i = 0; i < input_arrays; ++i) {
       const Array a = input_array(plan, in, i);
       if (!a.data || a.stride == 0) continue;
@@ -222,12 +233,28 @@ std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t 
   if ((status = check_input(plan, first, count, *in, report)) != ENTS_OK) return status;
   if ((status = check_output(*model, first, count, *out, report)) != ENTS_OK) return status;
 
+  MasterMesh mesh;
+  if (in->mesh && (status = check_mesh(in->mesh, "input.mesh", mesh, report)) != ENTS_OK) return status;
+
   report_ok(report);
   std::int32_t result = ENTS_OK;
+  SegmentNodes nodes;
   for (std::int64_t e = first; e < first + count; ++e) {
+    if (in->mesh) {
+      const std::int64_t segment = *at(in->segment, in->segment_stride, e);
+      const bool known = segment >= 0 && segment < mesh.segments;
+      if (const Status outcome = known ? gather(plan, mesh, segment, nodes) : Status::bad_value; outcome != Status::ok) {
+        if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
+        if (known) return explain_segment(plan, mesh, outcome, segment, report);
+        return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
+                              static_cast<long long>(e), static_cast<long long>(segment),
+                              static_cast<long long>(mesh.segments - 1));
+      }
+    }
     const ElementInput element = {at(in->slave, in->slave_stride, e),
-                                  at(in->master, in->master_stride, e),
-                                  at(in->surface_coordinates, in->surface_coordinates_stride, e),
+                                  in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
+                                  in->mesh ? nodes.surface_coordinates
+                                           : at(in->surface_coordinates, in->surface_coordinates_stride, e),
                                   at(in->start, in->start_stride, e),
                                   at(in->area, in->area_stride, e),
                                   at(in->state_begin, in->state_begin_stride, e),

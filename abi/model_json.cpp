@@ -137,7 +137,7 @@ Model read_model(std::string_view text, const std::filesystem::path& directory,
   const json& root = *tree;
   check_keys(
       root, "", {"segment"},
-      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit"});
+      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit", "border"});
 
   Model model;
   model.basis = read_segment(root.at("segment"));
@@ -158,6 +158,11 @@ Model read_model(std::string_view text, const std::filesystem::path& directory,
     model.rigid_master = read_choice(root.at("master"), "/master", {"deformable", "rigid"}) == 1;
   if (root.contains("penetration_limit"))
     model.penetration_limit = read_double(root, "", "penetration_limit", Range::positive);
+  if (root.contains("border")) {
+    model.border = read_double(root, "", "border", Range::positive);
+    if (model.border < 1e-9 || model.border > 0.5)
+      fail(ENTS_BAD_VALUE, "/border", "is not in 1e-9 .. 0.5; it is a length in natural coordinates");
+  }
 
   // Last: it may read a file.
   model.height = Height(basis.parameters);

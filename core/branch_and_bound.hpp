@@ -37,6 +37,8 @@ template <class B, bool H> struct Candidates {
   const Geometry<B>& g;
   const Target& t;
   Projection<B, H>& best;
+  const Plan& plan;
+  double wanted; // rank below which a projection matters
   Search result{Found::not_converged, false};
   double best_rank = no_bound, tie = 0.0;
   bool inside = false;
@@ -56,9 +58,11 @@ template <class B, bool H> struct Candidates {
       return false;
     }
     if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) return false;
-    const bool now_inside = on_segment<B>(p.xi);
-    const double r = rank(t, p);
+    const bool now_inside = on_segment<B>(p.xi, plan.border);
+    double r = rank(t, p);
+    if (now_inside) r += beyond_segment<B>(p.xi) * square_root(dot(p.s.a[0], p.s.a[0]));
     tie = tie_size * square_root(dot(p.s.a[0], p.s.a[0]));
+    if (r > wanted) return true;
     if (result.found != Found::yes || (now_inside && !inside) ||
         (now_inside == inside && r < best_rank - tie)) {
       best = p;
@@ -77,7 +81,7 @@ template <class B, bool H> struct Candidates {
   }
 
   // Nothing with a rank above this matters.
-  double limit() const { return inside ? best_rank + tie : no_bound; }
+  double limit() const { return inside ? lesser(best_rank + tie, wanted) : wanted; }
 };
 
 // u . e_a over the box, for a fixed vector u
@@ -116,7 +120,7 @@ enum class Verdict { drop, halve };
 
 // What the box may hold. `longest`: the direction to halve; `sign`: on which side to look first.
 template <class B, bool H>
-ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candidates<B, H>& all,
+ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
                             Projection<B, H>& p, int& longest, double (&towards)[B::dim - 1]) {
   constexpr int D = B::dim, T = D - 1;
   const Geometry<B>& g = all.g;
@@ -139,7 +143,7 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
     }
     // no normal somewhere in the box: the height is anywhere within its bound
     s.d = -combine(N.n, g.y);
-    const double height = H ? plan.height_bound : 0.0;
+    const double height = H ? all.plan.height_bound : 0.0;
     return normal && least_length(s.d) - height > all.limit() ? Verdict::drop : Verdict::halve;
   }
   for (int a = 0; a < T; ++a) narrow_by(s.e[a], xi, [&](int b) { return &s.e2[symmetric_index(a, b)]; });
@@ -235,21 +239,21 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
 }
 
 template <class B, bool H>
-Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best) {
+Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best, double limit) {
   constexpr int T = B::dim - 1;
-  Candidates<B, H> all{g, t, best};
+  Candidates<B, H> all{g, t, best, plan, limit};
   Projection<B, H> p;
   Box<T> box;
   domain_centre<B>(box.c);
   if constexpr (H) { // the point of the plain segment is a good start on the enriched one
     Projection<B, false> plain;
     for (int a = 0; a < T; ++a) plain.xi[a] = box.c[a];
-    if (project(g, t, plain) == Found::yes && on_segment<B>(plain.xi)) all.attempt(plain.xi, p);
+    if (project(g, t, plain) == Found::yes && on_segment<B>(plain.xi, plan.border)) all.attempt(plain.xi, p);
     all.evaluations += plain.evaluations;
   }
   if (!all.inside) all.attempt(box.c, p);
   if (!is_flat<B> || H) {
-    constexpr double rim = 1e-9; // as on_segment()
+    const double rim = plan.border; // as on_segment()
     for (int a = 0; a < T; ++a) {
       box.c[a] = B::simplex ? 0.5 : 0.0;
       box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
@@ -268,7 +272,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       }
       int a;
       double towards[T];
-      if (judge(plan, box, all, p, a, towards) == Verdict::drop) continue;
+      if (judge(box, all, p, a, towards) == Verdict::drop) continue;
       if (box.w[a] < smallest_box || count + 2 > most_waiting) {
         certain = false;
         all.degenerate = all.degenerate || all.no_normal;
@@ -287,9 +291,5 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
   best.evaluations = all.evaluations;
   return all.result;
 }
-
-#define ENTS_SEARCH(B)                                                                                       \
-  template Search search<B, false>(const Geometry<B>&, const Target&, const Plan&, Projection<B, false>&);   \
-  template Search search<B, true>(const Geometry<B>&, const Target&, const Plan&, Projection<B, true>&);
 
 } // namespace ents::ENTS_ISA

@@ -31,21 +31,6 @@ ENTS_INLINE Status status_of(Found found) {
   }
 }
 
-// The ray of this element. False if the slave sits on the emitter.
-template <int D> ENTS_INLINE bool set_target(const Plan& plan, const double* slave, Target& t) {
-  t.kind = plan.projection;
-  t.inverse_distance = 0.0;
-  for (int c = 0; c < D; ++c) t.ray[c] = plan.ray[c];
-  if (plan.projection != ProjectionKind::shadow_point) return true;
-  Vec<double, D> r;
-  for (int c = 0; c < D; ++c) r[c] = plan.ray[c] - slave[c];
-  const double length = square_root(dot(r, r));
-  if (!(length > 1e-150) || !(length < 1e150)) return false;
-  t.inverse_distance = 1.0 / length;
-  for (int c = 0; c < D; ++c) t.ray[c] = r[c] * t.inverse_distance;
-  return true;
-}
-
 template <int N> ENTS_INLINE void copy(const double (&from)[N], double* to) {
   for (int i = 0; i < N; ++i) to[i] = from[i];
 }
@@ -170,7 +155,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   if (!evaluate_gap(p, t, k))
     return t.kind == ProjectionKind::normal ? Status::degenerate_segment : Status::grazing_ray;
   if (!(absolute(k.gap) < largest_ingredient) || !(max_norm(p.xi) < 1e15)) return Status::out_of_range;
-  if (escaped || !on_segment<B>(p.xi)) flags |= flag::outside;
+  if (escaped || !on_segment<B>(p.xi, plan.border)) flags |= flag::outside;
   if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) flags |= flag::far_side;
 
   ContactForce<T> c{};

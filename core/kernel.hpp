@@ -4,6 +4,7 @@
 
 #include "core/element.hpp"
 #include "core/kernel_table.hpp"
+#include "core/search.hpp"
 #include "core/surface_point.hpp"
 #include "core/transfer.hpp"
 
@@ -13,6 +14,9 @@ template <class B> inline constexpr KernelSet kernels_of = {
     {{evaluate_element<B, false, false>, evaluate_element<B, false, true>},
      {evaluate_element<B, true, false>, evaluate_element<B, true, true>}},
     {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>},
-    {transfer_state<B, false>, transfer_state<B, true>}};
+    {transfer_state<B, false>, transfer_state<B, true>},
+    {project_on_segment<B, false>, project_on_segment<B, true>},
+    {segment_box<B, false>, segment_box<B, true>},
+    hull_spread<B>};
 
 }  // namespace ents::ENTS_ISA

@@ -11,6 +11,9 @@ struct KernelSet {
   ElementKernel element[2][2];
   SurfaceKernel surface[2];
   TransferKernel transfer[2];
+  ProjectKernel project[2];
+  BoxKernel box[2];
+  double (*hull_spread)(double border);
 };
 
 namespace portable {

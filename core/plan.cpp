@@ -52,6 +52,8 @@ Plan make_plan(const Model& model) {
   plan.element = kernels.element[enriched][model.rigid_master];
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
+  plan.project = kernels.project[enriched];
+  plan.box = kernels.box[enriched];
   plan.height = enriched ? &model.height.root() : nullptr;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
@@ -62,6 +64,8 @@ Plan make_plan(const Model& model) {
   for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
   plan.law = model.law;
   plan.penetration_limit = model.penetration_limit;
+  plan.border = model.border;
+  plan.hull_spread = kernels.hull_spread(model.border);
   plan.dimension = basis.parameters + 1;
   plan.nodes = basis.nodes;
   plan.parameters = basis.parameters;

@@ -105,6 +105,17 @@ struct StateLayout {
 };
 StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law);
 
+// The best projection of a slave on a segment.
+struct SegmentProjection {
+  double xi[2];
+  double point[3];  // rho_e
+  double gap;       // along n_e (normal), along the ray (shadow)
+  double rank;      // distance (normal), gap (shadow), plus the length by which xi lies beyond the segment's edges
+  double tie;       // ranks closer than this are equal
+  double beyond;    // the length by which xi lies beyond the segment's edges
+  bool ambiguous;
+};
+
 struct Plan;
 using ElementKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&);
 using SurfaceKernel = Status (*)(const Plan&, const double* master, const double* surface_coordinates,
@@ -114,10 +125,19 @@ using TransferKernel = Status (*)(const Plan&, const double* old_master, const d
                                   const double* new_master, const double* new_coordinates, const double* state,
                                   double* moved);
 
+// A projection whose rank is smaller than `limit`: the one next to `start`; the best of the segment where start is null.
+// False: there is none.
+using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* master, const double* surface_coordinates,
+                               const double* start, double limit, SegmentProjection&);
+// A box [d] around all of the enriched segment.
+using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low, double* high);
+
 struct Plan {
   ElementKernel element;
   SurfaceKernel surface;
   TransferKernel transfer;
+  ProjectKernel project;
+  BoxKernel box;
   const HeightNode* height;           // null: plain
   const double* surface_coordinates;  // the model's own, or null
   double feature_length[2];           // of the height, in s
@@ -127,6 +147,8 @@ struct Plan {
   double ray[3];
   ContactLaw law;
   double penetration_limit;  // 0: the size of the segment
+  double border;             // natural coordinates by which the segment reaches beyond its edges
+  double hull_spread;        // of a segment over its nodes: see segment_box
   std::int32_t dimension, nodes, parameters;
   std::int32_t multipliers;  // dofs after those of the nodes
   std::int32_t dofs;         // with multipliers

@@ -199,10 +199,21 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
   return obstacle;
 }
 
-// Is xi on the segment? The tolerance keeps a node on a common edge from falling between two segments.
-template <class B> ENTS_INLINE bool on_segment(const double (&xi)[B::dim - 1], double tolerance = 1e-9) {
-  if constexpr (B::simplex) return xi[0] >= -tolerance && xi[1] >= -tolerance && xi[0] + xi[1] <= 1.0 + tolerance;
-  else return max_norm(xi) <= 1.0 + tolerance;
+// Natural coordinates by which xi lies beyond the edges of the segment; 0 on it.
+template <class B> ENTS_INLINE double beyond_segment(const double (&xi)[B::dim - 1]) {
+  double most = 0.0;
+  if constexpr (B::simplex) {
+    for (const double x : {-xi[0], -xi[1], xi[0] + xi[1] - 1.0}) most = x > most ? x : most;
+  } else {
+    const double x = max_norm(xi) - 1.0;
+    most = x > 0.0 ? x : 0.0;
+  }
+  return most;
+}
+
+// Is xi on the segment? The border keeps a node on a common edge from falling between two segments.
+template <class B> ENTS_INLINE bool on_segment(const double (&xi)[B::dim - 1], double border) {
+  return beyond_segment<B>(xi) <= border;
 }
 
 }  // namespace ents::ENTS_ISA

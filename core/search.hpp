@@ -4,6 +4,7 @@
 
 #include "core/plan.hpp"
 #include "core/projection.hpp"
+#include "core/target.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -14,6 +15,18 @@ struct Search {
 
 // normal: the closest of the projections on the segment; shadow: the lit point, the one nearest to the light along the
 // ray. `escaped`, or a point outside the segment: none is on it.
-template <class B, bool H> Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& p);
+// Only what ranks below `limit` matters.
+inline constexpr double no_limit = 1e100;
+template <class B, bool H>
+Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& p, double limit = no_limit);
+
+// What a surface of many segments asks of one (ProjectKernel, BoxKernel; defined in segment_projection.hpp).
+template <class B, bool H>
+bool project_on_segment(const Plan& plan, const double* slave, const double* master, const double* surface_coordinates,
+                        const double* start, double limit, SegmentProjection& out);
+template <class B, bool H>
+void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low, double* high);
+// The half-sizes of a segment with its border over those of the box of its nodes: at most max sum_i |N_i|.
+template <class B> double hull_spread(double border);
 
 }  // namespace ents::ENTS_ISA

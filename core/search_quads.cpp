@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/branch_and_bound.hpp"
+#include "core/segment_projection.hpp"
 
 namespace ents::ENTS_ISA {
 ENTS_SEARCH(Quad4)

@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "detection.hpp"
 #include "summary.hpp"
 
 namespace {
@@ -18,6 +20,7 @@ constexpr char summary_cases[] = "/(plain|enriched)/(R|RK)/(single|batch)$";
 
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
+       ents-bench --detection[=N]
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -29,6 +32,8 @@ Times contact elements through the C ABI, one thread. Every case has a name BASI
 Every element is in contact; its projection starts 1e-2 (natural coordinates) beside the solution and converges to rounding.
 Counters: ns_per_element; surface_evaluations, the mean number that the projection takes. Times are CPU times of the thread.
 
+  --detection[=N]                 n slave nodes on surfaces of n = 1000, 10000 .. N segments (1000000 if not given): time and memory
+                                  of the search, and their growth
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only
@@ -86,6 +91,15 @@ int main(int argc, char** argv) {
     const std::string argument = argv[i];
     if (argument == "--help" || argument == "-h") {
       print_help();
+      return 0;
+    }
+    if (argument.rfind("--detection", 0) == 0) {
+      const std::int64_t most = argument == "--detection" ? 1000000 : std::atoll(argument.substr(12).c_str());
+      if (most < 1000) {
+        std::cerr << argument << ": at least 1000 segments are needed\n";
+        return 2;
+      }
+      bench::run_detection(std::cout, most);
       return 0;
     }
     if (argument == "--summary") summary = true;

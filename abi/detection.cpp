@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whole master surfaces: the tree and the detection.
+#include "core/detection.hpp"
+
+#include <cmath>
+
+#include "abi/guard.hpp"
+#include "abi/handle.hpp"
+#include "abi/mesh.hpp"
+
+namespace ents {
+
+std::int32_t explain_segment(const Plan& plan, const MasterMesh& mesh, Status status, std::int64_t segment,
+                             ents_report* report) noexcept {
+  const long long e = segment;
+  const std::int64_t* nodes = mesh.connectivity + segment * plan.nodes;
+  for (int i = 0; i < plan.nodes; ++i) {
+    if (nodes[i] < 0 || nodes[i] >= mesh.nodes)
+      return report_message(report, ENTS_BAD_VALUE, segment,
+                            "mesh.connectivity: node %d of segment %lld is %lld; nodes are 0 .. %lld", i, e,
+                            static_cast<long long>(nodes[i]), static_cast<long long>(mesh.nodes - 1));
+    if (first_non_finite(mesh.positions + nodes[i] * plan.dimension, plan.dimension) >= 0)
+      return report_message(report, ENTS_NON_FINITE, segment, "mesh.positions of node %lld (segment %lld) is NaN or infinite",
+                            static_cast<long long>(nodes[i]), e);
+  }
+  if (status == Status::non_finite)
+    return report_message(report, ENTS_NON_FINITE, segment,
+                          "mesh.surface_coordinates of segment %lld is NaN or infinite, or positions are too large", e);
+  return report_message(report, static_cast<std::int32_t>(status), segment, "segment %lld: %s", e,
+                        ents_status_text(static_cast<std::int32_t>(status)));
+}
+
+std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, MasterMesh& mesh, ents_report* report) noexcept {
+  ents_master_mesh copy;
+  std::int32_t status = ENTS_OK;
+  const ents_master_mesh* m = known_struct(caller, copy, name, status, report);
+  if (!m) return status;
+  if ((status = check_reserved(m->reserved, name, report)) != ENTS_OK) return status;
+  constexpr std::int64_t most = std::int64_t{1} << 40;
+  if (m->segments < 0 || m->segments > most || m->nodes < 0 || m->nodes > most)
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.segments = %lld, %s.nodes = %lld: both must be 0 .. 2^40", name,
+                          static_cast<long long>(m->segments), name, static_cast<long long>(m->nodes));
+  if (m->segments > 0 && (!m->connectivity || !m->positions))
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "%s.%s is null", name,
+                          m->connectivity ? "positions" : "connectivity");
+  mesh = {m->segments, m->connectivity, m->nodes, m->positions, m->surface_coordinates};
+  return ENTS_OK;
+}
+
+namespace {
+
+std::int32_t check_tree_size(const Plan& plan, const MasterMesh& mesh, const double* tree, std::int64_t size,
+                             ents_report* report) noexcept {
+  if (!tree) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'tree' is null");
+  if (size < tree_size(plan, mesh.segments))
+    return report_message(report, ENTS_BAD_COUNT, -1, "argument 'size' is %lld; %lld segments need %lld (ents_tree_size)",
+                          static_cast<long long>(size), static_cast<long long>(mesh.segments),
+                          static_cast<long long>(tree_size(plan, mesh.segments)));
+  return ENTS_OK;
+}
+
+std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree, ents_report* report) noexcept {
+  if (is_tree(plan, mesh, tree)) return ENTS_OK;
+  return report_message(report, ENTS_BAD_STATE, -1,
+                        "argument 'tree' is not a tree of %lld segments in %dD; make it with ents_tree_build",
+                        static_cast<long long>(mesh.segments), plan.dimension);
+}
+
+using TreeFunction = Status (*)(const Plan&, const MasterMesh&, double*, std::int64_t&);
+std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree, std::int64_t size,
+                       TreeFunction make, bool refit, ents_report* report) {
+  std::int32_t status = check_handle(model, report);
+  MasterMesh mesh;
+  if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
+  if (status == ENTS_OK) status = check_tree_size(model->plan, mesh, tree, size, report);
+  if (status == ENTS_OK && refit) status = check_is_tree(model->plan, mesh, tree, report);
+  if (status != ENTS_OK) return status;
+  const FloatingPointGuard guard;
+  std::int64_t segment = -1;
+  const Status outcome = make(model->plan, mesh, tree, segment);
+  return outcome == Status::ok ? report_ok(report) : explain_segment(model->plan, mesh, outcome, segment, report);
+}
+
+std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller, const double* tree, std::int64_t size,
+                        std::int64_t first, std::int64_t count, const ents_detection* detection, ents_report* report) {
+  std::int32_t status = check_handle(model, report);
+  MasterMesh mesh;
+  if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
+  if (status == ENTS_OK) status = check_tree_size(model->plan, mesh, tree, size, report);
+  if (status == ENTS_OK) status = check_is_tree(model->plan, mesh, tree, report);
+  if (status != ENTS_OK) return status;
+  ents_detection copy;
+  const ents_detection* io = known_struct(detection, copy, "detection", status, report);
+  if (!io) return status;
+  if ((status = check_reserved(io->reserved, "detection", report)) != ENTS_OK) return status;
+  constexpr std::int64_t most = std::int64_t{1} << 50;
+  if (first < 0 || count < 0 || first > most - count)
+    return report_message(report, ENTS_BAD_COUNT, -1, "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
+                          static_cast<long long>(first), static_cast<long long>(count));
+  if (!(io->reach > 0.0) || !(io->reach < 1e100))
+    return report_message(report, ENTS_BAD_VALUE, -1, "detection.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
+  if (count > 0 && (!io->slave || !io->segment || !io->xi))
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "detection.%s is null",
+                          !io->slave ? "slave" : !io->segment ? "segment" : "xi");
+  const FloatingPointGuard guard;
+  const Plan& plan = model->plan;
+  for (std::int64_t i = first; i < first + count; ++i) {
+    const double* slave = io->slave + i * plan.dimension;
+    double* xi = io->xi + i * plan.parameters;
+    if (const std::int64_t k = first_non_finite(slave, plan.dimension); k >= 0)
+      return report_message(report, ENTS_NON_FINITE, i, "detection.slave[%lld] of node %lld is %s", static_cast<long long>(k),
+                            static_cast<long long>(i), std::isnan(slave[k]) ? "NaN" : "infinite");
+    Detection found;
+    found.segment = io->segment[i];
+    if (found.segment < -1 || found.segment >= mesh.segments)
+      return report_message(report, ENTS_BAD_VALUE, i, "detection.segment of node %lld is %lld; -1 or 0 .. %lld",
+                            static_cast<long long>(i), static_cast<long long>(found.segment),
+                            static_cast<long long>(mesh.segments - 1));
+    if (found.segment >= 0) {
+      if (first_non_finite(xi, plan.parameters) >= 0)
+        return report_message(report, ENTS_NON_FINITE, i, "detection.xi of node %lld is NaN or infinite",
+                              static_cast<long long>(i));
+      for (int a = 0; a < plan.parameters; ++a) found.at.xi[a] = xi[a];
+    }
+    if (const Status outcome = detect(plan, mesh, tree, slave, io->reach, found); outcome != Status::ok)
+      return explain_segment(plan, mesh, outcome, found.segment, report);
+    io->segment[i] = found.segment;
+    if (found.segment >= 0)
+      for (int a = 0; a < plan.parameters; ++a) xi[a] = found.at.xi[a];
+    if (io->gap) io->gap[i] = found.segment >= 0 ? found.at.gap : 0.0;
+    if (io->flags)
+      io->flags[i] = (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0);
+    if (io->other) io->other[i] = found.other;
+  }
+  return report_ok(report);
+}
+
+} // namespace
+
+} // namespace ents
+
+extern "C" {
+
+int32_t ents_tree_size(const ents_model* model, int64_t segments, int64_t* size, ents_report* report) {
+  return ents::at_the_door(report, [&] {
+    const std::int32_t status = ents::check_handle(model, report);
+    if (status != ENTS_OK) return status;
+    if (!size) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'size' is null");
+    const std::int64_t needed = segments < 0 ? 0 : ents::tree_size(model->plan, segments);
+    if (needed == 0)
+      return ents::report_message(report, ENTS_BAD_COUNT, -1, "segments = %lld must be 0 .. 2^40",
+                                  static_cast<long long>(segments));
+    *size = needed;
+    return ents::report_ok(report);
+  });
+}
+
+int32_t ents_tree_build(const ents_model* model, const ents_master_mesh* mesh, double* tree, int64_t size,
+                        ents_report* report) {
+  return ents::at_the_door(
+      report, [&] { return ents::make_tree(model, mesh, tree, size, ents::build_tree, false, report); });
+}
+
+int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, double* tree, int64_t size,
+                        ents_report* report) {
+  return ents::at_the_door(
+      report, [&] { return ents::make_tree(model, mesh, tree, size, ents::refit_tree, true, report); });
+}
+
+int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size, int64_t first,
+                    int64_t count, const ents_detection* detection, ents_report* report) {
+  return ents::at_the_door(
+      report, [&] { return ents::detect_all(model, mesh, tree, size, first, count, detection, report); });
+}
+
+} // extern "C"

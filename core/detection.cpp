@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/detection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ents {
+
+namespace {
+
+constexpr std::int64_t leaf_segments = 4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// tree: [tag, segments, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
+constexpr double tag = 1701737588.0;  // says that it is a tree, and how it is laid out
+constexpr std::int64_t header = 2;
+
+struct Tree {
+  std::int64_t segments;
+  int depth = 0;
+  int d;
+  Tree(const Plan& plan, std::int64_t count) : segments(count), d(plan.dimension) {
+    while ((leaf_segments << depth) < segments) ++depth;
+  }
+  std::int64_t leaves() const { return std::int64_t{1} << depth; }
+  std::int64_t size() const { return header + segments + 2 * leaves() * 2 * d; }
+  template <class Double> Double* order(Double* tree) const { return tree + header; }
+  template <class Double> Double* box(Double* tree, std::int64_t node) const {
+    return tree + header + segments + node * 2 * d;
+  }
+  // Node k of a level of 2^l covers order[first(k, l)] .. order[first(k + 1, l) - 1].
+  std::int64_t first(std::int64_t k, int level) const { return (k * segments) >> level; }
+};
+
+Status segment_box(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, double* low, double* high) {
+  SegmentNodes nodes;
+  const Status status = gather(plan, mesh, segment, nodes);
+  if (status == Status::ok) plan.box(plan, nodes.positions, nodes.surface_coordinates, low, high);
+  return status;
+}
+
+// A lower bound of the rank of any projection in a box; infinite: there is none.
+double least_rank(const Plan& plan, const double* slave, const double (&ray)[3], const double* box) {
+  const int d = plan.dimension;
+  const double *low = box, *high = box + d;
+  if (plan.projection == ProjectionKind::normal) {
+    double sum = 0.0;
+    for (int k = 0; k < d; ++k) {
+      const double off = std::max({low[k] - slave[k], slave[k] - high[k], 0.0});
+      sum += off * off;
+    }
+    return std::sqrt(sum);
+  }
+  // rho = x_s - g e: the range of g in which the line is in the box
+  double least = -infinity, most = infinity;
+  for (int k = 0; k < d; ++k) {
+    const double to_low = slave[k] - low[k], to_high = slave[k] - high[k];
+    if (ray[k] == 0.0) {
+      if (to_low < 0.0 || to_high > 0.0) return infinity;
+      continue;
+    }
+    const double a = to_low / ray[k], b = to_high / ray[k];
+    least = std::max(least, std::min(a, b));
+    most = std::min(most, std::max(a, b));
+  }
+  return least <= most + 1e-12 * (std::fabs(least) + std::fabs(most)) ? least : infinity;
+}
+
+double distance(const double* a, const double* b, int d) {
+  double sum = 0.0;
+  for (int k = 0; k < d; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
+// The better of two projections on different segments; equal ones at the same place are one.
+void consider(int d, std::int64_t segment, const SegmentProjection& candidate, Detection& best) {
+  const double tie = std::max(candidate.tie, best.segment < 0 ? 0.0 : best.at.tie);
+  const bool first = best.segment < 0;
+  if (!first && candidate.rank > best.at.rank + tie) return;
+  if (first || candidate.rank < best.at.rank - tie) {
+    best.segment = segment;
+    best.other = -1;
+    best.at = candidate;
+    return;
+  }
+  const bool same_place = distance(candidate.point, best.at.point, d) <= 1e3 * tie + candidate.beyond + best.at.beyond;
+  // the one that lies on its segment, then the one with the smaller number: the same whatever the order of visits
+  const bool better = candidate.beyond < best.at.beyond || (candidate.beyond == best.at.beyond && segment < best.segment);
+  if (!same_place) best.other = better ? best.segment : segment;
+  if (better) {
+    best.segment = segment;
+    best.at = candidate;
+  }
+}
+
+}  // namespace
+
+Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, SegmentNodes& out) {
+  const std::int64_t* nodes = mesh.connectivity + segment * plan.nodes;
+  double size = 0.0;
+  for (int i = 0; i < plan.nodes; ++i) {
+    if (nodes[i] < 0 || nodes[i] >= mesh.nodes) return Status::bad_value;
+    for (int k = 0; k < plan.dimension; ++k) {
+      const double x = mesh.positions[nodes[i] * plan.dimension + k];
+      out.positions[i * plan.dimension + k] = x;
+      size += std::fabs(x);
+    }
+  }
+  const std::int64_t coordinates = std::int64_t{plan.nodes} * plan.parameters;
+  out.surface_coordinates = mesh.surface_coordinates ? mesh.surface_coordinates + segment * coordinates : nullptr;
+  if (out.surface_coordinates)
+    for (std::int64_t i = 0; i < coordinates; ++i) size += std::fabs(out.surface_coordinates[i]);
+  return size < infinity ? Status::ok : Status::non_finite;
+}
+
+std::int64_t tree_size(const Plan& plan, std::int64_t segments) {
+  return segments > std::int64_t{1} << 40 ? 0 : Tree(plan, segments).size();
+}
+
+bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
+  return tree[0] == tag + plan.dimension && tree[1] == static_cast<double>(mesh.segments);
+}
+
+Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
+  const Tree t(plan, mesh.segments);
+  const int d = t.d;
+  std::vector<double> centre(static_cast<std::size_t>(t.segments * d));
+  double* order = t.order(tree);
+  for (segment = 0; segment < t.segments; ++segment) {
+    double low[3], high[3];
+    if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok) return status;
+    for (int k = 0; k < d; ++k) centre[static_cast<std::size_t>(segment * d + k)] = 0.5 * (low[k] + high[k]);
+    order[segment] = static_cast<double>(segment);
+  }
+  const auto at = [&](double s, int k) { return centre[static_cast<std::size_t>(s) * static_cast<std::size_t>(d) + static_cast<std::size_t>(k)]; };
+  for (int level = 0; level < t.depth; ++level)
+    for (std::int64_t k = 0; k < std::int64_t{1} << level; ++k) {
+      double *first = order + t.first(k, level), *last = order + t.first(k + 1, level);
+      int widest = 0;
+      double width = -1.0;
+      for (int c = 0; c < d; ++c) {
+        double least = infinity, most = -infinity;
+        for (const double* s = first; s != last; ++s) {
+          least = std::min(least, at(*s, c));
+          most = std::max(most, at(*s, c));
+        }
+        if (most - least > width) width = most - least, widest = c;
+      }
+      std::nth_element(first, order + t.first(2 * k + 1, level + 1), last, [&](double a, double b) {
+        const double x = at(a, widest), y = at(b, widest);
+        return x != y ? x < y : a < b;
+      });
+    }
+  tree[0] = tag + d;
+  tree[1] = static_cast<double>(t.segments);
+  return refit_tree(plan, mesh, tree, segment);
+}
+
+Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
+  const Tree t(plan, mesh.segments);
+  const int d = t.d;
+  for (std::int64_t node = 2 * t.leaves() - 1; node > 0; --node) {
+    double* box = t.box(tree, node);
+    for (int k = 0; k < d; ++k) box[k] = infinity, box[d + k] = -infinity;
+    const auto join = [&](const double* low, const double* high) {
+      for (int k = 0; k < d; ++k) {
+        box[k] = std::min(box[k], low[k]);
+        box[d + k] = std::max(box[d + k], high[k]);
+      }
+    };
+    if (node >= t.leaves()) {
+      const std::int64_t leaf = node - t.leaves();
+      for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
+        segment = static_cast<std::int64_t>(t.order(tree)[i]);
+        double low[3], high[3];
+        if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok) return status;
+        join(low, high);
+      }
+    } else {
+      for (const std::int64_t child : {2 * node, 2 * node + 1}) join(t.box(tree, child), t.box(tree, child) + d);
+    }
+  }
+  return Status::ok;
+}
+
+Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
+              Detection& out) {
+  SegmentNodes nodes;
+  out.searched = false;
+  if (out.segment >= 0) {
+    if (const Status status = gather(plan, mesh, out.segment, nodes); status != Status::ok) return status;
+    const double start[2] = {out.at.xi[0], out.at.xi[1]};
+    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) &&
+        std::fabs(out.at.gap) <= reach) {
+      out.other = -1;
+      return Status::ok;
+    }
+  }
+  out.searched = true;
+  out.segment = out.other = -1;
+  bool doubtful = false;  // a search that could not be completed
+  double ray[3] = {plan.ray[0], plan.ray[1], plan.ray[2]};
+  if (plan.projection == ProjectionKind::shadow_point) {
+    double length2 = 0.0;
+    for (int k = 0; k < plan.dimension; ++k) ray[k] -= slave[k], length2 += ray[k] * ray[k];
+    for (int k = 0; k < plan.dimension; ++k) ray[k] /= std::sqrt(length2);
+  }
+
+  const Tree t(plan, mesh.segments);
+  struct Visit {
+    std::int64_t node;
+    double rank;
+  };
+  Visit waiting[64];
+  int count = 0;
+  const auto limit = [&] { return out.segment < 0 ? reach : std::min(reach, out.at.rank + out.at.tie); };
+  const auto wait = [&](std::int64_t node) {
+    const double rank = least_rank(plan, slave, ray, t.box(tree, node));
+    if (rank <= limit()) waiting[count++] = {node, rank};
+  };
+  wait(1);
+  while (count > 0) {
+    const Visit visit = waiting[--count];
+    if (!(visit.rank <= limit())) continue;
+    if (visit.node < t.leaves()) {
+      const int before = count;
+      wait(2 * visit.node);
+      wait(2 * visit.node + 1);
+      if (count == before + 2 && waiting[count - 2].rank < waiting[count - 1].rank)
+        std::swap(waiting[count - 2], waiting[count - 1]);
+      continue;
+    }
+    const std::int64_t leaf = visit.node - t.leaves();
+    for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
+      const std::int64_t segment = static_cast<std::int64_t>(t.order(tree)[i]);
+      if (const Status status = gather(plan, mesh, segment, nodes); status != Status::ok) {
+        out.segment = segment;
+        return status;
+      }
+      double box[6];
+      plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
+      if (!(least_rank(plan, slave, ray, box) <= limit())) continue;
+      SegmentProjection candidate;
+      if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, limit(), candidate))
+        consider(plan.dimension, segment, candidate, out);
+      else
+        doubtful = doubtful || candidate.ambiguous;
+    }
+  }
+  if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie) out.segment = -1;  // lit far behind the slave
+  if (out.segment >= 0) out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
+  else out.at.ambiguous = doubtful;
+  return Status::ok;
+}
+
+}  // namespace ents
