@@ -51,7 +51,8 @@ Json parse_json_file(const std::filesystem::path& file) {
 }
 
 void JsonValue::fail(const std::string& message) const {
-  throw InputError(where_ + (where_.ends_with(": ") ? "" : ": ") + message); // the root has no path of its own
+  throw InputError(where_ + (where_.ends_with(": ") ? "" : ": ") +
+                   message); // the root has no path of its own
 }
 
 double JsonValue::number() const {

@@ -113,7 +113,8 @@ TEST(TributaryAreas, OfADiscWeighWithTheRadius) {
   const auto& faces = mesh.face_sets.at("b.y_max");
   const std::vector<int> nodes = nodes_of(faces);
   const std::vector<double> areas = tributary_areas(mesh, faces, nodes, 1, true);
-  // Integrals of the hat functions times 2 pi r: of (1-r) r over (0,1); r r and (3-r)/2 r over (0,1), (1,3); (r-1)/2 r.
+  // Integrals of the hat functions times 2 pi r: of (1-r) r over (0,1); r r and (3-r)/2 r over (0,1), (1,3);
+  // (r-1)/2 r.
   const double pi = std::numbers::pi;
   ASSERT_EQ(areas.size(), 3u);
   EXPECT_NEAR(areas[0], pi / 3, 1e-14);
@@ -122,7 +123,8 @@ TEST(TributaryAreas, OfADiscWeighWithTheRadius) {
 }
 
 TEST(SegmentSearch, ANodeFarThroughAThinSurfaceStillFindsIt) {
-  // A strip of 100 segments of length 0.01 and height 0.05: an iterate may lie many segments' lengths below or above.
+  // A strip of 100 segments of length 0.01 and height 0.05: an iterate may lie many segments' lengths below
+  // or above.
   constexpr int count = 100;
   std::vector<SegmentSearch::Point> corners;
   for (int s = 0; s < count; ++s)
