@@ -21,5 +21,9 @@ esac
 sh examples/setup.sh --target ents-host
 echo "== build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm"
 build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm
-echo "== pictures"
-find out/rough_afm -name '*.png' -o -name '*.svg' | sort
+echo "== pictures (each also as .svg); ParaView opens out/rough_afm/result.pvd"
+picture() { [ ! -f "out/rough_afm/$1.png" ] || printf '%-34s %s\n' "out/rough_afm/$1.png" "$2"; }
+picture pressure_map "height of the scan and contact pressure, last step"
+picture contact_fraction "contact area against mean pressure"
+picture mean_gap "mean gap against mean pressure"
+picture residuals "Newton's iteration, every step"

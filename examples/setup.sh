@@ -69,7 +69,7 @@ else
   echo "== no dpkg here: assuming that the equivalents of these Debian packages are installed:" $packages
 fi
 
-echo "== building in build/"
+if [ -f build/CMakeCache.txt ]; then echo "== building in build/"; else echo "== building in build/ (the first time takes some minutes)"; fi
 [ -f build/CMakeCache.txt ] || set -- -G Ninja "$@"
 cmake -S . -B build "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 cmake --build build --target "$target" --parallel "$(nproc)" || exit 1

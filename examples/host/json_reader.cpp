@@ -50,7 +50,10 @@ Json parse_json_file(const std::filesystem::path& file) {
   return parse_json(text.str(), file.string());
 }
 
-void JsonValue::fail(const std::string& message) const { throw InputError(where_ + ": " + message); }
+void JsonValue::fail(const std::string& message) const {
+  throw InputError(where_ + (where_.ends_with(": ") ? "" : ": ") +
+                   message); // the root has no path of its own
+}
 
 double JsonValue::number() const {
   if (!json_->is_number()) fail(std::string("a number is expected, this is ") + json_->type_name());

@@ -39,6 +39,11 @@ public:
     low_ -= reach;
     top += reach;
     size_ = mean.max(2 * reach).max(1e-300);
+    // Across a thin surface there is one bin: an iterate of Newton's may take a node through it by more than
+    // a segment's length, and a node that finds no segment would count as open.
+    const Point extent = top - low_;
+    for (int i = 0; i < 3; ++i)
+      if (extent[i] < thin * extent.maxCoeff()) size_[i] = extent[i];
     for (int i = 0; i < 3; ++i) {
       const double bins = std::floor((top[i] - low_[i]) / size_[i]);
       bins_[static_cast<std::size_t>(i)] = static_cast<int>(std::clamp(bins, 1., i == 2 ? 64. : 1024.));
@@ -70,6 +75,9 @@ private:
   std::size_t index(const std::array<int, 3>& b) const {
     return static_cast<std::size_t>(b[0] + bins_[0] * (b[1] + bins_[1] * b[2]));
   }
+
+  /// A surface is thin along an axis if its extent there is less than this share of its largest.
+  static constexpr double thin = 0.125;
 
   Point low_, size_;
   std::array<int, 3> bins_{};

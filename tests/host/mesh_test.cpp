@@ -2,12 +2,15 @@
 // Structured blocks, their faces, and tributary areas.
 #include "mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "segment_search.hpp"
 
 namespace host {
 namespace {
@@ -110,12 +113,28 @@ TEST(TributaryAreas, OfADiscWeighWithTheRadius) {
   const auto& faces = mesh.face_sets.at("b.y_max");
   const std::vector<int> nodes = nodes_of(faces);
   const std::vector<double> areas = tributary_areas(mesh, faces, nodes, 1, true);
-  // Integrals of the hat functions times 2 pi r: of (1-r) r over (0,1); r r and (3-r)/2 r over (0,1), (1,3); (r-1)/2 r.
+  // Integrals of the hat functions times 2 pi r: of (1-r) r over (0,1); r r and (3-r)/2 r over (0,1), (1,3);
+  // (r-1)/2 r.
   const double pi = std::numbers::pi;
   ASSERT_EQ(areas.size(), 3u);
   EXPECT_NEAR(areas[0], pi / 3, 1e-14);
   EXPECT_NEAR(areas[1], 2 * pi * (1. / 3 + 5. / 3), 1e-14);
   EXPECT_NEAR(areas[2], 2 * pi * (7. / 3), 1e-14);
+}
+
+TEST(SegmentSearch, ANodeFarThroughAThinSurfaceStillFindsIt) {
+  // A strip of 100 segments of length 0.01 and height 0.05: an iterate may lie many segments' lengths below
+  // or above.
+  constexpr int count = 100;
+  std::vector<SegmentSearch::Point> corners;
+  for (int s = 0; s < count; ++s)
+    for (const double x : {s / 100., (s + 1) / 100.}) corners.emplace_back(x, 0.05 * x, 0.);
+  const SegmentSearch search(corners, 2);
+  for (const double y : {-0.3, 0.02, 0.3}) {
+    const auto near = search.near({0.425, y, 0});
+    EXPECT_TRUE(std::find(near.begin(), near.end(), 42) != near.end()) << y;
+    EXPECT_LE(near.size(), 5u) << "segments elsewhere along the surface";
+  }
 }
 
 } // namespace
