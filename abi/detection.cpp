@@ -98,12 +98,12 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
   if (first < 0 || count < 0 || first > most - count)
     return report_message(report, ENTS_BAD_COUNT, -1, "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
+  const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach > 0.0) || !(io->reach < 1e100))
     return report_message(report, ENTS_BAD_VALUE, -1, "detection.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
   if (count > 0 && (!io->slave || !io->segment || !io->xi))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "detection.%s is null",
                           !io->slave ? "slave" : !io->segment ? "segment" : "xi");
-  const FloatingPointGuard guard;
   const Plan& plan = model->plan;
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;

@@ -51,6 +51,7 @@ TEST(ModelJson, TheSegmentAloneIsAModel) {
   EXPECT_EQ(model.tangent, TangentKind::consistent);
   EXPECT_FALSE(model.rigid_master);
   EXPECT_EQ(model.penetration_limit, 0.0);
+  EXPECT_EQ(model.border, 1e-9);
 }
 
 TEST(ModelJson, EveryBasisIsRead) {
@@ -71,7 +72,8 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
     "contact": {"normal": {"type": "penalty", "stiffness": 1e5}},
     "tangent": "small_gap",
     "master": "rigid",
-    "penetration_limit": 0.125})");
+    "penetration_limit": 0.125,
+    "border": 0.0625})");
   EXPECT_EQ(height_1(model, 0.4), -0.25);
   EXPECT_TRUE(model.own_surface_coordinates);
   EXPECT_EQ(model.surface_coordinates, (std::vector<double>{-1.5, 2.0, 0.5}));
@@ -84,6 +86,7 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
   EXPECT_EQ(model.tangent, TangentKind::small_gap);
   EXPECT_TRUE(model.rigid_master);
   EXPECT_EQ(model.penetration_limit, 0.125);
+  EXPECT_EQ(model.border, 0.0625);
 
   const Model other = read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
     "surface_coordinates": [[1, 2], [3, 4], [5, 6]]})");
@@ -497,6 +500,7 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
        "\"consistent\""},
       {R"({"segment":"line2","master":"stiff"})", ENTS_BAD_VALUE, "/master: is \"stiff\"", "\"rigid\""},
       {R"({"segment":"line2","penetration_limit":0})", ENTS_BAD_VALUE, "/penetration_limit: is 0.0", ""},
+      {R"({"segment":"line2","border":0.6})", ENTS_BAD_VALUE, "/border: is not in 1e-9 .. 0.5", ""},
   });
 }
 
