@@ -92,7 +92,7 @@ void Contact::gather_master(std::size_t segment, const std::vector<double>& disp
     }
 }
 
-void Contact::search(const Configuration& at) {
+void Contact::search(const Configuration& at, bool only_lost) {
   if (master_.segments == 1) {
     std::fill(segment_.begin(), segment_.end(), 0);
     return;
@@ -150,16 +150,23 @@ void Contact::search(const Configuration& at) {
       library.evaluate(master_.model->get(), 0, stride(owner.size()), &in, &out, &report);
   if (result < 0) throw JobError("contact search: " + describe(library, result, report));
 
+  const std::vector<int> before = segment_;
   std::fill(segment_.begin(), segment_.end(), -1);
-  std::vector<double> best_excess(slaves_.size(), INFINITY), best_gap(slaves_.size(), INFINITY);
+  std::vector<double> best_excess(slaves_.size(), INFINITY), best_gap = best_excess, own_excess = best_excess,
+                      own_gap = best_excess;
   for (std::size_t c = 0; c < owner.size(); ++c) {
     if (status[c] != ENTS_OK) continue;
     const std::size_t k = owner[c];
     const double excess = master_.excess(xi.data() + c * parameters_), distance = std::abs(gap[c]);
+    if (candidate[c] == before[k]) own_excess[k] = excess, own_gap[k] = distance;
     if (excess > best_excess[k] || (excess == best_excess[k] && distance >= best_gap[k])) continue;
     best_excess[k] = excess, best_gap[k] = distance;
     segment_[k] = candidate[c];
   }
+  // A node on the common border of two segments stays where it is.
+  constexpr double same = 1e-9;
+  for (std::size_t k = 0; k < slaves_.size(); ++k)
+    if (own_excess[k] <= same && (only_lost || own_gap[k] <= best_gap[k] * (1 + same))) segment_[k] = before[k];
 }
 
 void Contact::list_active() {
@@ -177,20 +184,21 @@ void Contact::list_active() {
   }
 }
 
-bool Contact::choose(const Configuration& at, ents_report& report) {
+bool Contact::choose(const Configuration& at, bool only_lost, ents_report& report) {
   const std::vector<int> before = segment_;
   report.status = ENTS_OK;
-  search(at);
-  if (segment_ == before) return false;
+  search(at, only_lost);
+  if (segment_ == before) return segment_ != stencil_segment_;
   for (std::size_t k = 0; k < slaves_.size(); ++k)
     if (segment_[k] != before[k])
       std::fill_n(last_xi_.begin() + offset(k * parameters_), parameters_, not_a_number);
   list_active();
   move_history(report);
-  return true;
+  return segment_ != stencil_segment_;
 }
 
-StencilGroup Contact::stencil() const {
+StencilGroup Contact::stencil() {
+  stencil_segment_ = segment_;
   StencilGroup group;
   group.dofs = static_cast<int>(element_dofs_);
   const auto add_multipliers = [&](std::size_t k) {

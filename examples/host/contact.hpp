@@ -66,12 +66,13 @@ public:
 
   /// Choose a segment for every slave node: of those near by, the one that is least outside, then the
   /// closest, then the first. The history of a node that moved on to another segment moves with it.
-  /// @param report  of a history that could not be moved: its status is positive, cut the step
-  /// @return the choice changed: the pattern of a deformable master's equations is another one
-  bool choose(const Configuration& at, ents_report& report);
+  /// @param only_lost  a node that projects inside its segment stays there
+  /// @param report     of a history that could not be moved: its status is positive, cut the step
+  /// @return the choice is not that of the last `stencil`: the pattern of a deformable master's equations is another one
+  bool choose(const Configuration& at, bool only_lost, ents_report& report);
 
   /// Equations of the elements for the present choice.
-  StencilGroup stencil() const;
+  StencilGroup stencil();
   /// One equation each: multipliers of nodes without an element, which are zero.
   StencilGroup idle_stencil() const;
 
@@ -107,7 +108,7 @@ private:
                      double* positions) const;
   ents_input input() const;
   /// Segments of all slave nodes for this configuration.
-  void search(const Configuration& at);
+  void search(const Configuration& at, bool only_lost);
   /// History of the active elements as seen from their segments.
   void move_history(ents_report& report);
   void list_active();
@@ -120,7 +121,8 @@ private:
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   std::vector<int> slaves_;
   std::vector<double> areas_;
-  std::vector<int> segment_, segment_begin_; ///< [slaves] chosen; chosen when the history was written
+  /// [slaves] chosen; chosen when the history was written; chosen when the equations were listed
+  std::vector<int> segment_, segment_begin_, stencil_segment_;
   std::vector<double> state_begin_;          ///< [slaves][state_size]
   Configuration begin_;                      ///< where the increment began
   // The elements of the present choice, in the order of `active_`.

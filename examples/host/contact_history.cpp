@@ -16,6 +16,7 @@ std::ptrdiff_t offset(std::size_t value) { return static_cast<std::ptrdiff_t>(va
 
 void Contact::begin_increment(const Configuration& begin) {
   begin_ = begin;
+  segment_ = segment_begin_;
   last_xi_ = xi_begin_;
   pressure_ = accepted_.pressure;
   traction_ = accepted_.traction;

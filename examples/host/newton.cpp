@@ -31,11 +31,11 @@ std::vector<double> Simulation::loads(double load_factor) const {
   return sum;
 }
 
-bool Simulation::choose(const Configuration& at, std::string& reason, double& step_factor) {
+bool Simulation::choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor) {
   if (!contact_) return true;
   const Stopwatch watch;
   auto report = ents_struct<ents_report>();
-  const bool changed = contact_->choose(at, report);
+  const bool changed = contact_->choose(at, only_lost, report);
   if (changed && !contact_->master().rigid) build_pattern();
   timings_.contact += watch.seconds();
   if (report.status == ENTS_OK) return true;
@@ -177,7 +177,7 @@ NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   };
 
   if (contact_) contact_->begin_increment(now_);
-  if (!choose(at, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
+  if (!choose(at, false, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
   if (by_force && now_.force <= 0) {
     find_contact(at);
     next.motion = at.motion;
@@ -207,10 +207,10 @@ NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
   const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
-    // Segments are chosen anew during the first iterations and then kept: a node beside a kink of a plain mesh
-    // could otherwise change sides for ever.
-    if (iteration <= scene_->solver.segment_choices && outcome.augmentations.empty() &&
-        !choose(next, outcome.reason, outcome.step_factor))
+    // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs: beside a
+    // kink of a plain mesh they could otherwise change sides for ever.
+    if (outcome.augmentations.empty() && !choose(next, iteration > scene_->solver.segment_choices, outcome.reason,
+                                                 outcome.step_factor))
       return fail(outcome.reason, outcome.step_factor);
     state = evaluate(next, {}, true);
     if (!state.ok) return fail(state.reason, state.step_factor);

@@ -193,7 +193,9 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     // The last part ends on the step's value exactly, whatever rounding did to the sum of the parts.
     const auto value_at = [&](double part) { return part >= 1 - 1e-12 ? to : from + (to - from) * part; };
     const auto target_at = [&](double part) {
-      return Target{value_at(part), last != 0 ? value_at(part) / last : 1};
+      const double value = value_at(part);
+      if (scene.control == Control::load_factor) return Target{value, value};
+      return Target{value, last != 0 ? value / last : 1};
     };
     parts.next_step();
     if (step < plan.first) continue; // drawn all the same: a run continued is the run itself

@@ -96,7 +96,7 @@ struct SolverSpec {
   int max_iterations = 25;
   double min_step = 1e-3; ///< smallest part of a step before the run gives up
   int segment_choices = 4; ///< Newton iterations that may choose segments anew
-  double gap_tolerance = 1e-8; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
+  double gap_tolerance = 1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
   int max_augmentations = 100;
 };
 

@@ -86,7 +86,7 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
     now_.multiplier.assign(contact_->multiplier_count(), 0.0);
     contact_->begin_increment(now_);
     auto report = ents_struct<ents_report>();
-    contact_->choose(now_, report);
+    contact_->choose(now_, false, report);
   }
   build_pattern();
   timings_.setup += watch.seconds();

@@ -108,7 +108,7 @@ private:
   }
   int equations() const { return dofs_->size() + (contact_ ? static_cast<int>(contact_->multiplier_count()) : 0); }
   /// Segments for the configuration, and the pattern that goes with them. False: see `reason`, cut the step.
-  bool choose(const Configuration& at, std::string& reason, double& step_factor);
+  bool choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor);
   double relative_residual(const Evaluation& at) const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
