@@ -13,6 +13,7 @@
 //   2 (1 - nu^2) / (pi E) (mu P (f(L, a) - f(0, a)) - (mu P - Q) (f(L, c) - f(0, c))).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "exact.hpp"
@@ -47,6 +48,23 @@ double interpolate(const SurfaceState& state, double x) {
   return (1 - t) * state.moved[below] + t * state.moved[above];
 }
 
+/// Half-axis of the ellipse mu p - |q| over the stick zone: its square is a straight line over x^2, fitted by least
+/// squares to the sticking nodes; the outer fifth, where single nodes begin to slip, is left out.
+double stick_edge(const SurfaceState& state, double coefficient) {
+  double outermost = 0;
+  for (std::size_t k = 0; k < state.place.size(); ++k)
+    if (state.sticks[k]) outermost = std::max(outermost, std::abs(state.place[k]));
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t k = 0; k < state.place.size(); ++k) {
+    if (!state.sticks[k] || std::abs(state.place[k]) > 0.8 * outermost) continue;
+    const double rest = coefficient * state.pressure[k] - std::abs(state.shear[k]);
+    const double a = state.place[k] * state.place[k], b = rest * rest;
+    n += 1, x += a, y += b, xx += a * a, xy += a * b;
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x);
+  return std::sqrt(x / n - y / n / slope);
+}
+
 } // namespace
 
 std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceState& state) {
@@ -65,12 +83,14 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
   result.push_back({"Q / mu P", "", ratio});
   if (ratio < 0.02) return result; // slip has not come further in than a node or two
   const double stick = hertz.half_width * std::sqrt(std::max(0., 1 - ratio));
-  // mu p - |q| is elliptical over the stick zone and zero outside: its edge is found like that of a pressure.
-  SurfaceState rest = state;
-  for (std::size_t k = 0; k < rest.pressure.size(); ++k)
-    rest.pressure[k] = exact.coefficient * state.pressure[k] - std::abs(state.shear[k]);
-  rest.closed = state.sticks;
-  result.push_back(quantity("stick half-width", units.length, contact_edge(rest), stick));
+  result.push_back(quantity("stick half-width", units.length, stick_edge(state, exact.coefficient), stick));
+  double last_stick = 0, first_slip = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < state.place.size(); ++k) {
+    if (state.sticks[k]) last_stick = std::max(last_stick, std::abs(state.place[k]));
+    if (state.closed[k] && !state.sticks[k]) first_slip = std::min(first_slip, std::abs(state.place[k]));
+  }
+  result.push_back({"last sticking node", units.length, last_stick});
+  result.push_back({"first slipping node", units.length, first_slip});
   const double moved = std::abs(interpolate(state, 0) - 0.5 * (interpolate(state, exact.distance) +
                                                               interpolate(state, -exact.distance)));
   const double reach = exact.distance, rest_force = limit - std::abs(shear);
@@ -91,15 +111,21 @@ std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState&
     closed += state.closed[k];
     slipping += state.closed[k] && !state.sticks[k];
   }
-  double moved = 0;
-  for (const double u : state.moved) moved += u / static_cast<double>(state.moved.size());
   std::vector<Quantity> result;
   result.push_back({"tan(slope) / mu", "", tangent / scene.exact.coefficient});
   if (tangent > 0)
     result.push_back(quantity("friction / mu N", "", friction / (scene.exact.coefficient * normal),
                               std::min(tangent / scene.exact.coefficient, 1.)));
   result.push_back({"slipping nodes", "%", closed > 0 ? 100 * slipping / closed : 0});
-  result.push_back({"moved", scene.units.length, std::abs(moved)});
+  // Beyond the threshold only the springs under the block hold what friction does not.
+  double moved = 0, area = 0;
+  for (std::size_t k = 0; k < state.moved.size(); ++k) moved += state.area[k] * state.moved[k], area += state.area[k];
+  moved = std::abs(moved / area);
+  const double rest = std::abs(state.load[0]) - scene.exact.coefficient * std::abs(state.load[1]);
+  if (rest > 0 && !scene.springs.empty())
+    result.push_back(quantity("moved", scene.units.length, moved, rest / (scene.springs.front().stiffness[0] * area)));
+  else
+    result.push_back({"moved", scene.units.length, moved});
   return result;
 }
 
