@@ -33,7 +33,8 @@ Json Simulation::checkpoint() const {
             {"motion", now_.motion},
             {"force", now_.force},
             {"displacement", now_.displacement},
-            {"multiplier", now_.multiplier}};
+            {"multiplier", now_.multiplier},
+            {"rate", rate_}};
   if (contact_) {
     const ContactHistory history = contact_->history();
     json["contact"] = {{"segment", history.segment},
@@ -54,6 +55,9 @@ void Simulation::restore(const Json& checkpoint) {
   at.force = object.at("force").number();
   at.displacement = object.at("displacement").numbers(now_.displacement.size());
   at.multiplier = object.at("multiplier").numbers(now_.multiplier.size());
+  const std::vector<double> rate = object.at("rate").numbers();
+  if (!rate.empty() && rate.size() != now_.displacement.size())
+    object.at("rate").fail("the checkpoint is of another scene: so many numbers are not expected");
   if (contact_) {
     JsonObject contact(object.at("contact"));
     ContactHistory history;
@@ -73,6 +77,7 @@ void Simulation::restore(const Json& checkpoint) {
   }
   object.finish();
   now_ = at;
+  rate_ = rate;
   factors_fit_ = false;
 }
 
@@ -85,6 +90,7 @@ std::string Simulation::fingerprint() const {
   const auto add_all = [&](const auto& values) { add(values.data(), values.size() * sizeof(values[0])); };
   add_all(now_.displacement);
   add_all(now_.multiplier);
+  add_all(rate_);
   for (const double value : {now_.motion, now_.force, now_.load_factor}) add(&value, sizeof value);
   if (contact_) {
     const ContactHistory history = contact_->history();

@@ -125,7 +125,8 @@ std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState&
   if (rest > 0 && !scene.springs.empty())
     result.push_back(quantity("moved", scene.units.length, moved, rest / (scene.springs.front().stiffness[0] * area)));
   else
-    result.push_back({"moved", scene.units.length, moved});
+    result.push_back({"moved", scene.units.length, moved, std::numeric_limits<double>::quiet_NaN(),
+                      std::numeric_limits<double>::quiet_NaN(), true});
   return result;
 }
 

@@ -160,6 +160,14 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
 }
 
 NewtonOutcome Simulation::advance(const Target& target, bool keep) {
+  if (scene_->solver.extrapolate && !rate_.empty()) {
+    NewtonOutcome outcome = attempt(target, keep, true);
+    if (outcome.converged) return outcome;
+  }
+  return attempt(target, keep, false);
+}
+
+NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapolate) {
   const Stopwatch watch;
   NewtonOutcome outcome;
   Configuration at = now_, next = now_;
@@ -182,7 +190,10 @@ NewtonOutcome Simulation::advance(const Target& target, bool keep) {
     find_contact(at);
     next.motion = at.motion;
   }
-  // First the tangent at the present configuration takes the whole jump of loads and prescribed values ...
+  // First the tangent at the present configuration takes the whole jump of loads and prescribed values, or the motion
+  // of the last increment goes on: a sliding contact whose tangent sticks would drag the surfaces along ...
+  const double size = target.load_factor - now_.load_factor;
+  for (std::size_t i = 0; extrapolate && i < next.displacement.size(); ++i) next.displacement[i] += size * rate_[i];
   prescribe(next);
   std::vector<double> jump(at.displacement.size(), 0.0);
   bool jumps = false;
@@ -197,12 +208,15 @@ NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   // must end with the same bits whatever was tried in between, and factors depend on what was tried.
   const bool factorize = !factors_fit_;
   factors_fit_ = false;
-  Evaluation state = evaluate(at, jump, factorize);
-  if (!state.ok) return fail(state.reason, state.step_factor);
+  Evaluation state;
   const auto error_of = [&](const Evaluation& evaluation) {
     return by_force ? evaluation.coupling.force - next.force : 0;
   };
-  if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  if (!extrapolate) {
+    state = evaluate(at, jump, factorize);
+    if (!state.ok) return fail(state.reason, state.step_factor);
+    if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  }
 
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
   const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
@@ -240,6 +254,11 @@ NewtonOutcome Simulation::advance(const Target& target, bool keep) {
       if (contact_) {
         contact_->accept(next);
         if (contact_->master().rigid) next.force = state.coupling.force;
+      }
+      if (scene_->solver.extrapolate && size != 0) {
+        rate_.resize(next.displacement.size());
+        for (std::size_t i = 0; i < rate_.size(); ++i)
+          rate_[i] = (next.displacement[i] - now_.displacement[i]) / size;
       }
       now_ = next;
       factors_fit_ = !contact_ || !contact_->has_history();

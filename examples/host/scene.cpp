@@ -209,7 +209,18 @@ void read_steps(const JsonValue& value, Scene& scene) {
   if (scene.control != Control::load_factor && (!scene.contact || scene.contact->rigid.empty()))
     control.fail("only a rigid master can be moved; use load_factor");
   const JsonValue values = object.at("values");
-  scene.steps = values.numbers();
+  for (const JsonValue& item : values.items()) {
+    if (!item.is_object()) {
+      scene.steps.push_back(item.number());
+      continue;
+    }
+    JsonObject range(item); // {"to": 3, "count": 40}: equal steps from the value before
+    const double from = scene.steps.empty() ? 0 : scene.steps.back(), to = range.at("to").number();
+    const int count = range.at("count").integer(1, 1000000);
+    range.finish();
+    for (int i = 1; i < count; ++i) scene.steps.push_back(from + (to - from) * i / count);
+    scene.steps.push_back(to);
+  }
   if (scene.steps.empty()) values.fail("at least one step is expected");
   if (scene.control == Control::force || scene.control == Control::mean_pressure)
     for (const double step : scene.steps)
@@ -307,6 +318,9 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
     scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
     scene.solver.segment_choices = solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
+    scene.solver.extrapolate = solver.boolean_or("extrapolate", scene.solver.extrapolate);
+    if (scene.solver.extrapolate && scene.control != Control::load_factor)
+      solver.at("extrapolate").fail("only with steps that control the load factor");
     scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
     scene.solver.max_augmentations =
         solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);

@@ -95,6 +95,7 @@ struct SolverSpec {
   double tolerance = 1e-10; ///< residual norm relative to the forces present
   int max_iterations = 25;
   double min_step = 1e-3; ///< smallest part of a step before the run gives up
+  bool extrapolate = false; ///< first guess: the motion of the last increment goes on
   int segment_choices = 4; ///< Newton iterations that may choose segments anew
   double gap_tolerance = 1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
   int max_augmentations = 100;

@@ -101,6 +101,7 @@ private:
   void build_equations();
   void build_contact(const EntsLibrary* library, int divisions);
   void build_pattern();
+  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate);
   /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.
   int equation(std::size_t unknown) const {
     const auto dofs = static_cast<std::size_t>(dofs_->dofs());
@@ -143,6 +144,7 @@ private:
   std::vector<Load> loads_;
   std::vector<double> springs_; ///< [dofs] stiffness against the ground, or empty
   Configuration now_;
+  std::vector<double> rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
   Timings timings_;
 };
 
