@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents_evaluate: arguments checked once, then one kernel call per element.
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -164,7 +163,7 @@ Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
 std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t count, const ents_input& in,
                          ents_report* report) {
   constexpr std::int64_t most = std::int64_t{1} << 50;
-  if (first < 0 || count < 0 || first > most - std::min(count, most))
+  if (first < 0 || count < 0 || first > most - count)
     return report_message(report, ENTS_BAD_COUNT, -1,
                           "first = %lld, count = %lld: both must be >= 0 and end before element 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));

@@ -78,6 +78,7 @@ int32_t ents_state_augment(const ents_model* model, int64_t count, double* state
     std::int32_t status = check_blocks(model, count, state_begin, begin_stride, "state_begin", report);
     if (status == ENTS_OK) status = check_blocks(model, count, state_end, end_stride, "state_end", report);
     if (status != ENTS_OK) return status;
+    const FloatingPointGuard guard; // a signalling NaN traps in a comparison, too
     const StateLayout& layout = model->plan.state;
     if (layout.multiplier_at < 0)
       return report_status(report, ENTS_BAD_STATE, -1,
@@ -126,9 +127,9 @@ int32_t ents_tributary_areas(const char* facet, int64_t facets, const int64_t* c
                             static_cast<long long>(facets), static_cast<long long>(nodes));
     if ((facets > 0 && !connectivity) || (nodes > 0 && (!positions || !areas)))
       return report_status(report, ENTS_NULL_ARGUMENT, -1, "connectivity, positions or areas is null");
+    const FloatingPointGuard guard;
     if (!std::isfinite(thickness) || thickness < 0.0)
       return report_status(report, ENTS_BAD_VALUE, -1, "argument 'thickness' must be >= 0");
-    const FloatingPointGuard guard;
     return tributary_areas(*entry, facets, connectivity, nodes, positions, thickness, areas, report);
   });
 }

@@ -210,6 +210,10 @@ struct Tri6 {  // corners, mid-sides 12 23 31
   }
 };
 
+template <class B> ENTS_INLINE void domain_centre(double (&xi)[B::dim - 1]) {
+  for (double& x : xi) x = B::simplex ? 1.0 / 3.0 : 0.0;
+}
+
 // Does the basis bend at all? Flat segments (line2, tri3) have a constant normal.
 template <class B> inline constexpr bool is_flat = [] {
   for (bool k : B::second)

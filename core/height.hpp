@@ -57,6 +57,7 @@ struct MapHeight {
   double inverse_period[2]; // 0: clamped
   double low[2], high[2];   // range of u beyond which the map is constant; +-infinity when periodic
   double first_cell[2], last_cell[2];
+  double bound; // of |h|
 };
 
 struct HeightNode {

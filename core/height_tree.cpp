@@ -146,6 +146,7 @@ Height Height::map(const HeightMap& map) {
 
   // A B-spline is a mean of its coefficients.
   for (const double value : c) height.bound_ = std::max(height.bound_, std::fabs(value));
+  view.bound = height.bound_;
   height.continuity_ = 2;
   height.tables_.push_back(std::move(table));
   view.coefficients = height.tables_[0].data() + before_rows * view.row_stride + padding_before;

@@ -139,7 +139,7 @@ ENTS_INLINE bool evaluate_xi_gradient(const Projection<B, H>& p, const Target& t
   }
   const double det_metric = determinant(p.metric);
   const double det = small_gap ? det_metric : determinant(p.f2);
-  if (!(absolute(det) > 1e-10 * det_metric)) return false;
+  if (!(det_metric > 0.0) || !(absolute(det) > 1e-10 * det_metric)) return false;
   double f[T][N];
   for (int a = 0; a < T; ++a) {
     expand_covector(p, k, p.s.e[a], f[a]);

@@ -44,12 +44,19 @@ template <int T> ENTS_INLINE double max_norm(const double (&v)[T]) {
   return m;
 }
 
-// Solve the symmetric system m x = r.
-ENTS_INLINE void solve(const double (&m)[1], const double (&r)[1], double (&x)[1]) { x[0] = r[0] / m[0]; }
-ENTS_INLINE void solve(const double (&m)[3], const double (&r)[2], double (&x)[2]) {
-  const double q = 1.0 / determinant(m);
+// Solve the symmetric system m x = r. False if m is singular.
+ENTS_INLINE bool solve(const double (&m)[1], const double (&r)[1], double (&x)[1]) {
+  if (m[0] == 0.0) return false;
+  x[0] = r[0] / m[0];
+  return true;
+}
+ENTS_INLINE bool solve(const double (&m)[3], const double (&r)[2], double (&x)[2]) {
+  const double det = determinant(m);
+  if (det == 0.0) return false;
+  const double q = 1.0 / det;
   x[0] = (m[2] * r[0] - m[1] * r[1]) * q;
   x[1] = (m[0] * r[1] - m[1] * r[0]) * q;
+  return true;
 }
 
 // A minimum of the distance: F_,xixi is positive definite, with some distance from singular.
@@ -66,9 +73,9 @@ ENTS_INLINE double smallest_eigenvalue(const double (&f2)[3], const double (&met
   return half - (square > 0.0 ? square_root(square) : 0.0);
 }
 
-// Newton step of the normal projection; returns F.
+// Newton step of the normal projection; merit = F. False where rho_e has no area (a fold of the enriched surface).
 template <class B, bool H>
-ENTS_INLINE double normal_step(Projection<B, H>& p, double (&step)[B::dim - 1]) {
+ENTS_INLINE bool normal_step(Projection<B, H>& p, double (&step)[B::dim - 1], double& merit) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
   double r[T];
   for (int a = 0; a < T; ++a) r[a] = dot(p.s.e[a], p.s.d);
@@ -76,17 +83,15 @@ ENTS_INLINE double normal_step(Projection<B, H>& p, double (&step)[B::dim - 1]) 
     p.metric[k] = dot(p.s.e[k / 2], p.s.e[(k + 1) / 2]);
     p.f2[k] = p.metric[k] - dot(p.s.d, p.s.e2[k]);
   }
-  if (is_minimum(p.f2, p.metric)) {
-    solve(p.f2, r, step);
-  } else {
-    // beyond a centre of curvature: shifted so that the smallest eigenvalue (1 - distance / radius) counts
-    // with its absolute value; the step descends and is as long as the curvature allows
-    double shifted[K];
-    const double smallest = smallest_eigenvalue(p.f2, p.metric), size = absolute(smallest);
-    for (int k = 0; k < K; ++k) shifted[k] = p.f2[k] + ((size > 0.1 ? size : 0.1) - smallest) * p.metric[k];
-    solve(shifted, r, step);
-  }
-  return 0.5 * dot(p.s.d, p.s.d);
+  merit = 0.5 * dot(p.s.d, p.s.d);
+  if (is_minimum(p.f2, p.metric)) return solve(p.f2, r, step);
+  if (!(determinant(p.metric) > 0.0)) return false;
+  // beyond a centre of curvature: shifted so that the smallest eigenvalue (1 - distance / radius) counts
+  // with its absolute value; the step descends and is as long as the curvature allows
+  double shifted[K];
+  const double smallest = smallest_eigenvalue(p.f2, p.metric), size = absolute(smallest);
+  for (int k = 0; k < K; ++k) shifted[k] = p.f2[k] + ((size > 0.1 ? size : 0.1) - smallest) * p.metric[k];
+  return solve(shifted, r, step);
 }
 
 // Covectors of the frame (rho_e,1 .. rho_e,T, e): onto[a] . rho_e,b = delta_ab, onto[a] . e = 0;
@@ -150,11 +155,10 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
     const bool first = p.evaluations == 1;
     double next[T], merit = 0.0;
     bool ok = normal ? evaluate_surface<2>(g, xi, p.N, p.s) : evaluate_surface<1>(g, xi, p.N, p.s);
+    if (ok && normal) ok = normal_step(p, next, merit);
     if (!ok) {
       obstacle = Found::degenerate;
-    } else if (normal) {
-      merit = normal_step(p, next);
-    } else if (!shadow_step(p, t, next, merit)) {
+    } else if (!normal && !shadow_step(p, t, next, merit)) {
       obstacle = Found::grazing;
       ok = false;
     }

@@ -79,6 +79,9 @@ template <class S> ENTS_INLINE Dual<S> square_root(Dual<S> a) {
 ENTS_INLINE double value_of(double a) { return a; }
 template <class S> ENTS_INLINE S value_of(Dual<S> a) { return a.v; }
 
+// Does the scalar stand for a range of values (ball.hpp)?
+template <class S> inline constexpr bool is_range = false;
+
 // The derivative part; 0 for a plain number.
 ENTS_INLINE double derivative_of(double) { return 0.0; }
 template <class S> ENTS_INLINE S derivative_of(Dual<S> a) { return a.d; }

@@ -143,6 +143,7 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
     unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
       if constexpr (B::third[k]) s.a3[k] = combine(N.d3[k], g.y);
     });
+  if constexpr (is_range<S>) narrow<basis_order, B>(xi, s);
 
   const Vec<S, D> m = normal_of_tangents(s.a);
   const S area2 = dot(m, m);

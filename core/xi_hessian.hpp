@@ -123,8 +123,11 @@ ENTS_NOINLINE void directional_hessian(const Geometry<B>& g, const Projection<B,
 template <class B, bool H>
 ENTS_INLINE void direction_of(const Projection<B, H>& p, const double (&t)[B::dim - 1], double (&y)[B::dim - 1]) {
   double minus[B::dim - 1];
-  for (int a = 0; a < B::dim - 1; ++a) minus[a] = -t[a];
-  solve(p.f2, minus, y);
+  for (int a = 0; a < B::dim - 1; ++a) {
+    minus[a] = -t[a];
+    y[a] = 0.0;
+  }
+  solve(p.f2, minus, y);  // regular: delta xi exists
 }
 
 // t_a D2xi^a of either projection, its size known before it is written. k holds the exact delta xi.

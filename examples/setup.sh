@@ -35,7 +35,7 @@ trap 'rm -f "$log"' EXIT
 
 # Compilers and build tools; libraries; pictures.
 packages='g++ gfortran cmake ninja-build pkg-config
-  libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev
+  libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
   gnuplot-nox'
 
 missing() {

@@ -31,6 +31,7 @@ Solution solve_once(const Scene& scene, const EntsLibrary& library, int division
   solution.row.divisions = divisions;
   solution.row.sizes = simulation.sizes();
   solution.row.wall_time = simulation.timings().total;
+  solution.row.contact_time = simulation.timings().contact;
   solution.row.exact = records.back().exact;
   const auto d = static_cast<std::size_t>(scene.dimension);
   for (const int node : simulation.contact()->slaves())
@@ -82,6 +83,7 @@ Json row_json(const CompareRow& row) {
               {"dofs", row.sizes.dofs},
               {"master_dofs", row.sizes.master_dofs},
               {"wall_time", row.wall_time},
+              {"contact_time", row.contact_time},
               {"difference", row.difference},
               {"force_difference", row.force_difference}};
   if (const Quantity* quantity = main_quantity(row)) {
@@ -132,7 +134,8 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
 
   Table table;
   table.column("master").column("contact elements").column("segments").column("total dofs");
-  table.column("wall time", "s", 3).column("difference", "surface displacement", 2);
+  table.column("wall time", "s", 3).column("contact", "s", 2);
+  table.column("difference", "surface displacement", 2);
   table.column("difference", scene.control == Control::approach ? "force" : "approach", 2);
   const Quantity* reference = main_quantity(comparison.enriched);
   if (reference != nullptr) table.column("error", reference->name, 2);
@@ -140,7 +143,7 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
     std::vector<Table::Cell> cells{label, static_cast<std::int64_t>(row.sizes.slaves),
                                    static_cast<std::int64_t>(row.sizes.master_segments),
                                    static_cast<std::int64_t>(row.sizes.dofs + row.sizes.master_dofs),
-                                   row.wall_time};
+                                   row.wall_time, row.contact_time};
     if (row.divisions == 0)
       cells.insert(cells.end(), {Table::Cell{}, Table::Cell{}});
     else

@@ -14,6 +14,7 @@ struct CompareRow {
   int divisions = 0; ///< 0: the enriched segment
   Sizes sizes;
   double wall_time = 0;
+  double contact_time = 0;     ///< part of it: search and contact elements
   double difference = 0;       ///< of the surface displacement in the last step, relative to the enriched one (L2)
   double force_difference = 0; ///< relative, of the force (approach given) or the approach (force given)
   std::vector<Quantity> exact; ///< of the last step

@@ -59,7 +59,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     size_ = std::hypot(size_, high - low);
   }
   segment_.assign(slaves_.size(), -1);
-  segment_begin_ = segment_;
+  segment_begin_ = closed_on_ = segment_;
   state_begin_.assign(slaves_.size() * state_size_, 0.0);
   last_xi_.assign(slaves_.size() * parameters_, not_a_number);
   xi_begin_ = last_xi_;
@@ -291,9 +291,11 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   gather(at);
   const std::size_t n = element_dofs_;
   std::vector<double> force(active_.size() * n), tangent, xi(active_.size() * parameters_);
+  std::vector<std::int32_t> flags(active_.size());
   const ents_input in = input();
   auto out = ents_struct<ents_output>();
-  out.wanted = ENTS_RESIDUAL | ENTS_XI;
+  out.wanted = ENTS_RESIDUAL | ENTS_XI | ENTS_FLAGS;
+  out.flags = flags.data(), out.flags_stride = 1;
   out.residual = force.data(), out.residual_stride = stride(n);
   out.xi = xi.data(), out.xi_stride = stride(parameters_);
   if (state_size_ > 0) {
@@ -313,6 +315,12 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   if (status != ENTS_OK) return status;
 
   squared_force = 0;
+  std::vector<int> closed_on(slaves_.size(), -1);
+  for (std::size_t e = 0; e < active_.size(); ++e)
+    if ((flags[e] & ENTS_FLAG_CONTACT) != 0) closed_on[active_[e]] = segment_[active_[e]];
+  status_changes_ = 0;
+  for (std::size_t k = 0; k < slaves_.size(); ++k) status_changes_ += closed_on[k] != closed_on_[k];
+  closed_on_ = std::move(closed_on);
   if (coupling != nullptr) {
     coupling->force = coupling->diagonal = 0;
     coupling->column.assign(residual.size(), 0.0);

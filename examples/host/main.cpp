@@ -16,9 +16,15 @@ int main(int argc, char** argv) {
              "Examples:\n"
              "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
              "  ents-host run examples/westergaard/scene.json --compare\n"
+<<<<<<< HEAD
              "  ents-host variants examples/hertz2d/scene.json\n"
              "  ents-host verify golden/*.json\n"
              "  ents-host check model.json --mesh master.inp");
+=======
+             "  ents-host verify tests/mechanics/golden/*.json\n"
+             "  ents-host check model.json --mesh master.inp\n\n"
+             "ents-host SUBCOMMAND --help says more of each.");
+>>>>>>> main
   app.require_subcommand(1);
   CommonOptions common;
   const auto add_common = [&](CLI::App& command) {
@@ -29,10 +35,13 @@ int main(int argc, char** argv) {
 
   RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Solve a scene");
-  run_app->add_option("scene", run.scene, "scene file; examples/host/README.md describes its keys")->required();
+  run_app->add_option("scene", run.scene, "scene file; examples/host/README.md describes its keys")
+      ->required()
+      ->type_name("FILE");
   run_app->add_option("--out", run.out,
                       "folder for result.json, the VTU series (open result.pvd in ParaView) and the pictures; without "
-                      "it only the terminal is told");
+                      "it only the terminal is told")
+      ->type_name("DIR");
   std::string adapter = "plain";
   run_app->add_option("--adapter", adapter, "how the contact reaches the library")
       ->check(CLI::IsMember({"plain"}))
@@ -50,6 +59,7 @@ int main(int argc, char** argv) {
                              ->type_name("N1,N2,...")
                              ->expected(0, 1000)
                              ->excludes("--explicit");
+<<<<<<< HEAD
   run_app->add_flag("!--no-pictures", run.pictures, "leave the pictures out");
   run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
   run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status and segment of every slave node in the JSON result");
@@ -62,7 +72,17 @@ int main(int argc, char** argv) {
   run_app->add_option("--last-step", run.last_step, "stop after this step")->check(CLI::PositiveNumber);
   run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
       ->check(CLI::ExistingFile);
+=======
+  run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
+>>>>>>> main
   add_common(*run_app);
+  run_app->footer("Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
+                  "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1.\n\n"
+                  "Examples:\n"
+                  "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface on ONE segment\n"
+                  "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 plain segments\n"
+                  "  ents-host run examples/westergaard/scene.json --compare             how the two converge to each other\n"
+                  "  ents-host run examples/hertz3d/scene.json --json | jq .steps[-1].exact");
 
   VariantsOptions variants;
   CLI::App* variants_app =
@@ -95,6 +115,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     run.compare = compare->count() > 0;
+    std::erase(run.compare_divisions, 0); // what CLI11 makes of --compare without a list
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2; // 0: --help
   }

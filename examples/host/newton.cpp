@@ -230,10 +230,15 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     if (!state.ok) return fail(state.reason, state.step_factor);
     double relative = relative_residual(state);
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
+<<<<<<< HEAD
     if (outcome.augmentations.empty())
       outcome.residuals.push_back(relative);
     else
       outcome.augmentations.back().iterations = iteration;
+=======
+    outcome.residuals.push_back(relative);
+    outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
+>>>>>>> main
     if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
     if (relative <= scene_->solver.tolerance) {
       if (contact_ && contact_->augmentable()) {

@@ -64,6 +64,7 @@ Json step_json(const StepRecord& record, bool nodes) {
     const Convergence rate = convergence(increment.residuals);
     step["increments"].push_back({{"value", increment.value},
                                   {"residuals", increment.residuals},
+                                  {"status_changes", increment.status_changes},
                                   {"last_reductions", {number(rate.before), number(rate.last)}},
                                   {"order", number(rate.order)}});
     for (const Augmentation& augmentation : increment.augmentations)

@@ -117,7 +117,7 @@ Chart force_curve(const Simulation& simulation, const std::vector<StepRecord>& r
   const double modulus = scene.parts.front().setup.material.contact_modulus();
   Chart chart;
   chart.title = "Force against approach";
-  chart.subtitle = "Hertz: F = 4/3 E* R^{1/2} δ^{3/2}; " + mesh_note(simulation);
+  chart.subtitle = "Hertz: F = 4/3 E* √(R δ³); " + mesh_note(simulation);
   chart.x = {"approach", scene.units.length, false, 0};
   chart.y = {"force", scene.units.force, false, 0};
   Curve exact{"exact", {}, {}, Style::exact}, computed{"computed", {}, {}, Style::points};
@@ -152,6 +152,39 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
   return chart;
 }
 
+/// Heights of the surface of ONE rigid segment that lie over a rectangle, measured along the motion of the master; without values
+/// unless the surface's points form a grid along x and y there (a flat quad4 parallel to the axes).
+pictures::Map height_map(const Simulation& simulation, const Contact& contact, pictures::Maps& frame) {
+  pictures::Map map;
+  const Master& master = contact.master();
+  if (!master.rigid || master.segments != 1 || master.triangles || simulation.mesh().dimension != 3) return map;
+  constexpr int points = 513;
+  std::vector<double> xi;
+  for (int j = 0; j < points; ++j)
+    for (int i = 0; i < points; ++i)
+      for (const int k : {i, j}) xi.push_back(2. * k / (points - 1) - 1);
+  const SurfaceSample sample = sample_surface(*master.model, master.positions, {}, xi);
+  // xi_1 may run along either axis: the points' own coordinates sort them.
+  const auto grid_line = [&](double position) { return std::llround(position / (1e-6 * (frame.x_max - frame.x_min))); };
+  std::map<std::pair<long long, long long>, double> heights; // by y, then x
+  std::map<long long, int> columns, rows;
+  for (std::size_t k = 0; k < sample.height.size(); ++k) {
+    const double x = sample.point[3 * k], y = sample.point[3 * k + 1];
+    const double margin = 1e-6 * (frame.x_max - frame.x_min);
+    if (x < frame.x_min - margin || x > frame.x_max + margin || y < frame.y_min - margin || y > frame.y_max + margin) continue;
+    heights[{grid_line(y), grid_line(x)}] = sample.height[k];
+    ++columns[grid_line(x)], ++rows[grid_line(y)];
+  }
+  if (heights.empty() || columns.size() * rows.size() != heights.size()) return map;
+  map.title = "height of the rigid surface";
+  map.unit = simulation.scene().units.length;
+  map.columns = static_cast<int>(columns.size()), map.rows = static_cast<int>(rows.size());
+  map.at_nodes = true;
+  map.palette = pictures::Map::Palette::cividis;
+  for (const auto& [place, height] : heights) map.values.push_back(height);
+  return map;
+}
+
 /// Fields on slave nodes that form a regular grid; no maps otherwise.
 pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pictures::Maps maps;
@@ -183,23 +216,20 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   maps.unit = scene.units.length;
   maps.x_min = columns.begin()->first, maps.x_max = columns.rbegin()->first;
   maps.y_min = rows.begin()->first, maps.y_max = rows.rbegin()->first;
-  pictures::Map pressure, gap;
-  pressure.title = "contact pressure", gap.title = "gap";
-  pressure.unit = scene.units.pressure, gap.unit = scene.units.length;
-  pressure.blank_zero = true;
+  pictures::Map pressure;
+  pressure.title = "contact pressure", pressure.unit = scene.units.pressure;
+  pressure.blank_zero = pressure.at_nodes = true;
   pressure.clip = 0.99;
-  gap.palette = pictures::Map::Palette::cividis;
-  for (pictures::Map* map : {&pressure, &gap}) {
-    map->columns = static_cast<int>(columns.size()), map->rows = static_cast<int>(rows.size());
-    map->values.assign(slaves.size(), 0.0);
-  }
+  pressure.columns = static_cast<int>(columns.size()), pressure.rows = static_cast<int>(rows.size());
+  pressure.values.assign(slaves.size(), 0.0);
   for (std::size_t k = 0; k < slaves.size(); ++k) {
     const auto position = simulation.mesh().node(slaves[k]);
     const auto at = static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
     pressure.values[at] = record.fields.pressure[k];
-    gap.values[at] = std::max(0., record.fields.gap[k]);
   }
-  maps.maps = {pressure, gap};
+  pictures::Map height = height_map(simulation, *simulation.contact(), maps);
+  if (!height.values.empty()) maps.maps.push_back(std::move(height));
+  maps.maps.push_back(std::move(pressure));
   return maps;
 }
 

@@ -21,7 +21,8 @@ namespace {
 
 using namespace test;
 
-// Everything a host does between reading its models and releasing them, errors included. All memory is there before.
+// Everything a host does between reading its models and releasing them, errors included. All memory is there
+// before.
 class Work {
 public:
   explicit Work(const ModelKind& kind) : model_(text(kind)), results_(model_.layout) {
@@ -84,8 +85,8 @@ TEST(AllocationFree, NoHeapAndNoLocksInAnyEvaluation) {
 }
 
 #if ENTS_TEST_OWN_MALLOC
-// In a process that may do nothing but read, write and exit, any other system call is deadly. (Not with a sanitizer, which
-// makes system calls of its own.)
+// In a process that may do nothing but read, write and exit, any other system call is deadly. (Not with a
+// sanitizer, which makes system calls of its own.)
 TEST(AllocationFree, NoSystemCallInAnyEvaluation) {
   const auto survives = [](auto&& act) {
     const pid_t child = fork();
@@ -99,7 +100,8 @@ TEST(AllocationFree, NoSystemCallInAnyEvaluation) {
     return status;
   };
   const int allowed = survives([] {});
-  if (WIFEXITED(allowed) && WEXITSTATUS(allowed) == 2) return; // the system cannot restrict a process: nothing to learn
+  if (WIFEXITED(allowed) && WEXITSTATUS(allowed) == 2)
+    return; // the system cannot restrict a process: nothing to learn
   ASSERT_TRUE(WIFEXITED(survives([] {})));
   ASSERT_TRUE(WIFSIGNALED(survives([] { getppid(); }))) << "the restriction does not work";
   for (const ModelKind& kind : some_kinds()) {

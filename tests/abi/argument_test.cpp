@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts, strides, handles and null pointers: refused by name before any arithmetic with them; no elements, no complaint.
+// Counts, strides, handles and null pointers: refused by name before any arithmetic with them; no elements,
+// no complaint.
 #include <gtest/gtest.h>
 
 #include <climits>
@@ -43,7 +44,8 @@ protected:
 
 TEST_F(Arguments, CountsAtTheEndsOfTheIntegers) {
   const int64_t least = INT64_MIN, most = INT64_MAX;
-  for (const int64_t bad : {least, least + 1, int64_t{INT_MIN}, int64_t{-1}, int64_t{1} << 51, most / 8, most - 1, most}) {
+  for (const int64_t bad :
+       {least, least + 1, int64_t{INT_MIN}, int64_t{-1}, int64_t{1} << 51, most / 8, most - 1, most}) {
     refused(ENTS_BAD_COUNT, "count", 0, bad);
     refused(ENTS_BAD_COUNT, "first", bad, 1);
     refused(ENTS_BAD_COUNT, "first", bad, bad);
@@ -58,13 +60,16 @@ TEST_F(Arguments, NoElementsNoComplaint) {
   output.wanted = want_all; // all arrays null: an empty std::vector has no data
   input = {};
   input.struct_size = sizeof input;
-  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{0}, &input, &output, &report), ENTS_OK) << report.message;
-  EXPECT_EQ(call::evaluate(model.get(), int64_t{5}, int64_t{0}, &input, &output, &report), ENTS_OK) << report.message;
-  EXPECT_EQ(call::state_init(model.get(), int64_t{0}, nullptr, int64_t{model.layout.state_size}, &report), ENTS_OK);
+  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{0}, &input, &output, &report), ENTS_OK)
+      << report.message;
+  EXPECT_EQ(call::evaluate(model.get(), int64_t{5}, int64_t{0}, &input, &output, &report), ENTS_OK)
+      << report.message;
+  EXPECT_EQ(call::state_init(model.get(), int64_t{0}, nullptr, int64_t{model.layout.state_size}, &report),
+            ENTS_OK);
   ents_surface surface{};
   surface.struct_size = sizeof surface;
   EXPECT_EQ(call::surface_evaluate(model.get(), int64_t{0}, &surface, &report), ENTS_OK);
-  EXPECT_EQ(ents_tributary_areas("quad4", 0, nullptr, 0, nullptr, 1.0, nullptr, &report), ENTS_OK);
+  EXPECT_EQ(call::tributary_areas("quad4", 0, nullptr, 0, nullptr, 1.0, nullptr, &report), ENTS_OK);
   EXPECT_STREQ(report.message, "");
 }
 
@@ -91,7 +96,8 @@ TEST_F(Arguments, EveryStrideOfABatch) {
       refused(ENTS_BAD_COUNT, name, 1, 1);
     }
   }
-  int64_t ents_output::*const integers[] = {&ents_output::flags_stride, &ents_output::iterations_stride, &ents_output::status_stride};
+  int64_t ents_output::*const integers[] = {&ents_output::flags_stride, &ents_output::iterations_stride,
+                                            &ents_output::status_stride};
   const char* names[] = {"output.flags_stride", "output.iterations_stride", "output.status_stride"};
   for (std::size_t i = 0; i < 3; ++i)
     for (const int64_t bad : {int64_t{-1}, int64_t{0}, INT64_MIN, INT64_MAX}) {
@@ -106,17 +112,20 @@ TEST_F(Arguments, StridesDoNotMatterForOneElement) {
   for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = i % 2 ? -5 : INT64_MAX;
   for (int i = 0; i < output_count; ++i) output.*outputs[i].stride = i % 2 ? 0 : INT64_MIN;
   output.flags_stride = output.iterations_stride = output.status_stride = 0;
-  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK) << report.message;
+  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK)
+      << report.message;
 }
 
 TEST_F(Arguments, LeadingDimensionOfTheTangent) {
-  for (const int64_t bad : {int64_t{-1}, int64_t{1}, int64_t{model.layout.dofs - 1}, int64_t{INT_MAX} + 1, INT64_MIN, INT64_MAX}) {
+  for (const int64_t bad : {int64_t{-1}, int64_t{1}, int64_t{model.layout.dofs - 1}, int64_t{INT_MAX} + 1,
+                            INT64_MIN, INT64_MAX}) {
     output.tangent_leading_dimension = bad;
     refused(ENTS_BAD_COUNT, "output.tangent_leading_dimension");
   }
   output.tangent_leading_dimension = -1; // the tangent is not wanted
   output.wanted = ENTS_GAP;
-  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK) << report.message;
+  EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK)
+      << report.message;
 }
 
 TEST_F(Arguments, WantedBits) {
@@ -127,7 +136,8 @@ TEST_F(Arguments, WantedBits) {
   const Model kinematic(R"({"segment": "quad4"})");
   for (const int32_t bit : {ENTS_ENERGY, ENTS_PRESSURE, ENTS_RESIDUAL, ENTS_TANGENT}) {
     output.wanted = bit;
-    EXPECT_EQ(call::evaluate(kinematic.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_BAD_MASK);
+    EXPECT_EQ(call::evaluate(kinematic.get(), int64_t{0}, int64_t{1}, &input, &output, &report),
+              ENTS_BAD_MASK);
     EXPECT_NE(std::string(report.message).find("\"contact\""), std::string::npos) << report.message;
   }
 }
@@ -146,7 +156,8 @@ TEST_F(Arguments, NullArraysOfInputAndOutput) {
   output.iterations = nullptr;
   refused(ENTS_NULL_ARGUMENT, "output.iterations");
   // what is not wanted, and what is optional, may be null
-  for (const int i : {surface_coordinates, start, area, state_begin, multiplier}) input.*inputs[i].pointer = nullptr;
+  for (const int i : {surface_coordinates, start, area, state_begin, multiplier})
+    input.*inputs[i].pointer = nullptr;
   output = {};
   output.struct_size = sizeof output;
   output.wanted = ENTS_GAP;
@@ -154,7 +165,8 @@ TEST_F(Arguments, NullArraysOfInputAndOutput) {
   EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, nullptr), ENTS_OK);
   // multipliers as dofs are not optional
   const Model multipliers(text({"quad4", "none", "normal", "", 10}));
-  EXPECT_EQ(call::evaluate(multipliers.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_NULL_ARGUMENT);
+  EXPECT_EQ(call::evaluate(multipliers.get(), int64_t{0}, int64_t{1}, &input, &output, &report),
+            ENTS_NULL_ARGUMENT);
   EXPECT_NE(std::string(report.message).find("input.multiplier"), std::string::npos) << report.message;
 }
 
@@ -174,9 +186,14 @@ TEST_F(Arguments, NullArgumentsByName) {
       {"'model'", [&] { return call::evaluate(nullptr, int64_t{0}, int64_t{1}, &input, &output, &report); }},
       {"'input'", [&] { return call::evaluate(live, int64_t{0}, int64_t{1}, nullptr, &output, &report); }},
       {"'output'", [&] { return call::evaluate(live, int64_t{0}, int64_t{1}, &input, nullptr, &report); }},
-      {"'text'", [&] { return call::model_create(nullptr, int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report); }},
-      {"'data'", [&] { return call::model_create("{}", int64_t{-1}, nullptr, nullptr, int64_t{1}, &made, &report); }},
-      {"'model'", [&] { return call::model_create("{}", int64_t{-1}, nullptr, nullptr, int64_t{0}, nullptr, &report); }},
+      {"'text'",
+       [&] {
+         return call::model_create(nullptr, int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report);
+       }},
+      {"'data'",
+       [&] { return call::model_create("{}", int64_t{-1}, nullptr, nullptr, int64_t{1}, &made, &report); }},
+      {"'model'",
+       [&] { return call::model_create("{}", int64_t{-1}, nullptr, nullptr, int64_t{0}, nullptr, &report); }},
       {"'path'", [&] { return call::model_create_from_file(nullptr, &made, &report); }},
       {"'model'", [&] { return call::model_create_from_file("x", nullptr, &report); }},
       {"'model'", [&] { return call::model_layout(nullptr, &model.layout, &report); }},
@@ -189,14 +206,28 @@ TEST_F(Arguments, NullArgumentsByName) {
       {"'model'", [&] { return call::model_check(nullptr, nodes, nullptr, &result, &report); }},
       {"'master'", [&] { return call::model_check(live, nullptr, nullptr, &result, &report); }},
       {"'result'", [&] { return call::model_check(live, nodes, nullptr, nullptr, &report); }},
-      {"'old_master'", [&] { return ents_state_transfer(live, nullptr, nullptr, nodes, nullptr, state.data(), areas, &report); }},
-      {"'new_master'", [&] { return ents_state_transfer(live, nodes, nullptr, nullptr, nullptr, state.data(), areas, &report); }},
-      {"'state'", [&] { return ents_state_transfer(live, nodes, nullptr, nodes, nullptr, nullptr, areas, &report); }},
-      {"'moved'", [&] { return ents_state_transfer(live, nodes, nullptr, nodes, nullptr, state.data(), nullptr, &report); }},
-      {"'facet'", [&] { return ents_tributary_areas(nullptr, 1, connectivity, 4, nodes, 1.0, areas, &report); }},
-      {"connectivity", [&] { return ents_tributary_areas("quad4", 1, nullptr, 4, nodes, 1.0, areas, &report); }},
-      {"positions", [&] { return ents_tributary_areas("quad4", 1, connectivity, 4, nullptr, 1.0, areas, &report); }},
-      {"areas", [&] { return ents_tributary_areas("quad4", 1, connectivity, 4, nodes, 1.0, nullptr, &report); }},
+      {"'old_master'",
+       [&] {
+         return call::state_transfer(live, nullptr, nullptr, nodes, nullptr, state.data(), areas, &report);
+       }},
+      {"'new_master'",
+       [&] {
+         return call::state_transfer(live, nodes, nullptr, nullptr, nullptr, state.data(), areas, &report);
+       }},
+      {"'state'",
+       [&] { return call::state_transfer(live, nodes, nullptr, nodes, nullptr, nullptr, areas, &report); }},
+      {"'moved'",
+       [&] {
+         return call::state_transfer(live, nodes, nullptr, nodes, nullptr, state.data(), nullptr, &report);
+       }},
+      {"'facet'",
+       [&] { return call::tributary_areas(nullptr, 1, connectivity, 4, nodes, 1.0, areas, &report); }},
+      {"connectivity",
+       [&] { return call::tributary_areas("quad4", 1, nullptr, 4, nodes, 1.0, areas, &report); }},
+      {"positions",
+       [&] { return call::tributary_areas("quad4", 1, connectivity, 4, nullptr, 1.0, areas, &report); }},
+      {"areas",
+       [&] { return call::tributary_areas("quad4", 1, connectivity, 4, nodes, 1.0, nullptr, &report); }},
   };
   for (const auto& [name, make] : calls) {
     report = new_report();
@@ -211,7 +242,8 @@ TEST_F(Arguments, NullArgumentsByName) {
 TEST_F(Arguments, NullReport) {
   ents_model* made = nullptr;
   EXPECT_EQ(call::evaluate(nullptr, int64_t{0}, int64_t{1}, &input, &output, nullptr), ENTS_NULL_ARGUMENT);
-  EXPECT_EQ(call::model_create("{", int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, nullptr), ENTS_JSON_SYNTAX);
+  EXPECT_EQ(call::model_create("{", int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, nullptr),
+            ENTS_JSON_SYNTAX);
   EXPECT_EQ(call::model_create_from_file("nowhere.json", &made, nullptr), ENTS_FILE);
   EXPECT_EQ(call::model_destroy(&made, nullptr), ENTS_OK);
   EXPECT_EQ(call::check_contract(77, 0, nullptr), ENTS_VERSION);
@@ -222,7 +254,9 @@ TEST_F(Arguments, Destroying) {
   ents_model* none = nullptr;
   EXPECT_EQ(call::model_destroy(&none, &report), ENTS_OK);
   ents_model* made = nullptr;
-  ASSERT_EQ(call::model_create(model.text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report), ENTS_OK);
+  ASSERT_EQ(
+      call::model_create(model.text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report),
+      ENTS_OK);
   EXPECT_EQ(call::model_destroy(&made, &report), ENTS_OK);
   EXPECT_EQ(made, nullptr);
   EXPECT_EQ(call::model_destroy(&made, &report), ENTS_OK);
@@ -231,7 +265,8 @@ TEST_F(Arguments, Destroying) {
 // What is not a model is refused as far as its memory can be read (the header: best effort).
 TEST_F(Arguments, ForeignHandles) {
   alignas(64) unsigned char memory[4096];
-  for (const unsigned char filling : {0x00, 0x65, 0xff}) {
+  for (const int value : {0x00, 0x65, 0xff}) {
+    const auto filling = static_cast<unsigned char>(value);
     std::memset(memory, filling, sizeof memory);
     auto* foreign = reinterpret_cast<ents_model*>(memory);
     const auto refused_by = [&](int32_t status, const char* function) {
@@ -259,7 +294,9 @@ TEST_F(Arguments, ForeignHandles) {
 TEST_F(Arguments, StaleHandles) {
   for (int i = 0; i < 100; ++i) {
     ents_model* made = nullptr;
-    ASSERT_EQ(call::model_create(model.text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report), ENTS_OK);
+    ASSERT_EQ(
+        call::model_create(model.text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &made, &report),
+        ENTS_OK);
     ents_model* stale = made;
     ASSERT_EQ(call::model_destroy(&made, &report), ENTS_OK);
     EXPECT_EQ(call::evaluate(stale, int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_BAD_HANDLE);
@@ -291,7 +328,8 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
   result.struct_size = sizeof result;
   for (const int32_t bad : {-1, 1, 4097, INT_MAX, INT_MIN}) {
     result.samples = bad;
-    EXPECT_EQ(call::model_check(model.get(), element[master].data(), nullptr, &result, &report), ENTS_BAD_COUNT);
+    EXPECT_EQ(call::model_check(model.get(), element[master].data(), nullptr, &result, &report),
+              ENTS_BAD_COUNT);
     EXPECT_NE(std::string(report.message).find("result.samples"), std::string::npos) << report.message;
   }
   ents_model* made = nullptr;
@@ -299,7 +337,8 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
     EXPECT_EQ(call::model_create("{}", bad, nullptr, nullptr, int64_t{0}, &made, &report), ENTS_BAD_COUNT);
     EXPECT_NE(std::string(report.message).find("length"), std::string::npos) << report.message;
   }
-  EXPECT_EQ(call::model_create("{}", INT64_MAX, nullptr, nullptr, int64_t{0}, &made, &report), ENTS_BAD_VALUE);
+  EXPECT_EQ(call::model_create("{}", INT64_MAX, nullptr, nullptr, int64_t{0}, &made, &report),
+            ENTS_BAD_VALUE);
   for (const int64_t bad : {int64_t{-1}, INT64_MIN, INT64_MAX, int64_t{1} << 31}) {
     EXPECT_EQ(call::model_create("{}", int64_t{-1}, nullptr, nullptr, bad, &made, &report), ENTS_BAD_COUNT);
     EXPECT_NE(std::string(report.message).find("data_count"), std::string::npos) << report.message;
@@ -311,16 +350,23 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
   data.values = values;
   for (const int64_t bad : {int64_t{-1}, int64_t{0}, INT64_MIN, INT64_MAX, int64_t{1} << 32}) {
     data.rows = data.columns = bad;
-    EXPECT_EQ(call::model_create("{}", int64_t{-1}, nullptr, &data, int64_t{1}, &made, &report), ENTS_BAD_COUNT) << bad;
+    EXPECT_EQ(call::model_create("{}", int64_t{-1}, nullptr, &data, int64_t{1}, &made, &report),
+              ENTS_BAD_COUNT)
+        << bad;
     EXPECT_NE(std::string(report.message).find("rows"), std::string::npos) << report.message;
   }
   int64_t connectivity[4] = {0, 1, 2, 3};
   double areas[4];
   for (const int64_t bad : {int64_t{-1}, INT64_MIN, INT64_MAX}) {
-    EXPECT_EQ(ents_tributary_areas("quad4", bad, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
-    EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, bad, element[master].data(), 1.0, areas, &report), ENTS_BAD_COUNT);
+    EXPECT_EQ(
+        call::tributary_areas("quad4", bad, connectivity, 4, element[master].data(), 1.0, areas, &report),
+        ENTS_BAD_COUNT);
+    EXPECT_EQ(
+        call::tributary_areas("quad4", 1, connectivity, bad, element[master].data(), 1.0, areas, &report),
+        ENTS_BAD_COUNT);
     connectivity[2] = bad;
-    EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, 4, element[master].data(), 1.0, areas, &report), ENTS_BAD_VALUE);
+    EXPECT_EQ(call::tributary_areas("quad4", 1, connectivity, 4, element[master].data(), 1.0, areas, &report),
+              ENTS_BAD_VALUE);
     EXPECT_NE(std::string(report.message).find("connectivity[2]"), std::string::npos) << report.message;
     connectivity[2] = 2;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A batch of n elements is n single calls, bit for bit: with packed, padded and shared inputs, in ranges, and when some
-// of the elements fail.
+// A batch of n elements is n single calls, bit for bit: with packed, padded and shared inputs, in ranges, and
+// when some of the elements fail.
 #include <gtest/gtest.h>
 
 #include "support/element.hpp"
@@ -11,9 +11,11 @@ using namespace test;
 
 constexpr std::size_t count = 7;
 
-// The arrays of a batch: input i is shared by all elements if bit i of `shared` is set, else `padding` doubles lie between.
+// The arrays of a batch: input i is shared by all elements if bit i of `shared` is set, else `padding`
+// doubles lie between.
 struct Batch {
-  Batch(const Model& model, const std::vector<Element>& given, unsigned shared, std::size_t padding) : elements(given) {
+  Batch(const Model& model, const std::vector<Element>& given, unsigned shared, std::size_t padding)
+      : elements(given) {
     input.struct_size = sizeof input;
     output.struct_size = sizeof output;
     for (int i = 0; i < input_count; ++i) {
@@ -82,7 +84,8 @@ std::vector<Element> draw_batch(const Model& model, const Basis& b, Random& rand
   const Element base = draw(model, b, random);
   for (std::size_t e = 0; e < count; ++e) {
     Element one = draw(model, b, random);
-    if (one[surface_coordinates].empty() != base[surface_coordinates].empty()) one[surface_coordinates] = base[surface_coordinates];
+    if (one[surface_coordinates].empty() != base[surface_coordinates].empty())
+      one[surface_coordinates] = base[surface_coordinates];
     elements.push_back(with_states ? with_history(model, std::move(one), random) : std::move(one));
   }
   return elements;
@@ -95,7 +98,8 @@ TEST(Batch, EveryPatternOfStrides) {
     const std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, true);
     for (unsigned shared = 0; shared < 1u << input_count; ++shared) {
       Batch batch(model, elements, shared, shared % 3);
-      const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, nullptr);
+      const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count),
+                                            &batch.input, &batch.output, nullptr);
       ASSERT_GE(status, 0);
       expect_singles(model, batch, 0, count);
       if (HasFatalFailure()) FAIL() << "shared inputs " << shared << " " << text(kind);
@@ -108,7 +112,8 @@ TEST(Batch, EveryKindOfModelWithoutHistory) {
   for (const ModelKind& kind : all_kinds()) {
     const Model model(text(kind));
     Batch batch(model, draw_batch(model, basis(kind.basis), random, false), 0, 2);
-    const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, nullptr);
+    const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input,
+                                          &batch.output, nullptr);
     ASSERT_GE(status, 0);
     expect_singles(model, batch, 0, count);
     if (HasFatalFailure()) FAIL() << text(kind);
@@ -123,16 +128,20 @@ TEST(Batch, EveryRange) {
   for (std::size_t first = 0; first <= count; ++first)
     for (std::size_t last = first; last <= count; ++last) {
       Batch batch(model, elements, 0, 1);
-      const int32_t status = call::evaluate(model.get(), static_cast<int64_t>(first), static_cast<int64_t>(last - first),
-                                            &batch.input, &batch.output, nullptr);
+      const int32_t status =
+          call::evaluate(model.get(), static_cast<int64_t>(first), static_cast<int64_t>(last - first),
+                         &batch.input, &batch.output, nullptr);
       ASSERT_GE(status, 0);
       expect_singles(model, batch, first, last);
       for (std::size_t e = 0; e < count; ++e)
-        if (e < first || e >= last) ASSERT_EQ(batch.integers[2][2 * e], -7) << "element " << e << " is outside the range";
+        if (e < first || e >= last) {
+          ASSERT_EQ(batch.integers[2][2 * e], -7) << "element " << e << " is outside the range";
+        }
     }
 }
 
-// Elements that fail in the middle of a batch do not change the others; the first of them is what is returned.
+// Elements that fail in the middle of a batch do not change the others; the first of them is what is
+// returned.
 TEST(Batch, RecoverableElementsLeaveTheOthersAlone) {
   Random random(84);
   const ModelKind kind = {"quad8", "gaussian"};
@@ -141,7 +150,8 @@ TEST(Batch, RecoverableElementsLeaveTheOthersAlone) {
   for (const std::size_t e : {2, 5}) elements[e][master].assign(elements[e][master].size(), 0.5);
   Batch batch(model, elements, 0, 0);
   ents_report report = new_report();
-  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, &report),
+  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output,
+                           &report),
             ENTS_DEGENERATE_SEGMENT);
   EXPECT_EQ(report.element, 2);
   EXPECT_EQ(report.status, ENTS_DEGENERATE_SEGMENT);
@@ -161,7 +171,9 @@ TEST(Batch, MistakesEndTheBatch) {
   elements[4][master][3] = std::numeric_limits<double>::quiet_NaN();
   Batch batch(model, elements, 0, 0);
   ents_report report = new_report();
-  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output, &report), ENTS_NON_FINITE);
+  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input, &batch.output,
+                           &report),
+            ENTS_NON_FINITE);
   EXPECT_EQ(report.element, 4);
   EXPECT_EQ(report.step_factor, 1.0);
   EXPECT_STREQ(report.message, "input.master[3] of element 4 is NaN");

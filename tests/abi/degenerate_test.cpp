@@ -6,84 +6,11 @@
 // segments at all), and node numbers (duplicates in a segment, out of range, slave among the master nodes).
 #include <gtest/gtest.h>
 
-#include <functional>
-
-#include "support/element.hpp"
+#include "support/pose.hpp"
 
 namespace {
 
 using namespace test;
-
-struct Pose {
-  double size;
-  Rotation turn;
-};
-
-// Three sizes times three rotations.
-std::vector<Pose> poses(int d) {
-  std::vector<Pose> all;
-  for (const double size : {1e-6, 1.0, 1e6})
-    for (const Rotation& turn : {rotation(d, 0.0, 0.0), rotation(d, 0.7, -1.1), rotation(d, 2.9, 2.3)}) all.push_back({size, turn});
-  return all;
-}
-
-// The element as drawn in unit size in the plane of the first axes, in a pose.
-Element posed(Element e, const Pose& pose, int d) {
-  for (const int i : {slave, master})
-    for (std::size_t k = 0; k < e[i].size(); k += static_cast<std::size_t>(d)) {
-      for (std::size_t c = 0; c < static_cast<std::size_t>(d); ++c) e[i][k + c] *= pose.size;
-      pose.turn.apply(&e[i][k], d);
-    }
-  return e;
-}
-
-std::string vector_text(const std::vector<double>& v) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + number(v[i]);
-  return text + "]";
-}
-
-// A model whose lengths and ray are in the pose. Heights as in support/model.hpp.
-Model model_in(const Pose& pose, const Basis& b, const std::string& height_kind, const std::string& projection_kind,
-               const std::string& more = "") {
-  const int d = b.dimension;
-  std::vector<double> ray = d == 2 ? std::vector<double>{0.2, 1.0} : std::vector<double>{0.2, -0.1, 1.0};
-  std::string way = R"({"type": "normal"})";
-  if (projection_kind == "shadow_point") {
-    for (double& r : ray) r *= 9.0 * pose.size;
-    pose.turn.apply(ray.data(), d);
-    way = R"({"type": "shadow_point", "emitter": )" + vector_text(ray) + "}";
-  } else if (projection_kind == "shadow_direction") {
-    pose.turn.apply(ray.data(), d);
-    way = R"({"type": "shadow_direction", "direction": )" + vector_text(ray) + "}";
-  }
-  return Model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height(height_kind, d, pose.size) +
-               R"(, "projection": )" + way +
-               R"(, "contact": {"normal": {"type": "penalty", "stiffness": 1000.0}})" + more + "}");
-}
-
-// Every basis, with and without height, every projection, every pose.
-void everywhere(const std::function<void(const Basis&, const std::string&, const std::string&, const Pose&)>& visit) {
-  for (const Basis& b : bases())
-    for (const char* h : {"none", "sine"})
-      for (const std::string& p : projection_kinds())
-        for (const Pose& pose : poses(b.dimension)) {
-          SCOPED_TRACE(std::string(b.name) + " " + h + " " + p + " size " + number(pose.size));
-          visit(b, h, p, pose);
-        }
-}
-
-std::vector<double> above_centre(const Basis& b, double gap) {
-  std::vector<double> x = centre(b);
-  x.push_back(gap);
-  return x;
-}
-
-bool all_zero(const std::vector<double>& v) {
-  for (const double x : v)
-    if (x != 0.0) return false;
-  return true;
-}
 
 TEST(Degenerate, ZeroLengthOrZeroAreaIsADegenerateSegment) {
   everywhere([](const Basis& b, const std::string& h, const std::string& p, const Pose& pose) {
@@ -94,7 +21,8 @@ TEST(Degenerate, ZeroLengthOrZeroAreaIsADegenerateSegment) {
 
     Element point; // all nodes in one point
     point[slave] = above_centre(b, -0.1);
-    for (std::size_t i = 0; i < b.nodes.size(); ++i) point[master].insert(point[master].end(), {0.3, 0.1}), point[master].resize(d * (i + 1), 0.2);
+    for (std::size_t i = 0; i < b.nodes.size(); ++i)
+      point[master].insert(point[master].end(), {0.3, 0.1}), point[master].resize(d * (i + 1), 0.2);
     for (const bool searched : {false, true}) {
       Element e = posed(point, pose, b.dimension);
       if (!searched) e[start] = centre(b);
@@ -114,9 +42,9 @@ TEST(Degenerate, ZeroLengthOrZeroAreaIsADegenerateSegment) {
   });
 }
 
-// Where rho turns back on itself it has no tangent: a line3 whose middle node lies beyond the quarter points folds
-// on the segment. The slave lies beyond the fold, so the fold is the closest point. (Enriched, the surface jumps
-// there by twice the height; the fold itself is not on it.)
+// Where rho turns back on itself it has no tangent: a line3 whose middle node lies beyond the quarter points
+// folds on the segment. The slave lies beyond the fold, so the fold is the closest point. (Enriched, the
+// surface jumps there by twice the height; the fold itself is not on it.)
 TEST(Degenerate, ProjectionOnAFoldHasNoNormal) {
   const Basis& b = basis("line3");
   for (const Pose& pose : poses(2)) {
@@ -136,8 +64,8 @@ TEST(Degenerate, ProjectionOnAFoldHasNoNormal) {
   }
 }
 
-// A quad4 with two neighbouring corners exchanged is twisted by half a turn: on the line through its middle, eta = 0, the
-// first tangent vanishes and the normal turns over.
+// A quad4 with two neighbouring corners exchanged is twisted by half a turn: on the line through its middle,
+// eta = 0, the first tangent vanishes and the normal turns over.
 TEST(Degenerate, TwistedSegmentHasNoNormalInItsMiddle) {
   const Basis& b = basis("quad4");
   for (const std::string& p : projection_kinds())
@@ -147,11 +75,13 @@ TEST(Degenerate, TwistedSegmentHasNoNormalInItsMiddle) {
       Results results(model.layout);
       Element e;
       e[master] = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
-      e[slave] = p == "normal" ? std::vector<double>{0.0, 0.0, -0.01} : std::vector<double>{-0.002, 0.001, -0.01};
+      e[slave] =
+          p == "normal" ? std::vector<double>{0.0, 0.0, -0.01} : std::vector<double>{-0.002, 0.001, -0.01};
       e[start] = {0.0, 0.0};
       e = posed(e, pose, 3);
       const int32_t status = test::evaluate(model, e, want_all, results);
-      EXPECT_TRUE(status == ENTS_DEGENERATE_SEGMENT || status == ENTS_GRAZING_RAY) << status << ", gap " << results.gap();
+      EXPECT_TRUE(status == ENTS_DEGENERATE_SEGMENT || status == ENTS_GRAZING_RAY)
+          << status << ", gap " << results.gap();
     }
 }
 

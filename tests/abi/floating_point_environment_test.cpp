@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's floating-point environment - rounding, traps, flags, flush to zero - is as it was after every call, on
-// success and on every error, and the results do not depend on it.
+// The host's floating-point environment - rounding, traps, flags, flush to zero - is as it was after every
+// call, on success and on every error, and the results do not depend on it.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -39,8 +39,8 @@ struct Setting {
   const char* name;
   int rounding;
   int traps;
-  bool flush;    // results and inputs that are denormal count as 0
-  int raised;    // flags that stand already (without traps: a standing flag would trap)
+  bool flush; // results and inputs that are denormal count as 0
+  int raised; // flags that stand already (without traps: a standing flag would trap)
 };
 constexpr int usual_traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 const Setting settings[] = {
@@ -55,7 +55,8 @@ const Setting settings[] = {
     {"flags", FE_TONEAREST, 0, false, FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW | FE_UNDERFLOW | FE_INEXACT},
 };
 
-// `body` in a setting; nothing else of the test may run in it. Returns the environments just before and after.
+// `body` in a setting; nothing else of the test may run in it. Returns the environments just before and
+// after.
 template <class Body> std::pair<Environment, Environment> in(const Setting& setting, Body&& body) {
   std::fenv_t saved;
   std::fegetenv(&saved);
@@ -74,18 +75,19 @@ template <class Body> std::pair<Environment, Environment> in(const Setting& sett
   return {before, after};
 }
 
-#define EXPECT_KEPT(setting, body)                                                                             \
-  do {                                                                                                         \
-    const auto environments = in(setting, body);                                                               \
-    EXPECT_EQ(environments.first.rounding, environments.second.rounding) << (setting).name;                    \
-    EXPECT_EQ(environments.first.traps, environments.second.traps) << (setting).name;                          \
-    EXPECT_EQ(environments.first.flags, environments.second.flags) << (setting).name;                          \
-    EXPECT_EQ(environments.first.control, environments.second.control) << (setting).name;                      \
+#define EXPECT_KEPT(setting, body)                                                                           \
+  do {                                                                                                       \
+    const auto environments = in(setting, body);                                                             \
+    EXPECT_EQ(environments.first.rounding, environments.second.rounding) << (setting).name;                  \
+    EXPECT_EQ(environments.first.traps, environments.second.traps) << (setting).name;                        \
+    EXPECT_EQ(environments.first.flags, environments.second.flags) << (setting).name;                        \
+    EXPECT_EQ(environments.first.control, environments.second.control) << (setting).name;                    \
   } while (false)
 
 TEST(FloatingPointEnvironment, IsKeptByTenThousandEvaluationsAndTheirErrors) {
   Random random(41);
-  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308, 5e-324};
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                        1e308, 5e-324};
   int calls = 0, failed = 0;
   for (const ModelKind& kind : all_kinds()) {
     const Model model(text(kind));
@@ -112,7 +114,8 @@ TEST(FloatingPointEnvironment, IsKeptByTenThousandEvaluationsAndTheirErrors) {
 
 TEST(FloatingPointEnvironment, IsKeptByEveryOtherFunction) {
   const std::string good = text({"quad4", "map", "shadow_point"});
-  const std::string texts[] = {good, R"({"segment": "quad5"})", R"({"segment": "line2", "penetration_limit": 1e999})",
+  const std::string texts[] = {good, R"({"segment": "quad5"})",
+                               R"({"segment": "line2", "penetration_limit": 1e999})",
                                R"({"segment": "line2", "penetration_limit": 1e-320})", "{"};
   const Model model(good);
   Random random(42);
@@ -127,7 +130,8 @@ TEST(FloatingPointEnvironment, IsKeptByEveryOtherFunction) {
       EXPECT_KEPT(setting, [&] { ents_model_destroy(&made, &report); });
     }
     for (const double scale : {1.0, 1e200, 0.0}) {
-      std::vector<double> nodes = e[master], point(3), state(static_cast<std::size_t>(model.layout.state_size));
+      std::vector<double> nodes = e[master], point(3),
+                          state(static_cast<std::size_t>(model.layout.state_size));
       for (double& x : nodes) x *= scale;
       ents_surface surface{};
       surface.struct_size = sizeof surface;
@@ -140,15 +144,19 @@ TEST(FloatingPointEnvironment, IsKeptByEveryOtherFunction) {
       layout.struct_size = sizeof layout;
       EXPECT_KEPT(setting, [&] { ents_surface_evaluate(model.get(), 1, &surface, nullptr); });
       EXPECT_KEPT(setting, [&] { ents_model_check(model.get(), nodes.data(), nullptr, &result, nullptr); });
-      EXPECT_KEPT(setting, [&] { ents_state_init(model.get(), 1, state.data(), model.layout.state_size, nullptr); });
+      EXPECT_KEPT(setting,
+                  [&] { ents_state_init(model.get(), 1, state.data(), model.layout.state_size, nullptr); });
       EXPECT_KEPT(setting, [&] { ents_model_layout(model.get(), &layout, nullptr); });
       std::vector<double> moved = state;
       EXPECT_KEPT(setting, [&] {
-        ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), nullptr);
+        ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(),
+                            moved.data(), nullptr);
       });
       const std::int64_t connectivity[] = {0, 1, 2, 3};
       double areas[4];
-      EXPECT_KEPT(setting, [&] { ents_tributary_areas("quad4", 1, connectivity, 4, nodes.data(), 1.0, areas, nullptr); });
+      EXPECT_KEPT(setting, [&] {
+        ents_tributary_areas("quad4", 1, connectivity, 4, nodes.data(), 1.0, areas, nullptr);
+      });
     }
   }
 }
@@ -203,6 +211,78 @@ TEST(FloatingPointEnvironment, DenormalInputsGiveTheSameWithFlushToZero) {
   in(settings[6], [&] { ents_evaluate(model.get(), 0, 1, &input, &output, nullptr); });
   EXPECT_TRUE(same_bits(plain.of(ENTS_GAP), flushed.of(ENTS_GAP)));
   EXPECT_TRUE(same_bits(plain.of(ENTS_XI), flushed.of(ENTS_XI)));
+}
+
+// A signalling NaN - what a debugging host fills fresh memory with - makes even a comparison trap.
+TEST(FloatingPointEnvironment, SignallingNaNsDoNotTrap) {
+  const double signalling = std::numeric_limits<double>::signaling_NaN();
+  const Setting& traps = settings[5];
+  const Model model(text({"quad4", "sine", "normal", "", 9}));
+  Random random(44);
+  const Element good = with_new_state(model, draw(model, basis("quad4"), random));
+  Results results(model.layout);
+  const ents_output output = output_of(results, want_all);
+  int32_t status = 0;
+  for (int i = 0; i < input_count; ++i)
+    for (std::size_t k = 0; k < good[i].size(); ++k) {
+      Element e = good;
+      e[i][k] = signalling;
+      const ents_input input = input_of(e);
+      EXPECT_KEPT(traps, [&] { status = ents_evaluate(model.get(), 0, 1, &input, &output, nullptr); });
+      EXPECT_EQ(status, i == state_begin ? ENTS_BAD_STATE : ENTS_NON_FINITE) << inputs[i].name << " " << k;
+    }
+  const std::vector<double> fresh(64, signalling);
+  std::vector<double> state = fresh, moved = fresh;
+  const double* nodes = good[master].data();
+  const int64_t size = model.layout.state_size;
+  EXPECT_KEPT(traps, [&] {
+    status = ents_state_augment(model.get(), 1, state.data(), size, fresh.data(), size, nullptr);
+  });
+  EXPECT_EQ(status, ENTS_BAD_STATE);
+  EXPECT_KEPT(traps, [&] {
+    status =
+        ents_state_transfer(model.get(), nodes, nullptr, nodes, nullptr, fresh.data(), moved.data(), nullptr);
+  });
+  EXPECT_EQ(status, ENTS_BAD_STATE);
+  EXPECT_KEPT(traps, [&] {
+    status = ents_state_transfer(model.get(), fresh.data(), nullptr, nodes, nullptr, good[state_begin].data(),
+                                 moved.data(), nullptr);
+  });
+  EXPECT_NE(status, ENTS_OK);
+  EXPECT_KEPT(traps, [&] { status = ents_state_init(model.get(), 1, state.data(), size, nullptr); });
+  EXPECT_EQ(status, ENTS_OK);
+  const std::int64_t connectivity[] = {0, 1, 2, 3};
+  double areas[4];
+  EXPECT_KEPT(traps, [&] {
+    status = ents_tributary_areas("quad4", 1, connectivity, 4, fresh.data(), 1.0, areas, nullptr);
+  });
+  EXPECT_EQ(status, ENTS_NON_FINITE);
+  EXPECT_KEPT(traps, [&] {
+    status = ents_tributary_areas("quad4", 1, connectivity, 4, nodes, fresh[0], areas, nullptr);
+  });
+  EXPECT_EQ(status, ENTS_BAD_VALUE);
+  ents_admissibility result{};
+  result.struct_size = sizeof result;
+  EXPECT_KEPT(traps,
+              [&] { status = ents_model_check(model.get(), fresh.data(), nullptr, &result, nullptr); });
+  EXPECT_EQ(status, ENTS_NON_FINITE);
+  ents_surface surface{};
+  surface.struct_size = sizeof surface;
+  surface.master = nodes;
+  surface.xi = fresh.data();
+  surface.point = moved.data();
+  EXPECT_KEPT(traps, [&] { status = ents_surface_evaluate(model.get(), 1, &surface, nullptr); });
+  EXPECT_EQ(status, ENTS_NON_FINITE);
+  ents_data data{};
+  data.struct_size = sizeof data;
+  data.name = "scan";
+  data.values = fresh.data();
+  data.rows = data.columns = 3;
+  const char* t =
+      R"({"segment": "quad4", "height": {"type": "map", "data": "scan", "boundary": "periodic", "size": [1, 1]}})";
+  ents_model* made = nullptr;
+  EXPECT_KEPT(traps, [&] { status = ents_model_create(t, -1, nullptr, &data, 1, &made, nullptr); });
+  EXPECT_NE(status, ENTS_OK);
 }
 
 } // namespace

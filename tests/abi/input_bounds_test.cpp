@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inputs are read where they are and nowhere else: each array ends where a page without access begins (and once begins
-// where one ends), lies in memory that cannot be written, and may be aligned as badly as a Fortran array.
+// Inputs are read where they are and nowhere else: each array ends where a page without access begins (and
+// once begins where one ends), lies in memory that cannot be written, and may be aligned as badly as a
+// Fortran array.
 #include <gtest/gtest.h>
 
 #include <sys/mman.h>
@@ -73,8 +74,8 @@ TEST(InputBounds, EvaluationReadsItsArraysAndNothingBeside) {
   }
 }
 
-// The begin of the increment is not written, whatever comes of it: its memory is read only above; and the model is the
-// same after 1000 evaluations as before.
+// The begin of the increment is not written, whatever comes of it: its memory is read only above; and the
+// model is the same after 1000 evaluations as before.
 TEST(InputBounds, StateAndModelStayAsTheyAre) {
   Random random(62);
   for (const ModelKind& kind : some_kinds()) {
@@ -121,7 +122,8 @@ TEST(InputBounds, OtherFunctionsReadTheirArraysAndNothingBeside) {
       result.samples = 5;
       call::model_check(model.get(), nodes.data(), nullptr, &result, nullptr);
       std::vector<double> moved = e[state_begin];
-      EXPECT_EQ(ents_state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(), moved.data(), nullptr),
+      EXPECT_EQ(call::state_transfer(model.get(), nodes.data(), nullptr, nodes.data(), nullptr, state.data(),
+                                     moved.data(), nullptr),
                 ENTS_OK);
     }
   }
@@ -129,7 +131,8 @@ TEST(InputBounds, OtherFunctionsReadTheirArraysAndNothingBeside) {
   const Fenced positions(square, Fenced::at_back);
   const int64_t connectivity[] = {0, 1, 2, 3};
   double areas[4];
-  EXPECT_EQ(ents_tributary_areas("quad4", 1, connectivity, 4, positions.data(), 0.0, areas, nullptr), ENTS_OK);
+  EXPECT_EQ(call::tributary_areas("quad4", 1, connectivity, 4, positions.data(), 0.0, areas, nullptr),
+            ENTS_OK);
 }
 
 // The text is not zero-terminated and ends where access ends.
@@ -142,12 +145,15 @@ TEST(InputBounds, ModelTextIsReadToItsLength) {
     const Fenced fenced(bytes, Fenced::at_back);
     ents_model* model = nullptr;
     ents_report report = new_report();
-    EXPECT_EQ(call::model_create(reinterpret_cast<const char*>(fenced.data()), static_cast<int64_t>(t.size()), nullptr,
-                                 nullptr, int64_t{0}, &model, &report), ENTS_OK) << report.message;
+    EXPECT_EQ(call::model_create(reinterpret_cast<const char*>(fenced.data()), static_cast<int64_t>(t.size()),
+                                 nullptr, nullptr, int64_t{0}, &model, &report),
+              ENTS_OK)
+        << report.message;
     call::model_destroy(&model, nullptr);
     // cut short at the end of access: an error, not a read beyond it
-    EXPECT_EQ(call::model_create(reinterpret_cast<const char*>(fenced.data()) + t.size() - 8, int64_t{8}, nullptr, nullptr,
-                                 int64_t{0}, &model, &report), ENTS_JSON_SYNTAX);
+    EXPECT_EQ(call::model_create(reinterpret_cast<const char*>(fenced.data()) + t.size() - 8, int64_t{8},
+                                 nullptr, nullptr, int64_t{0}, &model, &report),
+              ENTS_JSON_SYNTAX);
   }
 }
 
@@ -184,7 +190,9 @@ TEST(InputBounds, AnyAlignmentGivesTheSameBits) {
       }
       ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, nullptr), status);
       for (int i = 0; i < output_count && status == ENTS_OK; ++i)
-        ASSERT_EQ(std::memcmp(places[static_cast<std::size_t>(i)], expected[i].data(), expected[i].size() * sizeof(double)), 0)
+        ASSERT_EQ(std::memcmp(places[static_cast<std::size_t>(i)], expected[i].data(),
+                              expected[i].size() * sizeof(double)),
+                  0)
             << outputs[i].name << " shifted by " << shift << " " << text(kind);
     }
   }

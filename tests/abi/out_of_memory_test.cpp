@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that runs out at the k-th allocation, for every k: a status, a null handle, nothing leaked, nothing thrown, and
-// the next attempt succeeds.
+// Memory that runs out at the k-th allocation, for every k: a status, a null handle, nothing leaked, nothing
+// thrown, and the next attempt succeeds.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -22,7 +22,8 @@ using Create = std::function<int32_t(ents_model**, ents_report*)>;
 void fail_every_allocation(const Create& create) {
   ents_report report = new_report();
   ents_model* model = nullptr;
-  ASSERT_EQ(create(&model, &report), ENTS_OK) << report.message; // what is set up once in a process is set up now
+  ASSERT_EQ(create(&model, &report), ENTS_OK)
+      << report.message; // what is set up once in a process is set up now
   call::model_destroy(&model, nullptr);
 
   memory_watch(0, 0);
@@ -57,7 +58,8 @@ Create from_text(const std::string& text) {
 
 TEST(OutOfMemory, EveryKindOfModel) {
   for (const ModelKind& kind :
-       {ModelKind{"quad4", "none"}, ModelKind{"tri6", "sum", "shadow_point"}, ModelKind{"line2", "polynomial"},
+       {ModelKind{"quad4", "none"}, ModelKind{"tri6", "sum", "shadow_point"},
+        ModelKind{"line2", "polynomial"},
         ModelKind{"bspline16", "product", "shadow_direction", R"(, "tangent": "small_gap")"}}) {
     SCOPED_TRACE(kind.basis + " " + kind.height);
     fail_every_allocation(from_text(text(kind)));
@@ -69,8 +71,9 @@ TEST(OutOfMemory, HeightMapsInTheText) {
   fail_every_allocation(from_text(text({"line2", "map"})));
 }
 
-const std::string named_map = R"({"segment": "quad4", "height": {"type": "map", "data": "scan", "boundary": "periodic",)"
-                              R"( "size": [2, 2]}})";
+const std::string named_map =
+    R"({"segment": "quad4", "height": {"type": "map", "data": "scan", "boundary": "periodic",)"
+    R"( "size": [2, 2]}})";
 
 TEST(OutOfMemory, HeightMapsInTheCallersMemory) {
   const double values[6] = {0.1, 0.2, 0.3, 0.1, 0.0, 0.2};
@@ -88,7 +91,9 @@ TEST(OutOfMemory, HeightMapsInTheCallersMemory) {
 // A folder of its own for the files of a test.
 class Folder {
 public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("ents_out_of_memory_" + std::to_string(std::rand()))) {
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("ents_out_of_memory_" + std::to_string(std::rand()))) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -106,8 +111,11 @@ private:
 
 TEST(OutOfMemory, HeightMapsAndModelsInFiles) {
   const Folder folder;
-  folder.write("scan.txt", "# Width: 2.0 m\n# Height: 2.0 m\n# Value units: m\n0.1\t0.2\t0.1\n0.3\t0.1\t0.0\n0.2 0.1 0.1\n");
-  const std::string text = R"({"segment": "quad4", "height": {"type": "map", "file": "scan.txt", "boundary": "clamped"}})";
+  folder.write(
+      "scan.txt",
+      "# Width: 2.0 m\n# Height: 2.0 m\n# Value units: m\n0.1\t0.2\t0.1\n0.3\t0.1\t0.0\n0.2 0.1 0.1\n");
+  const std::string text =
+      R"({"segment": "quad4", "height": {"type": "map", "file": "scan.txt", "boundary": "clamped"}})";
   const std::string path = folder.write("model.json", text), directory = folder.name();
   fail_every_allocation([&](ents_model** model, ents_report* report) {
     return ents_model_create(text.c_str(), -1, directory.c_str(), nullptr, 0, model, report);
@@ -117,13 +125,15 @@ TEST(OutOfMemory, HeightMapsAndModelsInFiles) {
   });
 }
 
-// A message about another mistake needs memory, too: it becomes that status or "out of memory", never anything else.
+// A message about another mistake needs memory, too: it becomes that status or "out of memory", never
+// anything else.
 TEST(OutOfMemory, WhileReportingAnotherMistake) {
   const std::pair<const char*, int32_t> texts[] = {
       {R"({"segment": "quad4", "hight": null})", ENTS_UNKNOWN_KEY},
       {R"({"segment": "quad5"})", ENTS_BAD_VALUE},
       {R"({"segment": "quad4",, })", ENTS_JSON_SYNTAX},
-      {R"({"segment": "line2", "height": {"type": "map", "file": "nowhere.txt", "boundary": "clamped", "size": [1]}})", ENTS_FILE},
+      {R"({"segment": "line2", "height": {"type": "map", "file": "nowhere.txt", "boundary": "clamped", "size": [1]}})",
+       ENTS_FILE},
   };
   for (const auto& [text, expected] : texts) {
     SCOPED_TRACE(text);
@@ -137,7 +147,8 @@ TEST(OutOfMemory, WhileReportingAnotherMistake) {
       complete = memory_allocations() < k;
       ASSERT_EQ(model, nullptr);
       ASSERT_EQ(memory_left(), 0) << k;
-      ASSERT_TRUE(status == expected || (!complete && status == ENTS_NO_MEMORY)) << status << " at " << k << ": " << report.message;
+      ASSERT_TRUE(status == expected || (!complete && status == ENTS_NO_MEMORY))
+          << status << " at " << k << ": " << report.message;
     }
     EXPECT_TRUE(complete);
   }

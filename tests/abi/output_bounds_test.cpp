@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exactly what is wanted is written, all of it, and nothing beside it: outputs lie between guard zones, everything is
-// filled with a pattern before. After an error nothing has changed.
+// Exactly what is wanted is written, all of it, and nothing beside it: outputs lie between guard zones,
+// everything is filled with a pattern before. After an error nothing has changed.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -45,7 +45,8 @@ struct GuardedOutputs {
   }
   std::size_t dofs() const { return static_cast<std::size_t>(layout.dofs); }
   std::size_t size(int i) const {
-    return outputs[i].bit == ENTS_TANGENT ? (dofs() - 1) * (dofs() + gap) + dofs() : size_of_output(layout, i);
+    return outputs[i].bit == ENTS_TANGENT ? (dofs() - 1) * (dofs() + gap) + dofs()
+                                          : size_of_output(layout, i);
   }
   // Does entry k of an element's array belong to the result? Between the columns of the tangent it does not.
   bool is_result(int i, std::size_t k) const {
@@ -71,7 +72,8 @@ struct GuardedOutputs {
     for (Guarded& g : real) g.refill();
     for (Guarded& g : integers) g.refill();
   }
-  // Empty if elements 0 .. done - 1, and nothing else, have what is wanted. Status: written for `visited` elements.
+  // Empty if elements 0 .. done - 1, and nothing else, have what is wanted. Status: written for `visited`
+  // elements.
   std::string complaint(int32_t wanted, std::size_t done, std::size_t visited) const {
     for (int i = 0; i < output_count; ++i) {
       const Guarded& g = real[static_cast<std::size_t>(i)];
@@ -80,14 +82,17 @@ struct GuardedOutputs {
       for (std::size_t k = 0; k < g.size(); ++k) {
         const bool expected = (wanted & outputs[i].bit) && k / s < done && is_result(i, k % s);
         if (g.written(k) != expected)
-          return std::string(outputs[i].name) + (expected ? ": not written" : ": touched") + ", entry " + std::to_string(k);
+          return std::string(outputs[i].name) + (expected ? ": not written" : ": touched") + ", entry " +
+                 std::to_string(k);
       }
     }
-    const std::size_t expected[] = {(wanted & ENTS_FLAGS) ? done : 0, (wanted & ENTS_ITERATIONS) ? done : 0, visited};
+    const std::size_t expected[] = {(wanted & ENTS_FLAGS) ? done : 0, (wanted & ENTS_ITERATIONS) ? done : 0,
+                                    visited};
     const char* names[] = {"flags", "iterations", "status"};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto* words = reinterpret_cast<const std::uint32_t*>(const_cast<Guarded&>(integers[i]).data());
-      const std::uint32_t halves[] = {static_cast<std::uint32_t>(pattern), static_cast<std::uint32_t>(pattern >> 32)};
+      const std::uint32_t halves[] = {static_cast<std::uint32_t>(pattern),
+                                      static_cast<std::uint32_t>(pattern >> 32)};
       if (!integers[i].guards_intact()) return std::string(names[i]) + ": written outside";
       for (std::size_t k = 0; k < 4 * count; ++k)
         if ((words[k] != halves[k % 2]) != (k % 4 == 0 && k / 4 < expected[i]))
@@ -107,7 +112,8 @@ struct Inputs {
   explicit Inputs(const std::vector<Element>& elements) {
     for (int i = 0; i < input_count; ++i)
       for (const Element& e : elements)
-        arrays[static_cast<std::size_t>(i)].insert(arrays[static_cast<std::size_t>(i)].end(), e[i].begin(), e[i].end());
+        arrays[static_cast<std::size_t>(i)].insert(arrays[static_cast<std::size_t>(i)].end(), e[i].begin(),
+                                                   e[i].end());
     input.struct_size = sizeof input;
     for (int i = 0; i < input_count; ++i) {
       auto& array = arrays[static_cast<std::size_t>(i)];
@@ -121,7 +127,8 @@ struct Inputs {
   ents_input input{};
 };
 
-std::vector<Element> three(const Model& model, const Basis& b, Random& random, double low = -0.05, double high = 0.02) {
+std::vector<Element> three(const Model& model, const Basis& b, Random& random, double low = -0.05,
+                           double high = 0.02) {
   std::vector<Element> all;
   while (all.size() < 3) {
     Element e = with_history(model, draw(model, b, random, low, high), random);
@@ -215,7 +222,8 @@ TEST(OutputBounds, NothingIsTouchedByAnError) {
       Inputs alone({elements[2]});
       GuardedOutputs single(model.layout, 1);
       const ents_output single_output = single.output(want_all);
-      ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &alone.input, &single_output, &report), status);
+      ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &alone.input, &single_output, &report),
+                status);
       ASSERT_EQ(single.complaint(want_all, 0, 1), "") << name << " " << text(kind);
     }
   }
@@ -231,7 +239,8 @@ TEST(OutputBounds, NothingIsTouchedByAWrongArgument) {
   GuardedOutputs out(model.layout, 3);
   ents_output output = out.output(want_all);
   ents_input input = in.input;
-  const auto refused = [&](int32_t status, const ents_model* m = nullptr, int64_t first = 0, int64_t count = 3) {
+  const auto refused = [&](int32_t status, const ents_model* m = nullptr, int64_t first = 0,
+                           int64_t count = 3) {
     EXPECT_EQ(call::evaluate(m ? m : model.get(), first, count, &input, &output, nullptr), status);
     EXPECT_EQ(out.complaint(output.wanted, 0, 0), "");
     input = in.input;
@@ -252,9 +261,12 @@ TEST(OutputBounds, NothingIsTouchedByAWrongArgument) {
 TEST(OutputBounds, StateSurfaceAndAreas) {
   for (const ModelKind& kind : some_kinds()) {
     const Model model(text(kind));
-    const auto size = static_cast<std::size_t>(model.layout.state_size), d = static_cast<std::size_t>(model.layout.dimension);
+    const auto size = static_cast<std::size_t>(model.layout.state_size),
+               d = static_cast<std::size_t>(model.layout.dimension);
     Guarded states(3 * (size + 2));
-    ASSERT_EQ(call::state_init(model.get(), int64_t{3}, states.data(), static_cast<int64_t>(size + 2), nullptr), ENTS_OK);
+    ASSERT_EQ(
+        call::state_init(model.get(), int64_t{3}, states.data(), static_cast<int64_t>(size + 2), nullptr),
+        ENTS_OK);
     for (std::size_t k = 0; k < states.size(); ++k) ASSERT_EQ(states.written(k), k % (size + 2) < size);
     ASSERT_TRUE(states.guards_intact());
 
@@ -262,7 +274,8 @@ TEST(OutputBounds, StateSurfaceAndAreas) {
     const std::vector<double> nodes = flat_master(b);
     std::vector<double> xi = centre(b);
     xi.insert(xi.end(), xi.begin(), xi.begin() + static_cast<std::ptrdiff_t>(d - 1)); // two points
-    std::vector<Guarded> arrays = {Guarded(2 * d), Guarded(2 * d), Guarded(2), Guarded(2 * d), Guarded(2 * d)};
+    std::vector<Guarded> arrays = {Guarded(2 * d), Guarded(2 * d), Guarded(2), Guarded(2 * d),
+                                   Guarded(2 * d)};
     for (std::size_t which = 0; which < arrays.size(); ++which) { // each alone: the others are null
       ents_surface s{};
       s.struct_size = sizeof s;
@@ -278,12 +291,14 @@ TEST(OutputBounds, StateSurfaceAndAreas) {
   const int64_t connectivity[] = {0, 1, 2};
   const double positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5};
   Guarded areas(4);
-  ASSERT_EQ(ents_tributary_areas("tri3", 1, connectivity, 4, positions, 1.0, areas.data(), nullptr), ENTS_OK);
+  ASSERT_EQ(call::tributary_areas("tri3", 1, connectivity, 4, positions, 1.0, areas.data(), nullptr),
+            ENTS_OK);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(areas.written(k));
   EXPECT_TRUE(areas.guards_intact());
   areas.refill();
   const int64_t wrong[] = {0, 1, 4};
-  EXPECT_EQ(ents_tributary_areas("tri3", 1, wrong, 4, positions, 1.0, areas.data(), nullptr), ENTS_BAD_VALUE);
+  EXPECT_EQ(call::tributary_areas("tri3", 1, wrong, 4, positions, 1.0, areas.data(), nullptr),
+            ENTS_BAD_VALUE);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_FALSE(areas.written(k));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An evaluation is a function of its arguments: the same bits in any order, on any thread, alone or in a batch, with
-// whatever strides.
+// An evaluation is a function of its arguments: the same bits in any order, on any thread, alone or in a
+// batch, with whatever strides.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-// One evaluation of a pool: its model, its element, what is wanted; and its results, as a hash (FNV-1a of all bytes).
+// One evaluation of a pool: its model, its element, what is wanted; and its results, as a hash (FNV-1a of all
+// bytes).
 struct Job {
   const Model* model;
   Element element;
@@ -42,7 +43,8 @@ std::uint64_t run(const Job& job) {
 
 constexpr int32_t job_masks[] = {want_all, want_element | want_values, ENTS_RESIDUAL, ENTS_GAP | ENTS_XI};
 
-std::vector<Job> make_jobs(const std::vector<Model>& models, const std::vector<ModelKind>& kinds, std::size_t count) {
+std::vector<Job> make_jobs(const std::vector<Model>& models, const std::vector<ModelKind>& kinds,
+                           std::size_t count) {
   Random random(71);
   std::vector<Job> jobs;
   while (jobs.size() < count) {
@@ -111,7 +113,8 @@ TEST(Purity, ModelsComeAndGoOnOtherThreads) {
           different += run(job) != job.expected;
         } else {
           ents_model* model = nullptr;
-          failed += call::model_create(job.model->text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &model, nullptr) != ENTS_OK;
+          failed += call::model_create(job.model->text().c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0},
+                                       &model, nullptr) != ENTS_OK;
           call::model_destroy(&model, nullptr);
         }
       }

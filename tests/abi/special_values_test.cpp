@@ -14,12 +14,14 @@ using namespace test;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const std::vector<double> special_values = {nan,   infinity, -infinity, 1e308,  -1e308, 1e155,  -1e77, 1e40,
+const std::vector<double> special_values = {nan,   infinity, -infinity, 1e308,   -1e308, 1e155, -1e77, 1e40,
                                             1e-40, 1e-155,   5e-324,    -1e-310, -0.0,   1e300, 1e-300};
 
 // What outputs hold before a call: a NaN no computation makes.
 const double untouched = std::bit_cast<double>(std::uint64_t{0x7ff4dead'beef0001});
-bool is_untouched(double v) { return std::bit_cast<std::uint64_t>(v) == std::bit_cast<std::uint64_t>(untouched); }
+bool is_untouched(double v) {
+  return std::bit_cast<std::uint64_t>(v) == std::bit_cast<std::uint64_t>(untouched);
+}
 
 void forget(Results& results) {
   for (auto& array : results.real) array.assign(array.size(), untouched);
@@ -37,8 +39,10 @@ std::string complaint(const Element& element, int32_t status, int32_t wanted, co
 
   if (!finite && status != ENTS_NON_FINITE) return "a NaN or infinity was not reported";
   if (finite && negative_area && status != ENTS_BAD_VALUE) return "a negative area was not reported";
-  if (finite && !negative_area && !finite_state && status != ENTS_BAD_STATE) return "a NaN in the state was not reported";
-  if (finite && !negative_area && status < 0 && status != ENTS_BAD_STATE) return "a caller's mistake where there is none";
+  if (finite && !negative_area && !finite_state && status != ENTS_BAD_STATE)
+    return "a NaN in the state was not reported";
+  if (finite && !negative_area && status < 0 && status != ENTS_BAD_STATE)
+    return "a caller's mistake where there is none";
   if (status > ENTS_OUT_OF_RANGE) return "an unknown status";
   if (status > 0 && !(report.step_factor > 0.0 && report.step_factor < 1.0)) return "no step factor";
 
@@ -57,7 +61,7 @@ std::string describe(const Model& model, const Element& element) {
   std::string text = model.text();
   for (int i = 0; i < input_count; ++i) {
     text += std::string("\n  ") + inputs[i].name + ":";
-    for (const double v : element[i]) text += " " + number(v);
+    for (const double v : element[i]) (text += " ") += number(v);
   }
   return text;
 }
@@ -72,12 +76,15 @@ struct Tally {
     ok += status == ENTS_OK;
     const std::string what = complaint(element, status, wanted, results, report);
     if (what.empty()) return;
-    if (++failures <= 3) ADD_FAILURE() << what << " (status " << status << ", wanted " << wanted << ") with " << describe(model, element);
+    if (++failures <= 3)
+      ADD_FAILURE() << what << " (status " << status << ", wanted " << wanted << ") with "
+                    << describe(model, element);
   }
 };
 
 // Kinematics and element; without kinematics an element outside its segment is an open one.
-constexpr int32_t masks[] = {want_all, want_element | want_values, want_values, ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN};
+constexpr int32_t masks[] = {want_all, want_element | want_values, want_values,
+                             ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN};
 
 TEST(SpecialValues, EachInputScalarInTurn) {
   Random random(20260101);
@@ -122,10 +129,19 @@ TEST(SpecialValues, HundredThousandRandomCorruptions) {
         if (array.empty()) continue;
         double& scalar = array[static_cast<std::size_t>(random.below(static_cast<int>(array.size())))];
         switch (random.below(4)) {
-        case 0: scalar = special_values[static_cast<std::size_t>(random.below(static_cast<int>(special_values.size())))]; break;
-        case 1: scalar *= std::pow(10.0, random(-300.0, 300.0)); break; // any magnitude
-        case 2: scalar *= std::pow(10.0, random(-15.0, 15.0)); break;
-        default: scalar = array[static_cast<std::size_t>(random.below(static_cast<int>(array.size())))]; // coincident nodes
+        case 0:
+          scalar =
+              special_values[static_cast<std::size_t>(random.below(static_cast<int>(special_values.size())))];
+          break;
+        case 1:
+          scalar *= std::pow(10.0, random(-300.0, 300.0));
+          break; // any magnitude
+        case 2:
+          scalar *= std::pow(10.0, random(-15.0, 15.0));
+          break;
+        default:
+          scalar = array[static_cast<std::size_t>(
+              random.below(static_cast<int>(array.size())))]; // coincident nodes
         }
       }
       tally.check(model, element, masks[random.below(4)], results);
@@ -155,43 +171,58 @@ TEST(SpecialValues, EveryScaleOfLengths) {
   EXPECT_EQ(tally.failures, 0) << "of " << tally.calls;
 }
 
-// Models may hold numbers up to 1e100 (and down to 1e-100 where they must be positive); segments may be stretched.
+// Models may hold numbers up to 1e100 (and down to 1e-100 where they must be positive); segments may be
+// stretched.
 TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
   Random random(20260104);
   Tally tally;
   const std::vector<double> magnitudes = {1e-98, 1e-50, 1e-20, 1e-6, 1.0, 1e3, 1e9, 1e30, 1e60, 1e100};
   const auto any = [&] {
-    const double size = magnitudes[static_cast<std::size_t>(random.below(static_cast<int>(magnitudes.size())))];
+    const double size =
+        magnitudes[static_cast<std::size_t>(random.below(static_cast<int>(magnitudes.size())))];
     return number(size * random(0.1, 1.0));
   };
   for (int repeat = 0; repeat < 1000; ++repeat) {
     const Basis& b = bases()[static_cast<std::size_t>(random.below(static_cast<int>(bases().size())))];
     const bool line = b.dimension == 2;
-    const std::string pair = "[" + any() + (line ? "]" : ", " + any() + "]"), triple = "[" + any() + ", " + (line ? "" : any() + ", ") + any() + "]";
+    const auto list = [](const std::vector<std::string>& entries) {
+      std::string joined;
+      for (const std::string& entry : entries) joined += (joined.empty() ? "[" : ", ") + entry;
+      return joined + "]";
+    };
+    const std::string pair = line ? list({any()}) : list({any(), any()});
+    const std::string triple = line ? list({any(), any()}) : list({any(), any(), any()});
     const std::string heights[] = {
         "null",
         R"({"type": "constant", "value": )" + any() + "}",
         R"({"type": "sine", "amplitude": )" + any() + R"(, "wave_vector": )" + pair + "}",
-        R"({"type": "gaussian", "amplitude": )" + any() + R"(, "center": )" + pair + R"(, "width": )" + any() + "}",
-        R"({"type": "polynomial", "coefficients": [)" + (line ? any() + ", " + any() + ", " + any() : pair + ", " + pair) + "]}",
-        R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": [)" +
-            (line ? any() + ", " + any() : pair + ", " + pair) + "]}",
+        R"({"type": "gaussian", "amplitude": )" + any() + R"(, "center": )" + pair + R"(, "width": )" +
+            any() + "}",
+        R"({"type": "polynomial", "coefficients": )" +
+            (line ? list({any(), any(), any()}) : list({pair, pair})) + "}",
+        R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": )" +
+            (line ? list({any(), any()}) : list({pair, pair})) + "}",
     };
-    const std::string projections[] = {R"({"type": "normal"})", R"({"type": "shadow_point", "emitter": )" + triple + "}",
+    const std::string projections[] = {R"({"type": "normal"})",
+                                       R"({"type": "shadow_point", "emitter": )" + triple + "}",
                                        R"({"type": "shadow_direction", "direction": )" + triple + "}"};
     std::string height = heights[random.below(6)];
-    if (random.below(4) == 0) height = R"({"type": "product", "of": [)" + heights[1 + random.below(5)] + ", " + heights[1 + random.below(5)] + "]}";
+    if (random.below(4) == 0)
+      height = R"({"type": "product", "of": [)" + heights[1 + random.below(5)] + ", " +
+               heights[1 + random.below(5)] + "]}";
     const std::string with_stiffness[] = {"penalty", "augmented", "augmented_multiplier", "multiplier"};
     const std::string normals[] = {
         R"({"type": ")" + with_stiffness[random.below(4)] + R"(", "stiffness": )" + any() + "}",
-        R"({"type": "power", "exponent": )" + number(0.5 * (2 + random.below(39))) + R"(, "coefficient": )" + any() + "}",
+        R"({"type": "power", "exponent": )" + number(0.5 * (2 + random.below(39))) + R"(, "coefficient": )" +
+            any() + "}",
         R"({"type": "exponential", "pressure": )" + any() + R"(, "clearance": )" + any() + "}"};
-    const std::string frictions[] = {
-        "null", R"({"type": "rough", "stiffness": )" + any() + "}",
-        R"({"type": "coulomb", "stiffness": )" + any() + R"(, "coefficient": )" + any() + R"(, "shear_limit": )" + any() + "}"};
-    const Model model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height + R"(, "projection": )" +
-                      projections[random.below(3)] + R"(, "contact": {"normal": )" + normals[random.below(3)] +
-                      R"(, "friction": )" + frictions[random.below(3)] + R"(}, "penetration_limit": )" + any() + "}");
+    const std::string frictions[] = {"null", R"({"type": "rough", "stiffness": )" + any() + "}",
+                                     R"({"type": "coulomb", "stiffness": )" + any() + R"(, "coefficient": )" +
+                                         any() + R"(, "shear_limit": )" + any() + "}"};
+    const Model model(R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height +
+                      R"(, "projection": )" + projections[random.below(3)] + R"(, "contact": {"normal": )" +
+                      normals[random.below(3)] + R"(, "friction": )" + frictions[random.below(3)] +
+                      R"(}, "penetration_limit": )" + any() + "}");
     Results results(model.layout);
     for (int k = 0; k < 10; ++k) {
       Element element;
@@ -199,10 +230,12 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
       element[slave] = std::vector<double>(static_cast<std::size_t>(b.dimension), 0.1);
       for (const int i : {slave, master})
         for (double& v : element[i]) v += random(-0.2, 0.2);
-      const double stretch[3] = {std::pow(10.0, random(-70.0, 70.0)), std::pow(10.0, random(-70.0, 70.0)), std::pow(10.0, random(-70.0, 70.0))};
+      const double stretch[3] = {std::pow(10.0, random(-70.0, 70.0)), std::pow(10.0, random(-70.0, 70.0)),
+                                 std::pow(10.0, random(-70.0, 70.0))};
       const bool uniform = random.below(2) == 0;
       for (const int i : {slave, master})
-        for (std::size_t c = 0; c < element[i].size(); ++c) element[i][c] *= stretch[uniform ? 0 : c % static_cast<std::size_t>(b.dimension)];
+        for (std::size_t c = 0; c < element[i].size(); ++c)
+          element[i][c] *= stretch[uniform ? 0 : c % static_cast<std::size_t>(b.dimension)];
       if (random.below(2) == 0)
         for (const auto& node : b.nodes)
           for (const double x : node) element[surface_coordinates].push_back(x * stretch[1]);

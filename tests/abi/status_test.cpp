@@ -44,15 +44,20 @@ TEST(Status, ValuesArePinned) {
 }
 
 TEST(Status, BitsArePinned) {
-  const int32_t wanted[] = {ENTS_XI,          ENTS_GAP,        ENTS_NORMAL_GAP, ENTS_NORMAL, ENTS_POINT,
-                            ENTS_GAP_GRADIENT, ENTS_GAP_HESSIAN, ENTS_XI_GRADIENT, ENTS_XI_HESSIAN, ENTS_ENERGY,
-                            ENTS_PRESSURE,    ENTS_RESIDUAL,   ENTS_TANGENT,    ENTS_STATE,  ENTS_FLAGS,
-                            ENTS_ITERATIONS};
+  const int32_t wanted[] = {ENTS_XI,         ENTS_GAP,          ENTS_NORMAL_GAP,  ENTS_NORMAL,
+                            ENTS_POINT,      ENTS_GAP_GRADIENT, ENTS_GAP_HESSIAN, ENTS_XI_GRADIENT,
+                            ENTS_XI_HESSIAN, ENTS_ENERGY,       ENTS_PRESSURE,    ENTS_RESIDUAL,
+                            ENTS_TANGENT,    ENTS_STATE,        ENTS_FLAGS,       ENTS_ITERATIONS,
+                            ENTS_TRACTION,   ENTS_SLIP,         ENTS_AGE};
   for (std::size_t bit = 0; bit < std::size(wanted); ++bit) EXPECT_EQ(wanted[bit], 1 << bit);
   EXPECT_EQ(ENTS_FLAG_CONTACT, 1);
   EXPECT_EQ(ENTS_FLAG_OUTSIDE, 2);
   EXPECT_EQ(ENTS_FLAG_FAR_SIDE, 4);
   EXPECT_EQ(ENTS_FLAG_SEARCHED, 8);
+  EXPECT_EQ(ENTS_FLAG_STICK, 16);
+  EXPECT_EQ(ENTS_FLAG_SLIP, 32);
+  EXPECT_EQ(ENTS_FLAG_SHEAR_LIMIT, 64);
+  EXPECT_EQ(ENTS_FLAG_CHANGED, 128);
 }
 
 TEST(Status, EveryValueHasATextOfItsOwn) {
@@ -64,7 +69,8 @@ TEST(Status, EveryValueHasATextOfItsOwn) {
   }
   const std::string unknown = ents_status_text(12345);
   EXPECT_FALSE(texts.contains(unknown));
-  for (const int32_t value : {99, 8, -13, -102, INT_MAX, INT_MIN}) EXPECT_EQ(ents_status_text(value), unknown) << value;
+  for (const int32_t value : {99, 8, -13, -102, INT_MAX, INT_MIN})
+    EXPECT_EQ(ents_status_text(value), unknown) << value;
 }
 
 TEST(Status, ContractVersionsAreChecked) {
@@ -72,11 +78,16 @@ TEST(Status, ContractVersionsAreChecked) {
   report.struct_size = sizeof report;
   EXPECT_EQ(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report), ENTS_OK);
   EXPECT_EQ(ents_check_contract(ENTS_CONTRACT_MAJOR, 0, nullptr), ENTS_OK);
-  const int32_t refused[][2] = {{ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR + 1}, {ENTS_CONTRACT_MAJOR + 1, 0}, {0, 0},
-                                {ENTS_CONTRACT_MAJOR, -1}, {INT_MAX, INT_MAX}, {INT_MIN, 0}};
+  const int32_t refused[][2] = {{ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR + 1},
+                                {ENTS_CONTRACT_MAJOR + 1, 0},
+                                {0, 0},
+                                {ENTS_CONTRACT_MAJOR, -1},
+                                {INT_MAX, INT_MAX},
+                                {INT_MIN, 0}};
   for (const auto& version : refused) {
     EXPECT_EQ(ents_check_contract(version[0], version[1], &report), ENTS_VERSION);
-    EXPECT_NE(std::string(report.message).find(std::to_string(version[0]) + "." + std::to_string(version[1])), std::string::npos)
+    EXPECT_NE(std::string(report.message).find(std::to_string(version[0]) + "." + std::to_string(version[1])),
+              std::string::npos)
         << report.message;
   }
   EXPECT_STRNE(ents_version(), "");

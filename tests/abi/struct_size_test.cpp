@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Structs of older and newer callers: a shorter one is served, a longer one if its unknown tail is zero; anything else is
-// refused with a message that names the struct.
+// Structs of older and newer callers: a shorter one is served, a longer one if its unknown tail is zero;
+// anything else is refused with a message that names the struct.
 #include <gtest/gtest.h>
 
 #include <climits>
@@ -15,7 +15,8 @@ using namespace test;
 // The caller's memory of a struct: `known` bytes as this header has them, then a tail.
 template <class Struct> class Callers {
 public:
-  Callers(const Struct& known, int32_t size, bool zero_tail) : memory_(sizeof(Struct) + 128, zero_tail ? '\0' : '\5') {
+  Callers(const Struct& known, int32_t size, bool zero_tail)
+      : memory_(sizeof(Struct) + 128, zero_tail ? '\0' : '\5') {
     std::memcpy(memory_.data(), &known, sizeof known);
     std::memcpy(memory_.data(), &size, sizeof size);
   }
@@ -45,18 +46,22 @@ template <class Struct> std::vector<int32_t> sizes() {
 enum class Verdict { served, refused };
 template <class Struct> Verdict verdict(int32_t size, bool zero_tail) {
   const auto known = static_cast<int32_t>(sizeof(Struct));
-  if (size < 8 || size > 1 << 16 || size % static_cast<int32_t>(alignof(Struct)) != 0) return Verdict::refused;
+  if (size < 8 || size > 1 << 16 || size % static_cast<int32_t>(alignof(Struct)) != 0)
+    return Verdict::refused;
   return size <= known || zero_tail ? Verdict::served : Verdict::refused;
 }
 
 // `call` must end with ENTS_OK, or with `short_status` where the struct is too short for what the call needs.
 template <class Struct>
-void try_sizes(const char* name, const Struct& known, const std::function<int32_t(Struct*, ents_report*)>& call,
-               int32_t needed_size, int32_t short_status) {
+void try_sizes(const char* name, const Struct& known,
+               const std::function<int32_t(Struct*, ents_report*)>& call, int32_t needed_size,
+               int32_t short_status) {
   for (const bool zero_tail : {true, false})
     for (const int32_t size : sizes<Struct>()) {
-      if (size > static_cast<int32_t>(sizeof(Struct)) + 128 && size <= 1 << 16) continue; // more than the memory of this test
-      SCOPED_TRACE(std::string(name) + " size " + std::to_string(size) + (zero_tail ? ", zero tail" : ", tail in use"));
+      if (size > static_cast<int32_t>(sizeof(Struct)) + 128 && size <= 1 << 16)
+        continue; // more than the memory of this test
+      SCOPED_TRACE(std::string(name) + " size " + std::to_string(size) +
+                   (zero_tail ? ", zero tail" : ", tail in use"));
       Callers<Struct> callers(known, size, zero_tail);
       ents_report report = new_report();
       const int32_t status = call(callers.get(), &report);
@@ -66,7 +71,8 @@ void try_sizes(const char* name, const Struct& known, const std::function<int32_
         EXPECT_TRUE(callers.untouched(known, sizeof(int32_t), zero_tail));
       } else {
         EXPECT_EQ(status, size < needed_size ? short_status : ENTS_OK) << report.message;
-        EXPECT_TRUE(callers.untouched(known, std::min(sizeof(Struct), static_cast<std::size_t>(size)), zero_tail))
+        EXPECT_TRUE(
+            callers.untouched(known, std::min(sizeof(Struct), static_cast<std::size_t>(size)), zero_tail))
             << "written beyond the caller's struct";
       }
     }
@@ -81,9 +87,12 @@ TEST(StructSize, Input) {
   Results results(model.layout);
   const ents_output output = output_of(results, ENTS_GAP);
   const auto master_ends = static_cast<int32_t>(offsetof(ents_input, master_stride));
-  try_sizes<ents_input>("input", input_of(e), [&](ents_input* input, ents_report* report) {
-    return call::evaluate(model.get(), int64_t{0}, int64_t{1}, input, &output, report);
-  }, master_ends, ENTS_NULL_ARGUMENT);
+  try_sizes<ents_input>(
+      "input", input_of(e),
+      [&](ents_input* input, ents_report* report) {
+        return call::evaluate(model.get(), int64_t{0}, int64_t{1}, input, &output, report);
+      },
+      master_ends, ENTS_NULL_ARGUMENT);
 }
 
 TEST(StructSize, Output) {
@@ -93,9 +102,12 @@ TEST(StructSize, Output) {
   Results results(model.layout);
   const ents_input input = input_of(e);
   const auto gap_ends = static_cast<int32_t>(offsetof(ents_output, gap_stride));
-  try_sizes<ents_output>("output", output_of(results, ENTS_GAP), [&](ents_output* output, ents_report* report) {
-    return call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, output, report);
-  }, gap_ends, ENTS_NULL_ARGUMENT);
+  try_sizes<ents_output>(
+      "output", output_of(results, ENTS_GAP),
+      [&](ents_output* output, ents_report* report) {
+        return call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, output, report);
+      },
+      gap_ends, ENTS_NULL_ARGUMENT);
 }
 
 // An older caller's results are those of a newer one: the fields it does not have count as zero.
@@ -118,11 +130,16 @@ TEST(StructSize, Layout) {
   const Model model(text(kind));
   ents_layout layout{};
   layout.struct_size = sizeof layout;
-  try_sizes<ents_layout>("layout", layout, [&](ents_layout* l, ents_report* report) {
-    const int32_t status = call::model_layout(model.get(), l, report);
-    if (status == ENTS_OK && l->struct_size >= 12) EXPECT_EQ(l->nodes, 4);
-    return status;
-  }, 0, ENTS_OK);
+  try_sizes<ents_layout>(
+      "layout", layout,
+      [&](ents_layout* l, ents_report* report) {
+        const int32_t status = call::model_layout(model.get(), l, report);
+        if (status == ENTS_OK && l->struct_size >= 12) {
+          EXPECT_EQ(l->nodes, 4);
+        }
+        return status;
+      },
+      0, ENTS_OK);
 }
 
 TEST(StructSize, Surface) {
@@ -134,9 +151,12 @@ TEST(StructSize, Surface) {
   surface.master = nodes.data();
   surface.xi = xi.data();
   surface.point = point.data();
-  try_sizes<ents_surface>("surface", surface, [&](ents_surface* s, ents_report* report) {
-    return call::surface_evaluate(model.get(), int64_t{1}, s, report);
-  }, offsetof(ents_surface, point), ENTS_NULL_ARGUMENT);
+  try_sizes<ents_surface>(
+      "surface", surface,
+      [&](ents_surface* s, ents_report* report) {
+        return call::surface_evaluate(model.get(), int64_t{1}, s, report);
+      },
+      offsetof(ents_surface, point), ENTS_NULL_ARGUMENT);
 }
 
 TEST(StructSize, Admissibility) {
@@ -145,9 +165,12 @@ TEST(StructSize, Admissibility) {
   ents_admissibility result{};
   result.struct_size = sizeof result;
   result.samples = 3;
-  try_sizes<ents_admissibility>("result", result, [&](ents_admissibility* r, ents_report* report) {
-    return call::model_check(model.get(), nodes.data(), nullptr, r, report);
-  }, 0, ENTS_OK);
+  try_sizes<ents_admissibility>(
+      "result", result,
+      [&](ents_admissibility* r, ents_report* report) {
+        return call::model_check(model.get(), nodes.data(), nullptr, r, report);
+      },
+      0, ENTS_OK);
 }
 
 TEST(StructSize, Data) {
@@ -158,7 +181,8 @@ TEST(StructSize, Data) {
   data.values = values;
   data.rows = 1;
   data.columns = 4;
-  const char* t = R"({"segment": "line2", "height": {"type": "map", "data": "scan", "boundary": "periodic", "size": [1]}})";
+  const char* t =
+      R"({"segment": "line2", "height": {"type": "map", "data": "scan", "boundary": "periodic", "size": [1]}})";
   const auto create = [&](ents_data* d, int64_t count, ents_report* report) {
     ents_model* model = nullptr;
     const int32_t status = call::model_create(t, int64_t{-1}, nullptr, d, count, &model, report);
@@ -178,7 +202,8 @@ TEST(StructSize, Data) {
       else if (size < static_cast<int32_t>(offsetof(ents_data, rows)))
         EXPECT_EQ(status, ENTS_NULL_ARGUMENT) << report.message;
       else // the sizes are missing, or the columns: zero
-        EXPECT_EQ(status, size < static_cast<int32_t>(sizeof data) ? ENTS_BAD_COUNT : ENTS_OK) << report.message;
+        EXPECT_EQ(status, size < static_cast<int32_t>(sizeof data) ? ENTS_BAD_COUNT : ENTS_OK)
+            << report.message;
     }
   // structs of a newer caller lie as far apart as its struct is long; all say the same size
   struct Newer {
@@ -213,10 +238,15 @@ TEST(StructSize, Report) {
         }
         EXPECT_EQ(status, good ? ENTS_OK : ENTS_VERSION);
         EXPECT_EQ(callers.value().status, status);
-        EXPECT_TRUE(callers.untouched(known, std::min(sizeof known, static_cast<std::size_t>(size)), zero_tail));
+        EXPECT_TRUE(
+            callers.untouched(known, std::min(sizeof known, static_cast<std::size_t>(size)), zero_tail));
         const std::size_t has = static_cast<std::size_t>(size);
-        if (has >= offsetof(ents_report, step_factor)) EXPECT_EQ(callers.value().element, -1);
-        if (has >= offsetof(ents_report, message)) EXPECT_EQ(callers.value().step_factor, 1.0);
+        if (has >= offsetof(ents_report, step_factor)) {
+          EXPECT_EQ(callers.value().element, -1);
+        }
+        if (has >= offsetof(ents_report, message)) {
+          EXPECT_EQ(callers.value().step_factor, 1.0);
+        }
         if (has > offsetof(ents_report, message)) {
           const std::size_t room = std::min(has - offsetof(ents_report, message), sizeof known.message);
           EXPECT_LT(strnlen(callers.value().message, room), room) << "not terminated";
@@ -224,6 +254,36 @@ TEST(StructSize, Report) {
         }
       }
     }
+}
+
+// A long message is cut to the room that is left, between characters of UTF-8.
+TEST(StructSize, LongMessagesAreCut) {
+  std::string t = R"({"segment": "quad4", ")";
+  for (int i = 0; i < 40; ++i) t += "\xC3\xA4"; // a with two dots
+  t += R"(": 1})";
+  std::string whole;
+  for (auto size = static_cast<int32_t>(sizeof(ents_report));
+       size > static_cast<int32_t>(offsetof(ents_report, message)); size -= 8) {
+    SCOPED_TRACE(size);
+    ents_report known{};
+    std::memset(known.message, 'x', sizeof known.message);
+    Callers<ents_report> callers(known, size, true);
+    ents_model* model = nullptr;
+    EXPECT_EQ(call::model_create(t.c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &model, callers.get()),
+              ENTS_UNKNOWN_KEY);
+    EXPECT_TRUE(callers.untouched(known, static_cast<std::size_t>(size), true))
+        << "written beyond the caller's report";
+    const std::size_t room = static_cast<std::size_t>(size) - offsetof(ents_report, message);
+    const std::size_t length = strnlen(callers.value().message, room);
+    ASSERT_LT(length, room) << "not terminated";
+    const std::string message(callers.value().message, length);
+    if (whole.empty()) whole = message;
+    EXPECT_EQ(message, whole.substr(0, length));
+    EXPECT_GE(length + 2, std::min(room, whole.size() + 2)) << "cut by more than a character";
+    EXPECT_NE(static_cast<unsigned char>(length < whole.size() ? whole[length] : 'x') & 0xC0, 0x80)
+        << "half a character";
+  }
+  EXPECT_GT(whole.size(), 100u);
 }
 
 // A reserved field holds zero: what stands there by chance must not get a meaning in a later version.

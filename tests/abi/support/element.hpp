@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One contact element for the tests: its inputs and outputs as arrays of exactly the size they have, and elements
-// drawn at random near the surface of a model.
+// One contact element for the tests: its inputs and outputs as arrays of exactly the size they have, and
+// elements drawn at random near the surface of a model.
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ inline constexpr InputArray inputs[input_count] = {
     {"multiplier", &ents_input::multiplier, &ents_input::multiplier_stride},
 };
 inline std::size_t size_of_input(const ents_layout& l, int index) {
-  const int sizes[input_count] = {l.dimension, l.dimension * l.nodes, l.parameters * l.nodes, l.parameters, 1,
-                                  l.state_size, l.multipliers};
+  const int sizes[input_count] = {l.dimension, l.dimension * l.nodes, l.parameters * l.nodes, l.parameters,
+                                  1,           l.state_size,          l.multipliers};
   return static_cast<std::size_t>(sizes[index]);
 }
 
@@ -65,13 +65,14 @@ inline constexpr OutputArray outputs[output_count] = {
 };
 inline std::size_t size_of_output(const ents_layout& l, int index) {
   const int all = l.dofs, n = all - l.multipliers, t = l.parameters, d = l.dimension;
-  const int sizes[output_count] = {t, 1, 1, d, d, n, n * n, t * n, t * n * n, 1, 1, all, all * all, l.state_size, d, 1, 1};
+  const int sizes[output_count] = {
+      t, 1, 1, d, d, n, n * n, t * n, t * n * n, 1, 1, all, all * all, l.state_size, d, 1, 1};
   return static_cast<std::size_t>(sizes[index]);
 }
 
 inline constexpr int32_t want_all = (1 << 19) - 1;
-inline constexpr int32_t want_element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE |
-                                        ENTS_TRACTION | ENTS_SLIP | ENTS_AGE;
+inline constexpr int32_t want_element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT |
+                                        ENTS_STATE | ENTS_TRACTION | ENTS_SLIP | ENTS_AGE;
 // What an element outside its segment has, too.
 inline constexpr int32_t want_values =
     ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_FLAGS | ENTS_ITERATIONS;
@@ -84,7 +85,8 @@ struct Element {
 
 struct Results {
   explicit Results(const ents_layout& layout) {
-    for (int i = 0; i < output_count; ++i) real[static_cast<std::size_t>(i)].resize(size_of_output(layout, i));
+    for (int i = 0; i < output_count; ++i)
+      real[static_cast<std::size_t>(i)].resize(size_of_output(layout, i));
   }
   const std::vector<double>& operator[](int index) const { return real[static_cast<std::size_t>(index)]; }
   // By its bit: results.of(ENTS_GAP)
@@ -222,7 +224,8 @@ inline SurfacePoint surface_point(const Model& model, const Element& element, co
   ents_surface surface{};
   surface.struct_size = sizeof surface;
   surface.master = element[master].data();
-  surface.surface_coordinates = element[surface_coordinates].empty() ? nullptr : element[surface_coordinates].data();
+  surface.surface_coordinates =
+      element[surface_coordinates].empty() ? nullptr : element[surface_coordinates].data();
   surface.xi = xi.data();
   surface.point = at.point.data();
   surface.normal = at.normal.data();
@@ -231,9 +234,10 @@ inline SurfacePoint surface_point(const Model& model, const Element& element, co
   return at;
 }
 
-// A moderately distorted segment of about unit size, turned by a small angle, and a slave node within `low` .. `high` of
-// its enriched surface, above or below a point well inside the segment.
-inline Element draw(const Model& model, const Basis& b, Random& random, double low = -0.05, double high = 0.02) {
+// A moderately distorted segment of about unit size, turned by a small angle, and a slave node within `low`
+// .. `high` of its enriched surface, above or below a point well inside the segment.
+inline Element draw(const Model& model, const Basis& b, Random& random, double low = -0.05,
+                    double high = 0.02) {
   Element e;
   e[master] = flat_master(b);
   const auto d = static_cast<std::size_t>(b.dimension);
@@ -251,18 +255,21 @@ inline Element draw(const Model& model, const Basis& b, Random& random, double l
   for (std::size_t c = 0; c < d; ++c) e[slave].push_back(at.point[c] + gap * at.normal[c]);
   for (const double x : xi) e[start].push_back(x + random(-0.02, 0.02));
   e[area] = {random(0.1, 2.0)};
-  for (int i = 0; i < model.layout.multipliers; ++i) e[multiplier].push_back(i == 0 ? random(0.0, 20.0) : random(-5.0, 5.0));
+  for (int i = 0; i < model.layout.multipliers; ++i)
+    e[multiplier].push_back(i == 0 ? random(0.0, 20.0) : random(-5.0, 5.0));
   return e;
 }
 
 // The same with a state block: a new one.
 inline Element with_new_state(const Model& model, Element element) {
   element[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
-  call::state_init(model.get(), int64_t{1}, element[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
+  call::state_init(model.get(), int64_t{1}, element[state_begin].data(), int64_t{model.layout.state_size},
+                   nullptr);
   return element;
 }
 
-// The same with the state of an increment before: the slave has moved on since, so that friction sticks or slips.
+// The same with the state of an increment before: the slave has moved on since, so that friction sticks or
+// slips.
 inline Element with_history(const Model& model, Element element, Random& random) {
   element = with_new_state(model, std::move(element));
   Element before = element;

@@ -22,7 +22,8 @@ thread_local bool forever_after = false;
 bool permitted() noexcept {
   if (!watched) return true;
   ++attempts;
-  if (failing_attempt == 0 || attempts < failing_attempt || (attempts > failing_attempt && !forever_after)) return true;
+  if (failing_attempt == 0 || attempts < failing_attempt || (attempts > failing_attempt && !forever_after))
+    return true;
   errno = ENOMEM;
   return false;
 }
@@ -60,7 +61,9 @@ void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
 
 void* malloc(std::size_t size) { return permitted() ? counted(__libc_malloc(size)) : nullptr; }
-void* calloc(std::size_t count, std::size_t size) { return permitted() ? counted(__libc_calloc(count, size)) : nullptr; }
+void* calloc(std::size_t count, std::size_t size) {
+  return permitted() ? counted(__libc_calloc(count, size)) : nullptr;
+}
 void* realloc(void* block, std::size_t size) {
   if (!permitted()) return nullptr;
   void* moved = __libc_realloc(block, size);
@@ -80,11 +83,11 @@ void free(void* block) {
 }
 
 // What may block a thread, counted and passed on.
-#define COUNT_LOCK(name, type)                                                                                \
-  int name(type* object) {                                                                                     \
-    if (watched) ++locks;                                                                                      \
-    static int (*const original)(type*) = reinterpret_cast<int (*)(type*)>(dlsym(RTLD_NEXT, #name));           \
-    return original(object);                                                                                   \
+#define COUNT_LOCK(name, type)                                                                               \
+  int name(type* object) {                                                                                   \
+    if (watched) ++locks;                                                                                    \
+    static int (*const original)(type*) = reinterpret_cast<int (*)(type*)>(dlsym(RTLD_NEXT, #name));         \
+    return original(object);                                                                                 \
   }
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpedantic"

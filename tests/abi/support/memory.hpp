@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a stretch of code asks of the heap and of locks, and memory that runs out on purpose. For programs linked with
-// memory.cpp, which stands in for the C library's malloc and locks and for operator new.
+// What a stretch of code asks of the heap and of locks, and memory that runs out on purpose. For programs
+// linked with memory.cpp, which stands in for the C library's malloc and locks and for operator new.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -12,8 +12,8 @@
 
 extern "C" {
 
-// From now on this thread's allocations and locks are counted, and the `failing`-th allocation fails (0: none);
-// `forever`: all after it, too.
+// From now on this thread's allocations and locks are counted, and the `failing`-th allocation fails (0:
+// none); `forever`: all after it, too.
 void memory_watch(long failing, int forever);
 // Stop it; a failure that has not come yet will not come.
 void memory_unwatch(void);

@@ -29,12 +29,14 @@ class Model {
 public:
   explicit Model(const std::string& text) : text_(text) {
     ents_report report = new_report();
-    if (call::model_create(text.c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &handle_, &report) != ENTS_OK)
+    if (call::model_create(text.c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &handle_, &report) !=
+        ENTS_OK)
       throw std::runtime_error(std::string(report.message) + " in " + text);
     layout.struct_size = sizeof layout;
     call::model_layout(get(), &layout, &report);
   }
-  Model(Model&& other) noexcept : layout(other.layout), text_(std::move(other.text_)), handle_(other.handle_) {
+  Model(Model&& other) noexcept
+      : layout(other.layout), text_(std::move(other.text_)), handle_(other.handle_) {
     other.handle_ = nullptr;
   }
   Model(const Model&) = delete;
@@ -114,15 +116,16 @@ inline std::string height(const std::string& kind, int dimension, double size = 
   if (kind == "polynomial")
     return R"({"type": "polynomial", "coefficients": )" +
            (line ? "[" + n(0.01) + ", " + n(0.02) + ", " + n(-0.03) + ", " + n(0.01) + "]"
-                 : "[[" + n(0.01) + ", " + n(-0.02) + "], [" + n(0.02) + "], [" + n(0.01) + ", 0, " + n(0.01) + "]]") +
+                 : "[[" + n(0.01) + ", " + n(-0.02) + "], [" + n(0.02) + "], [" + n(0.01) + ", 0, " +
+                       n(0.01) + "]]") +
            "}";
   if (kind == "map")
     return R"({"type": "map", "boundary": )" +
-           (line ? R"("periodic", "size": [2.2], "values": [)" + n(0.01) + ", " + n(0.03) + ", " + n(-0.01) + ", " +
-                       n(0.02) + "]"
-                 : R"("clamped", "size": [2.0, 2.5], "origin": [-1, -1], "values": [[)" + n(0.01) + ", " + n(0.03) +
-                       ", " + n(-0.02) + "], [" + n(0.02) + ", " + n(-0.01) + ", " + n(0.01) + "], [" + n(-0.01) +
-                       ", 0, " + n(0.02) + "]]") +
+           (line ? R"("periodic", "size": [2.2], "values": [)" + n(0.01) + ", " + n(0.03) + ", " + n(-0.01) +
+                       ", " + n(0.02) + "]"
+                 : R"("clamped", "size": [2.0, 2.5], "origin": [-1, -1], "values": [[)" + n(0.01) + ", " +
+                       n(0.03) + ", " + n(-0.02) + "], [" + n(0.02) + ", " + n(-0.01) + ", " + n(0.01) +
+                       "], [" + n(-0.01) + ", 0, " + n(0.02) + "]]") +
            "}";
   if (kind == "product")
     return R"({"type": "product", "of": [)" + sine + R"(, {"type": "constant", "value": 0.9}, )" +
@@ -142,18 +145,22 @@ inline std::string projection(const std::string& kind, int dimension, double siz
     return R"({"type": "shadow_point", "emitter": [)" + number(0.5 * size) + ", " +
            (line ? "" : number(-0.4 * size) + ", ") + number(9.0 * size) + "]}";
   if (kind == "shadow_direction")
-    return std::string(R"({"type": "shadow_direction", "direction": )") + (line ? "[0.2, 1]" : "[0.2, -0.1, 1]") + "}";
+    return std::string(R"({"type": "shadow_direction", "direction": )") +
+           (line ? "[0.2, 1]" : "[0.2, -0.1, 1]") + "}";
   return R"({"type": "normal"})";
 }
 
 // The normal laws, then laws with friction.
 inline const std::vector<std::string>& contact_kinds() {
   static const std::vector<std::string> kinds = [] {
-    const std::string penalty = R"({"type": "penalty", "stiffness": 1000.0})",
-                      coulomb = R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 500.0})",
-                      limited = R"({"type": "coulomb", "coefficient": 0.5, "stiffness": 300.0, "shear_limit": 4.0})",
-                      rough = R"({"type": "rough", "stiffness": 500.0})";
-    const auto type = [](const std::string& name) { return R"({"type": ")" + name + R"(", "stiffness": 1000.0})"; };
+    const std::string
+        penalty = R"({"type": "penalty", "stiffness": 1000.0})",
+        coulomb = R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 500.0})",
+        limited = R"({"type": "coulomb", "coefficient": 0.5, "stiffness": 300.0, "shear_limit": 4.0})",
+        rough = R"({"type": "rough", "stiffness": 500.0})";
+    const auto type = [](const std::string& name) {
+      return R"({"type": ")" + name + R"(", "stiffness": 1000.0})";
+    };
     const auto law = [](const std::string& normal, const std::string& friction) {
       return R"({"normal": )" + normal + (friction.empty() ? "" : R"(, "friction": )" + friction) + "}";
     };
@@ -179,26 +186,28 @@ struct ModelKind {
   std::string basis;
   std::string height = "none";
   std::string projection = "normal";
-  std::string more = ""; // further keys: ", \"tangent\": \"small_gap\""
+  std::string more = "";   // further keys: ", \"tangent\": \"small_gap\""
   std::size_t contact = 0; // of contact_kinds()
 };
 
 inline std::string text(const ModelKind& kind) {
   const int dimension = basis(kind.basis).dimension;
   return R"({"segment": ")" + kind.basis + R"(", "height": )" + height(kind.height, dimension) +
-         R"(, "projection": )" + projection(kind.projection, dimension) +
-         R"(, "contact": )" + contact_kinds()[kind.contact] + kind.more + "}";
+         R"(, "projection": )" + projection(kind.projection, dimension) + R"(, "contact": )" +
+         contact_kinds()[kind.contact] + kind.more + "}";
 }
 
-// Every basis with every height and every projection; every law, rigid masters and the approximate tangents among them.
+// Every basis with every height and every projection; every law, rigid masters and the approximate tangents
+// among them.
 inline std::vector<ModelKind> all_kinds() {
   const std::vector<std::string> more = {"", R"(, "master": "rigid")", R"(, "tangent": "small_gap")",
                                          R"(, "tangent": "first_variation")", ""};
   std::vector<ModelKind> kinds;
   for (const Basis& b : bases())
     for (const std::string& h : height_kinds())
-      for (const std::string& p : projection_kinds()) 
-        kinds.push_back({b.name, h, p, more[kinds.size() % more.size()], (7 * kinds.size()) % contact_kinds().size()});
+      for (const std::string& p : projection_kinds())
+        kinds.push_back(
+            {b.name, h, p, more[kinds.size() % more.size()], (7 * kinds.size()) % contact_kinds().size()});
   return kinds;
 }
 
@@ -208,8 +217,8 @@ inline std::vector<ModelKind> some_kinds() {
   for (std::size_t i = 0; i < bases().size(); ++i)
     for (std::size_t j = 0; j < 3; ++j)
       kinds.push_back({bases()[i].name, height_kinds()[(3 * i + 2 * j) % height_kinds().size()],
-                       projection_kinds()[(i + j) % 3], 
-                       i % 4 == 3 && j == 1 ? R"(, "master": "rigid")" : "", (3 * i + 5 * j) % contact_kinds().size()});
+                       projection_kinds()[(i + j) % 3], i % 4 == 3 && j == 1 ? R"(, "master": "rigid")" : "",
+                       (3 * i + 5 * j) % contact_kinds().size()});
   return kinds;
 }
 

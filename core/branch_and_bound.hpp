@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Projection without a start value, found by branch and bound: boxes of the segment are halved until each is
+// proved to hold no projection better than the best one found, or to hold exactly one, which Newton's method
+// then finds.
+//   normal: the closest of the projections on the segment.
+//   shadow: the lit point, the one nearest to the light along the ray.
+// Bounds come from the kernel's own formulae evaluated with balls (ball.hpp). A box is dropped when
+//   - all of it is farther from the slave (normal) or from the ray (shadow) than any candidate may be,
+//   - the equations of the projection have no root in it (Krawczyk 1969; Moore, Kearfott, Cloud, Introduction
+//   to
+//     Interval Analysis, 2009, section 8.2), or only roots that are no minimum,
+//   - those equations have one root at most and Newton's method has found it.
+// What is left when the budget is spent makes the result `ambiguous`: the best that is known, but not
+// certain.
+#pragma once
+
+#include "core/ball.hpp"
+#include "core/search.hpp"
+
+namespace ents::ENTS_ISA {
+
+// Rank of a projection; smaller is better.
+template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projection<B, H>& p) {
+  if (t.kind == ProjectionKind::normal) return square_root(dot(p.s.d, p.s.d));
+  return dot(p.s.d, ray_of<B::dim>(t));
+}
+
+inline constexpr int max_boxes = 20000;
+inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
+inline constexpr double tie_size = 1e-9;     // of the segment's size
+
+template <int T> struct Box { double c[T], w[T]; };
+
+// The best projection so far.
+template <class B, bool H> struct Candidates {
+  static constexpr int T = B::dim - 1;
+  const Geometry<B>& g;
+  const Target& t;
+  Projection<B, H>& best;
+  Search result{Found::not_converged, false};
+  double best_rank = no_bound, tie = 0.0;
+  bool inside = false;
+  int evaluations = 0;
+
+  // Newton's method from xi, whose result is kept in `p`.
+  ENTS_NOINLINE bool attempt(const double (&xi)[T], Projection<B, H>& p) {
+    for (int a = 0; a < T; ++a) p.xi[a] = xi[a];
+    const Found found = project(g, t, p);
+    evaluations += p.evaluations;
+    if (found != Found::yes) {
+      if (result.found == Found::yes || result.found == Found::escaped) return false;
+      result.found = found;
+      if (found == Found::escaped) best = p;
+      return false;
+    }
+    if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) return false;
+    const bool now_inside = on_segment<B>(p.xi);
+    const double r = rank(t, p);
+    tie = tie_size * square_root(dot(p.s.a[0], p.s.a[0]));
+    if (result.found != Found::yes || (now_inside && !inside) ||
+        (now_inside == inside && r < best_rank - tie)) {
+      best = p;
+      best_rank = r;
+      inside = now_inside;
+      result = {Found::yes, false};
+    } else if (now_inside == inside && r < best_rank + tie) {
+      double apart[T];
+      for (int a = 0; a < T; ++a) apart[a] = p.xi[a] - best.xi[a];
+      if (max_norm(apart) > 1e-6)
+        result.ambiguous = true;
+      else if (r < best_rank)
+        best_rank = r, best = p;
+    }
+    return true;
+  }
+
+  // Nothing with a rank above this matters.
+  double limit() const { return inside ? best_rank + tie : no_bound; }
+};
+
+// u . e_a over the box, for a fixed vector u
+template <int D> ENTS_INLINE Ball dot(const Vec<double, D>& u, const Vec<Ball, D>& e) {
+  Ball s = u[0] * e[0];
+  for (int k = 1; k < D; ++k) s = s + u[k] * e[k];
+  return s;
+}
+
+// Largest change of u . rho_e between the centre and any point of the box, to first and to second order.
+template <class B, bool H>
+ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double, B::dim>& u,
+                                  const double (&w)[B::dim - 1]) {
+  constexpr int T = B::dim - 1;
+  double first = 0.0, second = 0.0;
+  for (int a = 0; a < T; ++a) {
+    const Ball slope = dot(u, s.e[a]);
+    first += w[a] * magnitude(slope);
+    second += w[a] * absolute(slope.v);
+    for (int b = 0; b < T; ++b) second += 0.5 * w[a] * w[b] * magnitude(dot(u, s.e2[symmetric_index(a, b)]));
+  }
+  return lesser(first, second);
+}
+
+enum class Verdict { drop, halve };
+
+// What the box may hold. `longest`: the direction to halve; `sign`: on which side to look first.
+template <class B, bool H>
+ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candidates<B, H>& all,
+                            Projection<B, H>& p, int& longest, double (&towards)[B::dim - 1]) {
+  constexpr int D = B::dim, T = D - 1;
+  const Geometry<B>& g = all.g;
+  const Target& t = all.t;
+  const bool normal = t.kind == ProjectionKind::normal;
+  for (double& x : towards) x = 1.0;
+  longest = T == 2 && box.w[T - 1] > box.w[0];
+  Ball xi[T];
+  for (int a = 0; a < T; ++a) xi[a] = {box.c[a], box.w[a]};
+  Shape<Ball, T, B::nodes> N;
+  Surface<B, H, Ball> s;
+  ++all.evaluations;
+  if (!evaluate_surface<2>(g, xi, N, s)) {
+    // no normal somewhere in the box: the height is anywhere within its bound
+    s.d = -combine(N.n, g.y);
+    double low2 = 0.0;
+    for (int k = 0; k < D; ++k) {
+      const double low = greater(absolute(s.d[k].v) - s.d[k].r, 0.0);
+      low2 += low * low;
+    }
+    const double height = H ? plan.height_bound : 0.0;
+    return normal && square_root(low2) - height > all.limit() ? Verdict::drop : Verdict::halve;
+  }
+  for (int a = 0; a < T; ++a) narrow_by(s.e[a], xi, [&](int b) { return &s.e2[symmetric_index(a, b)]; });
+  Vec<double, D> d, e[T];
+  for (int k = 0; k < D; ++k) {
+    d[k] = s.d[k].v;
+    for (int a = 0; a < T; ++a) e[a][k] = s.e[a][k].v;
+  }
+  if constexpr (T == 2)
+    longest = box.w[1] * box.w[1] * dot(e[1], e[1]) > box.w[0] * box.w[0] * dot(e[0], e[0]);
+
+  // distance from the slave, or from the ray
+  Vec<double, D> off = d, ray = Vec<double, D>::zero();
+  if (!normal) {
+    ray = ray_of<D>(t);
+    add_scaled(off, -dot(d, ray), ray);
+  }
+  for (int a = 0; a < T; ++a) towards[a] = dot(off, e[a]);
+  const double distance = square_root(dot(off, off));
+  const double far = distance > 0.0 ? distance - largest_change(s, (1.0 / distance) * off, box.w) : 0.0;
+  if (normal) {
+    if (far > all.limit()) return Verdict::drop;
+  } else {
+    if (far > all.tie) return Verdict::drop;
+    if (dot(d, ray) - largest_change(s, ray, box.w) > all.limit()) return Verdict::drop;
+  }
+
+  // the equations of the projection, J step = r, scaled so that J = 1 at the centre
+  double step[T];
+  Ball J[T][T];
+  bool minimum = true;
+  if (normal) {
+    Ball f2[symmetric_size<T>];
+    double centre[symmetric_size<T>], metric[symmetric_size<T>];
+    for (int k = 0; k < symmetric_size<T>; ++k) {
+      const int a = k / 2, b = (k + 1) / 2;
+      f2[k] = dot(s.e[a], s.e[b]) - dot(s.d, s.e2[k]);
+      centre[k] = f2[k].v;
+      metric[k] = dot(e[a], e[b]);
+    }
+    double r[T];
+    for (int a = 0; a < T; ++a) {
+      r[a] = dot(e[a], d);
+      double change = 0.0;
+      for (int b = 0; b < T; ++b) change += magnitude(f2[symmetric_index(a, b)]) * box.w[b];
+      if (absolute(r[a]) > change) return Verdict::drop;
+    }
+    if (f2[0].v + f2[0].r < 0.0 ||
+        (T == 2 && f2[symmetric_size<T> - 1].v + f2[symmetric_size<T> - 1].r < 0.0))
+      return Verdict::drop;
+    const double det = determinant(centre);
+    if (!(absolute(det) > 1e-12 * determinant(metric))) return Verdict::halve;
+    minimum = is_minimum(centre, metric);
+    solve(centre, r, step);
+    double inverse[symmetric_size<T>];
+    invert(centre, det, inverse);
+    for (int a = 0; a < T; ++a)
+      for (int b = 0; b < T; ++b) {
+        J[a][b] = inverse[symmetric_index(a, 0)] * f2[symmetric_index(0, b)];
+        if constexpr (T == 2) J[a][b] = J[a][b] + inverse[symmetric_index(a, 1)] * f2[symmetric_index(1, b)];
+      }
+  } else {
+    Vec<double, D> onto[T], unused;
+    if (!ray_frame(e, ray, onto, unused)) return Verdict::halve;
+    for (int a = 0; a < T; ++a) {
+      step[a] = dot(onto[a], d);
+      for (int b = 0; b < T; ++b) J[a][b] = dot(onto[a], s.e[b]);
+    }
+  }
+  bool unique = true;
+  for (int a = 0; a < T; ++a) {
+    double spread = 0.0, departure = 0.0;
+    for (int b = 0; b < T; ++b) {
+      spread += J[a][b].r * box.w[b];
+      departure += J[a][b].r;
+    }
+    if (absolute(step[a]) - spread > box.w[a]) return Verdict::drop;
+    unique = unique && departure < 1.0;
+  }
+  if (!unique) return Verdict::halve;
+  if (!minimum) return Verdict::drop;
+  double start[T];
+  for (int a = 0; a < T; ++a) start[a] = box.c[a] + step[a];
+  if (!all.attempt(start, p)) return Verdict::halve;
+  for (int a = 0; a < T; ++a)
+    if (absolute(p.xi[a] - box.c[a]) > box.w[a] * (1.0 + 1e-9)) return Verdict::halve;
+  return Verdict::drop;
+}
+
+template <class B, bool H>
+Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best) {
+  constexpr int T = B::dim - 1;
+  Candidates<B, H> all{g, t, best};
+  Projection<B, H> p;
+  Box<T> box;
+  domain_centre<B>(box.c);
+  all.attempt(box.c, p);
+  if (!is_flat<B> || H) {
+    constexpr double rim = 1e-9; // as on_segment()
+    for (int a = 0; a < T; ++a) {
+      box.c[a] = B::simplex ? 0.5 : 0.0;
+      box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
+    }
+    constexpr int most_waiting = 128; // halvings of both directions down to the smallest box
+    Box<T> waiting[most_waiting];
+    waiting[0] = box;
+    int count = 1, boxes = 0;
+    bool certain = true;
+    while (count > 0) {
+      box = waiting[--count];
+      if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
+      if (++boxes > max_boxes) {
+        certain = false;
+        break;
+      }
+      int a;
+      double towards[T];
+      if (judge(plan, box, all, p, a, towards) == Verdict::drop) continue;
+      if (box.w[a] < smallest_box || count + 2 > most_waiting) {
+        certain = false;
+        continue;
+      }
+      box.w[a] *= 0.5;
+      Box<T> upper = box;
+      box.c[a] -= box.w[a];
+      upper.c[a] += box.w[a];
+      waiting[count++] = towards[a] > 0.0 ? box : upper;
+      waiting[count++] = towards[a] > 0.0 ? upper : box;
+    }
+    if (!certain) all.result.ambiguous = true;
+  }
+  best.evaluations = all.evaluations;
+  return all.result;
+}
+
+#define ENTS_SEARCH(B)                                                                                       \
+  template Search search<B, false>(const Geometry<B>&, const Target&, const Plan&, Projection<B, false>&);   \
+  template Search search<B, true>(const Geometry<B>&, const Target&, const Plan&, Projection<B, true>&);
+
+} // namespace ents::ENTS_ISA

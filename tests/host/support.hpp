@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the tests of the host share: the library, scenes from text or file with changes, random numbers.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "ents_library.hpp"
+#include "json_reader.hpp"
+#include "run.hpp"
+
+namespace host::test {
+
+/// libents.so of the build tree, as ents-host finds it.
+inline const EntsLibrary& library() {
+  static const EntsLibrary instance;
+  return instance;
+}
+
+/// A scene file of examples/.
+inline std::filesystem::path scene_file(const std::string& name) {
+  return std::filesystem::path(EXAMPLES) / name / "scene.json";
+}
+
+/// A shipped scene, changed by `edit` before it is checked.
+inline Scene shipped_scene(const std::string& name, const std::function<void(Json&)>& edit = {}) {
+  const std::filesystem::path file = scene_file(name);
+  Json json = parse_json_file(file);
+  if (edit) edit(json);
+  return read_scene_text(json.dump(), file);
+}
+
+inline Scene scene_from(const Json& json) { return read_scene_text(json.dump(), "test.json"); }
+
+/// One axis of a block with equal cells.
+inline Json axis(double from, double to, int divisions) {
+  return {{"from", from}, {"pieces", {{{"to", to}, {"divisions", divisions}}}}};
+}
+
+/// The quantity of a step by its name; a missing one fails the test that asks.
+inline const Quantity& quantity(const StepRecord& record, const std::string& name) {
+  for (const Quantity& candidate : record.exact)
+    if (candidate.name == name) return candidate;
+  throw std::runtime_error("no quantity " + name);
+}
+
+/// The same numbers at every run.
+class Random {
+public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() - engine_.min()) /
+                     static_cast<double>(engine_.max() - engine_.min());
+  }
+  std::vector<double> vector(std::size_t size, double low, double high) {
+    std::vector<double> values(size);
+    for (double& value : values) value = uniform(low, high);
+    return values;
+  }
+
+private:
+  std::mt19937_64 engine_;
+};
+
+} // namespace host::test

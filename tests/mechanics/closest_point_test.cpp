@@ -1,0 +1,72 @@
+// The search (start = null) finds the closest point: against a dense sweep, on textures with many minima.
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "samples.hpp"
+#include "scene.hpp"
+#include "sweep.hpp"
+
+namespace mechanics {
+namespace {
+
+// Of the segment's size: the sweep knows the distance to 1e-12, the search to rounding.
+constexpr double tolerance = 1e-10;
+
+bool is_on_border(const Basis& basis, const std::array<double, 2>& xi) {
+  const double inside = basis.simplex ? std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]})
+                                      : 1.0 - std::max(std::fabs(xi[0]), std::fabs(xi[1]));
+  return inside < 1e-5; // the sweep knows xi to 3e-7
+}
+
+class ClosestPoint : public testing::TestWithParam<std::string> {};
+
+TEST_P(ClosestPoint, IsFoundByTheSearch) {
+  const Basis& basis = basis_named(GetParam());
+  const Grid grid(basis, basis.dimension == 2 ? 401 : 61);
+  const std::int64_t per_scene = samples(50), scenes = basis.dimension == 2 ? 50 : 29;
+  Random random(51);
+  Worst worst;
+  std::int64_t compared = 0, on_border = 0, spent = 0;
+  std::int32_t most_spent = 0;
+  for (std::int64_t number = 0; number < scenes; ++number) {
+    Scene scene = draw_scene(random, basis, "none", "normal");
+    scene.height = draw_texture(random, basis.parameters());
+    const Model model(scene.model().dump());
+    const bool far = number % 2;
+    Elements elements = draw_elements(random, scene, model, per_scene, far ? -0.6 : -0.1, far ? 1.5 : 0.2);
+    elements.start.clear();
+    const Results r = model.evaluate(elements, ENTS_XI | ENTS_POINT | ENTS_FLAGS | ENTS_ITERATIONS);
+    const Height height(scene.height, basis.parameters());
+    const int d = basis.dimension, t = basis.parameters(), m = basis.node_count();
+    for (std::int64_t e = 0; e < per_scene; ++e) {
+      const Surface surface(basis, height, elements.master.data() + e * m * d,
+                            scene.with_coordinates ? elements.surface_coordinates.data() + e * m * t
+                                                   : nullptr);
+      const Vec3 slave = vec3(elements.slave.data() + e * d, d);
+      const Minimum closest = sweep_minima(grid, basis, surface, slave, 4).front();
+      const auto where = [&] { return scene.model().dump() + " element " + std::to_string(e); };
+      const std::int32_t iterations = r.iterations[static_cast<std::size_t>(e)];
+      spent += iterations;
+      most_spent = std::max(most_spent, iterations);
+      if (is_on_border(basis, closest.xi)) { // no projection there: the search looks for one elsewhere
+        ++on_border;
+        continue;
+      }
+      ++compared;
+      ASSERT_TRUE(r.ok(e)) << where();
+      worst.see(norm(slave - vec3(r.point.data() + e * d, d)) - closest.distance, where);
+    }
+  }
+  EXPECT_LE(worst.error, tolerance) << worst.where;
+  EXPECT_GT(compared, 9 * on_border);
+  std::cout << basis.name << ": " << compared << " positions, farther than the sweep by at most "
+            << worst.error << "; surface evaluations: " << spent / (per_scene * scenes)
+            << " in the mean, at most " << most_spent << "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Basis, ClosestPoint, testing::ValuesIn(basis_names()),
+                         [](const auto& parameter) { return parameter.param; });
+
+} // namespace
+} // namespace mechanics
