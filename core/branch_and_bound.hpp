@@ -179,7 +179,7 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
     const double det = determinant(centre);
     if (!(absolute(det) > 1e-12 * determinant(metric))) return Verdict::halve;
     minimum = is_minimum(centre, metric);
-    solve(centre, r, step);
+    if (!solve(centre, r, step)) return Verdict::halve;
     double inverse[symmetric_size<T>];
     invert(centre, det, inverse);
     for (int a = 0; a < T; ++a)
