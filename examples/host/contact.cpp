@@ -59,7 +59,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     size_ = std::hypot(size_, high - low);
   }
   segment_.assign(slaves_.size(), -1);
-  segment_begin_ = closed_on_ = segment_;
+  segment_begin_ = found_ = segment_;
   state_begin_.assign(slaves_.size() * state_size_, 0.0);
   last_xi_.assign(slaves_.size() * parameters_, not_a_number);
   xi_begin_ = last_xi_;
@@ -315,12 +315,13 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   if (status != ENTS_OK) return status;
 
   squared_force = 0;
-  std::vector<int> closed_on(slaves_.size(), -1);
+  std::vector<int> found(slaves_.size(), -1);
   for (std::size_t e = 0; e < active_.size(); ++e)
-    if ((flags[e] & ENTS_FLAG_CONTACT) != 0) closed_on[active_[e]] = segment_[active_[e]];
+    if ((flags[e] & ENTS_FLAG_CONTACT) != 0)
+      found[active_[e]] = 2 * segment_[active_[e]] + ((flags[e] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
   status_changes_ = 0;
-  for (std::size_t k = 0; k < slaves_.size(); ++k) status_changes_ += closed_on[k] != closed_on_[k];
-  closed_on_ = std::move(closed_on);
+  for (std::size_t k = 0; k < slaves_.size(); ++k) status_changes_ += found[k] != found_[k];
+  found_ = std::move(found);
   if (coupling != nullptr) {
     coupling->force = coupling->diagonal = 0;
     coupling->column.assign(residual.size(), 0.0);

@@ -89,8 +89,8 @@ public:
   /// @return by how much the multipliers changed over the stiffness: penetration or elastic slip [L]
   double augment(const Configuration& at);
 
-  /// How many slave nodes the last `assemble` found open that were closed before, closed that were open, or closed on
-  /// another segment: Newton's iteration is quadratic once there are none.
+  /// How many slave nodes the last `assemble` found in another status (open, stick, slip) or closed on another
+  /// segment than the one before it: Newton's iteration is quadratic once there are none.
   int status_changes() const { return status_changes_; }
 
   /// The increment is accepted: what the last `assemble` left becomes the history.
@@ -125,17 +125,13 @@ private:
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   std::vector<int> slaves_;
   std::vector<double> areas_;
-<<<<<<< HEAD
   /// [slaves] chosen; chosen when the history was written; chosen when the equations were listed
   std::vector<int> segment_, segment_begin_, stencil_segment_;
   std::vector<double> state_begin_;          ///< [slaves][state_size]
   Configuration begin_;                      ///< where the increment began
-=======
-  std::vector<int> segment_, segment_begin_; ///< [slaves] chosen; chosen when the history was written
-  std::vector<double> state_begin_, state_end_; ///< [slaves][state_size]
-  std::vector<int> closed_on_; ///< [slaves] segment on which the last `assemble` found the node closed; -1: open
+  /// [slaves] segment and status that the last `assemble` found; -1: open
+  std::vector<int> found_;
   int status_changes_ = 0;
->>>>>>> main
   // The elements of the present choice, in the order of `active_`.
   std::vector<std::size_t> active_; ///< slaves with a segment
   std::vector<double> slave_positions_, master_positions_, active_coordinates_, active_areas_, active_multipliers_;

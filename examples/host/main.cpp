@@ -16,15 +16,10 @@ int main(int argc, char** argv) {
              "Examples:\n"
              "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
              "  ents-host run examples/westergaard/scene.json --compare\n"
-<<<<<<< HEAD
              "  ents-host variants examples/hertz2d/scene.json\n"
-             "  ents-host verify golden/*.json\n"
-             "  ents-host check model.json --mesh master.inp");
-=======
              "  ents-host verify tests/mechanics/golden/*.json\n"
              "  ents-host check model.json --mesh master.inp\n\n"
              "ents-host SUBCOMMAND --help says more of each.");
->>>>>>> main
   app.require_subcommand(1);
   CommonOptions common;
   const auto add_common = [&](CLI::App& command) {
@@ -59,8 +54,7 @@ int main(int argc, char** argv) {
                              ->type_name("N1,N2,...")
                              ->expected(0, 1000)
                              ->excludes("--explicit");
-<<<<<<< HEAD
-  run_app->add_flag("!--no-pictures", run.pictures, "leave the pictures out");
+  run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
   run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
   run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status and segment of every slave node in the JSON result");
   run_app->add_option("--cut", run.cut, "take every step in two halves, or in one to four increments of random sizes")
@@ -72,9 +66,6 @@ int main(int argc, char** argv) {
   run_app->add_option("--last-step", run.last_step, "stop after this step")->check(CLI::PositiveNumber);
   run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
       ->check(CLI::ExistingFile);
-=======
-  run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
->>>>>>> main
   add_common(*run_app);
   run_app->footer("Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
                   "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1.\n\n"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
 
@@ -230,15 +231,12 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     if (!state.ok) return fail(state.reason, state.step_factor);
     double relative = relative_residual(state);
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
-<<<<<<< HEAD
-    if (outcome.augmentations.empty())
+    if (outcome.augmentations.empty()) {
       outcome.residuals.push_back(relative);
-    else
+      outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
+    } else {
       outcome.augmentations.back().iterations = iteration;
-=======
-    outcome.residuals.push_back(relative);
-    outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
->>>>>>> main
+    }
     if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
     if (relative <= scene_->solver.tolerance) {
       if (contact_ && contact_->augmentable()) {
@@ -271,7 +269,12 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     }
     if (!solve(state, true, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
   }
-  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations", 0.5);
+  // The last residuals tell a flip-flop (they come back) from a divergence (they grow).
+  std::string last;
+  for (std::size_t i = outcome.residuals.size() - std::min<std::size_t>(outcome.residuals.size(), 4);
+       i < outcome.residuals.size(); ++i)
+    last += " " + format_number(outcome.residuals[i], 2);
+  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations, residuals" + last, 0.5);
 }
 
 std::vector<double> Simulation::reactions() {

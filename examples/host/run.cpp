@@ -209,15 +209,9 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
       const double part = done + size;
       const NewtonOutcome outcome = simulation.advance(target_at(part));
       if (outcome.converged) {
-<<<<<<< HEAD
-        record.increments.push_back({value_at(part), outcome.residuals, outcome.augmentations});
+        record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
         done = part >= 1 - 1e-12 ? 1 : part;
         size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
-=======
-        record.increments.push_back({value, outcome.residuals, outcome.status_changes});
-        done = complete ? 1 : done + size;
-        size = std::min(2 * size, 1 - done);
->>>>>>> main
         continue;
       }
       record.cuts.push_back(outcome.reason);

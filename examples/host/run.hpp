@@ -15,11 +15,8 @@ namespace host {
 struct IncrementRecord {
   double value = 0;              ///< of the control at its end
   std::vector<double> residuals; ///< relative, after each Newton iteration
-<<<<<<< HEAD
-  std::vector<Augmentation> augmentations; ///< Uzawa
-=======
   std::vector<int> status_changes; ///< slave nodes that opened or closed, at each iteration
->>>>>>> main
+  std::vector<Augmentation> augmentations; ///< Uzawa
 };
 
 /// The last two residual reductions r[n-1]/r[n-2], r[n]/r[n-1], and the order of convergence they show:

@@ -45,13 +45,9 @@ struct Augmentation {
 
 struct NewtonOutcome {
   bool converged = false;
-<<<<<<< HEAD
   std::vector<double> residuals; ///< relative to the forces present, after each iteration; Uzawa: before the first change
-  std::vector<Augmentation> augmentations;
-=======
-  std::vector<double> residuals; ///< relative to the forces present, after each iteration
   std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
->>>>>>> main
+  std::vector<Augmentation> augmentations;
   std::string reason;            ///< why it failed
   double step_factor = 0.5;      ///< suggested for the next try
 };
