@@ -102,6 +102,12 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   record.force = simulation.now().force * scene.symmetry_copies;
   record.approach = simulation.now().motion - touch;
   record.mean_pressure = simulation.now().force / simulation.contact_area();
+  if (!contact->master().rigid) { // the load is not ours to prescribe: what the contact carries, in size
+    double squared = 0;
+    for (const double component : record.contact_force) squared += component * component;
+    record.force = std::sqrt(squared);
+    record.mean_pressure = record.force / (simulation.contact_area() * scene.symmetry_copies);
+  }
   double closed = 0, gap = 0, gap_area = 0;
   for (std::size_t k = 0; k < contact->slaves().size(); ++k) {
     const double area = contact->areas()[k];
