@@ -25,7 +25,7 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int max_boxes = 20000;
+inline constexpr int search_budget = 4000; // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
@@ -41,6 +41,7 @@ template <class B, bool H> struct Candidates {
   double best_rank = no_bound, tie = 0.0;
   bool inside = false;
   int evaluations = 0;
+  bool no_normal = false; // somewhere in the last box
 
   // Newton's method from xi, whose result is kept in `p`.
   ENTS_NOINLINE bool attempt(const double (&xi)[T], Projection<B, H>& p) {
@@ -117,7 +118,8 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
   Shape<Ball, T, B::nodes> N;
   Surface<B, H, Ball> s;
   ++all.evaluations;
-  if (!evaluate_surface<2>(g, xi, N, s)) {
+  all.no_normal = !evaluate_surface<2>(g, xi, N, s);
+  if (all.no_normal) {
     // no normal somewhere in the box: the height is anywhere within its bound
     s.d = -combine(N.n, g.y);
     double low2 = 0.0;
@@ -232,12 +234,12 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     constexpr int most_waiting = 128; // halvings of both directions down to the smallest box
     Box<T> waiting[most_waiting];
     waiting[0] = box;
-    int count = 1, boxes = 0;
-    bool certain = true;
+    int count = 1;
+    bool certain = true, degenerate = false;
     while (count > 0) {
       box = waiting[--count];
       if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
-      if (++boxes > max_boxes) {
+      if (all.evaluations > search_budget) {
         certain = false;
         break;
       }
@@ -246,6 +248,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       if (judge(plan, box, all, p, a, towards) == Verdict::drop) continue;
       if (box.w[a] < smallest_box || count + 2 > most_waiting) {
         certain = false;
+        degenerate = degenerate || all.no_normal;
         continue;
       }
       box.w[a] *= 0.5;
@@ -256,6 +259,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       waiting[count++] = towards[a] > 0.0 ? upper : box;
     }
     if (!certain) all.result.ambiguous = true;
+    if (degenerate && all.result.found == Found::not_converged) all.result.found = Found::degenerate;
   }
   best.evaluations = all.evaluations;
   return all.result;

@@ -10,10 +10,8 @@ using namespace test;
 
 // Evaluations of the surface by one iteration from a start value: at most 30, and one count beyond.
 constexpr int per_iteration = 31;
-// A search: at most 1024 samples and 8 iterations (enriched), and before it the start value's own iteration;
-// to place the samples of a fine texture the plain segment is searched first: at most 25 samples and 8
-// iterations.
-constexpr int most = per_iteration + 1024 + 8 * per_iteration + 25 + 8 * per_iteration;
+// A search ends at the box or iteration with which it has spent 4000; before it the start value's own iteration.
+constexpr int most = per_iteration + 4000 + 1 + per_iteration;
 
 std::string fine_texture(const Basis& b) {
   return R"({"segment": ")" + std::string(b.name) +
