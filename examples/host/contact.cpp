@@ -135,6 +135,8 @@ void Contact::search(const Configuration& at, bool only_lost) {
   in.slave = slave.data(), in.slave_stride = stride(d_);
   in.master = master.data(), in.master_stride = stride(m_ * d_);
   in.start = centre.data();
+  const std::vector<double> no_multipliers(multipliers_ + 1, 0.0); // for gap and xi any values do
+  in.multiplier = no_multipliers.data();
   if (!coordinates.empty()) {
     in.surface_coordinates = coordinates.data();
     in.surface_coordinates_stride = stride(m_ * parameters_);
