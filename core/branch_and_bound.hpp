@@ -25,7 +25,7 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int search_budget = 4000; // evaluations of the surface
+inline constexpr int search_budget = 20000; // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 

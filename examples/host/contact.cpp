@@ -264,10 +264,28 @@ void Contact::gather(const Configuration& at) {
   if (master_.segments == 1) gather_master(0, at.displacement, at.motion, master_positions_.data());
   // Until the projection of every node is known the library searches the whole segment.
   start_.clear();
-  if (!all_known) return;
+  if (!all_known && !start_from_base()) return; // the library searches the whole segment
   for (const std::size_t k : active_)
     start_.insert(start_.end(), last_xi_.begin() + offset(k * parameters_),
                   last_xi_.begin() + offset((k + 1) * parameters_));
+}
+
+bool Contact::start_from_base() {
+  if (!master_.base || active_.empty()) return false;
+  std::vector<double> xi(active_.size() * parameters_);
+  ents_input in = input();
+  in.start = nullptr, in.state_begin = nullptr;
+  auto out = ents_struct<ents_output>();
+  out.wanted = ENTS_XI;
+  out.xi = xi.data(), out.xi_stride = stride(parameters_);
+  auto report = ents_struct<ents_report>();
+  if (master_.base->library().evaluate(master_.base->get(), 0, stride(active_.size()), &in, &out, &report) != ENTS_OK)
+    return false;
+  for (std::size_t e = 0; e < active_.size(); ++e) {
+    double* last = last_xi_.data() + active_[e] * parameters_;
+    if (std::isnan(*last)) std::copy_n(xi.begin() + offset(e * parameters_), parameters_, last);
+  }
+  return true;
 }
 
 ents_input Contact::input() const {

@@ -117,6 +117,11 @@ private:
   void move_history(ents_report& report);
   void list_active();
   std::size_t unknown(std::size_t element, std::size_t local) const; ///< index into [dofs, multipliers]
+  /// Projections on the segment without its height, for elements whose own is not known yet: the point of a rough surface
+  /// straight ahead of the node, at the price of a plain segment. Searching the whole enriched one would find a closer point
+  /// somewhere else, or two that are equally close.
+  /// @return false: none found, the library shall search
+  bool start_from_base();
 
   Master master_;
   const Mesh* mesh_;

@@ -47,6 +47,11 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   const ContactSpec& contact = *scene.contact;
   Master master;
   master.model = std::make_unique<EntsModel>(library, contact.model.dump(), scene.file.parent_path(), where(scene));
+  if (contact.model.contains("height") && !contact.model.at("height").is_null()) {
+    Json base = contact.model;
+    base["height"] = nullptr;
+    master.base = std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
+  }
   master.triangles = has_triangles(contact.model);
   master.rigid = !contact.rigid.empty();
   const auto d = static_cast<std::size_t>(scene.dimension);

@@ -14,6 +14,7 @@ namespace host {
 
 struct Master {
   std::unique_ptr<EntsModel> model; ///< the library's model of one segment
+  std::unique_ptr<EntsModel> base;  ///< the same without its height, null if it has none: where a projection starts
   bool rigid = true;
   std::size_t segments = 0;
   std::vector<double> positions; ///< rigid: [segments][m][d], before the master moves
