@@ -25,7 +25,7 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int search_budget = 20000; // evaluations of the surface
+inline constexpr int search_budget = 10000; // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
@@ -41,7 +41,8 @@ template <class B, bool H> struct Candidates {
   double best_rank = no_bound, tie = 0.0;
   bool inside = false;
   int evaluations = 0;
-  bool no_normal = false; // somewhere in the last box
+  bool no_normal = false;  // somewhere in the last box
+  bool degenerate = false; // a box, or what is left of one, without a normal
 
   // Newton's method from xi, whose result is kept in `p`.
   ENTS_NOINLINE bool attempt(const double (&xi)[T], Projection<B, H>& p) {
@@ -86,6 +87,16 @@ template <int D> ENTS_INLINE Ball dot(const Vec<double, D>& u, const Vec<Ball, D
   return s;
 }
 
+// Smallest length in a box of vectors.
+template <int D> ENTS_INLINE double least_length(const Vec<Ball, D>& d) {
+  double low2 = 0.0;
+  for (int k = 0; k < D; ++k) {
+    const double low = greater(absolute(d[k].v) - d[k].r, 0.0);
+    low2 += low * low;
+  }
+  return square_root(low2);
+}
+
 // Largest change of u . rho_e between the centre and any point of the box, to first and to second order.
 template <class B, bool H>
 ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double, B::dim>& u,
@@ -120,15 +131,16 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
   ++all.evaluations;
   all.no_normal = !evaluate_surface<2>(g, xi, N, s);
   if (all.no_normal) {
+    const Vec<Ball, D> m = normal_of_tangents(s.a);
+    const Ball area2 = dot(m, m);
+    if (area2.v + area2.r <= g.smallest_area2) { // nowhere in the box
+      all.degenerate = true;
+      return Verdict::drop;
+    }
     // no normal somewhere in the box: the height is anywhere within its bound
     s.d = -combine(N.n, g.y);
-    double low2 = 0.0;
-    for (int k = 0; k < D; ++k) {
-      const double low = greater(absolute(s.d[k].v) - s.d[k].r, 0.0);
-      low2 += low * low;
-    }
     const double height = H ? plan.height_bound : 0.0;
-    return normal && square_root(low2) - height > all.limit() ? Verdict::drop : Verdict::halve;
+    return normal && least_length(s.d) - height > all.limit() ? Verdict::drop : Verdict::halve;
   }
   for (int a = 0; a < T; ++a) narrow_by(s.e[a], xi, [&](int b) { return &s.e2[symmetric_index(a, b)]; });
   Vec<double, D> d, e[T];
@@ -141,19 +153,24 @@ ENTS_NOINLINE Verdict judge(const Plan& plan, const Box<B::dim - 1>& box, Candid
 
   // distance from the slave, or from the ray
   Vec<double, D> off = d, ray = Vec<double, D>::zero();
+  Vec<Ball, D> range = s.d; // of `off`, and along the ray
+  Ball along = 0.0;
   if (!normal) {
     ray = ray_of<D>(t);
     add_scaled(off, -dot(d, ray), ray);
+    along = dot(ray, s.d);
+    for (int k = 0; k < D; ++k) range[k] = s.d[k] - along * ray[k];
+    along.r = lesser(along.r, largest_change(s, ray, box.w));
   }
-  for (int a = 0; a < T; ++a) towards[a] = dot(off, e[a]);
+  for (int a = 0; a < T; ++a) { // a large box has many slopes of its height: its mean one is that of the segment
+    towards[a] = 0.0;
+    for (int k = 0; k < D; ++k) towards[a] += off[k] * s.a[a][k].v;
+  }
   const double distance = square_root(dot(off, off));
-  const double far = distance > 0.0 ? distance - largest_change(s, (1.0 / distance) * off, box.w) : 0.0;
-  if (normal) {
-    if (far > all.limit()) return Verdict::drop;
-  } else {
-    if (far > all.tie) return Verdict::drop;
-    if (dot(d, ray) - largest_change(s, ray, box.w) > all.limit()) return Verdict::drop;
-  }
+  double far = least_length(range);
+  if (distance > 0.0) far = greater(far, distance - largest_change(s, (1.0 / distance) * off, box.w));
+  if (far > (normal ? all.limit() : all.tie)) return Verdict::drop;
+  if (!normal && along.v - along.r > all.limit()) return Verdict::drop;
 
   // the equations of the projection, J step = r, scaled so that J = 1 at the centre
   double step[T];
@@ -224,7 +241,13 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
   Projection<B, H> p;
   Box<T> box;
   domain_centre<B>(box.c);
-  all.attempt(box.c, p);
+  if constexpr (H) { // the point of the plain segment is a good start on the enriched one
+    Projection<B, false> plain;
+    for (int a = 0; a < T; ++a) plain.xi[a] = box.c[a];
+    if (project(g, t, plain) == Found::yes && on_segment<B>(plain.xi)) all.attempt(plain.xi, p);
+    all.evaluations += plain.evaluations;
+  }
+  if (!all.inside) all.attempt(box.c, p);
   if (!is_flat<B> || H) {
     constexpr double rim = 1e-9; // as on_segment()
     for (int a = 0; a < T; ++a) {
@@ -235,7 +258,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     Box<T> waiting[most_waiting];
     waiting[0] = box;
     int count = 1;
-    bool certain = true, degenerate = false;
+    bool certain = true;
     while (count > 0) {
       box = waiting[--count];
       if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
@@ -248,7 +271,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       if (judge(plan, box, all, p, a, towards) == Verdict::drop) continue;
       if (box.w[a] < smallest_box || count + 2 > most_waiting) {
         certain = false;
-        degenerate = degenerate || all.no_normal;
+        all.degenerate = all.degenerate || all.no_normal;
         continue;
       }
       box.w[a] *= 0.5;
@@ -259,7 +282,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       waiting[count++] = towards[a] > 0.0 ? upper : box;
     }
     if (!certain) all.result.ambiguous = true;
-    if (degenerate && all.result.found == Found::not_converged) all.result.found = Found::degenerate;
+    if (all.degenerate && all.result.found == Found::not_converged) all.result.found = Found::degenerate;
   }
   best.evaluations = all.evaluations;
   return all.result;

@@ -62,8 +62,7 @@ ENTS_INLINE void write_residual(const Plan& plan, const ElementInput& in, const 
   if (plan.multipliers == 0) return;
   out[N] = pair ? -c.area * k.gap : -c.area / plan.law.stiffness * in.multiplier[0];
   for (int a = 1; a < plan.multipliers; ++a)
-    out[N + a] = ((c.friction ? c.tangential.force[a - 1] : 0.0) - c.area * in.multiplier[a]) /
-                 plan.law.friction_stiffness;
+    out[N + a] = (c.tangential.force[a - 1] - c.area * in.multiplier[a]) / plan.law.friction_stiffness;
 }
 
 // Rows and columns of the multipliers. dt: dt_a by the nodes' dofs (friction).

@@ -203,9 +203,9 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     const bool small_gap = plan.tangent == TangentKind::small_gap;
     if (!evaluate_xi_gradient(p, t, !exact_xi && small_gap, k)) return Status::singular_projection;
   }
-  if (c.friction)
-    evaluate_friction(plan.law, p, in.state_begin + plan.state.anchor_at, tangential_multiplier(plan, in),
-                      -c.area * c.normal.force, c.area, c.tangential);
+  if (c.friction && !evaluate_friction(plan.law, p, in.state_begin + plan.state.anchor_at, tangential_multiplier(plan, in),
+                                       -c.area * c.normal.force, c.area, c.tangential))
+    return Status::out_of_range;
   if (c.friction) flags |= c.tangential.slip ? flag::slip : flag::stick;
   if (c.friction && c.tangential.at_shear_limit) flags |= flag::shear_limit;
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;

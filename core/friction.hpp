@@ -39,14 +39,16 @@ template <int T> ENTS_INLINE double contract(const double (&u)[T], const double 
   return s;
 }
 
-// pressure_force: p A >= 0; multiplier: lambda_a [F/L]
+// pressure_force: p A >= 0; multiplier: lambda_a [F/L]. False where the metric has no inverse in double precision.
 template <class B, bool H>
-ENTS_INLINE void evaluate_friction(const ContactLaw& law, const Projection<B, H>& p, const double* anchor,
+ENTS_INLINE bool evaluate_friction(const ContactLaw& law, const Projection<B, H>& p, const double* anchor,
                                    const double* multiplier, double pressure_force, double area,
                                    FrictionForce<B::dim - 1>& f) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
   for (int k = 0; k < K; ++k) f.metric[k] = dot(p.s.e[k / 2], p.s.e[(k + 1) / 2]);
-  invert(f.metric, determinant(f.metric), f.inverse_metric);
+  const double det = determinant(f.metric);
+  if (!(det > 0.0)) return false;
+  invert(f.metric, det, f.inverse_metric);
   for (int a = 0; a < T; ++a) f.moved[a] = p.xi[a] - anchor[a];
   multiply<T>(f.metric, f.moved, f.force);
   for (int a = 0; a < T; ++a)
@@ -57,7 +59,7 @@ ENTS_INLINE void evaluate_friction(const ContactLaw& law, const Projection<B, H>
   f.slip = f.at_shear_limit = false;
   f.limit = 0.0;
   f.limit_by_pressure = 0.0;
-  if (law.friction == FrictionKind::rough) return;
+  if (law.friction == FrictionKind::rough) return true;
   f.limit = law.friction_coefficient * pressure_force;
   f.limit_by_pressure = law.friction_coefficient;
   if (law.shear_limit > 0.0 && law.shear_limit * area < f.limit) {
@@ -68,13 +70,14 @@ ENTS_INLINE void evaluate_friction(const ContactLaw& law, const Projection<B, H>
   f.slip = f.trial_norm > f.limit;
   if (!f.slip) {
     f.at_shear_limit = false;
-    return;
+    return true;
   }
   for (int a = 0; a < T; ++a) {
     f.direction[a] = f.force[a] / f.trial_norm;
     f.raised[a] = raised[a] / f.trial_norm;
     f.force[a] = f.limit * f.direction[a];
   }
+  return true;
 }
 
 // Where the anchor is at the end: the elastic slip that is left belongs to the force that is left.

@@ -2,6 +2,7 @@
 // The work of an evaluation has a bound, whatever the input; its own counter shows it.
 #include <gtest/gtest.h>
 
+#include "sample_count.hpp"
 #include "support/element.hpp"
 
 namespace {
@@ -10,8 +11,8 @@ using namespace test;
 
 // Evaluations of the surface by one iteration from a start value: at most 30, and one count beyond.
 constexpr int per_iteration = 31;
-// A search ends at the box or iteration with which it has spent 20000; before it the start value's own iteration.
-constexpr int most = per_iteration + 20000 + 1 + per_iteration;
+// A search ends at the box or iteration with which it has spent 10000; before it the start value's own iteration.
+constexpr int most = per_iteration + 10000 + 1 + per_iteration;
 
 std::string fine_texture(const Basis& b) {
   return R"({"segment": ")" + std::string(b.name) +
@@ -29,7 +30,7 @@ TEST(BoundedWork, IterationsStayBelowTheirBound) {
   for (const auto& [kind, model_text] : models) {
     const Model model(model_text);
     Results results(model.layout);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < samples(60); ++i) {
       Element e = draw(model, basis(kind.basis), random);
       const double spread = std::pow(10.0, random(-3.0, 4.0)); // near, far and very far slaves
       for (double& x : e[slave]) x += spread * random(-1.0, 1.0);

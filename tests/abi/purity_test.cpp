@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "sample_count.hpp"
 #include "support/element.hpp"
 
 namespace {
@@ -59,11 +60,7 @@ std::vector<Job> make_jobs(const std::vector<Model>& models, const std::vector<M
   return jobs;
 }
 
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr int calls = 20000; // a sanitizer takes ten times as long
-#else
-constexpr int calls = 100000;
-#endif
+constexpr int calls = static_cast<int>(samples(100000));
 
 TEST(Purity, ShuffledOrderGivesTheSameBits) {
   const std::vector<ModelKind> kinds = all_kinds();

@@ -1,19 +1,13 @@
-// How many random samples a test takes, and the worst error among them.
+// How many random samples a test takes (sample_count.hpp), and the worst error among them.
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "sample_count.hpp"
 
 namespace mechanics {
 
-// A sanitizer run looks for invalid reads and overflows, which the first elements of each kind show as well
-// as the last; it takes a fiftieth. The figures of these tests are those of an ordinary build.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr std::int64_t sample_divisor = 50;
-#else
-inline constexpr std::int64_t sample_divisor = 1;
-#endif
-constexpr std::int64_t samples(std::int64_t count) { return (count + sample_divisor - 1) / sample_divisor; }
+using test::samples;
 
 struct Worst {
   double error = 0.0;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions of ents.h as a host calls them: call::evaluate(...) is ents_evaluate(...). With
-// ENTS_TEST_TRAPS=1 in the environment every call is made by a host whose invalid operations, divisions by
-// zero and overflows trap, so that the same tests run twice.
+// The functions of ents.h as a host calls them whose invalid operations, divisions by zero and overflows trap:
+// call::evaluate(...) is ents_evaluate(...) of such a host.
 #pragma once
 
 #include <cfenv>
-#include <cstdlib>
 
 #include "ents.h"
 
@@ -16,19 +14,10 @@ public:
   HostEnvironment(const HostEnvironment&) = delete;
   HostEnvironment& operator=(const HostEnvironment&) = delete;
   HostEnvironment() {
-    if (!traps()) return;
     std::feclearexcept(FE_ALL_EXCEPT); // a flag that stands would trap at once
     feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
   }
-  ~HostEnvironment() {
-    if (traps()) fedisableexcept(FE_ALL_EXCEPT);
-  }
-
-private:
-  static bool traps() {
-    static const bool wanted = std::getenv("ENTS_TEST_TRAPS") != nullptr;
-    return wanted;
-  }
+  ~HostEnvironment() { fedisableexcept(FE_ALL_EXCEPT); }
 };
 
 template <class Function, class... Arguments> auto in_host(Function function, Arguments... arguments) {

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How many random samples a test takes.
+#pragma once
+
+#include <cstdint>
+
+namespace test {
+
+// A sanitizer run looks for invalid reads and overflows, which the first elements of each kind show as well
+// as the last; it takes a fiftieth. The figures of these tests are those of an ordinary build.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::int64_t sample_divisor = 50;
+#else
+inline constexpr std::int64_t sample_divisor = 1;
+#endif
+/// How many of `count` samples to take.
+constexpr std::int64_t samples(std::int64_t count) { return (count + sample_divisor - 1) / sample_divisor; }
+
+/// Is this one of the samples to take?
+template <class Random> bool is_taken(Random& random) {
+  return sample_divisor == 1 || random.below(static_cast<int>(sample_divisor)) == 0;
+}
+
+} // namespace test
