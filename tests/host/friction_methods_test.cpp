@@ -85,16 +85,34 @@ TEST_P(Sliding, DoesNotDependOnTheUnits) {
       worst = std::max(worst, std::abs(a.contact_force[i] - b.contact_force[i]) / scale);
     for (std::size_t k = 0; k < a.fields.pressure.size(); ++k)
       worst = std::max(worst, std::abs(a.fields.pressure[k] - 1e-6 * b.fields.pressure[k]) / a.peak_pressure);
-    EXPECT_EQ(a.fields.flags, b.fields.flags) << step;
+    for (std::size_t k = 0; k < a.fields.flags.size(); ++k)
+      if (a.fields.flags[k] != b.fields.flags[k]) // rounding decides on the border of the cone, and only there
+        for (const StepRecord* record : {&a, &b}) {
+          const double p = record->fields.pressure[k];
+          const double shear = std::hypot(record->fields.traction[2 * k], record->fields.traction[2 * k + 1]);
+          EXPECT_NEAR(shear, 0.3 * p, 1e-9 * p) << "step " << step << ", node " << k;
+        }
   }
   std::printf("%s: forces and pressures agree to %.1e\n", method.name.c_str(), worst);
   EXPECT_LE(worst, 1e-10);
 }
 
+/// A scene with another way to go, here too short for all nodes to slip: what never slips is soon torn off.
+Json dragged(Json json, double way) {
+  json["supports"][2]["x"] = way;
+  return json;
+}
+
 TEST(Friction, RoughNeverSlipsAndShearLimitCaps) {
-  const Solved rough = solve_all(sliding(penalty, {{"type", "rough"}, {"stiffness", 2e3}}));
-  for (const StepRecord& record : rough.records)
-    for (const std::int32_t flags : record.fields.flags) EXPECT_EQ(flags & ENTS_FLAG_SLIP, 0);
+  const Solved coulomb_too = solve_all(dragged(sliding(penalty, coulomb), 0.01));
+  const Solved rough = solve_all(dragged(sliding(penalty, {{"type", "rough"}, {"stiffness", 2e3}}), 0.01));
+  int slipping = 0;
+  for (std::size_t step = 0; step < rough.records.size(); ++step) {
+    for (const std::int32_t flags : rough.records[step].fields.flags) EXPECT_EQ(flags & ENTS_FLAG_SLIP, 0);
+    for (const std::int32_t flags : coulomb_too.records[step].fields.flags) slipping += (flags & ENTS_FLAG_SLIP) != 0;
+  }
+  EXPECT_GT(slipping, 0); // where Coulomb's law lets go
+  EXPECT_GT(rough.records[21].contact_force[0], 1.01 * coulomb_too.records[21].contact_force[0]);
   Json capped = coulomb;
   capped["shear_limit"] = 0.1;
   const Solved limit = solve_all(sliding(penalty, capped));
@@ -108,9 +126,12 @@ TEST(Friction, RoughNeverSlipsAndShearLimitCaps) {
   EXPECT_GT(at_limit, 3);
 }
 
-// The symmetrised tangent goes to Cholesky, takes more iterations, and ends at the same solution.
+// The symmetrised tangent goes to Cholesky, takes more iterations, and ends at the same solution. It is a fixed-point
+// iteration whose rate grows with mu: here it converges at mu = 0.1 and does not at 0.3 once all nodes slip.
 TEST(Friction, SymmetrisedTangentEndsAtTheSameForces) {
-  Json json = sliding(penalty, coulomb);
+  Json slippery = coulomb;
+  slippery["coefficient"] = 0.05;
+  Json json = sliding(penalty, slippery);
   const Solved exact = solve_all(json);
   json["contact"]["model"]["contact"]["symmetrised"] = true;
   json["solver"]["max_iterations"] = 200;
@@ -130,7 +151,7 @@ Json strip(const std::vector<std::pair<double, int>>& pieces) {
           {"formulation", "plane_strain"},
           {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100}, {"poisson", 0.3}}}}},
           {"parts", {{{"name", "b"}, {"material", "m"}, {"element", "quad4"}, {"x", x}, {"y", test::axis(0, 1, 3)}}}},
-          {"periodic", {{"b.x_min", "b.x_max"}}},
+          {"periodic", Json::array({Json::array({"b.x_min", "b.x_max"})})},
           {"supports",
            {{{"nodes", "b.y_max"}, {"y", -0.01}, {"path", {{0, 0}, {1, 1}}}},
             {{"nodes", "b.y_max"}, {"x", 0.04}, {"path", {{1, 0}, {2, 1}}}}}},
