@@ -106,13 +106,23 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
   for (const int segment : history.segment)
     if (segment < -1 || segment >= static_cast<int>(master_.segments))
       throw InputError("the contact's history is that of another scene: no such segment");
-  segment_begin_ = segment_ = history.segment;
-  state_begin_ = history.state;
-  xi_begin_ = history.xi;
-  accepted_.pressure = history.pressure;
-  accepted_.traction = history.traction;
-  begin_increment(at);
-  fields(at); // the library refuses a state block that is not its own
+  const auto take = [this](const ContactHistory& taken, const Configuration& begin) {
+    segment_begin_ = segment_ = taken.segment;
+    state_begin_ = taken.state;
+    xi_begin_ = taken.xi;
+    accepted_.pressure = taken.pressure;
+    accepted_.traction = taken.traction;
+    begin_increment(begin);
+  };
+  const ContactHistory kept = this->history();
+  const Configuration begin = begin_;
+  try {
+    take(history, at);
+    fields(at); // the library refuses a state block that is not its own
+  } catch (...) {
+    take(kept, begin);
+    throw;
+  }
 }
 
 } // namespace host

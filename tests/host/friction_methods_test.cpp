@@ -43,8 +43,9 @@ TEST_P(Sliding, RunsThroughWithTheForcesOfTheOthers) {
   int iterations = 0;
   for (const StepRecord& record : mine.records) iterations += record.iterations();
   const StepRecord& end = mine.records[21]; // slid forwards by 0.4, the normal force is that of pressing
-  std::printf("%-22s normal %.8f tangential %.8f penetration / size %.1e, %d iterations\n", method.name.c_str(),
-              -end.contact_force[1], end.contact_force[0], end.penetration / mine.size, iterations);
+  std::printf("%-22s normal %.8f tangential %.8f penetration / size %.1e, %d iterations\n",
+              method.name.c_str(), -end.contact_force[1], end.contact_force[0], end.penetration / mine.size,
+              iterations);
   EXPECT_LE(end.penetration, method.penetration * mine.size);
   static const Solved reference = solve_all(sliding({{"type", "multiplier"}, {"stiffness", 1e3}}, coulomb));
   for (std::size_t i = 0; i < 2; ++i)
@@ -59,20 +60,22 @@ const Json augmented{{"type", "augmented"}, {"stiffness", 1e4}};
 const Json power{{"type", "power"}, {"coefficient", 1e6}, {"exponent", 1.5}};
 const Json exponential{{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 1e-4}};
 
-// Penetration allowed: the pressure, 2 at most, over the stiffness for penalty and its kin, and as much of the approach
-// (0.01) is missing in the force; the tolerance of Uzawa's iteration (1e-10 of the size, 1e-8 of the approach); rounding of
-// positions of size 1 for multipliers, and the solver's tolerance (1e-12 of the forces, times the condition of sliding).
-INSTANTIATE_TEST_SUITE_P(
-    Normal, Sliding,
-    testing::Values(Method{"penalty", penalty, coulomb, 2e-4, 0.02}, Method{"power", power, coulomb, 2e-4, 0.02},
-                    Method{"exponential", exponential, coulomb, 2e-4, 0.02},
-                    Method{"augmented", augmented, coulomb, 1e-10, 1e-7},
-                    Method{"augmented_multiplier", augmented_multiplier, coulomb, 1e-15, 1e-9},
-                    Method{"multiplier", multiplier, coulomb, 1e-15, 1e-9}),
-    [](const auto& method) { return method.param.name; });
+// Penetration allowed: the pressure, 2 at most, over the stiffness for penalty and its kin, and as much of
+// the approach (0.01) is missing in the force; the tolerance of Uzawa's iteration (1e-10 of the size, 1e-8 of
+// the approach); rounding of positions of size 1 for multipliers, and the solver's tolerance (1e-12 of the
+// forces, times the condition of sliding).
+INSTANTIATE_TEST_SUITE_P(Normal, Sliding,
+                         testing::Values(Method{"penalty", penalty, coulomb, 2e-4, 0.02},
+                                         Method{"power", power, coulomb, 2e-4, 0.02},
+                                         Method{"exponential", exponential, coulomb, 2e-4, 0.02},
+                                         Method{"augmented", augmented, coulomb, 1e-10, 1e-7},
+                                         Method{"augmented_multiplier", augmented_multiplier, coulomb, 1e-15,
+                                                1e-9},
+                                         Method{"multiplier", multiplier, coulomb, 1e-15, 1e-9}),
+                         [](const auto& method) { return method.param.name; });
 
-// The same scene in millimetres and MPa and in metres and Pa: forces in newtons agree. What rounding does to positions
-// and Newton's tolerance (1e-12) leave 1e-10.
+// The same scene in millimetres and MPa and in metres and Pa: forces in newtons agree. What rounding does to
+// positions and Newton's tolerance (1e-12) leave 1e-10.
 TEST_P(Sliding, DoesNotDependOnTheUnits) {
   const Method& method = GetParam();
   const Solved mm = solve_all(sliding(method.normal, method.friction)),
@@ -86,7 +89,8 @@ TEST_P(Sliding, DoesNotDependOnTheUnits) {
     for (std::size_t k = 0; k < a.fields.pressure.size(); ++k)
       worst = std::max(worst, std::abs(a.fields.pressure[k] - 1e-6 * b.fields.pressure[k]) / a.peak_pressure);
     for (std::size_t k = 0; k < a.fields.flags.size(); ++k)
-      if (a.fields.flags[k] != b.fields.flags[k]) // rounding decides on the border of the cone, and only there
+      if (a.fields.flags[k] !=
+          b.fields.flags[k]) // rounding decides on the border of the cone, and only there
         for (const StepRecord* record : {&a, &b}) {
           const double p = record->fields.pressure[k];
           const double shear = std::hypot(record->fields.traction[2 * k], record->fields.traction[2 * k + 1]);
@@ -109,7 +113,8 @@ TEST(Friction, RoughNeverSlipsAndShearLimitCaps) {
   int slipping = 0;
   for (std::size_t step = 0; step < rough.records.size(); ++step) {
     for (const std::int32_t flags : rough.records[step].fields.flags) EXPECT_EQ(flags & ENTS_FLAG_SLIP, 0);
-    for (const std::int32_t flags : coulomb_too.records[step].fields.flags) slipping += (flags & ENTS_FLAG_SLIP) != 0;
+    for (const std::int32_t flags : coulomb_too.records[step].fields.flags)
+      slipping += (flags & ENTS_FLAG_SLIP) != 0;
   }
   EXPECT_GT(slipping, 0); // where Coulomb's law lets go
   EXPECT_GT(rough.records[21].contact_force[0], 1.01 * coulomb_too.records[21].contact_force[0]);
@@ -126,8 +131,9 @@ TEST(Friction, RoughNeverSlipsAndShearLimitCaps) {
   EXPECT_GT(at_limit, 3);
 }
 
-// The symmetrised tangent goes to Cholesky, takes more iterations, and ends at the same solution. It is a fixed-point
-// iteration whose rate grows with mu: here it converges at mu = 0.1 and does not at 0.3 once all nodes slip.
+// The symmetrised tangent goes to Cholesky, takes more iterations, and ends at the same solution. It is a
+// fixed-point iteration whose rate grows with mu: here it converges at mu = 0.1 and does not at 0.3 once all
+// nodes slip.
 TEST(Friction, SymmetrisedTangentEndsAtTheSameForces) {
   Json slippery = coulomb;
   slippery["coefficient"] = 0.05;
@@ -150,7 +156,8 @@ Json strip(const std::vector<std::pair<double, int>>& pieces) {
   return {{"dimension", 2},
           {"formulation", "plane_strain"},
           {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100}, {"poisson", 0.3}}}}},
-          {"parts", {{{"name", "b"}, {"material", "m"}, {"element", "quad4"}, {"x", x}, {"y", test::axis(0, 1, 3)}}}},
+          {"parts",
+           {{{"name", "b"}, {"material", "m"}, {"element", "quad4"}, {"x", x}, {"y", test::axis(0, 1, 3)}}}},
           {"periodic", Json::array({Json::array({"b.x_min", "b.x_max"})})},
           {"supports",
            {{{"nodes", "b.y_max"}, {"y", -0.01}, {"path", {{0, 0}, {1, 1}}}},
@@ -167,12 +174,14 @@ Json strip(const std::vector<std::pair<double, int>>& pieces) {
           {"steps", {{"control", "load_factor"}, {"values", {1, 1.1, 1.2, 1.5, 2}}}}};
 }
 
-// Stiffness per area and tributary areas: 2, 9 and unequal slave elements carry the same force. Exact: springs in series,
-// 1 / (H / M + 1 / eps) with M = E (1 - nu) / ((1 + nu) (1 - 2 nu)), sticking 1 / (H / G + 1 / eps_t), then mu p.
+// Stiffness per area and tributary areas: 2, 9 and unequal slave elements carry the same force. Exact:
+// springs in series, 1 / (H / M + 1 / eps) with M = E (1 - nu) / ((1 + nu) (1 - 2 nu)), sticking 1 / (H / G +
+// 1 / eps_t), then mu p.
 TEST(Friction, DoesNotDependOnTheSlaveMesh) {
   const double M = 100 * 0.7 / (1.3 * 0.4), G = 100 / 2.6;
   const double pressure = 0.01 / (1 / M + 1 / 500.);
-  for (const auto& pieces : std::vector<std::vector<std::pair<double, int>>>{{{2, 2}}, {{2, 9}}, {{0.3, 5}, {1.7, 2}, {2, 1}}}) {
+  for (const auto& pieces :
+       std::vector<std::vector<std::pair<double, int>>>{{{2, 2}}, {{2, 9}}, {{0.3, 5}, {1.7, 2}, {2, 1}}}) {
     const Solved result = solve_all(strip(pieces));
     for (const StepRecord& record : result.records) {
       const double shear = std::min(0.04 * (record.value - 1) / (1 / G + 1 / 300.), 0.4 * pressure);
