@@ -85,9 +85,9 @@ public:
   std::int32_t assemble(const Configuration& at, std::vector<double>& residual, SparseSystem* system,
                         std::size_t group, RigidCoupling* coupling, double& squared_force, ents_report& report);
 
-  /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers.
-  /// @return by how much the multipliers changed over the stiffness: penetration or elastic slip [L]
-  double augment(const Configuration& at);
+  /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are close enough.
+  /// @return by how much forces and multipliers differ over the stiffness: penetration or elastic slip [L]
+  double augment(const Configuration& at, double enough);
 
   /// How many slave nodes the last `assemble` found in another status (open, stick, slip) or closed on another
   /// segment than the one before it: Newton's iteration is quadratic once there are none.

@@ -62,7 +62,7 @@ void Contact::move_history(ents_report& report) {
   }
 }
 
-double Contact::augment(const Configuration& at) {
+double Contact::augment(const Configuration& at, double enough) {
   const ContactFields now = fields(at);
   double largest = 0;
   for (std::size_t k = 0; k < slaves_.size(); ++k) {
@@ -71,6 +71,7 @@ double Contact::augment(const Configuration& at) {
     for (std::size_t i = 0; i < d_; ++i) squared += std::pow(now.traction[k * d_ + i] - traction_[k * d_ + i], 2);
     largest = std::max(largest, std::sqrt(squared) / tangential_stiffness_);
   }
+  if (largest <= enough) return largest; // the solution belongs to the multipliers it was found with
   auto report = ents_struct<ents_report>();
   const EntsLibrary& library = master_.model->library();
   const std::int32_t status =

@@ -240,7 +240,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
     if (relative <= scene_->solver.tolerance) {
       if (contact_ && contact_->augmentable()) {
-        const double error = contact_->augment(next);
+        const double error = contact_->augment(next, enough);
         if (error > enough) {
           if (static_cast<int>(outcome.augmentations.size()) == scene_->solver.max_augmentations)
             return fail("no convergence of the multipliers in " + std::to_string(scene_->solver.max_augmentations) +
