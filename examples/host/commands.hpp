@@ -20,11 +20,24 @@ struct RunOptions {
   bool compare = false;             ///< the scene against explicit meshes
   std::vector<int> compare_divisions; ///< empty: the scene's own list
   bool pictures = true;
+  std::string variant;  ///< of the scene; empty: the scene as it is
+  bool nodes = false;   ///< fields of the slave nodes in the JSON result
+  std::string cut;      ///< "", "halves", "random"
+  unsigned seed = 1;    ///< of random cuts
+  bool discard = false; ///< try other increments first and throw them away
+  int last_step = 0;    ///< 0: all
+  std::filesystem::path restart; ///< checkpoint to continue from
 };
 int run_command(const CommonOptions& common, const RunOptions& options);
 
 /// One scene as it is and with explicit meshes; part of `run`.
 int compare_command(const CommonOptions& common, const RunOptions& options);
+
+struct VariantsOptions {
+  std::filesystem::path scene;
+};
+/// A scene and all its variants: one row each.
+int variants_command(const CommonOptions& common, const VariantsOptions& options);
 
 struct VerifyOptions {
   std::vector<std::filesystem::path> files;

@@ -62,6 +62,8 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(model_layout, "ents_model_layout");
     find(evaluate, "ents_evaluate");
     find(state_init, "ents_state_init");
+    find(state_augment, "ents_state_augment");
+    find(state_transfer, "ents_state_transfer");
     find(surface_evaluate, "ents_surface_evaluate");
     find(model_check, "ents_model_check");
   } catch (...) {

@@ -36,6 +36,8 @@ public:
   decltype(&ents_model_layout) model_layout = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
   decltype(&ents_state_init) state_init = nullptr;
+  decltype(&ents_state_augment) state_augment = nullptr;
+  decltype(&ents_state_transfer) state_transfer = nullptr;
   decltype(&ents_surface_evaluate) surface_evaluate = nullptr;
   decltype(&ents_model_check) model_check = nullptr;
 

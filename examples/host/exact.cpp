@@ -130,6 +130,10 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     }
     return result;
   }
+  case Type::cattaneo:
+    return compare_with_cattaneo(scene, state);
+  case Type::slope:
+    return compare_with_slope(scene, state);
   case Type::none:
     break;
   }

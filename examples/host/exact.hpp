@@ -38,6 +38,12 @@ struct SurfaceState {
   std::vector<double> pressure; ///< [slaves]
   std::vector<double> area;     ///< [slaves] tributary, this mesh's share
   std::vector<char> closed;     ///< [slaves]
+  std::vector<double> shear;    ///< [slaves] tangential traction on the master along x; in the plane
+  std::vector<double> place;    ///< [slaves] reference x
+  std::vector<double> moved;    ///< [slaves] displacement along x
+  std::vector<char> sticks;     ///< [slaves] closed and not slipping
+  std::vector<double> contact_force; ///< [d] of the slave nodes on the master, this mesh's share
+  std::vector<double> load;     ///< [d] dead loads, this mesh's share
   double approach = 0;          ///< motion of the master since first touch
   double force = 0;             ///< of all symmetric copies
   double mean_pressure = 0;
@@ -63,6 +69,13 @@ struct EdgeBracket {
   double closed = 0, open = std::numeric_limits<double>::infinity();
 };
 EdgeBracket edge_bracket(const SurfaceState& state);
+
+/// Cattaneo and Mindlin: two equal cylinders pressed together by a normal force and then sheared
+/// (exact_friction.cpp has the formulae).
+std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceState& state);
+
+/// A block on a slope: the friction force is the lesser of the pull and coefficient times normal force.
+std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState& state);
 
 /// The scene's exact solution against a step; empty if the scene has none.
 std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState& state);

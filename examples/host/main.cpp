@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
              "Examples:\n"
              "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
              "  ents-host run examples/westergaard/scene.json --compare\n"
+             "  ents-host variants examples/hertz2d/scene.json\n"
              "  ents-host verify tests/mechanics/golden/*.json\n"
              "  ents-host check model.json --mesh master.inp\n\n"
              "ents-host SUBCOMMAND --help says more of each.");
@@ -54,6 +55,17 @@ int main(int argc, char** argv) {
                              ->expected(0, 1000)
                              ->excludes("--explicit");
   run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
+  run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
+  run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status and segment of every slave node in the JSON result");
+  run_app->add_option("--cut", run.cut, "take every step in two halves, or in one to four increments of random sizes")
+      ->check(CLI::IsMember({"halves", "random"}));
+  run_app->add_option("--seed", run.seed, "of --cut random")->capture_default_str();
+  run_app->add_flag("--discard", run.discard,
+                    "before the increments solve others (the whole step; with --cut random now and then some parts) and "
+                    "throw them away: the result must not change by a bit, see \"fingerprint\" in it");
+  run_app->add_option("--last-step", run.last_step, "stop after this step")->check(CLI::PositiveNumber);
+  run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
+      ->check(CLI::ExistingFile);
   add_common(*run_app);
   run_app->footer("Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
                   "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1.\n\n"
@@ -62,6 +74,12 @@ int main(int argc, char** argv) {
                   "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 plain segments\n"
                   "  ents-host run examples/westergaard/scene.json --compare             how the two converge to each other\n"
                   "  ents-host run examples/hertz3d/scene.json --json | jq .steps[-1].exact");
+
+  VariantsOptions variants;
+  CLI::App* variants_app =
+      app.add_subcommand("variants", "Solve a scene and all its variants; one table compares error, penetration, iterations, time");
+  variants_app->add_option("scene", variants.scene, "scene file with a key \"variants\"")->required();
+  add_common(*variants_app);
 
   VerifyOptions verify;
   CLI::App* verify_app =
@@ -94,6 +112,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (run_app->parsed()) return run_command(common, run);
+    if (variants_app->parsed()) return variants_command(common, variants);
     if (verify_app->parsed()) return verify_command(common, verify);
     return check_command(common, check);
   } catch (const InputError& error) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "smoothing.hpp"
+
 namespace host {
 namespace {
 
@@ -20,6 +22,10 @@ void check_sizes(const Scene& scene, const EntsModel& model, std::size_t nodes, 
   if (nodes != static_cast<std::size_t>(layout.nodes))
     throw InputError(place + ": the model's segment has " + std::to_string(layout.nodes) +
                      " nodes, here are " + std::to_string(nodes));
+}
+
+bool is_smoothed_line(const Json& model) {
+  return model.contains("segment") && (model.at("segment") == "catmull_rom4" || model.at("segment") == "bspline4");
 }
 
 bool has_triangles(const Json& model) {
@@ -59,11 +65,19 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   const auto found = mesh.face_sets.find(contact.master);
   if (found == mesh.face_sets.end() || found->second.empty())
     throw InputError(contact.master_where + ": no faces \"" + contact.master + "\" in the mesh");
-  for (const Face& face : found->second) {
-    check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
-    master.nodes.insert(master.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+  if (is_smoothed_line(contact.model)) {
+    check_sizes(scene, *master.model, 4, contact.master_where);
+    master.nodes = smoothed_lines(found->second, contact.master_where);
+  } else {
+    for (const Face& face : found->second) {
+      check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
+      master.nodes.insert(master.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+    }
   }
   master.segments = found->second.size();
+  for (const int node : contact.surface_axes.empty() ? std::vector<int>{} : master.nodes)
+    for (const int axis : contact.surface_axes)
+      master.surface_coordinates.push_back(mesh.node(node)[static_cast<std::size_t>(axis)]);
   return master;
 }
 

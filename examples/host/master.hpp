@@ -19,6 +19,7 @@ struct Master {
   std::size_t segments = 0;
   std::vector<double> positions; ///< rigid: [segments][m][d], before the master moves
   std::vector<int> nodes;        ///< deformable: [segments][m] nodes of the mesh
+  std::vector<double> surface_coordinates; ///< deformable: [segments][m][d-1], or empty: the model's own, else s = xi
   std::vector<double> direction; ///< rigid: unit vector of its motion
   bool triangles = false;        ///< natural coordinates: unit triangle, else [-1, 1] per direction
   double border = 1;             ///< natural coordinate at which a segment ends and its margin begins

@@ -4,32 +4,59 @@
 #include <cmath>
 #include <limits>
 
+#include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
 
 namespace host {
-namespace {
-
-/// Master segments are chosen anew during the first iterations and then kept: a node beside a kink of a plain
-/// mesh could otherwise change sides for ever.
-constexpr int free_choices = 4;
-
-} // namespace
-
 bool Simulation::force_controlled() const {
   return scene_->control == Control::force || scene_->control == Control::mean_pressure;
 }
 
 void Simulation::prescribe(Configuration& at) const {
   const double all_copies = at.force * scene_->symmetry_copies;
-  for (std::size_t dof = 0; dof < at.displacement.size(); ++dof)
-    if (dofs_->equation(dof) < 0)
-      at.displacement[dof] = prescribed_[dof] * at.load_factor +
-                             (half_space_.empty() ? 0 : half_space_[dof] * all_copies);
+  // Nodes tied to a prescribed one have no equation either, and no value of their own.
+  const auto follow = [&](std::size_t dof) { return half_space_.empty() ? 0 : half_space_[dof] * all_copies; };
+  for (std::size_t dof = 0; dof < half_space_.size(); ++dof)
+    if (dofs_->equation(dof) < 0) at.displacement[dof] = follow(dof);
+  for (const Prescribed& support : prescribed_)
+    at.displacement[support.dof] = support.value * support.path->at(at.load_factor) + follow(support.dof);
+}
+
+std::vector<double> Simulation::loads(double load_factor) const {
+  std::vector<double> sum(static_cast<std::size_t>(dofs_->dofs()), 0.0);
+  for (const Load& load : loads_) {
+    const double factor = load.path->at(load_factor);
+    for (std::size_t dof = 0; dof < sum.size(); ++dof) sum[dof] += factor * load.force[dof];
+  }
+  return sum;
+}
+
+bool Simulation::choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor) {
+  if (!contact_) return true;
+  const Stopwatch watch;
+  auto report = ents_struct<ents_report>();
+  const bool changed = contact_->choose(at, only_lost, report);
+  if (changed && !contact_->master().rigid) build_pattern();
+  timings_.contact += watch.seconds();
+  if (report.status == ENTS_OK) return true;
+  reason = describe(contact_->master().model->library(), report.status, report);
+  step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
+  return false;
+}
+
+double Simulation::relative_residual(const Evaluation& at) const {
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
+  const auto dofs = static_cast<std::size_t>(dofs_->dofs());
+  for (std::size_t i = 0; i < at.residual.size(); ++i) // gaps times area become forces
+    if (const int row = equation(i); row >= 0)
+      residual[row] += at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
+  const double norm = residual.norm();
+  return norm == 0 ? 0 : norm / at.force_scale;
 }
 
 void Simulation::find_contact(Configuration& at) {
-  const ContactFields fields = contact_->fields(at.displacement, at.motion);
+  const ContactFields fields = contact_->fields(at);
   double smallest = std::numeric_limits<double>::infinity(), sum = 0;
   std::size_t count = 0;
   for (const double gap : fields.gap)
@@ -44,8 +71,9 @@ void Simulation::find_contact(Configuration& at) {
 Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
                                             bool want_tangent) {
   Evaluation result;
-  result.residual.assign(at.displacement.size(), 0.0);
+  result.residual.assign(at.displacement.size() + at.multiplier.size(), 0.0);
   double squared_contact = 0;
+  std::size_t group = bulk_stencils_.size();
   {
     const Stopwatch watch;
     // The tangent of a linear bulk is assembled once.
@@ -63,13 +91,20 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
       return result;
     }
   }
+  if (!springs_.empty()) {
+    for (std::size_t dof = 0; dof < springs_.size(); ++dof) {
+      result.residual[dof] += springs_[dof] * (at.displacement[dof] + (direction.empty() ? 0 : direction[dof]));
+      if (want_tangent) system_->add(group, dof, &springs_[dof]);
+    }
+    ++group;
+  }
   if (contact_) {
     const Stopwatch watch;
     auto report = ents_struct<ents_report>();
     RigidCoupling* coupling = contact_->master().rigid ? &result.coupling : nullptr;
     const std::int32_t status =
-        contact_->assemble(at.displacement, at.motion, result.residual, want_tangent ? system_.get() : nullptr,
-                           bulk_stencils_.size(), coupling, squared_contact, report);
+        contact_->assemble(at, result.residual, want_tangent ? system_.get() : nullptr, group, coupling,
+                           squared_contact, report);
     timings_.contact += watch.seconds();
     if (status != ENTS_OK) {
       result.reason = describe(contact_->master().model->library(), status, report);
@@ -78,10 +113,10 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     }
   }
   double squared_loads = 0, squared_reactions = 0;
-  for (std::size_t dof = 0; dof < result.residual.size(); ++dof) {
-    const double load = at.load_factor * loads_[dof];
-    result.residual[dof] -= load;
-    squared_loads += load * load;
+  const std::vector<double> load = loads(at.load_factor);
+  for (std::size_t dof = 0; dof < load.size(); ++dof) {
+    result.residual[dof] -= load[dof];
+    squared_loads += load[dof] * load[dof];
     if (dofs_->equation(dof) < 0) squared_reactions += result.residual[dof] * result.residual[dof];
   }
   result.force_scale = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
@@ -95,14 +130,14 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
   bool ok = !factorize || solver_->factorize(system_->matrix());
   if (ok) {
     // Tied dofs add their residuals in one equation.
-    Eigen::VectorXd residual = Eigen::VectorXd::Zero(dofs_->size()), column = residual, row = residual;
-    for (std::size_t dof = 0; dof < at.residual.size(); ++dof) {
-      const int equation = dofs_->equation(dof);
-      if (equation < 0) continue;
-      residual[equation] += at.residual[dof];
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations()), column = residual, row = residual;
+    for (std::size_t i = 0; i < at.residual.size(); ++i) {
+      const int at_row = equation(i);
+      if (at_row < 0) continue;
+      residual[at_row] += at.residual[i];
       if (at.coupling.column.empty()) continue;
-      column[equation] += at.coupling.column[dof];
-      row[equation] += at.coupling.row[dof];
+      column[at_row] += at.coupling.column[i];
+      row[at_row] += at.coupling.row[i];
     }
     Eigen::VectorXd step = solver_->solve(-residual - motion_step * column);
     double motion = motion_step;
@@ -116,14 +151,24 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
     // A pivot may be so small that nobody called it zero.
     ok = std::isfinite(motion) && step.allFinite();
     if (ok) next.motion += motion;
-    for (std::size_t dof = 0; dof < at.residual.size(); ++dof)
-      if (const int equation = dofs_->equation(dof); ok && equation >= 0) next.displacement[dof] += step[equation];
+    const std::size_t dofs = next.displacement.size();
+    for (std::size_t i = 0; ok && i < at.residual.size(); ++i)
+      if (const int row_of = equation(i); row_of >= 0)
+        (i < dofs ? next.displacement[i] : next.multiplier[i - dofs]) += step[row_of];
   }
   timings_.solver += watch.seconds();
   return ok;
 }
 
-NewtonOutcome Simulation::advance(const Target& target) {
+NewtonOutcome Simulation::advance(const Target& target, bool keep) {
+  if (scene_->solver.extrapolate && !rate_.empty()) {
+    NewtonOutcome outcome = attempt(target, keep, true);
+    if (outcome.converged) return outcome;
+  }
+  return attempt(target, keep, false);
+}
+
+NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapolate) {
   const Stopwatch watch;
   NewtonOutcome outcome;
   Configuration at = now_, next = now_;
@@ -134,25 +179,22 @@ NewtonOutcome Simulation::advance(const Target& target) {
   if (scene_->control == Control::mean_pressure) next.force = target.value * contact_area();
   const double motion_step = scene_->control == Control::approach ? target.value - now_.motion : 0;
 
-  const auto choose = [&](const Configuration& configuration) {
-    if (!contact_) return;
-    const Stopwatch contact_watch;
-    const bool changed = contact_->choose(configuration.displacement, configuration.motion);
-    if (changed && !contact_->master().rigid) build_pattern();
-    timings_.contact += contact_watch.seconds();
-  };
   const auto fail = [&](const std::string& reason, double factor) {
     outcome.reason = reason, outcome.step_factor = factor;
     timings_.total += watch.seconds();
     return outcome;
   };
 
-  choose(at);
+  if (contact_) contact_->begin_increment(now_);
+  if (!choose(at, false, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
   if (by_force && now_.force <= 0) {
     find_contact(at);
     next.motion = at.motion;
   }
-  // First the tangent at the present configuration takes the whole jump of loads and prescribed values ...
+  // First the tangent at the present configuration takes the whole jump of loads and prescribed values, or the motion
+  // of the last increment goes on: a sliding contact whose tangent sticks would drag the surfaces along ...
+  const double size = target.load_factor - now_.load_factor;
+  for (std::size_t i = 0; extrapolate && i < next.displacement.size(); ++i) next.displacement[i] += size * rate_[i];
   prescribe(next);
   std::vector<double> jump(at.displacement.size(), 0.0);
   bool jumps = false;
@@ -163,48 +205,82 @@ NewtonOutcome Simulation::advance(const Target& target) {
     }
   if (!jumps) jump.clear();
   at.load_factor = next.load_factor;
-  // A guess: the factors left by the last increment serve it as well as new ones.
+  // A guess: the factors left by the last increment serve it as well as new ones. Not where history counts: a run
+  // must end with the same bits whatever was tried in between, and factors depend on what was tried.
   const bool factorize = !factors_fit_;
   factors_fit_ = false;
-  Evaluation state = evaluate(at, jump, factorize);
-  if (!state.ok) return fail(state.reason, state.step_factor);
+  Evaluation state;
   const auto error_of = [&](const Evaluation& evaluation) {
     return by_force ? evaluation.coupling.force - next.force : 0;
   };
-  if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  if (!extrapolate) {
+    state = evaluate(at, jump, factorize);
+    if (!state.ok) return fail(state.reason, state.step_factor);
+    if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+  }
 
-  // ... then Newton's iteration.
+  // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
+  const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
-    if (iteration <= free_choices) choose(next);
+    // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs: beside a
+    // kink of a plain mesh they could otherwise change sides for ever.
+    if (outcome.augmentations.empty() && !choose(next, iteration > scene_->solver.segment_choices, outcome.reason,
+                                                 outcome.step_factor))
+      return fail(outcome.reason, outcome.step_factor);
     state = evaluate(next, {}, true);
     if (!state.ok) return fail(state.reason, state.step_factor);
-    Eigen::VectorXd residual = Eigen::VectorXd::Zero(dofs_->size());
-    for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-      if (const int equation = dofs_->equation(dof); equation >= 0) residual[equation] += state.residual[dof];
-    const double norm = residual.norm();
-    double relative = norm == 0 ? 0 : norm / state.force_scale;
+    double relative = relative_residual(state);
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
-    outcome.residuals.push_back(relative);
-    outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
+    if (outcome.augmentations.empty()) {
+      outcome.residuals.push_back(relative);
+      outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
+    } else {
+      outcome.augmentations.back().iterations = iteration;
+    }
     if (!std::isfinite(relative)) return fail("the residual is not finite", 0.5);
     if (relative <= scene_->solver.tolerance) {
+      if (contact_ && contact_->augmentable()) {
+        const double error = contact_->augment(next, enough);
+        if (error > enough) {
+          if (static_cast<int>(outcome.augmentations.size()) == scene_->solver.max_augmentations)
+            return fail("no convergence of the multipliers in " + std::to_string(scene_->solver.max_augmentations) +
+                            " augmentations", 0.5);
+          outcome.augmentations.push_back({error, 0});
+          iteration = 0;
+          continue;
+        }
+        outcome.augmentations.push_back({error, 0});
+      }
+      outcome.converged = true;
+      timings_.total += watch.seconds();
+      if (!keep) return outcome;
       if (contact_) {
-        contact_->accept();
+        contact_->accept(next);
         if (contact_->master().rigid) next.force = state.coupling.force;
       }
+      if (scene_->solver.extrapolate && size != 0) {
+        rate_.resize(next.displacement.size());
+        for (std::size_t i = 0; i < rate_.size(); ++i)
+          rate_[i] = (next.displacement[i] - now_.displacement[i]) / size;
+      }
       now_ = next;
-      outcome.converged = factors_fit_ = true;
-      timings_.total += watch.seconds();
+      factors_fit_ = !contact_ || !contact_->has_history();
       return outcome;
     }
     if (!solve(state, true, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
   }
-  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations", 0.5);
+  // The last residuals tell a flip-flop (they come back) from a divergence (they grow).
+  std::string last;
+  for (std::size_t i = outcome.residuals.size() - std::min<std::size_t>(outcome.residuals.size(), 4);
+       i < outcome.residuals.size(); ++i)
+    last += " " + format_number(outcome.residuals[i], 2);
+  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations, residuals" + last, 0.5);
 }
 
 std::vector<double> Simulation::reactions() {
   Evaluation state = evaluate(now_, {}, false);
   if (!state.ok) throw JobError(state.reason);
+  state.residual.resize(now_.displacement.size()); // multipliers have no reactions
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
     if (dofs_->equation(dof) >= 0) state.residual[dof] = 0;
   return state.residual;

@@ -2,6 +2,7 @@
 #include "result.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -25,7 +26,26 @@ const char* control_name(Control control) {
   return "";
 }
 
-Json step_json(const StepRecord& record) {
+/// One array per field, in the order of the slave nodes.
+Json nodes_json(const StepRecord& record) {
+  const ContactFields& fields = record.fields;
+  const auto column = [](const std::vector<double>& values) {
+    Json array = Json::array();
+    for (const double value : values) array.push_back(number(value));
+    return array;
+  };
+  Json status = Json::array();
+  for (const std::int32_t flags : fields.flags) {
+    static constexpr std::array<const char*, 4> names{"open", "stick", "slip", "shear limit"};
+    status.push_back(names[static_cast<std::size_t>(status_number(flags))]);
+  }
+  return {{"position", column(record.positions)}, {"gap", column(fields.gap)},
+          {"normal_gap", column(fields.normal_gap)}, {"pressure", column(fields.pressure)},
+          {"traction", column(fields.traction)}, {"slip", column(fields.slip)},
+          {"age", column(fields.age)}, {"status", status}, {"segment", fields.segment}};
+}
+
+Json step_json(const StepRecord& record, bool nodes) {
   Json step{{"step", record.step},
             {"value", record.value},
             {"approach", record.approach},
@@ -34,6 +54,8 @@ Json step_json(const StepRecord& record) {
             {"contact_fraction", record.contact_fraction},
             {"peak_pressure", record.peak_pressure},
             {"mean_gap", number(record.mean_gap)},
+            {"penetration", record.penetration},
+            {"contact_force", record.contact_force},
             {"iterations", record.iterations()},
             {"cuts", record.cuts},
             {"wall_time", record.wall_time}};
@@ -45,7 +67,11 @@ Json step_json(const StepRecord& record) {
                                   {"status_changes", increment.status_changes},
                                   {"last_reductions", {number(rate.before), number(rate.last)}},
                                   {"order", number(rate.order)}});
+    for (const Augmentation& augmentation : increment.augmentations)
+      step["increments"].back()["augmentations"].push_back(
+          {{"error", augmentation.error}, {"iterations", augmentation.iterations}});
   }
+  if (nodes) step["nodes"] = nodes_json(record);
   step["exact"] = Json::array();
   for (const Quantity& quantity : record.exact)
     step["exact"].push_back({{"name", quantity.name},
@@ -58,7 +84,13 @@ Json step_json(const StepRecord& record) {
 
 } // namespace
 
-Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records) {
+int status_number(std::int32_t flags) {
+  if ((flags & ENTS_FLAG_CONTACT) == 0) return 0;
+  if ((flags & ENTS_FLAG_SLIP) == 0) return 1;
+  return (flags & ENTS_FLAG_SHEAR_LIMIT) == 0 ? 2 : 3;
+}
+
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes) {
   const Scene& scene = simulation.scene();
   const Sizes sizes = simulation.sizes();
   const Timings& timings = simulation.timings();
@@ -83,8 +115,9 @@ Json result_json(const Simulation& simulation, const std::vector<StepRecord>& re
                 {"contact", timings.contact},
                 {"solver", timings.solver},
                 {"total", timings.total}}}};
+  result["fingerprint"] = simulation.fingerprint();
   result["steps"] = Json::array();
-  for (const StepRecord& record : records) result["steps"].push_back(step_json(record));
+  for (const StepRecord& record : records) result["steps"].push_back(step_json(record, nodes));
   return result;
 }
 
@@ -98,6 +131,8 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
   } else {
     table.column("load factor");
   }
+  const bool pair = scene.contact && !rigid;
+  if (pair) table.column("normal force", scene.units.force).column("tangential", scene.units.force);
   if (scene.contact) {
     table.column("peak pressure", scene.units.pressure).column("contact", "%", 3);
     table.column("mean gap", scene.units.length);
@@ -109,6 +144,12 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
       row.insert(row.end(), {record.approach, record.force, record.mean_pressure});
     else
       row.emplace_back(record.value);
+    if (pair) {
+      const std::vector<double>& force = record.contact_force; // the last axis is the normal one in our scenes
+      double squared = 0;
+      for (std::size_t i = 0; i + 1 < force.size(); ++i) squared += force[i] * force[i];
+      row.insert(row.end(), {-force.back(), std::sqrt(squared)});
+    }
     if (scene.contact)
       row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, record.mean_gap});
     const Convergence rate = convergence(record.increments.back().residuals);

@@ -15,7 +15,11 @@
 namespace host {
 
 /// The whole run. examples/host/README.md describes the keys.
-Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records);
+/// @param nodes  with the fields of every slave node in every step
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes = false);
+
+/// 0 open, 1 stick (without friction: closed), 2 slip, 3 slip at the shear limit.
+int status_number(std::int32_t flags);
 
 /// One row per step.
 Table result_table(const Scene& scene, const std::vector<StepRecord>& records);

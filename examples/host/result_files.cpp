@@ -42,6 +42,13 @@ vtu::Grid slave_grid(Simulation& simulation, const StepRecord& record) {
   grid.point_data.push_back({with_unit("pressure", units.pressure), 1, record.fields.pressure});
   grid.point_data.push_back({"normal", d, record.fields.normal});
   grid.point_data.push_back({"area", 1, simulation.contact()->areas()});
+  grid.point_data.push_back({with_unit("traction", units.pressure), d, record.fields.traction});
+  grid.point_data.push_back({with_unit("slip", units.length), 1, record.fields.slip});
+  grid.point_data.push_back({"age", 1, record.fields.age});
+  grid.point_data.push_back({"segment", 1, {record.fields.segment.begin(), record.fields.segment.end()}});
+  std::vector<double> status; // 0 open, 1 stick, 2 slip, 3 slip at the shear limit
+  for (const std::int32_t flags : record.fields.flags) status.push_back(status_number(flags));
+  grid.point_data.push_back({"status", 1, std::move(status)});
   return grid;
 }
 

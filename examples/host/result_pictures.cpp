@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "friction_pictures.hpp"
 #include "output/pictures.hpp"
 #include "result.hpp"
 
@@ -245,19 +246,28 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
   };
   std::vector<std::vector<double>> residuals;
   std::vector<std::string> labels;
-  for (const StepRecord& record : records) {
-    residuals.push_back(record.increments.back().residuals);
-    labels.push_back("step " + std::to_string(record.step));
+  const std::size_t every = 1 + records.size() / 13; // of many steps a dozen
+  for (std::size_t i = records.size() % every; i < records.size(); i += every) {
+    residuals.push_back(records[i].increments.back().residuals);
+    labels.push_back("step " + std::to_string(records[i].step));
   }
   note(draw(pictures::residual_history("Newton's iteration", residuals, labels), folder, "residuals"));
   if (simulation.contact() == nullptr) return problems;
   const ExactSpec::Type type = simulation.scene().exact.type;
+  if (simulation.scene().control == Control::load_factor && records.size() > 1)
+    note(draw(force_history(simulation.scene(), records), folder, "force"));
+  if (type == ExactSpec::Type::slope) return problems;
+  if (type == ExactSpec::Type::cattaneo) {
+    note(draw(partial_slip_profile(simulation, records.back()), folder, "traction"));
+    return problems;
+  }
   if (type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine)
     note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
   if (type == ExactSpec::Type::westergaard)
     note(draw(westergaard_curve(simulation, records), folder, "westergaard"));
   if (type == ExactSpec::Type::hertz_point) note(draw(force_curve(simulation, records), folder, "force"));
-  if (type == ExactSpec::Type::none || type == ExactSpec::Type::double_sine) {
+  if (simulation.scene().control != Control::load_factor &&
+      (type == ExactSpec::Type::none || type == ExactSpec::Type::double_sine)) {
     note(draw(against_pressure(simulation, records, false), folder, "contact_fraction"));
     note(draw(against_pressure(simulation, records, true), folder, "mean_gap"));
     if (const pictures::Maps maps = surface_maps(simulation, records.back()); !maps.maps.empty())

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "output/table.hpp"
 #include "stopwatch.hpp"
@@ -17,12 +18,51 @@ namespace {
 double first_touch(Simulation& simulation) {
   Contact* contact = simulation.contact();
   if (contact == nullptr || !contact->master().rigid) return 0;
-  const ContactFields fields = contact->fields(simulation.now().displacement, 0);
+  Configuration at = simulation.now();
+  std::fill(at.displacement.begin(), at.displacement.end(), 0.0);
+  at.motion = 0;
+  const ContactFields fields = contact->fields(at);
   double smallest = std::numeric_limits<double>::infinity();
   for (const double gap : fields.gap)
     if (gap < smallest) smallest = gap;
   return std::isfinite(smallest) ? smallest : 0;
 }
+
+/// The increments of a step under a plan, as parts of the step.
+class StepParts {
+public:
+  explicit StepParts(const StepPlan& plan) : plan_(plan), random_(plan.seed), discards_(plan.seed + 1) {}
+
+  void next_step() {
+    ends_ = {1};
+    if (plan_.cut == StepPlan::Cut::halves) ends_ = {0.5, 1};
+    if (plan_.cut != StepPlan::Cut::random) return;
+    const int count = 1 + static_cast<int>(random_() % 4);
+    for (int i = 1; i < count; ++i) ends_.push_back(fraction(random_));
+    std::sort(ends_.begin(), ends_.end());
+  }
+  double size(double done) const {
+    for (const double end : ends_)
+      if (end > done + 1e-9) return end - done;
+    return 1 - done;
+  }
+  /// What to try before the next increment and to throw away: ends of increments.
+  std::vector<double> discarded(double done) {
+    if (!plan_.discard) return {};
+    if (plan_.cut != StepPlan::Cut::random) return {1};
+    std::vector<double> ends;
+    if (discards_() % 10 < 3) // 30 % of the increments, one to three tries
+      for (auto i = 1 + discards_() % 3; i > 0; --i) ends.push_back(done + (1 - done) * fraction(discards_));
+    return ends;
+  }
+
+private:
+  static double fraction(std::mt19937& random) { return 0.05 + 0.9 * static_cast<double>(random()) / 4294967296.; }
+
+  StepPlan plan_;
+  std::mt19937 random_, discards_;
+  std::vector<double> ends_;
+};
 
 std::string step_line(const Scene& scene, const StepRecord& record) {
   std::string text = "step " + std::to_string(record.step) + "/" + std::to_string(scene.steps.size());
@@ -56,14 +96,25 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   if (contact == nullptr) return;
   const Scene& scene = simulation.scene();
   const auto d = static_cast<std::size_t>(scene.dimension);
-  record.fields = contact->fields(simulation.now().displacement, simulation.now().motion);
+  record.fields = contact->accepted();
+  record.contact_force = record.fields.force;
+  for (double& component : record.contact_force) component *= scene.symmetry_copies;
   record.force = simulation.now().force * scene.symmetry_copies;
   record.approach = simulation.now().motion - touch;
   record.mean_pressure = simulation.now().force / simulation.contact_area();
+  if (!contact->master().rigid) { // the load is not ours to prescribe: what the contact carries, in size
+    double squared = 0;
+    for (const double component : record.contact_force) squared += component * component;
+    record.force = std::sqrt(squared);
+    record.mean_pressure = record.force / (simulation.contact_area() * scene.symmetry_copies);
+  }
   double closed = 0, gap = 0, gap_area = 0;
   for (std::size_t k = 0; k < contact->slaves().size(); ++k) {
     const double area = contact->areas()[k];
-    if (record.fields.closed[k]) closed += area;
+    if (record.fields.closed[k]) {
+      closed += area;
+      record.penetration = std::max(record.penetration, std::abs(record.fields.gap[k]));
+    }
     if (!std::isnan(record.fields.gap[k])) gap += area * record.fields.gap[k], gap_area += area;
     record.peak_pressure = std::max(record.peak_pressure, record.fields.pressure[k]);
     for (std::size_t i = 0; i < d; ++i) {
@@ -98,18 +149,31 @@ bool quadratic(const std::vector<double>& residuals, double constant, double flo
 
 int StepRecord::iterations() const {
   return std::accumulate(increments.begin(), increments.end(), 0, [](int sum, const IncrementRecord& increment) {
+    for (const Augmentation& augmentation : increment.augmentations) sum += augmentation.iterations;
     return sum + static_cast<int>(increment.residuals.size());
   });
 }
 
 SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   const Contact& contact = *simulation.contact();
+  const auto d = static_cast<std::size_t>(simulation.mesh().dimension);
   SurfaceState state;
   for (const int node : contact.slaves()) {
     const auto position = simulation.mesh().node(node);
     state.distance.push_back(simulation.mesh().dimension == 2 ? std::abs(position[0])
                                                               : std::hypot(position[0], position[1]));
   }
+  state.load.assign(d, 0.0);
+  const std::vector<double> loads = simulation.loads(simulation.now().load_factor);
+  for (std::size_t dof = 0; dof < loads.size(); ++dof) state.load[dof % d] += loads[dof];
+  for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
+    const auto node = static_cast<std::size_t>(contact.slaves()[k]);
+    state.place.push_back(simulation.mesh().coordinates[node * d]);
+    state.moved.push_back(simulation.now().displacement[node * d]);
+    state.shear.push_back(record.fields.traction[k * d]);
+    state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);
+  }
+  state.contact_force = record.fields.force;
   state.pressure = record.fields.pressure;
   state.area = contact.areas();
   state.closed = record.fields.closed;
@@ -119,30 +183,41 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   return state;
 }
 
-std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer) {
+std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer, const StepPlan& plan) {
   const Scene& scene = simulation.scene();
   const auto say = [&](const std::string& line) {
     if (observer.line) observer.line(line);
   };
   const double touch = first_touch(simulation);
   const double last = scene.steps.back();
+  const int steps = plan.last > 0 ? plan.last : static_cast<int>(scene.steps.size());
+  StepParts parts(plan);
   std::vector<StepRecord> records;
-  double from = 0;
-  for (const double to : scene.steps) {
+  for (int step = 1; step <= steps; ++step) {
+    const auto index = static_cast<std::size_t>(step - 1);
+    const double from = step == 1 ? 0 : scene.steps[index - 1], to = scene.steps[index];
+    // The last part ends on the step's value exactly, whatever rounding did to the sum of the parts.
+    const auto value_at = [&](double part) { return part >= 1 - 1e-12 ? to : from + (to - from) * part; };
+    const auto target_at = [&](double part) {
+      const double value = value_at(part);
+      if (scene.control == Control::load_factor) return Target{value, value};
+      return Target{value, last != 0 ? value / last : 1};
+    };
+    parts.next_step();
+    if (step < plan.first) continue; // drawn all the same: a run continued is the run itself
     const Stopwatch watch;
     StepRecord record;
-    record.step = static_cast<int>(records.size()) + 1;
+    record.step = step;
     record.value = to;
-    double done = 0, size = 1;
+    double done = 0, size = parts.size(done);
     while (done < 1) {
-      // The last part ends on the step's value exactly, whatever rounding did to the sum of the parts.
-      const bool complete = done + size >= 1 - 1e-12;
-      const double value = complete ? to : from + (to - from) * (done + size);
-      const NewtonOutcome outcome = simulation.advance({value, last != 0 ? value / last : 1});
+      for (const double other : parts.discarded(done)) simulation.advance(target_at(other), false);
+      const double part = done + size;
+      const NewtonOutcome outcome = simulation.advance(target_at(part));
       if (outcome.converged) {
-        record.increments.push_back({value, outcome.residuals, outcome.status_changes});
-        done = complete ? 1 : done + size;
-        size = std::min(2 * size, 1 - done);
+        record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
+        done = part >= 1 - 1e-12 ? 1 : part;
+        size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
         continue;
       }
       record.cuts.push_back(outcome.reason);
@@ -159,7 +234,6 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     say(step_line(scene, record));
     if (observer.step_done) observer.step_done(simulation, record);
     records.push_back(std::move(record));
-    from = to;
   }
   return records;
 }

@@ -16,6 +16,7 @@ struct IncrementRecord {
   double value = 0;              ///< of the control at its end
   std::vector<double> residuals; ///< relative, after each Newton iteration
   std::vector<int> status_changes; ///< slave nodes that opened or closed, at each iteration
+  std::vector<Augmentation> augmentations; ///< Uzawa
 };
 
 /// The last two residual reductions r[n-1]/r[n-2], r[n]/r[n-1], and the order of convergence they show:
@@ -39,6 +40,8 @@ struct StepRecord {
   double mean_pressure = 0;      ///< force / slave area
   double contact_fraction = 0;   ///< area of closed nodes / slave area
   double peak_pressure = 0, mean_gap = 0;
+  double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
+  std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
   std::vector<Quantity> exact;
   ContactFields fields;
   std::vector<double> positions; ///< [slaves][d] current
@@ -53,9 +56,23 @@ struct RunObserver {
   std::function<void(const Simulation&, const StepRecord&)> step_done;
 };
 
+/// How the steps are taken, and what is tried and thrown away on the way: the results must not change by a bit.
+struct StepPlan {
+  enum class Cut {
+    none,   ///< each step in one increment
+    halves, ///< each in two
+    random, ///< each in one to four of random sizes
+  };
+  Cut cut = Cut::none;
+  unsigned seed = 1;    ///< of the random sizes, and of what is thrown away
+  bool discard = false; ///< try the whole step (random: now and then, one to three other parts) before each increment
+  int first = 1;        ///< continue a run here: earlier steps are those of a checkpoint
+  int last = 0;         ///< 0: the scene's last
+};
+
 /// Solve all steps, cutting those that fail.
 /// @throws JobError when a step cannot be cut any further
-std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer);
+std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer, const StepPlan& plan = {});
 
 /// The state of the slave surface, for the exact solutions.
 SurfaceState surface_state(Simulation& simulation, const StepRecord& record);

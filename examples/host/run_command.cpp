@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host run: solve a scene, tell, and leave files.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -19,14 +20,39 @@ std::string headline(const Simulation& simulation) {
   return text;
 }
 
+/// @return the step it was written after
+int read_checkpoint(const std::filesystem::path& file, Simulation& simulation) {
+  Json json = parse_json_file(file);
+  const std::string where = file.string() + ": ";
+  const int step = JsonObject(JsonValue(json, where)).at("step").integer(1, static_cast<int>(simulation.scene().steps.size()));
+  json.erase("step");
+  try {
+    simulation.restore(json);
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  }
+  if (step == static_cast<int>(simulation.scene().steps.size()))
+    throw InputError(where + "the run is finished: this is the checkpoint of its last step");
+  return step;
+}
+
 } // namespace
 
 int run_command(const CommonOptions& common, const RunOptions& options) {
   if (options.compare) return compare_command(common, options);
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.variant);
   std::unique_ptr<EntsLibrary> library;
   if (scene.contact) library = std::make_unique<EntsLibrary>(common.library);
   Simulation simulation(scene, library.get(), options.explicit_divisions);
+
+  StepPlan plan;
+  plan.cut = options.cut == "halves" ? StepPlan::Cut::halves
+             : options.cut == "random" ? StepPlan::Cut::random
+                                       : StepPlan::Cut::none;
+  plan.seed = options.seed;
+  plan.discard = options.discard;
+  plan.last = std::min(options.last_step, static_cast<int>(scene.steps.size()));
+  if (!options.restart.empty()) plan.first = read_checkpoint(options.restart, simulation) + 1;
 
   RunObserver observer;
   if (!common.json)
@@ -43,10 +69,13 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     series = std::make_unique<vtu::Series>(options.out, "result");
     observer.step_done = [&](const Simulation&, const StepRecord& record) {
       write_step(*series, simulation, record);
+      Json checkpoint = simulation.checkpoint();
+      checkpoint["step"] = record.step;
+      write_text(options.out / "checkpoint.json", checkpoint.dump() + "\n");
     };
   }
-  const std::vector<StepRecord> records = solve(simulation, observer);
-  const Json result = result_json(simulation, records);
+  const std::vector<StepRecord> records = solve(simulation, observer, plan);
+  const Json result = result_json(simulation, records, options.nodes);
   std::vector<std::string> problems;
   if (!options.out.empty()) {
     write_text(options.out / "result.json", result.dump(2) + "\n");

@@ -84,6 +84,21 @@ PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& 
   return part;
 }
 
+/// [[load factor, factor], ...]
+Path read_path(JsonObject& object) {
+  Path path;
+  if (!object.has("path")) return path;
+  const JsonValue value = object.at("path");
+  for (const JsonValue& item : value.items()) {
+    const auto point = item.numbers(2);
+    if (!path.points.empty() && !(point[0] > path.points.back()[0]))
+      item.fail("load factors of a path ascend");
+    path.points.push_back({point[0], point[1]});
+  }
+  if (path.points.empty()) value.fail("at least one point [load factor, factor] is expected");
+  return path;
+}
+
 SupportSpec read_support(const JsonValue& value, int dimension) {
   static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
   JsonObject object(value);
@@ -97,6 +112,7 @@ SupportSpec read_support(const JsonValue& value, int dimension) {
     if (object.has(axis)) component = object.at(axis).number(), any = true;
   }
   if (!any) value.fail("give the displacement of at least one of the components x, y, z");
+  support.path = read_path(object);
   object.finish();
   return support;
 }
@@ -121,6 +137,16 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (master.has("faces")) {
     contact.master = master.at("faces").string();
     contact.master_where = master.at("faces").where();
+    if (master.has("surface_coordinates")) {
+      const JsonValue axes = master.at("surface_coordinates");
+      for (const JsonValue& item : axes.items()) {
+        const std::string axis = item.word(dimension == 2 ? std::vector<std::string>{"x", "y"}
+                                                          : std::vector<std::string>{"x", "y", "z"});
+        contact.surface_axes.push_back(axis == "x" ? 0 : axis == "y" ? 1 : 2);
+      }
+      if (static_cast<int>(contact.surface_axes.size()) != dimension - 1)
+        axes.fail("one reference coordinate per surface coordinate is expected: " + std::to_string(dimension - 1));
+    }
   } else {
     contact.rigid = read_nodes(master.at("nodes"), dimension);
     const JsonValue direction = master.at("direction");
@@ -148,12 +174,21 @@ ExactSpec read_exact(const JsonValue& value) {
   static const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
                                                  {"hertz_point", Type::hertz_point},
                                                  {"westergaard", Type::westergaard},
-                                                 {"double_sine", Type::double_sine}};
+                                                 {"double_sine", Type::double_sine},
+                                                 {"cattaneo", Type::cattaneo},
+                                                 {"slope", Type::slope}};
   JsonObject object(value);
   ExactSpec exact;
-  exact.type = types.at(object.at("type").word({"hertz_line", "hertz_point", "westergaard", "double_sine"}));
+  exact.type = types.at(object.at("type").word(
+      {"hertz_line", "hertz_point", "westergaard", "double_sine", "cattaneo", "slope"}));
   if (exact.type == Type::hertz_line || exact.type == Type::hertz_point) {
     exact.radius = object.at("radius").positive();
+  } else if (exact.type == Type::cattaneo) {
+    exact.radius = object.at("radius").positive();
+    exact.coefficient = object.at("coefficient").positive();
+    exact.distance = object.at("distance").positive();
+  } else if (exact.type == Type::slope) {
+    exact.coefficient = object.at("coefficient").positive();
   } else {
     exact.amplitude = object.at("amplitude").positive();
     exact.wavelength = object.at("wavelength").positive();
@@ -174,7 +209,18 @@ void read_steps(const JsonValue& value, Scene& scene) {
   if (scene.control != Control::load_factor && (!scene.contact || scene.contact->rigid.empty()))
     control.fail("only a rigid master can be moved; use load_factor");
   const JsonValue values = object.at("values");
-  scene.steps = values.numbers();
+  for (const JsonValue& item : values.items()) {
+    if (!item.is_object()) {
+      scene.steps.push_back(item.number());
+      continue;
+    }
+    JsonObject range(item); // {"to": 3, "count": 40}: equal steps from the value before
+    const double from = scene.steps.empty() ? 0 : scene.steps.back(), to = range.at("to").number();
+    const int count = range.at("count").integer(1, 1000000);
+    range.finish();
+    for (int i = 1; i < count; ++i) scene.steps.push_back(from + (to - from) * i / count);
+    scene.steps.push_back(to);
+  }
   if (scene.steps.empty()) values.fail("at least one step is expected");
   if (scene.control == Control::force || scene.control == Control::mean_pressure)
     for (const double step : scene.steps)
@@ -210,8 +256,19 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     for (const JsonValue& item : object.at("tractions").items()) {
       JsonObject traction(item);
       scene.tractions.push_back({traction.at("faces").string(), item.where(),
-                                 traction.at("value").numbers(static_cast<std::size_t>(scene.dimension))});
+                                 traction.at("value").numbers(static_cast<std::size_t>(scene.dimension)),
+                                 read_path(traction)});
       traction.finish();
+    }
+  if (object.has("springs"))
+    for (const JsonValue& item : object.at("springs").items()) {
+      JsonObject spring(item);
+      const JsonValue stiffness = spring.at("stiffness");
+      scene.springs.push_back({spring.at("faces").string(), item.where(),
+                               stiffness.numbers(static_cast<std::size_t>(scene.dimension))});
+      for (const double component : scene.springs.back().stiffness)
+        if (component < 0) stiffness.fail("stiffnesses are >= 0");
+      spring.finish();
     }
   if (object.has("periodic"))
     for (const JsonValue& item : object.at("periodic").items()) {
@@ -239,9 +296,15 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     scene.half_space = spec;
   }
   if (object.has("exact")) {
-    if (!scene.contact || scene.contact->rigid.empty())
-      object.at("exact").fail("the exact solutions are for contact with a rigid master");
+    using Type = ExactSpec::Type;
     scene.exact = read_exact(object.at("exact"));
+    if (!scene.contact) object.at("exact").fail("the exact solutions are for contact");
+    if (scene.exact.type == Type::cattaneo) {
+      if (scene.dimension != 2 || !scene.contact->rigid.empty())
+        object.at("exact").fail("\"cattaneo\" is for two elastic bodies in the plane");
+    } else if (scene.contact->rigid.empty()) {
+      object.at("exact").fail("this exact solution is for contact with a rigid master");
+    }
   }
   if (object.has("units")) {
     JsonObject units(object.at("units"));
@@ -254,6 +317,13 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
     scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
     scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
+    scene.solver.segment_choices = solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
+    scene.solver.extrapolate = solver.boolean_or("extrapolate", scene.solver.extrapolate);
+    if (scene.solver.extrapolate && scene.control != Control::load_factor)
+      solver.at("extrapolate").fail("only with steps that control the load factor");
+    scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
+    scene.solver.max_augmentations =
+        solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);
     solver.finish();
   }
   if (object.has("compare")) {
@@ -263,13 +333,37 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     scene.compare.error = compare.positive_or("error", scene.compare.error);
     compare.finish();
   }
+  if (object.has("variants")) {
+    JsonObject variants(object.at("variants"));
+    for (const std::string& name : variants.all_keys()) {
+      const JsonValue patch = variants.at(name);
+      if (!patch.is_object()) patch.fail("an object is expected: the keys of the scene that change");
+      scene.variants.push_back({name, patch.json()});
+    }
+  }
   object.finish();
   return scene;
 }
 
 } // namespace
 
-Scene read_scene(const std::filesystem::path& file) { return read(parse_json_file(file), file); }
+Scene read_scene(const std::filesystem::path& file, const std::string& variant) {
+  Json json = parse_json_file(file);
+  if (variant.empty()) return read(json, file);
+  const Scene plain = read(json, file);
+  std::string names;
+  for (const Variant& candidate : plain.variants) {
+    if (candidate.name == variant) {
+      json.merge_patch(candidate.patch);
+      Scene scene = read(json, file);
+      scene.title += ", " + variant;
+      return scene;
+    }
+    names += (names.empty() ? "" : ", ") + candidate.name;
+  }
+  throw InputError(file.string() + ": no variant \"" + variant + "\" in /variants; there are: " +
+                   (names.empty() ? "none" : names));
+}
 
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file) {
   return read(parse_json(text, file.string()), file);

@@ -10,6 +10,7 @@
 #include "element.hpp"
 #include "json_reader.hpp"
 #include "mesh.hpp"
+#include "path.hpp"
 
 namespace host {
 
@@ -23,10 +24,11 @@ struct PartSpec {
   std::string element_set;
 };
 
-/// Prescribed displacement components of a node set; they grow with the load factor.
+/// Prescribed displacement components of a node set; they follow the load factor along their path.
 struct SupportSpec {
   std::string nodes, where;
   std::vector<std::optional<double>> displacement; ///< [dimension]
+  Path path;
 };
 
 /// Outer boundary of a block that stands for a half-space: its nodes follow the half-space's displacement
@@ -38,10 +40,17 @@ struct HalfSpaceSpec {
   Material material;
 };
 
-/// Dead load per reference area; grows with the load factor.
+/// Dead load per reference area; follows the load factor along its path.
 struct TractionSpec {
   std::string faces, where;
   std::vector<double> value; ///< [dimension], force / area
+  Path path;
+};
+
+/// Elastic foundation: every component pulls back on its own.
+struct SpringSpec {
+  std::string faces, where;
+  std::vector<double> stiffness; ///< [dimension], force / length / reference area, >= 0
 };
 
 /// Opposite sides with the same displacement.
@@ -53,6 +62,7 @@ struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   std::vector<double> rigid;      ///< rigid master: [m][d], nodes of its one segment; empty: deformable
   std::string master, master_where; ///< deformable master: faces, each one segment
+  std::vector<int> surface_axes;  ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction;  ///< rigid master: unit vector of its motion
   Json model;                     ///< passed on to the library
   std::string model_where;
@@ -68,9 +78,11 @@ enum class Control {
 
 /// Which exact solution the result is held against.
 struct ExactSpec {
-  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine };
+  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope };
   Type type = Type::none;
-  double radius = 0;                    ///< hertz_line, hertz_point [L]
+  double radius = 0;                    ///< hertz_line, hertz_point, cattaneo [L]
+  double coefficient = 0;               ///< cattaneo, slope: friction
+  double distance = 0;                  ///< cattaneo: of the points that displacements are measured against [L]
   double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
 };
 
@@ -83,6 +95,16 @@ struct SolverSpec {
   double tolerance = 1e-10; ///< residual norm relative to the forces present
   int max_iterations = 25;
   double min_step = 1e-3; ///< smallest part of a step before the run gives up
+  bool extrapolate = false; ///< first guess: the motion of the last increment goes on
+  int segment_choices = 4; ///< Newton iterations that may choose segments anew
+  double gap_tolerance = 1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
+  int max_augmentations = 100;
+};
+
+/// A change of the scene under a name: a JSON merge patch (RFC 7386).
+struct Variant {
+  std::string name;
+  Json patch;
 };
 
 /// For --compare: the scene against explicit meshes of plain segments.
@@ -99,6 +121,7 @@ struct Scene {
   std::vector<SupportSpec> supports;
   std::optional<HalfSpaceSpec> half_space;
   std::vector<TractionSpec> tractions;
+  std::vector<SpringSpec> springs;
   std::vector<PeriodicSpec> periodic;
   std::optional<ContactSpec> contact;
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
@@ -108,10 +131,12 @@ struct Scene {
   UnitNames units;
   SolverSpec solver;
   CompareSpec compare;
+  std::vector<Variant> variants;
 };
 
+/// @param variant  one of the scene's own, or empty: the scene as it is
 /// @throws InputError naming the file and the JSON path
-Scene read_scene(const std::filesystem::path& file);
+Scene read_scene(const std::filesystem::path& file, const std::string& variant = {});
 
 /// The same from text; `file` stands for it in messages and gives the folder.
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file);

@@ -76,12 +76,18 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
   build_mesh();
   build_equations();
   build_contact(library, divisions);
-  const bool symmetric = !contact_ || contact_->symmetric_tangent();
-  system_ = std::make_unique<SparseSystem>(dofs_->size(), symmetric);
+  // Multipliers make a symmetric system indefinite: nothing for Cholesky.
+  const bool symmetric = !contact_ || (contact_->symmetric_tangent() && contact_->multipliers() == 0);
+  system_ = std::make_unique<SparseSystem>(equations(), symmetric);
   solver_ = LinearSolver::create(symmetric);
   bulk_stencils_ = bulk_->stencils(*dofs_);
   now_.displacement.assign(static_cast<std::size_t>(dofs_->dofs()), 0.0);
-  if (contact_) contact_->choose(now_.displacement, now_.motion);
+  if (contact_) {
+    now_.multiplier.assign(contact_->multiplier_count(), 0.0);
+    contact_->begin_increment(now_);
+    auto report = ents_struct<ents_report>();
+    contact_->choose(now_, false, report);
+  }
   build_pattern();
   timings_.setup += watch.seconds();
   timings_.total += watch.seconds();
@@ -105,8 +111,6 @@ void Simulation::build_equations() {
   dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension);
   const auto d = static_cast<std::size_t>(mesh_.dimension);
   const std::size_t total = static_cast<std::size_t>(mesh_.node_count()) * d;
-  prescribed_.assign(total, 0.0);
-  loads_.assign(total, 0.0);
   for (const PeriodicSpec& spec : scene_->periodic)
     for (const auto& [node, owner] : opposite_nodes(mesh_, spec)) dofs_->tie(node, owner);
   for (const SupportSpec& support : scene_->supports)
@@ -114,7 +118,7 @@ void Simulation::build_equations() {
       for (std::size_t i = 0; i < d; ++i)
         if (support.displacement[i]) {
           dofs_->prescribe(node, static_cast<int>(i));
-          prescribed_[static_cast<std::size_t>(node) * d + i] = *support.displacement[i];
+          prescribed_.push_back({static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
         }
   if (scene_->half_space) {
     half_space_.assign(total, 0.0);
@@ -130,15 +134,23 @@ void Simulation::build_equations() {
         }
       }
   }
-  for (const TractionSpec& traction : scene_->tractions) {
-    const std::vector<Face>& faces = find_faces(mesh_, traction.faces, traction.where + "/faces");
+  const auto add_by_area = [&](const std::string& name, const std::string& where, const std::vector<double>& value,
+                               std::vector<double>& sum) {
+    const std::vector<Face>& faces = find_faces(mesh_, name, where + "/faces");
     const std::vector<int> nodes = nodes_of(faces);
     const ElementSetup& setup = scene_->parts.front().setup;
     const auto areas = tributary_areas(mesh_, faces, nodes, setup.thickness,
                                        setup.formulation == Formulation::axisymmetric);
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (std::size_t i = 0; i < d; ++i)
-        loads_[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * traction.value[i];
+      for (std::size_t i = 0; i < d; ++i) sum[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * value[i];
+  };
+  for (const TractionSpec& traction : scene_->tractions) {
+    loads_.push_back({std::vector<double>(total, 0.0), &traction.path});
+    add_by_area(traction.faces, traction.where, traction.value, loads_.back().force);
+  }
+  for (const SpringSpec& spring : scene_->springs) {
+    springs_.resize(total, 0.0);
+    add_by_area(spring.faces, spring.where, spring.stiffness, springs_);
   }
   dofs_->number();
   if (dofs_->size() == 0) throw InputError(scene_->file.string() + ": /supports leave nothing to solve for");
@@ -154,17 +166,25 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions) {
   Master master = divisions > 0 ? explicit_master(*library, *scene_, divisions)
                                 : scene_master(*library, *scene_, mesh_);
   const ElementSetup& setup = scene_->parts.front().setup;
-  contact_ = std::make_unique<Contact>(std::move(master), mesh_, *dofs_, slaves, setup.thickness,
+  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, slaves, setup.thickness,
                                        setup.formulation == Formulation::axisymmetric);
 }
 
 void Simulation::build_pattern() {
   std::vector<const StencilGroup*> groups;
   for (const StencilGroup& group : bulk_stencils_) groups.push_back(&group);
-  StencilGroup contact;
+  // In the order in which `evaluate` counts them: bulk, springs, contact elements, multipliers without an element.
+  StencilGroup springs, contact, idle;
+  if (!springs_.empty()) {
+    springs.dofs = 1;
+    for (std::size_t dof = 0; dof < springs_.size(); ++dof) springs.equations.push_back(dofs_->equation(dof));
+    groups.push_back(&springs);
+  }
   if (contact_) {
     contact = contact_->stencil();
+    idle = contact_->idle_stencil();
     groups.push_back(&contact);
+    groups.push_back(&idle);
   }
   system_->build(groups);
   solver_->analyze(system_->matrix());
@@ -177,7 +197,7 @@ Sizes Simulation::sizes() const {
   sizes.nodes = static_cast<std::size_t>(mesh_.node_count());
   for (const ElementGroup& group : mesh_.groups) sizes.elements += group.size();
   sizes.dofs = static_cast<std::size_t>(dofs_->dofs());
-  sizes.equations = static_cast<std::size_t>(dofs_->size());
+  sizes.equations = static_cast<std::size_t>(equations());
   if (contact_) {
     const Master& master = contact_->master();
     sizes.slaves = contact_->slaves().size();

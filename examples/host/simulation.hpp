@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bulk.hpp"
+#include "configuration.hpp"
 #include "contact.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
@@ -30,24 +31,23 @@ struct Sizes {
   std::size_t master_dofs = 0; ///< coordinates of distinct master nodes
 };
 
-/// Where the system is.
-struct Configuration {
-  std::vector<double> displacement; ///< [dofs]
-  double motion = 0;                ///< of the rigid master along its direction [L]
-  double force = 0;                 ///< on the rigid master along its direction, this mesh's share [F]
-  double load_factor = 0;           ///< of supports and tractions
-};
-
 /// What an increment aims at.
 struct Target {
   double value = 0; ///< of the scene's control
   double load_factor = 0;
 };
 
+/// Uzawa: one solution with given multipliers.
+struct Augmentation {
+  double error = 0;   ///< largest change of a multiplier over the stiffness: penetration or elastic slip [L]
+  int iterations = 0; ///< of Newton, after the change
+};
+
 struct NewtonOutcome {
   bool converged = false;
-  std::vector<double> residuals; ///< relative to the forces present, after each iteration
+  std::vector<double> residuals; ///< relative to the forces present, after each iteration; Uzawa: before the first change
   std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
+  std::vector<Augmentation> augmentations;
   std::string reason;            ///< why it failed
   double step_factor = 0.5;      ///< suggested for the next try
 };
@@ -69,7 +69,18 @@ public:
   std::string solver_name() const { return solver_->name(); }
 
   /// Solve for the target, starting from the present configuration, which moves only on success.
-  NewtonOutcome advance(const Target& target);
+  /// @param keep  false: throw the solution away; nothing that later increments see has changed
+  NewtonOutcome advance(const Target& target, bool keep = true);
+
+  /// The configuration and the contact's history as JSON that reads back to the same bits, and back.
+  Json checkpoint() const;
+  /// @throws InputError if the checkpoint is of another scene, or damaged
+  void restore(const Json& checkpoint);
+  /// A number that differs whenever a bit of the configuration or the history does (FNV-1a, hexadecimal).
+  std::string fingerprint() const;
+
+  /// Dead loads at the present load factor, [dofs].
+  std::vector<double> loads(double load_factor) const;
 
   /// Total area of the slave surface in this mesh.
   double contact_area() const { return contact_ ? contact_->total_area() : 0; }
@@ -91,6 +102,16 @@ private:
   void build_equations();
   void build_contact(const EntsLibrary* library, int divisions);
   void build_pattern();
+  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate);
+  /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.
+  int equation(std::size_t unknown) const {
+    const auto dofs = static_cast<std::size_t>(dofs_->dofs());
+    return unknown < dofs ? dofs_->equation(unknown) : dofs_->size() + static_cast<int>(unknown - dofs);
+  }
+  int equations() const { return dofs_->size() + (contact_ ? static_cast<int>(contact_->multiplier_count()) : 0); }
+  /// Segments for the configuration, and the pattern that goes with them. False: see `reason`, cut the step.
+  bool choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor);
+  double relative_residual(const Evaluation& at) const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
@@ -110,10 +131,21 @@ private:
   std::unique_ptr<LinearSolver> solver_;
   std::vector<double> bulk_values_; ///< tangent of a linear bulk
   bool factors_fit_ = false;        ///< the solver holds factors of a tangent close to the present one
-  std::vector<double> prescribed_;  ///< [dofs] per load factor
-  std::vector<double> half_space_;  ///< [dofs] per force of all copies, or empty
-  std::vector<double> loads_;       ///< [dofs] per load factor
+  struct Prescribed {
+    std::size_t dof;
+    double value;
+    const Path* path;
+  };
+  struct Load {
+    std::vector<double> force; ///< [dofs] at factor 1
+    const Path* path;
+  };
+  std::vector<Prescribed> prescribed_;
+  std::vector<double> half_space_; ///< [dofs] per force of all copies, or empty
+  std::vector<Load> loads_;
+  std::vector<double> springs_; ///< [dofs] stiffness against the ground, or empty
   Configuration now_;
+  std::vector<double> rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
   Timings timings_;
 };
 
