@@ -132,7 +132,7 @@ TEST(Friction, RoughNeverSlipsAndShearLimitCaps) {
 }
 
 // The symmetrised tangent goes to Cholesky, takes more iterations, and ends at the same solution. It is a
-// fixed-point iteration whose rate grows with mu: here it converges at mu = 0.1 and does not at 0.3 once all
+// fixed-point iteration whose rate grows with mu: here it converges at mu = 0.05 and does not at 0.1 once all
 // nodes slip.
 TEST(Friction, SymmetrisedTangentEndsAtTheSameForces) {
   Json slippery = coulomb;

@@ -92,7 +92,7 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
 
 struct LawResults {
   std::vector<std::int32_t> status, flags;
-  std::vector<double> residual, tangent, pressure, traction, state;
+  std::vector<double> gap, residual, tangent, pressure, traction, state;
 };
 
 inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r) {
@@ -103,6 +103,7 @@ inline void evaluate(const mechanics::Model& model, const LawElements& e, std::i
   sized(r.flags, 1);
   sized(r.residual, n);
   if (wanted & ENTS_TANGENT) sized(r.tangent, n * n);
+  sized(r.gap, 1);
   sized(r.pressure, 1);
   sized(r.traction, d);
   sized(r.state, l.state_size);
@@ -131,6 +132,8 @@ inline void evaluate(const mechanics::Model& model, const LawElements& e, std::i
   out.residual_stride = n;
   out.tangent = r.tangent.data();
   out.tangent_stride = n * n;
+  out.gap = r.gap.data();
+  out.gap_stride = 1;
   out.pressure = r.pressure.data();
   out.pressure_stride = 1;
   out.traction = r.traction.data();

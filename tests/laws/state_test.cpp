@@ -84,10 +84,52 @@ TEST(Balance, OfForcesAndOfMomentsWithFriction) {
   std::cout << "worst force " << worst_force << ", worst moment " << worst_moment << "\n";
 }
 
+// An element that moves as a rigid body, its state as it was: the anchor moves along, so gap, pressure and |t| stay.
+TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
+  Random random(7);
+  double worst = 0.0;
+  std::int64_t compared = 0;
+  for (const Method& method : methods())
+    for (const Basis& basis : mechanics::bases()) {
+      if (method.friction.is_null()) continue;
+      const mechanics::Scene scene = draw_scene(random, basis, "sine", "normal");
+      const mechanics::Model model = model_of(scene, method);
+      const LawElements e = draw(random, scene, model, mechanics::samples(100), 0.05);
+      LawElements moved = e;
+      const std::size_t d = static_cast<std::size_t>(e.layout.dimension);
+      // turned about two axes (2D: one), and shifted by about the element's size
+      const double c = std::cos(1.1), s = std::sin(1.1), c2 = std::cos(-0.7), s2 = std::sin(-0.7);
+      for (std::vector<double>* x : {&moved.at.slave, &moved.at.master})
+        for (std::size_t i = 0; i < x->size(); i += d) {
+          double* p = x->data() + i;
+          const double p0 = c * p[0] - s * p[1], p1 = s * p[0] + c * p[1];
+          p[0] = p0 + 0.7, p[1] = p1 - 1.3;
+          if (d == 3) {
+            const double q1 = c2 * p[1] - s2 * p[2], q2 = s2 * p[1] + c2 * p[2];
+            p[1] = q1, p[2] = q2 + 0.9;
+          }
+        }
+      LawResults a, b;
+      evaluate(model, e, ENTS_FLAGS | ENTS_GAP | ENTS_PRESSURE | ENTS_TRACTION, a);
+      evaluate(model, moved, ENTS_FLAGS | ENTS_GAP | ENTS_PRESSURE | ENTS_TRACTION, b);
+      for (std::size_t i = 0; i < a.status.size(); ++i) {
+        if (a.status[i] != ENTS_OK || !(a.flags[i] & (ENTS_FLAG_STICK | ENTS_FLAG_SLIP))) continue;
+        ++compared;
+        const double t = length_of(&a.traction[i * d], d);
+        // the size of the segment for the gap; the traction follows from the pressure and from slip times stiffness (80)
+        worst = std::max({worst, std::fabs(a.gap[i] - b.gap[i]), std::fabs(a.pressure[i] - b.pressure[i]) / (a.pressure[i] + 10.0),
+                          std::fabs(t - length_of(&b.traction[i * d], d)) / (t + 10.0)});
+      }
+    }
+  EXPECT_GT(compared, mechanics::samples(10000));
+  EXPECT_LE(worst, 1e-12);
+  std::cout << compared << " elements in contact, worst change of gap, pressure, |t|: " << worst << "\n";
+}
+
 // A slave node over a flat line2 from (0, 0) to (length, 0), pressed in by 0.01.
 struct Slide {
-  explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})")
-      : model(R"({"segment": "line2", "contact": {"normal": )" + normal +
+  explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})", const std::string& height = "null")
+      : model(R"({"segment": "line2", "height": )" + height + R"(, "contact": {"normal": )" + normal +
               R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})") {
     elements.layout = layout_of(model.handle());
     elements.at.count = 1;
@@ -96,7 +138,11 @@ struct Slide {
     elements.multiplier.resize(static_cast<std::size_t>(elements.layout.multipliers));
     ents_state_init(model.handle(), 1, elements.state.data(), elements.layout.state_size, nullptr);
   }
-  void segment(double from, double to) { elements.at.master = {from, 0.0, to, 0.0}; }
+  // surface coordinate: x
+  void segment(double from, double to) {
+    elements.at.master = {from, 0.0, to, 0.0};
+    elements.at.surface_coordinates = {from, to};
+  }
   void evaluate_at(double x, double y = -0.01) {
     elements.at.slave = {x, y};
     evaluate(model, elements, ENTS_FLAGS | ENTS_RESIDUAL | ENTS_TRACTION | ENTS_STATE, results);
@@ -138,8 +184,10 @@ TEST(State, TrialsLeaveNoTrace) {
 }
 
 // One long segment against a row of ten: the state moves along with ents_state_transfer.
-TEST(State, RowOfSegmentsSlidesLikeOneLongSegment) {
-  Slide one, row;
+class RowOfSegments : public testing::TestWithParam<const char*> {};
+TEST_P(RowOfSegments, SlidesLikeOneLongSegment) {
+  const std::string penalty = R"({"type": "penalty", "stiffness": 100})";
+  Slide one(penalty, GetParam()), row(penalty, GetParam());
   one.segment(0.0, 10.0);
   double x = 0.45;
   int at = 0;
@@ -147,26 +195,31 @@ TEST(State, RowOfSegmentsSlidesLikeOneLongSegment) {
   double worst = 0.0;
   for (int increment = 0; increment < 180; ++increment, x += increment % 7 == 3 ? -0.031 : 0.061) {
     if (const int now = static_cast<int>(std::floor(x)); now != at) {
-      const std::vector<double> before = row.elements.at.master;
+      const std::vector<double> before = row.elements.at.master, coordinates = row.elements.at.surface_coordinates;
       row.segment(now, now + 1);
       std::vector<double> moved(row.elements.state.size());
-      ASSERT_EQ(ents_state_transfer(row.model.handle(), before.data(), nullptr, row.elements.at.master.data(), nullptr,
-                                    row.elements.state.data(), moved.data(), nullptr),
+      ASSERT_EQ(ents_state_transfer(row.model.handle(), before.data(), coordinates.data(), row.elements.at.master.data(),
+                                    row.elements.at.surface_coordinates.data(), row.elements.state.data(), moved.data(), nullptr),
                 ENTS_OK);
       row.elements.state = moved;
       at = now;
     }
     one.evaluate_at(x);
     row.evaluate_at(x);
-    worst = std::max(worst, std::fabs(one.results.traction[0] - row.results.traction[0]));
+    for (std::size_t k = 0; k < 2; ++k) // the slave's; nodes share differently
+      worst = std::max(worst, std::fabs(one.results.residual[k] - row.results.residual[k]));
     EXPECT_EQ(one.results.flags, row.results.flags) << "increment " << increment;
     one.commit();
     row.commit();
   }
   EXPECT_GT(at, 5);
   EXPECT_LE(worst, 1e-10);
-  std::cout << "worst difference of the traction: " << worst << "\n";
+  std::cout << "worst difference of the forces: " << worst << "\n";
 }
+INSTANTIATE_TEST_SUITE_P(Height, RowOfSegments,
+                         testing::Values("null", R"({"type": "sine", "amplitude": 0.005, "wave_vector": [0.7]})"),
+                         [](const auto& parameter) { return parameter.index == 0 ? "plain" : "sine"; }); // of x
+
 
 // Uzawa: with the slave held at a penetration, multipliers grow by stiffness times gap; the begin of the increment stays.
 TEST(State, AugmentationMovesTheMultipliersOnly) {
