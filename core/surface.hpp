@@ -80,6 +80,11 @@ ENTS_INLINE void evaluate_height_by_xi(const Geometry<B>& g, const S (&xi)[B::di
   }
   S s[T], s1[T][T], s2[K][T];  // s, s_,a, s_,ab
   const double* c = g.surface_coordinates;
+  double relative[is_range<S> ? T * B::nodes : 1];
+  if constexpr (is_range<S>) {  // sum N_i = 1: of differences, or the ranges of N_i would grow with the distance from s = 0
+    for (int i = 0; i < T * B::nodes; ++i) relative[i] = g.surface_coordinates[i] - g.surface_coordinates[i % T];
+    c = relative;
+  }
   for (int t = 0; t < T; ++t) {
     s[t] = N.n[0] * c[t];
     for (int i = 1; i < B::nodes; ++i) s[t] = s[t] + N.n[i] * c[T * i + t];
@@ -95,6 +100,8 @@ ENTS_INLINE void evaluate_height_by_xi(const Geometry<B>& g, const S (&xi)[B::di
         }
       });
   }
+  if constexpr (is_range<S>)
+    for (int t = 0; t < T; ++t) s[t] = s[t] + g.surface_coordinates[t];
   const HeightJet<T, S> j = evaluate_height<T>(*g.height, s);
   out.h = j.h;
   for (int a = 0; a < T; ++a) {

@@ -7,6 +7,7 @@
 
 namespace mechanics {
 
+using test::sample_divisor;
 using test::samples;
 
 struct Worst {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "mesh_surface.hpp"
+#include "samples.hpp"
 
 namespace mechanics {
 namespace {
@@ -94,7 +95,7 @@ Jumps slide(const std::string& basis_name, bool textured) {
   Jumps jumps;
   double x = 4.0;
   Contact before = at(x);
-  for (constexpr double coarse = 0.02; x < 24.0; x += coarse) {
+  for (constexpr double coarse = sample_divisor == 1 ? 0.02 : 0.4; x < 24.0; x += coarse) {
     const Contact now = at(x + coarse);
     if (before.segment < 0 || now.segment < 0) throw std::runtime_error("no contact at " + std::to_string(x));
     if (now.segment == before.segment) {
