@@ -20,17 +20,20 @@ std::int32_t explain_segment(const Plan& plan, const MasterMesh& mesh, Status st
                             "mesh.connectivity: node %d of segment %lld is %lld; nodes are 0 .. %lld", i, e,
                             static_cast<long long>(nodes[i]), static_cast<long long>(mesh.nodes - 1));
     if (first_non_finite(mesh.positions + nodes[i] * plan.dimension, plan.dimension) >= 0)
-      return report_message(report, ENTS_NON_FINITE, segment, "mesh.positions of node %lld (segment %lld) is NaN or infinite",
+      return report_message(report, ENTS_NON_FINITE, segment,
+                            "mesh.positions of node %lld (segment %lld) is NaN or infinite",
                             static_cast<long long>(nodes[i]), e);
   }
   if (status == Status::non_finite)
-    return report_message(report, ENTS_NON_FINITE, segment,
-                          "mesh.surface_coordinates of segment %lld is NaN or infinite, or positions are too large", e);
+    return report_message(
+        report, ENTS_NON_FINITE, segment,
+        "mesh.surface_coordinates of segment %lld is NaN or infinite, or positions are too large", e);
   return report_message(report, static_cast<std::int32_t>(status), segment, "segment %lld: %s", e,
                         ents_status_text(static_cast<std::int32_t>(status)));
 }
 
-std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, MasterMesh& mesh, ents_report* report) noexcept {
+std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, MasterMesh& mesh,
+                        ents_report* report) noexcept {
   ents_master_mesh copy;
   std::int32_t status = ENTS_OK;
   const ents_master_mesh* m = known_struct(caller, copy, name, status, report);
@@ -38,7 +41,8 @@ std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, Master
   if ((status = check_reserved(m->reserved, name, report)) != ENTS_OK) return status;
   constexpr std::int64_t most = std::int64_t{1} << 40;
   if (m->segments < 0 || m->segments > most || m->nodes < 0 || m->nodes > most)
-    return report_message(report, ENTS_BAD_COUNT, -1, "%s.segments = %lld, %s.nodes = %lld: both must be 0 .. 2^40", name,
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "%s.segments = %lld, %s.nodes = %lld: both must be 0 .. 2^40", name,
                           static_cast<long long>(m->segments), name, static_cast<long long>(m->nodes));
   if (m->segments > 0 && (!m->connectivity || !m->positions))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "%s.%s is null", name,
@@ -53,23 +57,26 @@ std::int32_t check_tree_size(const Plan& plan, const MasterMesh& mesh, const dou
                              ents_report* report) noexcept {
   if (!tree) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'tree' is null");
   if (size < tree_size(plan, mesh.segments))
-    return report_message(report, ENTS_BAD_COUNT, -1, "argument 'size' is %lld; %lld segments need %lld (ents_tree_size)",
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "argument 'size' is %lld; %lld segments need %lld (ents_tree_size)",
                           static_cast<long long>(size), static_cast<long long>(mesh.segments),
                           static_cast<long long>(tree_size(plan, mesh.segments)));
   return ENTS_OK;
 }
 
-std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree, ents_report* report) noexcept {
+std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree,
+                           ents_report* report) noexcept {
   if (is_tree(plan, mesh, tree)) return ENTS_OK;
-  return report_message(report, ENTS_BAD_STATE, -1,
-                        "argument 'tree' is not a whole tree of %lld segments in %dD; make it with ents_tree_build (again, if "
-                        "ents_tree_refit has failed)",
-                        static_cast<long long>(mesh.segments), plan.dimension);
+  return report_message(
+      report, ENTS_BAD_STATE, -1,
+      "argument 'tree' is not a whole tree of %lld segments in %dD; make it with ents_tree_build (again, if "
+      "ents_tree_refit has failed)",
+      static_cast<long long>(mesh.segments), plan.dimension);
 }
 
 using TreeFunction = Status (*)(const Plan&, const MasterMesh&, double*, std::int64_t&);
-std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree, std::int64_t size,
-                       TreeFunction make, bool refit, ents_report* report) {
+std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree,
+                       std::int64_t size, TreeFunction make, bool refit, ents_report* report) {
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
@@ -79,11 +86,13 @@ std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, 
   const FloatingPointGuard guard;
   std::int64_t segment = -1;
   const Status outcome = make(model->plan, mesh, tree, segment);
-  return outcome == Status::ok ? report_ok(report) : explain_segment(model->plan, mesh, outcome, segment, report);
+  return outcome == Status::ok ? report_ok(report)
+                               : explain_segment(model->plan, mesh, outcome, segment, report);
 }
 
-std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller, const double* tree, std::int64_t size,
-                        std::int64_t first, std::int64_t count, const ents_detection* detection, ents_report* report) {
+std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller, const double* tree,
+                        std::int64_t size, std::int64_t first, std::int64_t count,
+                        const ents_detection* detection, ents_report* report) {
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
@@ -96,25 +105,31 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
   if ((status = check_reserved(io->reserved, "detection", report)) != ENTS_OK) return status;
   constexpr std::int64_t most = std::int64_t{1} << 50;
   if (first < 0 || count < 0 || first > most - count)
-    return report_message(report, ENTS_BAD_COUNT, -1, "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
   const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach > 0.0) || !(io->reach < 1e100))
-    return report_message(report, ENTS_BAD_VALUE, -1, "detection.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
+    return report_message(report, ENTS_BAD_VALUE, -1,
+                          "detection.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
   if (count > 0 && (!io->slave || !io->segment || !io->xi))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "detection.%s is null",
-                          !io->slave ? "slave" : !io->segment ? "segment" : "xi");
+                          !io->slave     ? "slave"
+                          : !io->segment ? "segment"
+                                         : "xi");
   const Plan& plan = model->plan;
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;
     double* xi = io->xi + i * plan.parameters;
     if (const std::int64_t k = first_non_finite(slave, plan.dimension); k >= 0)
-      return report_message(report, ENTS_NON_FINITE, i, "detection.slave[%lld] of node %lld is %s", static_cast<long long>(k),
-                            static_cast<long long>(i), std::isnan(slave[k]) ? "NaN" : "infinite");
+      return report_message(report, ENTS_NON_FINITE, i, "detection.slave[%lld] of node %lld is %s",
+                            static_cast<long long>(k), static_cast<long long>(i),
+                            std::isnan(slave[k]) ? "NaN" : "infinite");
     Detection found;
     found.segment = io->segment[i];
     if (found.segment < -1 || found.segment >= mesh.segments)
-      return report_message(report, ENTS_BAD_VALUE, i, "detection.segment of node %lld is %lld; -1 or 0 .. %lld",
+      return report_message(report, ENTS_BAD_VALUE, i,
+                            "detection.segment of node %lld is %lld; -1 or 0 .. %lld",
                             static_cast<long long>(i), static_cast<long long>(found.segment),
                             static_cast<long long>(mesh.segments - 1));
     if (found.segment >= 0) {
@@ -130,7 +145,8 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
       for (int a = 0; a < plan.parameters; ++a) xi[a] = found.at.xi[a];
     if (io->gap) io->gap[i] = found.segment >= 0 ? found.at.gap : 0.0;
     if (io->flags)
-      io->flags[i] = (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0);
+      io->flags[i] =
+          (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0);
     if (io->other) io->other[i] = found.other;
   }
   return report_ok(report);
@@ -168,8 +184,8 @@ int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, d
       report, [&] { return ents::make_tree(model, mesh, tree, size, ents::refit_tree, true, report); });
 }
 
-int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size, int64_t first,
-                    int64_t count, const ents_detection* detection, ents_report* report) {
+int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
+                    int64_t first, int64_t count, const ents_detection* detection, ents_report* report) {
   return ents::at_the_door(
       report, [&] { return ents::detect_all(model, mesh, tree, size, first, count, detection, report); });
 }

@@ -8,7 +8,8 @@
 namespace ents {
 
 // Counts and pointers of `caller`; its nodes are checked as they are read.
-std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, MasterMesh& mesh, ents_report* report) noexcept;
+std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, MasterMesh& mesh,
+                        ents_report* report) noexcept;
 
 // Name what `gather` refused.
 std::int32_t explain_segment(const Plan& plan, const MasterMesh& mesh, Status status, std::int64_t segment,

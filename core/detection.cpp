@@ -14,7 +14,7 @@ constexpr std::int64_t leaf_segments = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // tree: [tag, segments, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
-constexpr double tag = 1701737588.0;  // says that it is a tree, and how it is laid out
+constexpr double tag = 1701737588.0; // says that it is a tree, and how it is laid out
 constexpr std::int64_t header = 2;
 
 struct Tree {
@@ -34,7 +34,8 @@ struct Tree {
   std::int64_t first(std::int64_t k, int level) const { return (k * segments) >> level; }
 };
 
-Status segment_box(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, double* low, double* high) {
+Status segment_box(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, double* low,
+                   double* high) {
   SegmentNodes nodes;
   const Status status = gather(plan, mesh, segment, nodes);
   if (status == Status::ok) plan.box(plan, nodes.positions, nodes.surface_coordinates, low, high);
@@ -85,9 +86,12 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
     best.at = candidate;
     return;
   }
-  const bool same_place = distance(candidate.point, best.at.point, d) <= 1e3 * tie + candidate.beyond + best.at.beyond;
-  // the one that lies on its segment, then the one with the smaller number: the same whatever the order of visits
-  const bool better = candidate.beyond < best.at.beyond || (candidate.beyond == best.at.beyond && segment < best.segment);
+  const bool same_place =
+      distance(candidate.point, best.at.point, d) <= 1e3 * tie + candidate.beyond + best.at.beyond;
+  // the one that lies on its segment, then the one with the smaller number: the same whatever the order of
+  // visits
+  const bool better =
+      candidate.beyond < best.at.beyond || (candidate.beyond == best.at.beyond && segment < best.segment);
   if (!same_place) best.other = better ? best.segment : segment;
   if (better) {
     best.segment = segment;
@@ -95,7 +99,7 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
   }
 }
 
-}  // namespace
+} // namespace
 
 Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, SegmentNodes& out) {
   const std::int64_t* nodes = mesh.connectivity + segment * plan.nodes;
@@ -109,7 +113,8 @@ Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, Se
     }
   }
   const std::int64_t coordinates = std::int64_t{plan.nodes} * plan.parameters;
-  out.surface_coordinates = mesh.surface_coordinates ? mesh.surface_coordinates + segment * coordinates : nullptr;
+  out.surface_coordinates =
+      mesh.surface_coordinates ? mesh.surface_coordinates + segment * coordinates : nullptr;
   if (out.surface_coordinates)
     for (std::int64_t i = 0; i < coordinates; ++i) size += std::fabs(out.surface_coordinates[i]);
   return size < infinity ? Status::ok : Status::non_finite;
@@ -126,16 +131,19 @@ bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
   const Tree t(plan, mesh.segments);
   const int d = t.d;
-  tree[0] = 0.0;  // no tree until all boxes are there
+  tree[0] = 0.0; // no tree until all boxes are there
   std::vector<double> centre(static_cast<std::size_t>(t.segments * d));
   double* order = t.order(tree);
   for (segment = 0; segment < t.segments; ++segment) {
     double low[3], high[3];
-    if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok) return status;
+    if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok)
+      return status;
     for (int k = 0; k < d; ++k) centre[static_cast<std::size_t>(segment * d + k)] = 0.5 * (low[k] + high[k]);
     order[segment] = static_cast<double>(segment);
   }
-  const auto at = [&](double s, int k) { return centre[static_cast<std::size_t>(s) * static_cast<std::size_t>(d) + static_cast<std::size_t>(k)]; };
+  const auto at = [&](double s, int k) {
+    return centre[static_cast<std::size_t>(s) * static_cast<std::size_t>(d) + static_cast<std::size_t>(k)];
+  };
   for (int level = 0; level < t.depth; ++level)
     for (std::int64_t k = 0; k < std::int64_t{1} << level; ++k) {
       double *first = order + t.first(k, level), *last = order + t.first(k + 1, level);
@@ -176,11 +184,13 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
       for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
         segment = static_cast<std::int64_t>(t.order(tree)[i]);
         double low[3], high[3];
-        if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok) return status;
+        if (const Status status = segment_box(plan, mesh, segment, low, high); status != Status::ok)
+          return status;
         join(low, high);
       }
     } else {
-      for (const std::int64_t child : {2 * node, 2 * node + 1}) join(t.box(tree, child), t.box(tree, child) + d);
+      for (const std::int64_t child : {2 * node, 2 * node + 1})
+        join(t.box(tree, child), t.box(tree, child) + d);
     }
   }
   tree[0] = tag + d;
@@ -202,12 +212,17 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   }
   out.searched = true;
   out.segment = out.other = -1;
-  bool doubtful = false;  // a search that could not be completed
+  bool doubtful = false; // a search that could not be completed
   double ray[3] = {plan.ray[0], plan.ray[1], plan.ray[2]};
   if (plan.projection == ProjectionKind::shadow_point) {
     double length2 = 0.0;
     for (int k = 0; k < plan.dimension; ++k) ray[k] -= slave[k], length2 += ray[k] * ray[k];
-    for (int k = 0; k < plan.dimension; ++k) ray[k] /= std::sqrt(length2);
+    const double length = std::sqrt(length2);
+    if (!(length > 1e-150) || !(length < 1e150)) { // no ray: as set_target
+      out.at.ambiguous = false;
+      return Status::ok;
+    }
+    for (int k = 0; k < plan.dimension; ++k) ray[k] /= length;
   }
 
   const Tree t(plan, mesh.segments);
@@ -251,10 +266,13 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
         doubtful = doubtful || candidate.ambiguous;
     }
   }
-  if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie) out.segment = -1;  // lit far behind the slave
-  if (out.segment >= 0) out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
-  else out.at.ambiguous = doubtful;
+  if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)
+    out.segment = -1; // lit far behind the slave
+  if (out.segment >= 0)
+    out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
+  else
+    out.at.ambiguous = doubtful;
   return Status::ok;
 }
 
-}  // namespace ents
+} // namespace ents

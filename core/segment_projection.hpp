@@ -47,8 +47,8 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
   return true;
 }
 
-// The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes: with c
-// the centre of that box, rho - c = sum_i N_i (x_i - c).
+// The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes:
+// with c the centre of that box, rho - c = sum_i N_i (x_i - c).
 template <class B> double hull_spread(double border) {
   constexpr int T = B::dim - 1, parts = T == 1 ? 64 : 16;
   const double low = B::simplex ? -border : -1.0 - border, high = 1.0 + border;

@@ -108,6 +108,10 @@ int main(int argc, char** argv) {
     run.compare = compare->count() > 0;
     std::erase(run.compare_divisions, 0); // what CLI11 makes of --compare without a list
   } catch (const CLI::ParseError& error) {
+    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
+      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write run, variants, verify or check, or --help\n", argv[1]);
+      return 2;
+    }
     return app.exit(error) == 0 ? 0 : 2; // 0: --help
   }
   try {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole master surfaces at the door: elements gathered from a mesh are those of the caller's own arrays; mistakes have names.
+// Whole master surfaces at the door: elements gathered from a mesh are those of the caller's own arrays;
+// mistakes have names.
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <functional>
 #include <limits>
 
+#include "sample_count.hpp"
 #include "support/element.hpp"
 
 namespace {
@@ -24,7 +26,8 @@ struct MeshOfElements {
     for (int64_t e = 0; e < count; ++e) {
       Element& element = elements[static_cast<std::size_t>(count - 1 - e)];
       positions.insert(positions.end(), element[master].begin(), element[master].end());
-      coordinates.insert(coordinates.end(), element[surface_coordinates].begin(), element[surface_coordinates].end());
+      coordinates.insert(coordinates.end(), element[surface_coordinates].begin(),
+                         element[surface_coordinates].end());
       for (int64_t i = 0; i < m; ++i) connectivity.push_back(e * m + i);
       segments.push_back(count - 1 - e);
     }
@@ -143,10 +146,12 @@ TEST_F(MeshMistakes, InTheTree) {
   EXPECT_EQ(build(), ENTS_OK);
   mesh_.segments = 1; // a tree of two
   expect(ENTS_BAD_STATE, "not a whole tree of 1 segments", [&] { return detect(); });
-  EXPECT_EQ(call::detect(model_.get(), &mesh_, nullptr, size_, int64_t{0}, int64_t{2}, &io_, &report_), ENTS_NULL_ARGUMENT);
+  EXPECT_EQ(call::detect(model_.get(), &mesh_, nullptr, size_, int64_t{0}, int64_t{2}, &io_, &report_),
+            ENTS_NULL_ARGUMENT);
   int64_t size = 0;
   EXPECT_EQ(call::tree_size(model_.get(), int64_t{-1}, &size, &report_), ENTS_BAD_COUNT);
-  EXPECT_EQ(call::tree_size(model_.get(), std::numeric_limits<int64_t>::max(), &size, &report_), ENTS_BAD_COUNT);
+  EXPECT_EQ(call::tree_size(model_.get(), std::numeric_limits<int64_t>::max(), &size, &report_),
+            ENTS_BAD_COUNT);
   EXPECT_EQ(call::tree_size(model_.get(), int64_t{1}, nullptr, &report_), ENTS_NULL_ARGUMENT);
 }
 
@@ -163,7 +168,8 @@ TEST_F(MeshMistakes, InTheSlaves) {
   xi_[1] = std::numeric_limits<double>::quiet_NaN();
   expect(ENTS_NON_FINITE, "detection.xi of node 1", [&] { return detect(); });
   xi_[1] = 0.0;
-  for (const double reach : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double reach :
+       {0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     io_.reach = reach;
     expect(ENTS_BAD_VALUE, "detection.reach", [&] { return detect(); });
   }
@@ -180,7 +186,9 @@ TEST_F(MeshMistakes, InAnElement) {
   ents_input input{};
   input.struct_size = sizeof input;
   input.slave = slave_, input.mesh = &mesh_;
-  const auto evaluate = [&] { return call::evaluate(model_.get(), int64_t{0}, int64_t{1}, &input, &output, &report_); };
+  const auto evaluate = [&] {
+    return call::evaluate(model_.get(), int64_t{0}, int64_t{1}, &input, &output, &report_);
+  };
   expect(ENTS_NULL_ARGUMENT, "input.segment is null", evaluate);
   segment_[0] = 0;
   input.segment = segment_;
@@ -195,6 +203,68 @@ TEST_F(MeshMistakes, InAnElement) {
   expect(ENTS_BAD_VALUE, "input.master and input.mesh are both given", evaluate);
   input.master = nullptr, input.mesh = nullptr;
   expect(ENTS_NULL_ARGUMENT, "input.master is null", evaluate);
+}
+
+// Whatever the numbers: a status, and what is written is finite.
+TEST(MeshNumbers, AnyEndInAStatus) {
+  Random random(82);
+  const double special[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                            1e308, -1e155, 1e-155, 5e-324, -0.0, 0.0};
+  int64_t calls = 0, found = 0, refused = 0;
+  for (const ModelKind& kind : all_kinds()) {
+    if (!is_taken(random)) continue;
+    const Model model(text(kind));
+    MeshOfElements m(model, basis(kind.basis), random);
+    int64_t size = 0;
+    ASSERT_EQ(call::tree_size(model.get(), m.mesh.segments, &size, nullptr), ENTS_OK);
+    std::vector<double> tree(static_cast<std::size_t>(size));
+    const std::vector<double> good = m.positions;
+    for (int repeat = 0; repeat < 12; ++repeat) {
+      m.positions = good;
+      std::vector<double> node = m.elements[0][test::slave];
+      for (int k = repeat % 4; k > 0; --k) {
+        std::vector<double>& array = random.below(3) == 0 ? node : m.positions;
+        double& x = array[static_cast<std::size_t>(random.below(static_cast<int>(array.size())))];
+        x = random.below(2) == 0 ? special[random.below(8)] : x * std::pow(10.0, random(-300.0, 300.0));
+      }
+      m.mesh.positions = m.positions.data();
+      int64_t segment = -1;
+      double xi[2] = {0.0, 0.0}, gap = 0.0;
+      ents_detection io{};
+      io.struct_size = sizeof io;
+      io.slave = node.data(), io.reach = std::pow(10.0, random(-3.0, 3.0)), io.segment = &segment, io.xi = xi, io.gap = &gap;
+      int32_t status = call::tree_build(model.get(), &m.mesh, tree.data(), size, nullptr);
+      if (status == ENTS_OK)
+        status = call::detect(model.get(), &m.mesh, tree.data(), size, int64_t{0}, int64_t{1}, &io, nullptr);
+      ++calls;
+      found += segment >= 0;
+      refused += status != ENTS_OK;
+      ASSERT_TRUE(status == ENTS_OK || status == ENTS_NON_FINITE) << status;
+      ASSERT_TRUE(std::isfinite(xi[0]) && std::isfinite(xi[1]) && std::isfinite(gap)) << text(kind);
+    }
+  }
+  EXPECT_GT(found, calls / 4);
+  EXPECT_GT(refused, calls / 20);
+}
+
+// The light stands on the slave: there is no ray, and nothing is found.
+TEST(MeshNumbers, AnEmitterOnTheSlave) {
+  const Model model(R"({"segment": "line2", "projection": {"type": "shadow_point", "emitter": [0.5, 1]}})");
+  const int64_t connectivity[] = {0, 1};
+  const double positions[] = {0, 0, 1, 0}, slave[] = {0.5, 1};
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 1, mesh.nodes = 2, mesh.connectivity = connectivity, mesh.positions = positions;
+  int64_t size = 0, segment = -1;
+  ASSERT_EQ(call::tree_size(model.get(), int64_t{1}, &size, nullptr), ENTS_OK);
+  std::vector<double> tree(static_cast<std::size_t>(size));
+  ASSERT_EQ(call::tree_build(model.get(), &mesh, tree.data(), size, nullptr), ENTS_OK);
+  double xi = 0.0;
+  ents_detection io{};
+  io.struct_size = sizeof io;
+  io.slave = slave, io.reach = 2, io.segment = &segment, io.xi = &xi;
+  EXPECT_EQ(call::detect(model.get(), &mesh, tree.data(), size, int64_t{0}, int64_t{1}, &io, nullptr), ENTS_OK);
+  EXPECT_EQ(segment, -1);
 }
 
 // A surface without segments has a tree, and nothing on it.

@@ -42,11 +42,13 @@ template <class Prepare, class Run> double ns_per_item(std::int64_t items, Prepa
 enum Quantity { build, refit, search, follow, nothing, bytes, quantities };
 constexpr const char* names[] = {"build", "refit", "search", "follow", "nothing", "bytes"};
 
-std::array<double, quantities> measure(const std::string& basis_name, const mechanics::Model& model, std::int64_t n) {
+std::array<double, quantities> measure(const std::string& basis_name, const mechanics::Model& model,
+                                       std::int64_t n) {
   const mechanics::Basis& basis = mechanics::basis_named(basis_name);
   const int d = basis.dimension;
   const std::int64_t cells = basis.simplex ? n / 2 : n;
-  const int side = d == 2 ? static_cast<int>(n) : static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells))));
+  const int side =
+      d == 2 ? static_cast<int>(n) : static_cast<int>(std::lround(std::sqrt(static_cast<double>(cells))));
   Random random(5);
   const MeshSurface mesh = mechanics::draw_mesh(random, basis, side, 0.1);
   std::vector<double> slaves, far;
@@ -56,7 +58,8 @@ std::array<double, quantities> measure(const std::string& basis_name, const mech
     slaves.push_back(random.uniform(-0.1, 0.1));
   }
   far = slaves;
-  for (std::size_t i = static_cast<std::size_t>(d) - 1; i < far.size(); i += static_cast<std::size_t>(d)) far[i] += 10.0;
+  for (std::size_t i = static_cast<std::size_t>(d) - 1; i < far.size(); i += static_cast<std::size_t>(d))
+    far[i] += 10.0;
   const auto none = [] {};
   std::array<double, quantities> result{};
   result[build] = ns_per_item(mesh.segments(), none, [&] { const Detector tree(model, mesh); });
@@ -64,11 +67,14 @@ std::array<double, quantities> measure(const std::string& basis_name, const mech
   result[refit] = ns_per_item(mesh.segments(), none, [&] { detector.refit(); });
   constexpr double reach = 0.5;
   Detector::Found found;
-  result[search] = ns_per_item(n, [&] { found = {}; }, [&] { detector.detect(slaves, reach, found); });
+  result[search] = ns_per_item(
+      n, [&] { found = {}; }, [&] { detector.detect(slaves, reach, found); });
   for (double& x : slaves) x += 1e-2;
   const Detector::Found before = found;
-  result[follow] = ns_per_item(n, [&] { found = before; }, [&] { detector.detect(slaves, reach, found); });
-  result[nothing] = ns_per_item(n, [&] { found = {}; }, [&] { detector.detect(far, reach, found); });
+  result[follow] = ns_per_item(
+      n, [&] { found = before; }, [&] { detector.detect(slaves, reach, found); });
+  result[nothing] = ns_per_item(
+      n, [&] { found = {}; }, [&] { detector.detect(far, reach, found); });
   result[bytes] = 8.0 * static_cast<double>(detector.size()) / static_cast<double>(mesh.segments());
   return result;
 }
@@ -76,14 +82,17 @@ std::array<double, quantities> measure(const std::string& basis_name, const mech
 } // namespace
 
 void run_detection(std::ostream& out, std::int64_t most) {
-  out << "n slave nodes over n segments; build, refit: ns per segment; search, follow, nothing (within reach): ns per slave "
+  out << "n slave nodes over n segments; build, refit: ns per segment; search, follow, nothing (within "
+         "reach): ns per slave "
          "node;\nbytes of the tree per segment; thread CPU time\n";
   for (const std::string basis : {"line2", "tri3", "quad4"})
     for (const bool enriched : {false, true}) {
       const int t = mechanics::basis_named(basis).parameters();
       nlohmann::json text{{"segment", basis}};
       if (enriched)
-        text["height"] = {{"type", "sine"}, {"amplitude", 0.03}, {"wave_vector", std::vector<double>(static_cast<std::size_t>(t), 0.5)}};
+        text["height"] = {{"type", "sine"},
+                          {"amplitude", 0.03},
+                          {"wave_vector", std::vector<double>(static_cast<std::size_t>(t), 0.5)}};
       const mechanics::Model model(text.dump());
       out << "\n" << std::left << std::setw(18) << basis + (enriched ? " enriched" : " plain") << std::right;
       for (const char* name : names) out << std::setw(10) << name;

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "mesh_surface.hpp"
+#include "ray_casting.hpp"
 #include "samples.hpp"
 #include "sweep.hpp"
 
@@ -26,7 +27,8 @@ bool is_on_border(const Basis& basis, const std::array<double, 2>& xi) {
   return inside < 1e-5; // the sweep knows xi to 3e-7
 }
 
-nlohmann::json model_of(const Basis& basis, const nlohmann::json& height, const nlohmann::json& more = nlohmann::json::object()) {
+nlohmann::json model_of(const Basis& basis, const nlohmann::json& height,
+                        const nlohmann::json& more = nlohmann::json::object()) {
   nlohmann::json model{{"segment", basis.name}, {"height", height}};
   model.update(more);
   return model;
@@ -35,16 +37,28 @@ nlohmann::json model_of(const Basis& basis, const nlohmann::json& height, const 
 // Points of a surface, sampled once for many slaves.
 class Samples {
 public:
-  Samples(const MeshSurface& mesh, const Height& height) : grid_(*mesh.basis, mesh.basis->dimension == 2 ? 401 : 41) {
+  Samples(const MeshSurface& mesh, const Height& height)
+      : grid_(*mesh.basis, mesh.basis->dimension == 2 ? 401 : 41) {
     masters_.reserve(static_cast<std::size_t>(mesh.segments()));
     for (std::int64_t s = 0; s < mesh.segments(); ++s) {
       masters_.push_back(mesh.master(s));
       surfaces_.emplace_back(*mesh.basis, height, masters_.back().data(), mesh.coordinates(s));
       for (std::size_t k = 0; k < grid_.xi.size(); ++k)
-        if (grid_.inside[k]) points_.push_back({surfaces_.back().at(grid_.xi[k].data(), grid_.shape[k]).point, s});
+        if (grid_.inside[k])
+          points_.push_back({surfaces_.back().at(grid_.xi[k].data(), grid_.shape[k]).point, s});
     }
   }
   const Surface& surface(std::int64_t segment) const { return surfaces_[static_cast<std::size_t>(segment)]; }
+
+  // The gaps of all points of the surface on the ray.
+  std::vector<double> gaps(const Basis& basis, const Vec3& slave, const Vec3& ray) const {
+    const RayCasting casting(grid_, basis);
+    std::vector<double> all;
+    for (const Surface& surface : surfaces_)
+      for (const double gap : casting.gaps(surface, slave, ray)) all.push_back(gap);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
 
   struct Closest {
     Minimum at;
@@ -82,7 +96,8 @@ private:
 };
 
 // Slaves over random points of the surface.
-std::vector<double> draw_slaves(Random& random, const MeshSurface& mesh, const Samples& samples, std::int64_t count) {
+std::vector<double> draw_slaves(Random& random, const MeshSurface& mesh, const Samples& samples,
+                                std::int64_t count) {
   std::vector<double> out;
   const int d = mesh.basis->dimension;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -111,7 +126,8 @@ TEST_P(Detection, FindsTheClosestPointOfTheSurface) {
   for (std::int64_t number = 0; number < surfaces; ++number) {
     const MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 8 : 3, 0.1);
     nlohmann::json texture = draw_texture(random, t);
-    while (texture.dump().find("polynomial") != std::string::npos) texture = draw_texture(random, t); // no bounds
+    while (texture.dump().find("polynomial") != std::string::npos)
+      texture = draw_texture(random, t); // no bounds
     const Model model(model_of(basis, texture).dump());
     const Height height(texture, t);
     const Samples sampled(mesh, height);
@@ -154,15 +170,82 @@ TEST_P(Detection, FindsTheClosestPointOfTheSurface) {
   EXPECT_EQ(missed, 0);
   EXPECT_LE(flagged, compared / 100);
   EXPECT_GT(compared, 2 * on_border);
-  std::cout << basis.name << ": " << compared << " compared, farther than the sweep by at most " << farther.error << "; "
-            << missed << " missed (" << missed_by_sweep << " by the sweep), " << flagged << " flagged, " << on_border << " next to an edge, " << beyond_reach
+  std::cout << basis.name << ": " << compared << " compared, farther than the sweep by at most "
+            << farther.error << "; " << missed << " missed (" << missed_by_sweep << " by the sweep), "
+            << flagged << " flagged, " << on_border << " next to an edge, " << beyond_reach
             << " beyond reach\n";
+}
+
+// Shadow projection: the first point of the whole surface that the light meets.
+TEST_P(Detection, FindsTheLitPointOfTheSurface) {
+  const Basis& basis = basis_named(GetParam());
+  const int d = basis.dimension, t = basis.parameters();
+  const std::int64_t per_surface = samples(d == 2 ? 100 : 30), surfaces = samples(d == 2 ? 20 : 6);
+  Random random(73 + 1000 * seed());
+  Worst behind, off_ray;
+  std::int64_t compared = 0, several = 0, flagged = 0, missed = 0, missed_by_casting = 0;
+  for (std::int64_t number = 0; number < surfaces; ++number) {
+    const MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 8 : 3, 0.1);
+    nlohmann::json texture = draw_texture(random, t);
+    while (texture.dump().find("polynomial") != std::string::npos)
+      texture = draw_texture(random, t); // no bounds
+    const bool emitter = number % 2 == 0;
+    const double high = number % 3 == 0 ? 1.0 : 0.25; // low light: waves cast shadows on each other
+    const Vec3 light = d == 2 ? Vec3{random.uniform(-1.5, 1.5), high, 0.0}
+                              : Vec3{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), high};
+    const Vec3 at = 12.0 * light + Vec3{d == 2 ? 8.0 : 3.0, d == 2 ? 0.0 : 3.0, 0.0};
+    std::vector<double> numbers(emitter ? at.begin() : light.begin(),
+                                (emitter ? at.begin() : light.begin()) + d);
+    const Model model(model_of(basis, texture,
+                               {{"projection",
+                                 {{"type", emitter ? "shadow_point" : "shadow_direction"},
+                                  {emitter ? "emitter" : "direction", numbers}}}})
+                          .dump());
+    const Height height(texture, t);
+    const Samples sampled(mesh, height);
+    Detector detector(model, mesh);
+    Detector::Found found;
+    const std::vector<double> slaves = draw_slaves(random, mesh, sampled, per_surface);
+    constexpr double far = 10.0; // so that the lit point is within reach
+    detector.detect(slaves, far, found);
+    for (std::int64_t e = 0; e < per_surface; ++e) {
+      const std::size_t i = static_cast<std::size_t>(e);
+      const Vec3 slave = vec3(slaves.data() + e * d, d);
+      const Vec3 towards = emitter ? at - slave : light, ray = (1.0 / norm(towards)) * towards;
+      const std::vector<double> gaps = sampled.gaps(basis, slave, ray);
+      const auto where = [&] { return basis.name + " " + texture.dump() + " slave " + std::to_string(e); };
+      const bool ambiguous = found.flags[i] & ENTS_FLAG_AMBIGUOUS;
+      flagged += ambiguous;
+      if (gaps.empty() || gaps.front() < -far) continue;
+      ++compared;
+      several += gaps.back() > gaps.front() + 1e-6;
+      if (found.segment[i] < 0) {
+        if (!ambiguous && ++missed <= 3) ADD_FAILURE() << "missed " << gaps.front() << ": " << where();
+        continue;
+      }
+      const double* xi = found.xi.data() + e * t;
+      const std::array<double, 2> natural = {xi[0], t == 2 ? xi[1] : 0.0};
+      const Vec3 offset = slave - sampled.surface(found.segment[i]).at(natural.data()).point;
+      off_ray.see(norm(offset - found.gap[i] * ray), where);
+      missed_by_casting += found.gap[i] < gaps.front() - tolerance;
+      if (!ambiguous) behind.see(found.gap[i] - gaps.front(), where);
+    }
+  }
+  EXPECT_LE(behind.error, tolerance) << behind.where;
+  EXPECT_LE(off_ray.error, tolerance) << off_ray.where;
+  EXPECT_EQ(missed, 0);
+  EXPECT_LE(flagged, compared / 100 + 1);
+  EXPECT_GT(compared, per_surface * surfaces / 2);
+  std::cout << basis.name << ": " << compared << " rays, " << several
+            << " with several points, behind the casting's by at most " << behind.error << "; " << missed
+            << " missed (" << missed_by_casting << " by the casting), " << flagged << " flagged\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Basis, Detection, testing::ValuesIn(basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
-// Once found, a projection is followed: its own branch is kept while it exists, although another point has come closer.
+// Once found, a projection is followed: its own branch is kept while it exists, although another point has
+// come closer.
 TEST(DetectionFollows, TheBranchItIsOn) {
   const Basis& basis = basis_named("line2");
   MeshSurface mesh; // two walls, one over the other, facing each other
@@ -219,7 +302,8 @@ TEST(DetectionTies, ACommonNodeIsNone) {
   EXPECT_EQ(found.flags[0], ENTS_FLAG_SEARCHED);
 }
 
-// Over a valley, below its bottom, no segment has a projection: with a border one has, without it the node slips through.
+// Over a valley, below its bottom, no segment has a projection: with a border one has, without it the node
+// slips through.
 TEST(DetectionBorder, ClosesTheWedgeOfAValley) {
   const Basis& basis = basis_named("line2");
   MeshSurface mesh; // a valley of 2 x 10 degrees; the slave comes from above
@@ -257,7 +341,8 @@ TEST(DetectionRefit, FindsWhatANewTreeFinds) {
     for (int step = 0; step < 3; ++step) {
       for (std::size_t i = 0; i < mesh.positions.size(); i += static_cast<std::size_t>(d)) { // bend and turn
         const double x = mesh.positions[i];
-        mesh.positions[i] = std::cos(0.3) * x - std::sin(0.3) * mesh.positions[i + static_cast<std::size_t>(d) - 1];
+        mesh.positions[i] =
+            std::cos(0.3) * x - std::sin(0.3) * mesh.positions[i + static_cast<std::size_t>(d) - 1];
         mesh.positions[i + static_cast<std::size_t>(d) - 1] += std::sin(0.3) * x + 0.01 * x * x;
       }
       refitted.refit();

@@ -1,4 +1,5 @@
-// A master surface of several segments of any basis, drawn at random, with one texture in surface coordinates.
+// A master surface of several segments of any basis, drawn at random, with one texture in surface
+// coordinates.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,9 @@ struct MeshSurface {
   std::vector<double> positions;           // [nodes][d]
   std::vector<double> surface_coordinates; // [segments][m][d-1]
 
-  std::int64_t segments() const { return static_cast<std::int64_t>(connectivity.size()) / basis->node_count(); }
+  std::int64_t segments() const {
+    return static_cast<std::int64_t>(connectivity.size()) / basis->node_count();
+  }
   std::int64_t nodes() const { return static_cast<std::int64_t>(positions.size()) / basis->dimension; }
 
   ents_master_mesh mesh() const {
@@ -39,7 +42,8 @@ struct MeshSurface {
     const int m = basis->node_count(), d = basis->dimension;
     for (int i = 0; i < m; ++i)
       for (int k = 0; k < d; ++k)
-        out.push_back(positions[static_cast<std::size_t>(connectivity[static_cast<std::size_t>(segment * m + i)] * d + k)]);
+        out.push_back(positions[static_cast<std::size_t>(
+            connectivity[static_cast<std::size_t>(segment * m + i)] * d + k)]);
     return out;
   }
   const double* coordinates(std::int64_t segment) const {
@@ -47,8 +51,8 @@ struct MeshSurface {
   }
 };
 
-// A strip (2D) or square (3D) of `n` segments per direction, each of size 2 (a triangle: half of that square), its nodes
-// moved by up to `distortion`. Surface coordinates are the undistorted positions.
+// A strip (2D) or square (3D) of `n` segments per direction, each of size 2 (a triangle: half of that
+// square), its nodes moved by up to `distortion`. Surface coordinates are the undistorted positions.
 inline MeshSurface draw_mesh(Random& random, const Basis& basis, int n, double distortion) {
   MeshSurface out;
   out.basis = &basis;
@@ -116,7 +120,8 @@ public:
     io.segment = found.segment.data(), io.xi = found.xi.data(), io.gap = found.gap.data();
     io.flags = found.flags.data(), io.other = found.other.data();
     const ents_master_mesh mesh = surface_.mesh();
-    check(ents_detect(model_.handle(), &mesh, tree_.data(), size(), 0, static_cast<std::int64_t>(count), &io, &report_));
+    check(ents_detect(model_.handle(), &mesh, tree_.data(), size(), 0, static_cast<std::int64_t>(count), &io,
+                      &report_));
   }
 
   std::int64_t size() const { return static_cast<std::int64_t>(tree_.size()); } // doubles

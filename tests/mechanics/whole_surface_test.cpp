@@ -1,4 +1,5 @@
-// A slave that slides over a whole surface: forces at the borders of segments, and textures that do not care for the mesh.
+// A slave that slides over a whole surface: forces at the borders of segments, and textures that do not care
+// for the mesh.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,8 @@ struct Contact {
 };
 
 // The contact of one slave: detected, then evaluated.
-Contact contact_of(const Model& model, const MeshSurface& surface, Detector& detector, const std::vector<double>& slave) {
+Contact contact_of(const Model& model, const MeshSurface& surface, Detector& detector,
+                   const std::vector<double>& slave) {
   Detector::Found found;
   detector.detect(slave, 1.0, found);
   Contact out;
@@ -35,7 +37,8 @@ Contact contact_of(const Model& model, const MeshSurface& surface, Detector& det
   to.gap = &out.gap, to.normal = out.normal.data(), to.residual = residual.data();
   ents_report report{};
   report.struct_size = sizeof report;
-  if (ents_evaluate(model.handle(), 0, 1, &in, &to, &report) != ENTS_OK) throw std::runtime_error(report.message);
+  if (ents_evaluate(model.handle(), 0, 1, &in, &to, &report) != ENTS_OK)
+    throw std::runtime_error(report.message);
   for (std::size_t k = 0; k < slave.size(); ++k) out.force.push_back(-residual[k]);
   out.xi = found.xi;
   return out;
@@ -66,13 +69,15 @@ MeshSurface curved(const Basis& basis) {
 }
 
 struct Jumps {
-  double force = 0.0;  // largest change of the force between neighbouring positions that lie on different segments, over |force|
+  double force = 0.0;  // largest change of the force between neighbouring positions that lie on different
+                       // segments, over |force|
   double inside = 0.0; // the same within a segment: what smooth change amounts to in one step
   double normal = 0.0; // largest change of n_e at a border
   int borders = 0;
 };
 
-// Slides with constant height of the slave under the curved profile over ten segments, in steps of 1e-9 around the borders.
+// Slides with constant height of the slave under the curved profile over ten segments, in steps of 1e-9
+// around the borders.
 Jumps slide(const std::string& basis_name, bool textured) {
   const Basis& basis = basis_named(basis_name);
   const MeshSurface mesh = curved(basis);
@@ -80,7 +85,8 @@ Jumps slide(const std::string& basis_name, bool textured) {
                       {"border", 0.2}, // over a convex border of flat segments the normals leave a wedge
                       {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1.0}}}}}};
   if (textured) {
-    const std::vector<double> wave = basis.dimension == 2 ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.1};
+    const std::vector<double> wave =
+        basis.dimension == 2 ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.1};
     text["height"] = {{"type", "sine"}, {"amplitude", 0.02}, {"wave_vector", wave}, {"phase", 0.7}};
   }
   const Model model(text.dump());
@@ -107,8 +113,10 @@ Jumps slide(const std::string& basis_name, bool textured) {
         const double middle = 0.5 * (low + high);
         if (middle == low || middle == high) break;
         Contact there = at(middle);
-        if (there.segment == left.segment) low = middle, left = there;
-        else high = middle, right = there;
+        if (there.segment == left.segment)
+          low = middle, left = there;
+        else
+          high = middle, right = there;
       }
       ++jumps.borders;
       jumps.force = std::max(jumps.force, largest_difference(left.force, right.force) / length(right.force));
@@ -119,16 +127,17 @@ Jumps slide(const std::string& basis_name, bool textured) {
   return jumps;
 }
 
-// Over flat segments the force turns with the angle between them. The force of a smoothed surface does not know where its
-// segments end; but a texture on a C1 surface leans with the curvature of what it lies on, n_e by h times the jump of
-// the curvature: only a C2 surface carries one without a jump.
+// Over flat segments the force turns with the angle between them. The force of a smoothed surface does not
+// know where its segments end; but a texture on a C1 surface leans with the curvature of what it lies on, n_e
+// by h times the jump of the curvature: only a C2 surface carries one without a jump.
 TEST(WholeSurface, JumpsOfTheForceAtBorders) {
-  std::cout << "basis          texture  borders  jump of the force  of the normal  change per 0.02 within a segment\n";
+  std::cout << "basis          texture  borders  jump of the force  of the normal  change per 0.02 within a "
+               "segment\n";
   for (const bool textured : {false, true})
     for (const char* name : {"line2", "catmull_rom4", "bspline4", "quad4", "catmull_rom16", "bspline16"}) {
       const Jumps jumps = slide(name, textured);
-      std::printf("%-14s %-8s %7d %18.1e %14.1e %12.1e\n", name, textured ? "sine" : "none", jumps.borders, jumps.force, jumps.normal,
-                  jumps.inside);
+      std::printf("%-14s %-8s %7d %18.1e %14.1e %12.1e\n", name, textured ? "sine" : "none", jumps.borders,
+                  jumps.force, jumps.normal, jumps.inside);
       EXPECT_GE(jumps.borders, 10) << name;
       if (std::string(name).find("line2") == 0 || std::string(name).find("quad4") == 0) {
         EXPECT_GT(jumps.force, 0.1) << name; // the angle between neighbours
@@ -138,18 +147,21 @@ TEST(WholeSurface, JumpsOfTheForceAtBorders) {
       if (leans) {
         EXPECT_GT(jumps.normal, 1e-5) << name;
       }
-      EXPECT_LE(jumps.normal, leans ? 0.02 * 0.2 : 1e-10) << name; // |h| times a jump of the curvature below 0.2
+      EXPECT_LE(jumps.normal, leans ? 0.02 * 0.2 : 1e-10)
+          << name; // |h| times a jump of the curvature below 0.2
       EXPECT_LE(jumps.force, leans ? 0.02 * 0.2 : 1e-10) << name;
     }
 }
 
-// One flat square of 4 x 4 as 1, 4 and 16 irregular segments with the same texture in surface coordinates: the same contact.
+// One flat square of 4 x 4 as 1, 4 and 16 irregular segments with the same texture in surface coordinates:
+// the same contact.
 TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
   const Basis& basis = basis_named("quad4");
-  nlohmann::json text{{"segment", "quad4"},
-                      {"master", "rigid"},
-                      {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1.0}}}}},
-                      {"height", {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {0.4, 0.3}}, {"phase", 0.2}}}};
+  nlohmann::json text{
+      {"segment", "quad4"},
+      {"master", "rigid"},
+      {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1.0}}}}},
+      {"height", {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {0.4, 0.3}}, {"phase", 0.2}}}};
   const Model model(text.dump());
   std::vector<MeshSurface> meshes;
   Random random(92);
@@ -159,9 +171,10 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
     std::vector<double> coordinates;
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i) {
-        const bool inner_x = i > 0 && i < n, inner_y = j > 0 && j < n;
+        const bool inner_x = i > 0 && i<n, inner_y = j> 0 && j < n;
         const double h = 4.0 / n, move = 0.25 * h;
-        const double x = h * i + (inner_x ? random.uniform(-move, move) : 0.0), y = h * j + (inner_y ? random.uniform(-move, move) : 0.0);
+        const double x = h * i + (inner_x ? random.uniform(-move, move) : 0.0),
+                     y = h * j + (inner_y ? random.uniform(-move, move) : 0.0);
         mesh.positions.insert(mesh.positions.end(), {x, y, 0.0});
       }
     for (int j = 0; j < n; ++j)
@@ -169,7 +182,8 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
         for (const auto& xi : basis.nodes) {
           const std::int64_t node = (j + (xi[1] > 0.0)) * (n + 1) + i + (xi[0] > 0.0);
           mesh.connectivity.push_back(node);
-          for (std::size_t k = 0; k < 2; ++k) mesh.surface_coordinates.push_back(mesh.positions[static_cast<std::size_t>(3 * node) + k]);
+          for (std::size_t k = 0; k < 2; ++k)
+            mesh.surface_coordinates.push_back(mesh.positions[static_cast<std::size_t>(3 * node) + k]);
         }
     meshes.push_back(mesh);
   }
@@ -178,7 +192,8 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
   double worst = 0.0;
   int compared = 0;
   for (int i = 0; i < 1000; ++i) {
-    const std::vector<double> slave = {random.uniform(0.2, 3.8), random.uniform(0.2, 3.8), random.uniform(-0.3, 0.1)};
+    const std::vector<double> slave = {random.uniform(0.2, 3.8), random.uniform(0.2, 3.8),
+                                       random.uniform(-0.3, 0.1)};
     const Contact one = contact_of(model, meshes[0], detectors[0], slave);
     for (std::size_t k = 1; k < meshes.size(); ++k) {
       const Contact many = contact_of(model, meshes[k], detectors[k], slave);
@@ -188,7 +203,9 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
       worst = std::max({worst, std::fabs(one.gap - many.gap), largest_difference(one.force, many.force)});
     }
   }
-  std::cout << compared << " contacts on 4 and 16 segments: gap and force differ from those on one by at most " << worst << "\n";
+  std::cout << compared
+            << " contacts on 4 and 16 segments: gap and force differ from those on one by at most " << worst
+            << "\n";
   EXPECT_GT(compared, 1500);
   EXPECT_LE(worst, 1e-10);
 }
