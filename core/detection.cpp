@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/detection.hpp"
+#include "core/target.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -213,17 +214,14 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   out.searched = true;
   out.segment = out.other = -1;
   bool doubtful = false; // a search that could not be completed
-  double ray[3] = {plan.ray[0], plan.ray[1], plan.ray[2]};
-  if (plan.projection == ProjectionKind::shadow_point) {
-    double length2 = 0.0;
-    for (int k = 0; k < plan.dimension; ++k) ray[k] -= slave[k], length2 += ray[k] * ray[k];
-    const double length = std::sqrt(length2);
-    if (!(length > 1e-150) || !(length < 1e150)) { // no ray: as set_target
-      out.at.ambiguous = false;
-      return Status::ok;
-    }
-    for (int k = 0; k < plan.dimension; ++k) ray[k] /= length;
+  portable::Target target;
+  const bool has_ray = plan.dimension == 2 ? portable::set_target<2>(plan, slave, target)
+                                           : portable::set_target<3>(plan, slave, target);
+  if (!has_ray) { // the light stands on the slave
+    out.at.ambiguous = false;
+    return Status::ok;
   }
+  const double(&ray)[3] = target.ray;
 
   const Tree t(plan, mesh.segments);
   struct Visit {

@@ -143,11 +143,5 @@ TEST(Accuracy, AnApproximateTangentIsSeen) {
   }
 }
 
-TEST(Program, NamesACommandItDoesNotKnow) {
-  const test::ProgramOutput output = test::ents_host("rum scene.json");
-  EXPECT_EQ(output.exit_code, 2);
-  EXPECT_NE(output.text.find("\"rum\" is not a command; write run"), std::string::npos) << output.text;
-}
-
 } // namespace
 } // namespace host

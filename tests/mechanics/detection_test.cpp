@@ -244,14 +244,20 @@ TEST_P(Detection, FindsTheLitPointOfTheSurface) {
 INSTANTIATE_TEST_SUITE_P(Basis, Detection, testing::ValuesIn(basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
+// Straight segments in the plane.
+MeshSurface lines(std::vector<double> positions, std::vector<std::int64_t> connectivity) {
+  MeshSurface mesh;
+  mesh.basis = &basis_named("line2");
+  mesh.positions = std::move(positions);
+  mesh.connectivity = std::move(connectivity);
+  return mesh;
+}
+const std::vector<double> two_walls = {0, 0, 4, 0, 4, 1, 0, 1}; // one over the other, facing each other
+
 // Once found, a projection is followed: its own branch is kept while it exists, although another point has
 // come closer.
 TEST(DetectionFollows, TheBranchItIsOn) {
-  const Basis& basis = basis_named("line2");
-  MeshSurface mesh; // two walls, one over the other, facing each other
-  mesh.basis = &basis;
-  mesh.positions = {0, 0, 4, 0, 4, 1, 0, 1};
-  mesh.connectivity = {0, 1, 2, 3};
+  const MeshSurface mesh = lines(two_walls, {0, 1, 2, 3});
   const Model model(R"({"segment": "line2"})");
   Detector detector(model, mesh);
   Detector::Found found;
@@ -272,11 +278,7 @@ TEST(DetectionFollows, TheBranchItIsOn) {
 }
 
 TEST(DetectionTies, AreFlaggedAndNamed) {
-  const Basis& basis = basis_named("line2");
-  MeshSurface mesh;
-  mesh.basis = &basis;
-  mesh.positions = {0, 0, 4, 0, 4, 1, 0, 1};
-  mesh.connectivity = {0, 1, 2, 3};
+  const MeshSurface mesh = lines(two_walls, {0, 1, 2, 3});
   const Model model(R"({"segment": "line2"})");
   Detector detector(model, mesh);
   Detector::Found found;
@@ -288,11 +290,7 @@ TEST(DetectionTies, AreFlaggedAndNamed) {
 
 // On a common node or edge two segments give the same point: no tie, and the one with the smaller number.
 TEST(DetectionTies, ACommonNodeIsNone) {
-  const Basis& basis = basis_named("line2");
-  MeshSurface mesh;
-  mesh.basis = &basis;
-  mesh.positions = {0, 0, 1, 0, 2, 0};
-  mesh.connectivity = {1, 2, 0, 1};
+  const MeshSurface mesh = lines({0, 0, 1, 0, 2, 0}, {1, 2, 0, 1});
   const Model model(R"({"segment": "line2"})");
   Detector detector(model, mesh);
   Detector::Found found;
@@ -305,12 +303,9 @@ TEST(DetectionTies, ACommonNodeIsNone) {
 // Over a valley, below its bottom, no segment has a projection: with a border one has, without it the node
 // slips through.
 TEST(DetectionBorder, ClosesTheWedgeOfAValley) {
-  const Basis& basis = basis_named("line2");
-  MeshSurface mesh; // a valley of 2 x 10 degrees; the slave comes from above
-  mesh.basis = &basis;
-  const double slope = std::tan(10.0 * std::acos(-1.0) / 180.0);
-  mesh.positions = {-1, slope, 0, 0, 1, slope};
-  mesh.connectivity = {0, 1, 1, 2};
+  const double slope =
+      std::tan(10.0 * std::acos(-1.0) / 180.0); // a valley of 2 x 10 degrees; the slave comes from above
+  const MeshSurface mesh = lines({-1, slope, 0, 0, 1, slope}, {0, 1, 1, 2});
   const std::vector<double> below = {0.0, -0.01};
   Detector::Found found;
   const Model without(R"({"segment": "line2"})");
