@@ -11,7 +11,8 @@ template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noe
 }
 
 struct ElementCall {
-  const Plan* plan;
+  const ents_model* model;
+  const Plan* plan; // of one segment
   const ents_input* in;
   const ents_output* out;
   MasterMesh mesh; // if the input has one

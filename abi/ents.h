@@ -146,7 +146,7 @@ ENTS_API int32_t ents_model_destroy(ents_model **model, ents_report *report);
 typedef struct ents_layout {
   int32_t struct_size;
   int32_t dimension;           /* d: 2 or 3 */
-  int32_t nodes;               /* m: master nodes of the segment */
+  int32_t nodes;               /* m: master nodes of the segment; of the patch, if the model has one */
   int32_t parameters;          /* d-1: convective coordinates xi; also surface coordinates per master node */
   int32_t dofs;                /* d (m+1), or d for a rigid master; plus multipliers */
   int32_t state_size;          /* per element */
@@ -311,6 +311,10 @@ typedef struct ents_output {
  * element; n elements give the same bits as n single calls. All levels are here: kinematics (ENTS_XI .. ENTS_XI_HESSIAN) to
  * build any method of eq. (3)-(4) with, and the element (ENTS_ENERGY .. ENTS_STATE), which needs "contact" in the model.
  * For a kinematic quantity alone the segment has no border: xi may lie outside.
+ * A model with a "patch" has elements of several segments (for hosts whose elements have fixed nodes): m is then the number of the
+ * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does, from the one in `state_begin` on; xi and its
+ * variations are those of that segment. A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
+ * functions of whole surfaces take such a model's segments one by one.
  * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
  * visited, the recoverable status of the first element that has one. */
 ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t count,

@@ -10,7 +10,7 @@ using namespace ents;
 std::int32_t check_blocks(const ents_model* model, std::int64_t count, const void* array, std::int64_t stride,
                           const char* name, ents_report* report) {
   if (const std::int32_t status = check_handle(model, report); status != ENTS_OK) return status;
-  const std::int32_t size = model->plan.state.size;
+  const std::int32_t size = model->sizes.state;
   constexpr std::int64_t most = std::int64_t{1} << most_bits;
   if (count < 0 || stride < size || (count > 1 && count > most / stride))
     return report_message(report, ENTS_BAD_COUNT, -1,
@@ -31,7 +31,7 @@ int32_t ents_state_init(const ents_model* model, int64_t count, double* state, i
     const StateLayout& layout = model->plan.state;
     for (int64_t e = 0; e < count; ++e) {
       double* block = state + e * stride;
-      for (std::int32_t i = 0; i < layout.size; ++i) block[i] = 0.0;
+      for (std::int32_t i = 0; i < model->sizes.state; ++i) block[i] = 0.0;
       block[StateLayout::tag_at] = layout.tag;
     }
     return report_ok(report);
@@ -65,6 +65,9 @@ int32_t ents_state_transfer(const ents_model* model, const double* old_master, c
                             double* moved, ents_report* report) {
   return at_the_door(report, [&] {
     if (const std::int32_t status = check_handle(model, report); status != ENTS_OK) return status;
+    if (!model->model.patch.empty())
+      return report_status(report, ENTS_BAD_STATE, -1,
+                           "the elements of this model are patches: they move their states from segment to segment themselves");
     const struct {
       const char* name;
       const void* pointer;

@@ -49,7 +49,7 @@ struct Detection {
 // The projection of a slave among all segments.
 //   normal: the closest one within reach; shadow: the lit point, if it is within reach along the ray.
 // A previous projection (out.segment >= 0, out.at.xi) that is still on its segment and within reach is kept:
-// the slave stays on the branch it was on.
+// the slave stays on the branch it was on. Without a tree (null) all segments are looked at.
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out);
 

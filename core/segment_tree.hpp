@@ -35,9 +35,15 @@ struct Tree {
 };
 
 // Calls visit(segment) for the segments whose boxes have a rank of at most `limit()`, the smaller ranks first as far as the tree
-// knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way. A status that is not ok ends it.
+// knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way. A status that is not ok ends it. Without a tree all
+// segments are visited.
 template <class Rank, class Limit, class Visit>
 Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
+  if (!tree) { // a few segments
+    for (std::int64_t s = 0; s < t.segments; ++s)
+      if (const Status status = visit(s); status != Status::ok) return status;
+    return Status::ok;
+  }
   struct Waiting {
     std::int64_t node;
     double rank;
