@@ -79,6 +79,18 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
 
+  ! Conditions of ents_surface_check; 0-based: value(ENTS_CHECK_FOLD + 1)
+  integer(c_int32_t), parameter :: ENTS_CHECK_CONTINUITY = 0
+  integer(c_int32_t), parameter :: ENTS_CHECK_FOLD = 1
+  integer(c_int32_t), parameter :: ENTS_CHECK_EDGE = 2
+  integer(c_int32_t), parameter :: ENTS_CHECK_JUMP = 3
+  integer(c_int32_t), parameter :: ENTS_CHECK_KINK = 4
+  integer(c_int32_t), parameter :: ENTS_CHECK_WEDGE = 5
+  integer(c_int32_t), parameter :: ENTS_CHECK_PROJECTION = 6
+  integer(c_int32_t), parameter :: ENTS_CHECK_SHADOW = 7
+  integer(c_int32_t), parameter :: ENTS_CHECK_OCCLUSION = 8
+  integer(c_int32_t), parameter :: ENTS_CHECK_CROSSING = 9
+
   type, bind(c) :: ents_report
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: status = 0
@@ -259,15 +271,35 @@ module ents
     real(c_double) :: height_max = 0
   end type ents_admissibility
 
+  type, bind(c) :: ents_surface_admissibility
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: samples = 0
+    real(c_double) :: reach = 0
+    real(c_double) :: kink = 0
+    type(c_ptr) :: violations = c_null_ptr ! (segments), int64
+    integer(c_int64_t) :: judged = 0
+    integer(c_int64_t) :: violated = 0
+    real(c_double) :: value(16) = 0
+    real(c_double) :: bound(16) = 0
+    real(c_double) :: missing(16) = 0
+    integer(c_int64_t) :: segment(16) = 0 ! counted from 0
+    real(c_double) :: xi(2, 16) = 0
+    real(c_double) :: point(3, 16) = 0
+    integer(c_int64_t) :: other(16) = 0
+    real(c_double) :: other_xi(2, 16) = 0
+    real(c_double) :: height_min = 0
+    real(c_double) :: height_max = 0
+  end type ents_surface_admissibility
+
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
       init_input, init_output, &
-      init_surface, init_admissibility
+      init_surface, init_admissibility, init_surface_admissibility
   end interface ents_init
   private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
     init_input, init_output, init_surface, &
-    init_admissibility
+    init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -515,6 +547,16 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_model_check
+
+    ! Is the enrichment admissible on a whole surface?
+    function ents_surface_check(model, mesh, result, report) result(status) bind(c, name="ents_surface_check")
+      import :: c_int32_t, c_ptr, ents_master_mesh, ents_report, ents_surface_admissibility
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      type(ents_surface_admissibility), intent(inout), target :: result
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_surface_check
   end interface
 
 contains
@@ -575,6 +617,11 @@ contains
     type(ents_admissibility), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_admissibility
+
+  subroutine init_surface_admissibility(x)
+    type(ents_surface_admissibility), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_surface_admissibility
 
   pure function string_from_characters(characters) result(string)
     character(kind=c_char), intent(in) :: characters(:)

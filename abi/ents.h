@@ -458,6 +458,62 @@ ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
                                   const double *surface_coordinates, ents_admissibility *result,
                                   ents_report *report);
 
+/* Conditions of a whole surface (sections 2 and 3 and Fig. 4 of the paper): name, place in the arrays below, and the bound that the
+ * worst value is held against. Grids and facets measure them: what is smaller than the distance of the samples may be missed. */
+#define ENTS_CONDITION_TABLE(X)                                                                                        \
+  X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; 3 for the consistent tangent with friction")              \
+  X(ENTS_CHECK_FOLD, 1, "max |h| |kappa| of rho: below 1, else rho_e folds over itself")                               \
+  X(ENTS_CHECK_EDGE, 2, "max |h| on the edges [L]: 0 for a local enrichment (s = xi); else not judged")                \
+  X(ENTS_CHECK_JUMP, 3, "max distance of the two rho_e on an edge of two segments [L]: 0")                             \
+  X(ENTS_CHECK_KINK, 4, "max angle between the two n_e on such an edge [rad]: at most `kink`")                         \
+  X(ENTS_CHECK_WEDGE, 5, "min angle free outside between two segments at their edge [rad]: above 0")                   \
+  X(ENTS_CHECK_PROJECTION, 6, "min |gap| at which a slave has two normal projections [L]: at least `reach`")           \
+  X(ENTS_CHECK_SHADOW, 7, "min n_e . e of the ray through each point: above 0, else self-shadow")                      \
+  X(ENTS_CHECK_OCCLUSION, 8, "max distance along the ray to another part of the surface in its light [L]: 0")          \
+  X(ENTS_CHECK_CROSSING, 9, "max depth of a segment behind another that it intersects [L]: 0")
+
+enum {
+#define ENTS_CONDITION_ENUM(name, value, text) name = value,
+  ENTS_CONDITION_TABLE(ENTS_CONDITION_ENUM)
+#undef ENTS_CONDITION_ENUM
+  ENTS_CHECK_COUNT_ = 16 /* room in the arrays */
+};
+
+/* Is the enrichment admissible on a whole surface? All arrays: one entry per condition.
+ *   judged       bit 1 << ENTS_CHECK_...: the model, the surface or the caller sets a bound; else the value is for information
+ *   violated     the same: the value is beyond its bound. Bounds of 0 [L] leave room for rounding, see `bound`
+ *   projection   normal projection only. Places beside a kink between two segments have two projections by nature and do not
+ *                count. Without a reach: the smallest radius of curvature of rho_e alone
+ *   shadow, occlusion   shadow projections only
+ *   kink, edge, jump, wedge   neighbours are segments that share the nodes at the ends of an edge (smoothed segments: the inner
+ *                nodes, between which they lie); `kink` does not depend on whether the base has it, too
+ *   crossing     of a segment with itself: what sticks through one facet, a lower bound
+ * Allocates (NO_MEMORY): about 200 bytes per sample; 2^18 samples, or the corners of all segments if they are more. Takes
+ * seconds for 10^6 samples: once per surface and motion of interest, not once per iteration. */
+typedef struct ents_surface_admissibility {
+  int32_t struct_size;
+  int32_t samples;         /* in: points per direction and segment, 2 .. 4096; 0: as fine as the height asks for. out: most taken */
+  double reach;            /* in: [L], a slave is searched up to this |gap|; 0: the model's penetration_limit, if it has one */
+  double kink;             /* in: [rad], tolerated between neighbours; 0: not judged */
+  int64_t *violations;     /* [segments] out or null: bits 1 << ENTS_CHECK_... that this segment violates */
+  int64_t judged;          /* out, and all below */
+  int64_t violated;
+  double value[16];        /* the worst; infinite if there is none (a flat surface has no smallest radius) */
+  double bound[16];
+  double missing[16];      /* > 0: by how much the value misses its bound; 0: it holds, or is not judged */
+  int64_t segment[16];     /* where; -1: nowhere, or everywhere */
+  double xi[16][2];
+  double point[16][3];     /* rho_e there [L]; 2D: third entry 0 */
+  int64_t other[16];       /* the other segment of an edge or a pair; may be the same; -1: none */
+  double other_xi[16][2];
+  double height_min, height_max; /* [L] */
+} ents_surface_admissibility;
+
+/* Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE, NON_FINITE, NO_MEMORY. Recoverable: DEGENERATE_SEGMENT (a plain
+ * segment without a normal, report.element). A surface that is not admissible is no error: 0, and `violated` says so. */
+ENTS_API int32_t ents_surface_check(const ents_model *model, const ents_master_mesh *mesh,
+                                    ents_surface_admissibility *result, ents_report *report);
+
 #ifdef __cplusplus
 }
 #endif
