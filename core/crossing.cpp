@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #include "core/facets.hpp"
 
@@ -15,8 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double touching = 1e-9;    // of the facets' size
-constexpr int most_attempts = 64;    // of confirming that two segments intersect
-constexpr std::size_t most_measured = 1000; // pairs whose overlap is measured all over
+constexpr int most_attempts = 64;    // to find a sample behind, for facets of two segments that may only touch
+constexpr int most_searches = 4;     // of these without a start
 
 struct Contact {
   bool touch = false;   // or intersect
@@ -94,11 +97,9 @@ public:
   }
 
   void tell() {
-    std::size_t measured = 0;
-    for (auto& [segments, pair] : pairs_) {
+    for (const auto& [segments, pair] : pairs_) {
       const auto [a, b] = segments;
-      if (!pair.confirmed) continue;
-      if (a != b && measured++ < most_measured) measure(a, b, pair.worst), measure(b, a, pair.worst);
+      if (!(pair.worst.depth > (a == b ? 0.0 : touching * c_.size))) continue;
       c_.mark(condition::crossing, a), c_.mark(condition::crossing, b);
       c_.keep(condition::crossing, pair.worst.depth > c_.finding(condition::crossing).value, pair.worst.depth, a,
               pair.worst.xi, b, pair.worst.other_xi);
@@ -108,8 +109,8 @@ public:
 private:
   struct Pair {
     int attempts = 0;
-    bool confirmed = false;
     Deepest worst; // xi on the pair's first segment
+    std::unordered_set<std::int64_t> seen; // samples
   };
 
   // Touching boxes count: facets may lie in a coordinate plane.
@@ -141,9 +142,6 @@ private:
     const Facets::Cell a = f_.cell(first), b = f_.cell(second);
     const bool itself = a.segment == b.segment;
     if (itself && std::abs(a.i - b.i) <= 1 && std::abs(a.j - b.j) <= 1) return;
-    const auto known = pairs_.find({a.segment, b.segment});
-    if (!itself && known != pairs_.end() && (known->second.confirmed || known->second.attempts >= most_attempts))
-      return;
     Facets::Piece x[2], y[2];
     const int x_count = f_.pieces(a, x), y_count = f_.pieces(b, y);
     for (int p = 0; p < x_count; ++p)
@@ -152,18 +150,17 @@ private:
         if (!contact.touch || (contact.through == 0.0 && (itself || meet_on_borders(a, x[p], b, y[q])))) continue;
         Pair& pair = pairs_[{a.segment, b.segment}];
         if (itself) { // the surface has no side to be behind of: what sticks through of a facet, at least
-          if (pair.confirmed && contact.through <= pair.worst.depth) continue;
-          pair.confirmed = true;
+          if (contact.through <= pair.worst.depth) continue;
           pair.worst.depth = contact.through;
           f_.xi_of(x[p].corner[0][0], x[p].corner[0][1], pair.worst.xi);
           f_.xi_of(y[q].corner[0][0], y[q].corner[0][1], pair.worst.other_xi);
           continue;
         }
-        ++pair.attempts;
-        behind(a, x[p], b.segment, false, pair.worst);
-        behind(b, y[q], a.segment, true, pair.worst);
-        pair.confirmed = pair.worst.depth > touching * c_.size;
-        if (pair.confirmed) return;
+        if (pair.attempts >= most_attempts && !(pair.worst.depth > touching * c_.size)) return;
+        const double before = pair.worst.depth;
+        behind(a, x[p], b, y[q], false, pair);
+        behind(b, y[q], a, x[p], true, pair);
+        if (!(pair.worst.depth > std::max(before, touching * c_.size))) ++pair.attempts;
       }
   }
 
@@ -176,39 +173,51 @@ private:
     return triangles_meet(first, second);
   }
 
-  // How far a sample is behind another segment on which it has a projection.
-  void sample_behind(std::int64_t segment, int i, int j, const SegmentNodes& other, bool swapped, Deepest& worst) const {
-    const auto k = static_cast<std::size_t>(f_.sample(segment, i, j));
-    if (!f_.known[k]) return;
-    const double slave[3] = {f_.points[k].x(), f_.points[k].y(), f_.points[k].z()};
-    SegmentProjection at;
-    if (!plan_.project(plan_, slave, other.positions, other.surface_coordinates, nullptr, c_.size, at)) return;
-    if (!(-at.gap > worst.depth)) return;
-    worst.depth = -at.gap;
-    double xi[2];
-    f_.xi_of(i, j, xi);
-    for (int a = 0; a < 2; ++a) {
-      (swapped ? worst.other_xi : worst.xi)[a] = xi[a];
-      (swapped ? worst.xi : worst.other_xi)[a] = a < plan_.parameters ? at.xi[a] : 0.0;
+  // From the corners of a facet over all samples of its segment that are behind the other: how deep is the deepest?
+  void behind(const Facets::Cell& cell, const Facets::Piece& piece, const Facets::Cell& other, const Facets::Piece& there,
+              bool swapped, Pair& pair) {
+    SegmentNodes nodes;
+    if (gather(plan_, c_.mesh, other.segment, nodes) != Status::ok) return;
+    struct Visit {
+      int i, j;
+      double start[2];
+    };
+    std::vector<Visit> waiting;
+    for (int k = 0; k < f_.corners(); ++k) {
+      Visit visit{piece.corner[k][0], piece.corner[k][1], {}};
+      f_.xi_of(there.corner[0][0], there.corner[0][1], visit.start);
+      waiting.push_back(visit);
     }
-  }
-  void behind(const Facets::Cell& cell, const Facets::Piece& piece, std::int64_t other, bool swapped, Deepest& worst) const {
-    SegmentNodes nodes;
-    if (gather(plan_, c_.mesh, other, nodes) != Status::ok) return;
-    for (int k = 0; k < f_.corners(); ++k)
-      sample_behind(cell.segment, piece.corner[k][0], piece.corner[k][1], nodes, swapped, worst);
-  }
-  // All over the segment, on at most 33 (a line: 129) of its samples per direction.
-  void measure(std::int64_t segment, std::int64_t other, Deepest& worst) const {
-    SegmentNodes nodes;
-    if (gather(plan_, c_.mesh, other, nodes) != Status::ok) return;
-    const bool surface = f_.corners() == 3;
-    const int step = std::max(1, (f_.n - 1) / (surface ? 32 : 128));
-    const auto sampled = [&](int i, int last) { return i % step == 0 || i == last; };
-    for (int j = 0; j < (surface ? f_.n : 1); ++j)
-      for (int i = 0; i < (c_.simplex() ? f_.n - j : f_.n); ++i)
-        if (sampled(i, (c_.simplex() ? f_.n - j : f_.n) - 1) && sampled(j, surface ? f_.n - 1 : 0))
-          sample_behind(segment, i, j, nodes, segment > other, worst);
+    for (int visits = 0; !waiting.empty(); ++visits) {
+      const Visit visit = waiting.back();
+      waiting.pop_back();
+      const std::int64_t sample = f_.sample(cell.segment, visit.i, visit.j);
+      const auto k = static_cast<std::size_t>(sample);
+      if (!f_.known[k] || !pair.seen.insert(sample).second) continue;
+      const double slave[3] = {f_.points[k].x(), f_.points[k].y(), f_.points[k].z()};
+      SegmentProjection at;
+      const auto project = [&](const double* start) {
+        return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, c_.size, at);
+      };
+      if (!project(visit.start) && (visits >= f_.corners() || pair.attempts >= most_searches || !project(nullptr))) continue;
+      if (!(at.gap < 0.0)) continue;
+      if (-at.gap > pair.worst.depth) {
+        Deepest& worst = pair.worst;
+        worst.depth = -at.gap;
+        double xi[2];
+        f_.xi_of(visit.i, visit.j, xi);
+        for (int a = 0; a < 2; ++a) {
+          (swapped ? worst.other_xi : worst.xi)[a] = xi[a];
+          (swapped ? worst.xi : worst.other_xi)[a] = a < plan_.parameters ? at.xi[a] : 0.0;
+        }
+      }
+      const int rows = f_.corners() == 3 ? f_.n : 1;
+      for (const auto& [i, j] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        const int next_i = visit.i + i, next_j = visit.j + j;
+        if (next_i < 0 || next_j < 0 || next_j >= rows || next_i >= (c_.simplex() ? f_.n - next_j : f_.n)) continue;
+        waiting.push_back({next_i, next_j, {at.xi[0], at.xi[1]}});
+      }
+    }
   }
 
   const SurfaceChecker& c_;
