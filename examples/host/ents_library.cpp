@@ -66,7 +66,7 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(state_transfer, "ents_state_transfer");
     find(sampling_points, "ents_sampling_points");
     find(surface_evaluate, "ents_surface_evaluate");
-    find(model_check, "ents_model_check");
+    find(surface_check, "ents_surface_check");
   } catch (...) {
     dlclose(handle_);
     throw;
