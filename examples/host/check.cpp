@@ -28,8 +28,8 @@ constexpr Condition conditions[] = {
      "the tangent jumps where a derivative of h does (friction asks for one more); take a smoother height"},
     {ENTS_CHECK_FOLD, "fold", "rho_e does not fold over itself: max |h| kappa", "<", "",
      "the height exceeds the radius of curvature of rho; lower it, or refine the segments"},
-    {ENTS_CHECK_EDGE, "edge", "local height vanishes on the edges: max |h|", "<=", "",
-     "the surface jumps from segment to segment; let h vanish, or give surface coordinates"},
+    {ENTS_CHECK_EDGE, "edge", "height on the edges of segments: max |h|", "<=", "",
+     "a local height (s = xi) has to vanish there, or the surface jumps from segment to segment; or give surface coordinates"},
     {ENTS_CHECK_JUMP, "jump", "neighbours meet: largest jump of rho_e at an edge", "<=", "",
      "rho_e = rho + h n jumps with n where h is not zero on the edge; smooth the surface, or let h vanish"},
     {ENTS_CHECK_KINK, "kink", "no kink: largest angle of n_e at an edge [degrees]", "<=", "",
@@ -77,10 +77,13 @@ public:
   const std::vector<std::int64_t>& violations() const { return violations_; }
 
   std::string value_text(const Condition& c) const {
+    if (c.index == ENTS_CHECK_CONTINUITY) return derivatives(value(c));
     return std::isinf(value(c)) && *c.none != 0 ? c.none : format_number(value(c), 4);
   }
   std::string bound_text(const Condition& c) const {
-    return judged(c) ? std::string(c.relation) + " " + format_number(bound(c), 3) : "";
+    if (!judged(c)) return "";
+    const std::string number = c.index == ENTS_CHECK_CONTINUITY ? derivatives(bound(c)) : format_number(bound(c), 3);
+    return std::string(c.relation) + " " + number;
   }
   std::string place(const Condition& c) const {
     if (result_.segment[c.index] < 0) return c.index == ENTS_CHECK_CONTINUITY ? "everywhere" : "";
@@ -94,7 +97,7 @@ public:
     for (const Condition& c : conditions) {
       if (!violated(c) || result_.segment[c.index] < 0) continue;
       const double* x = result_.point[c.index];
-      places.push_back({x[0], x[1], x[2], std::string(c.what) + " = " + value_text(c) + ", " + bound_text(c)});
+      places.push_back({x[0], x[1], x[2], std::string(c.what) + " is " + value_text(c) + ", bound " + bound_text(c)});
     }
     return places;
   }
@@ -121,6 +124,9 @@ public:
   }
 
 private:
+  static std::string derivatives(double count) {
+    return count >= 1000 ? "all" : std::to_string(static_cast<int>(count));
+  }
   std::string xi(const double* x) const {
     return ", xi = " + format_number(x[0], 4) + (d_ == 3 ? ", " + format_number(x[1], 4) : "");
   }

@@ -155,6 +155,7 @@ std::string free_corner(const Chart& chart, const Scale& x, const Scale& y, std:
 
 std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
   static constexpr const char* markers[] = {"7", "5", "9", "13", "11", "15"}; // filled: circle, square ...
+  static constexpr const char* open_markers[] = {"6", "4", "8", "12", "10", "14"};
   const std::string color =
       " linecolor rgb '" +
       (curve.style == Style::exact ? std::string(gnuplot::ink) : gnuplot::curve_color(index, count)) + "'";
@@ -173,8 +174,8 @@ std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
   case Style::area:
     return "with filledcurves x1 fillstyle solid 0.18" + color;
   case Style::wrong:
-    return "with points pointtype 6 pointsize 1.8 linewidth 2.2 linecolor rgb '" +
-           std::string(gnuplot::wrong) + "'";
+    return "with points pointtype " + std::string(open_markers[index % std::size(open_markers)]) +
+           " pointsize 1.8 linewidth 2.2 linecolor rgb '" + std::string(gnuplot::wrong) + "'";
   case Style::wrong_line:
     return "with lines linewidth 2.4 linecolor rgb '" + std::string(gnuplot::wrong) + "'";
   case Style::both:

@@ -112,7 +112,7 @@ struct Surface {
   std::vector<double> enriched; ///< [segments][rows][columns][dimension] rho_e
   std::vector<double> base;     ///< [segments][rows][columns][dimension] rho
   std::vector<double> height;   ///< [segments][rows][columns] h, colours the surface in 3D
-  std::vector<char> wrong;      ///< [segments] drawn as an offence (3D: its border); empty: one segment that is none
+  std::vector<char> wrong;      ///< [segments] drawn as an offence; empty: one segment that is none
   std::vector<Place> places;
 };
 

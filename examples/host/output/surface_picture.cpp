@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 
@@ -129,31 +131,27 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
     for (std::size_t a = 0; a < 3; ++a) out += number(surface.enriched[3 * sample + a]) + " ";
     return out + number(surface.height[sample]) + "\n";
   };
-  for (std::size_t s = 0; s < segments; ++s) {
+  // those that fail come last and in the colour of offences; the heights are worth more where all do
+  const auto fails = [&](std::size_t s) { return is_wrong(surface, s); };
+  std::vector<std::size_t> order(segments);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto right = static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), std::not_fn(fails)) - order.begin());
+  const std::size_t plain = right == 0 ? segments : right;
+  for (const std::size_t s : order) {
     for (const std::size_t j : j_drawn) {
       for (const std::size_t i : i_drawn) job.data += line_of(s, j, i);
       job.data += "\n";
     }
     job.data += "\n"; // two empty lines: the next surface
   }
-  bool borders = false; // of the segments that fail: one last block
-  for (std::size_t s = 0; segments > 1 && s < segments; ++s) {
-    if (!is_wrong(surface, s)) continue;
-    if (!borders) job.data += "# borders of the segments that fail\n";
-    borders = true;
-    for (const std::size_t i : i_drawn) job.data += line_of(s, 0, i);
-    for (const std::size_t j : j_drawn) job.data += line_of(s, j, columns - 1);
-    for (auto i = i_drawn.rbegin(); i != i_drawn.rend(); ++i) job.data += line_of(s, rows - 1, *i);
-    for (auto j = j_drawn.rbegin(); j != j_drawn.rend(); ++j) job.data += line_of(s, *j, 0);
-    job.data += "\n";
-  }
 
   Surface scaled = surface;
   for (Place& place : scaled.places) place.x *= length, place.y *= length, place.z *= length;
   std::string subtitle = surface.subtitle;
+  const auto join = [&](const std::string& more) { subtitle += (subtitle.empty() ? "" : "; ") + more; };
+  if (right < segments && segments > 1) join(right == 0 ? "all of them fail" : "those in red fail");
   if (z_scale > 1)
-    subtitle += (subtitle.empty() ? "" : "; ") + std::string("heights drawn ") +
-                std::to_string(static_cast<int>(z_scale)) + " times";
+    join("heights drawn " + std::to_string(static_cast<int>(z_scale)) + " times");
   const double pixels = job.height, foot = (list + drop + 30) / pixels;
   job.script = "reset\nset minussign\nunset key\nset border 15 linewidth 0.8 linecolor rgb '#999999'\n"
                "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30\nset view equal "
@@ -172,6 +170,10 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   job.script += "set xlabel " + gnuplot::text(gnuplot::axis_label("x", surface.unit, power)) +
                 " offset 0,-0.5\nset ylabel " + gnuplot::text(gnuplot::axis_label("y", surface.unit, power)) +
                 " offset 0.5,-0.5\n";
+  const auto [low, high] = std::minmax_element(surface.height.begin(), surface.height.end());
+  if (*low < *high) // else gnuplot would take the range of z
+    job.script += "set cbrange [" + number(*low * std::pow(10.0, -height_power)) + ":" +
+                  number(*high * std::pow(10.0, -height_power)) + "]\n";
   job.script +=
       gnuplot::palette(Map::Palette::viridis) + "set pm3d depthorder lighting primary 0.4 specular 0.05\n";
   for (const std::size_t axis : {0, 1})
@@ -181,11 +183,11 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   job.script += marks(scaled, z_scale, 0.22 * plan * length, pixels);
   const std::string l = number(length);
   const std::string place = "($1*" + l + "):($2*" + l + "):($3*" + number(length * z_scale) + ")";
-  job.script += "splot data index 0:" + std::to_string(segments - 1) + " using " + place + ":($4*" +
+  job.script += "splot data index 0:" + std::to_string(plain - 1) + " using " + place + ":($4*" +
                 number(std::pow(10.0, -height_power)) + ") with pm3d";
-  if (borders)
-    job.script += ", data index " + std::to_string(segments) + " using " + place + " with lines linewidth 1.6 linecolor rgb '" +
-                  gnuplot::wrong + "'";
+  if (plain < segments)
+    job.script += ", data index " + std::to_string(plain) + ":" + std::to_string(segments - 1) + " using " + place +
+                  " with pm3d fillcolor rgb '" + gnuplot::wrong + "'";
   job.script += "\n";
   return gnuplot::render(job, directory, name);
 }
