@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+// Relative to the size of the surface; above what a jump may be that is no jump.
+constexpr double same_place = 1e-7;
+
 // At a kink between two segments there are always two projections: what the kink is for, and no fault of the height.
 class Kinks {
 public:
@@ -43,6 +46,8 @@ struct ClosestSample {
   const Facets& facets;
   const Kinks& kinks;
   std::int64_t own; // segment of the sample that the ball touches
+  Vector3d touched; // that sample
+  double apart2;    // closer samples are the same place, seen from the next segment
   Vector3d centre;
   double distance2; // in: of the ball
   std::int64_t found = -1;
@@ -59,6 +64,7 @@ struct ClosestSample {
       for (int k = 0; k < facets.corners(); ++k) {
         const double d2 = (facets.point(where, piece[p].corner[k]) - centre).squaredNorm();
         if (!(d2 < distance2)) continue;
+        if (where.segment != own && (facets.point(where, piece[p].corner[k]) - touched).squaredNorm() < apart2) continue;
         if (!checked && kinks.between(own, where.segment)) return false;
         checked = true;
         distance2 = d2;
@@ -95,6 +101,7 @@ void check_two_projections(const SurfaceChecker& c, const Facets& f, const std::
   const int which = condition::projection;
   const Finding& worst = c.finding(which);
   const bool surface = f.corners() == 3;
+  const double apart = same_place * c.size;
   for (std::int64_t s = 0; s < c.mesh.segments; ++s)
     for (int j = 0; j < (surface ? f.n : 1); ++j)
       for (int i = 0; i < (c.simplex() ? f.n - j : f.n); ++i) {
@@ -105,11 +112,11 @@ void check_two_projections(const SurfaceChecker& c, const Facets& f, const std::
           // a segment that has been marked is looked at again for the worst place only
           const bool marked = (c.result.violations[static_cast<std::size_t>(s)] >> which) & 1;
           double radius = marked ? std::min(worst.value, worst.bound) : worst.bound;
-          ClosestSample last{f, kinks, s, p, 0.0};
+          ClosestSample last{f, kinks, s, p, apart * apart, p, 0.0};
           for (int shrinks = 0; shrinks < 100; ++shrinks) {
             const Vector3d centre = p + side * radius * n;
             const double inside = radius * (1.0 - 1e-9); // more than the rounding of the two distances
-            ClosestSample q{f, kinks, s, centre, inside * inside};
+            ClosestSample q{f, kinks, s, p, apart * apart, centre, inside * inside};
             Eigen::BVIntersect(f.tree, q);
             if (q.found < 0) break;
             const Vector3d chord = f.points[static_cast<std::size_t>(q.found)] - p;

@@ -162,6 +162,76 @@ TEST(SurfaceAdmissibility, PanelATwoSidesOfAGap) {
   }
 }
 
+// What the number of panel a claims, held against detection: a slave closer than it is projected on the point below it,
+// wherever that is; beyond, at the worst place, on another one (at the border of the surface there may be none). 2 %:
+// samples are a 16th of a wave apart.
+TEST(SurfaceAdmissibility, PanelAAgainstDetection) {
+  Random random(11);
+  int inside = 0;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const bool line = repeat % 4 != 0;
+    const Basis& basis = basis_named(line ? "line2" : "quad4");
+    MeshSurface surface = draw_mesh(random, basis, 3, 0.0);
+    json height = {{"type", "sum"}, {"of", json::array()}};
+    const double depth = random.uniform(0.05, repeat % 3 == 0 ? 1.2 : 0.3);
+    for (int k = 0; k < 2; ++k) {
+      json wave = {{"type", "sine"},
+                   {"amplitude", depth / (k + 1)},
+                   {"wave_vector", {random.uniform(0.1, 0.3 + 0.3 * k)}},
+                   {"phase", random.uniform(0.0, 6.0)}};
+      if (!line) wave["wave_vector"].push_back(random.uniform(-0.3, 0.3));
+      height["of"].push_back(wave);
+    }
+    const Model m = model(basis.name, height);
+    const Checked c = check(m, surface, 1e3);
+    const double reach = c.value[ENTS_CHECK_PROJECTION];
+    ASSERT_TRUE(c.violates(ENTS_CHECK_PROJECTION));
+    Detector detector(m, surface);
+    // its distance from the closest point, for a slave over this place
+    const auto closest = [&](std::int64_t segment, const std::vector<double>& xi, double gap) {
+      const SurfacePoints p =
+          evaluate_surface(m, surface.master(segment).data(), surface.coordinates(segment), xi);
+      std::vector<double> slave(p.point);
+      for (std::size_t k = 0; k < slave.size(); ++k) slave[k] += gap * p.normal[k];
+      Detector::Found found;
+      detector.detect(slave, 2.0 * std::fabs(gap), found);
+      return found.segment[0] < 0 ? 1e9 : std::fabs(found.gap[0]);
+    };
+    for (int i = 0; i < (line ? 200 : 60); ++i) {
+      const std::int64_t segment = static_cast<std::int64_t>(random.uniform(0.0, 1.0) * static_cast<double>(surface.segments()));
+      std::vector<double> xi(static_cast<std::size_t>(m.parameters()));
+      for (double& x : xi) x = random.uniform(-0.99, 0.99);
+      const double gap = random.uniform(-0.98, 0.98) * reach;
+      EXPECT_NEAR(closest(segment, xi, gap), std::fabs(gap), 1e-9) << repeat << ": " << height;
+    }
+    const std::vector<double> worst(c.xi[ENTS_CHECK_PROJECTION], c.xi[ENTS_CHECK_PROJECTION] + m.parameters());
+    const SurfacePoints place = evaluate_surface(m, surface.master(c.segment[ENTS_CHECK_PROJECTION]).data(),
+                                                 surface.coordinates(c.segment[ENTS_CHECK_PROJECTION]), worst);
+    bool border = false; // the surface is 6 long and wide
+    for (int a = 0; a < m.parameters(); ++a)
+      border = border || std::fabs(std::fabs(place.base_point[static_cast<std::size_t>(a)] - 3.0) - 3.0) < 1e-3;
+    if (border) continue;
+    ++inside;
+    const double beyond = 1.02 * reach;
+    double nearest = beyond;
+    for (const double side : {-1.0, 1.0})
+      nearest = std::min(nearest, closest(c.segment[ENTS_CHECK_PROJECTION], worst, side * beyond));
+    EXPECT_LT(nearest, beyond * (1.0 - 1e-6)) << repeat << ": " << height;
+  }
+  EXPECT_GT(inside, 20);
+}
+
+// Segments that meet at almost no angle are one surface; what rounding leaves between them is no second sheet.
+TEST(SurfaceAdmissibility, PanelANearlyFlatNeighbours) {
+  for (const double bend : {0.0, 1e-12, 1e-9, 1e-7, 1e-5, 1e-3}) {
+    MeshSurface surface = extruded(polyline({0.0, 0.0, 1.0, 0.0, 2.0, bend, 3.0, 0.0}), "quad4");
+    surface.surface_coordinates.assign(surface.connectivity.size() * 2, 0.5);
+    for (std::size_t i = 0; i < surface.surface_coordinates.size(); i += 3) surface.surface_coordinates[i] = 0.25;
+    const Model m = model("quad4", {{"type", "constant"}, {"value", 0.02}});
+    EXPECT_FALSE(check(m, surface, 0.5).violates(ENTS_CHECK_PROJECTION)) << bend;
+  }
+}
+
 // Panel b. A sine under a slanted light: admissible up to the angle of its steepest flank; beyond, the number is the
 // cosine there, and each crest keeps from the light a piece that starts where the ray touches it.
 TEST(SurfaceAdmissibility, PanelBSelfShadow) {
