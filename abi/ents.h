@@ -394,10 +394,12 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *   line2 -> bspline4       near the nodes (at x the curve is at x_(i-1)/6 + 2 x_i/3 + x_(i+1)/6); C2
  *   quad4 -> catmull_rom16  through the nodes; C1. Regular meshes: four facets meet in every inner node, two in every node of a
  *                           border, one in a corner
- *   quad4 -> bspline16      near the nodes; any mesh. C2 where facets are regular. A facet with an extraordinary node (one where it
- *                           is not so) has the patch of C. Loop and S. Schaefer, Approximating Catmull-Clark subdivision surfaces
- *                           with bicubic patches, ACM TOG 27, 2008. It meets all its neighbours; edges that do not end in
- *                           an extraordinary node keep a continuous normal, those that do have a small kink between their ends
+ *   quad4 -> bspline16      near the nodes; any mesh. C2 where facets are regular. A facet with an extraordinary node (where it is not
+ *                           so) has a bicubic patch near the Catmull-Clark surface (C. Loop and S. Schaefer, ACM TOG 27(1), 2008;
+ *                           next to extraordinary nodes C. Loop, S. Schaefer, T. Ni, I. Castano, ACM TOG 28(5), 2009). It meets
+ *                           all its neighbours; along edges that do not end in an extraordinary node with one normal, along
+ *                           those that do with one at their ends and a kink between them: 2 to 5 % of the angle between the plain
+ *                           facets for nodes of 3 to 8 facets
  * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
  * keep corners and the ends of lines in their places, borders of bspline16 are the splines of their nodes, and
  * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
@@ -413,8 +415,8 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *   weights         [terms] out; those of a point add up to 1
  * begin, point_nodes and weights make an ents_combination; its points 0 .. nodes - 1 are the nodes themselves.
  * Errors: BAD_VALUE names facet and node: a node that does not exist or is twice in a facet; more than two facets that meet in a
- * node (lines) or along an edge; neighbours that are not oriented alike; facets that touch in a node alone; an irregular mesh for
- * catmull_rom16. BAD_COUNT: sizes that are not those of ents_smooth_size. Both allocate (NO_MEMORY); after an error nothing is written. */
+ * node (lines) or along an edge; neighbours that are not oriented alike; facets that touch in a node alone; an inner node of two
+ * facets; an irregular mesh for catmull_rom16. BAD_COUNT: sizes that are not those of ents_smooth_size. Both allocate (NO_MEMORY); after an error nothing is written. */
 ENTS_API int32_t ents_smooth_size(const char *facet, const char *basis, int32_t ends, int64_t facets,
                                   const int64_t *connectivity, int64_t nodes, int64_t *points, int64_t *terms,
                                   ents_report *report);

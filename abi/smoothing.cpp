@@ -43,6 +43,10 @@ std::int32_t explain(const Refusal& r, std::int64_t m, ents_report* report) {
                "against each other; "
                "turn one round",
                facet, other, node, end);
+  case Refusal::folded:
+    return say("only two facets (one is %lld) meet in node %lld inside the surface: it has no normal there; "
+               "make one facet of them",
+               facet, node);
   case Refusal::touching:
     return say("parts of the surface touch in node %lld alone (one has facet %lld); give each of them a node "
                "of its own",

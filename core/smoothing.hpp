@@ -45,6 +45,7 @@ struct Refusal {
     branch,        // more than two facets meet in `node` (lines), or along the edge node, other_node
     opposed,  // the normals of `facet` and other_facet point to different sides; they meet in `node` (and
               // other_node)
+    folded,   // inner `node` of two facets, which share both edges there: it has no tangent plane
     touching, // parts of the surface touch in `node` alone
     irregular // four facets must meet in an inner node, two in one of a border, one in a corner; not so in
               // `node`
