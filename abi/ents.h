@@ -401,7 +401,7 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *                           those that do with one at their ends and a kink between them: 2 to 5 % of the angle between the plain
  *                           facets for nodes of 3 to 8 facets
  * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
- * keep corners and the ends of lines in their places, borders of bspline16 are the splines of their nodes, and
+ * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
  * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
  * With repeated ends, control points of regular meshes are single nodes; bspline surfaces then end short of their borders.
  * Facets must be oriented alike. Chains and surfaces may be several, open or closed.
