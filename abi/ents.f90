@@ -91,6 +91,10 @@ module ents
   integer(c_int32_t), parameter :: ENTS_CHECK_OCCLUSION = 8
   integer(c_int32_t), parameter :: ENTS_CHECK_CROSSING = 9
 
+  ! ends of ents_smooth
+  integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
+  integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
+
   type, bind(c) :: ents_report
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: status = 0
@@ -438,7 +442,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_detect
 
-    ! Positions of points that are linear combinations of nodes. positions: (d, nodes); points: (d, points).
+    ! Positions of points that are linear combinations of nodes. positions: (dimension, nodes); points: (dimension, points).
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
       import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
       type(ents_combination), intent(in), target :: combination
@@ -467,6 +471,36 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_sampling_points
+
+    ! Sizes of what ents_smooth fills.
+    function ents_smooth_size(facet, basis, ends, facets, connectivity, nodes, points, terms, report) result(status) &
+      bind(c, name="ents_smooth_size")
+      import :: c_char, c_int32_t, c_int64_t, ents_report
+      character(kind=c_char), intent(in) :: facet(*), basis(*)
+      integer(c_int32_t), value :: ends
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      integer(c_int64_t), intent(inout) :: points, terms
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_smooth_size
+
+    ! A smoothed surface over facets. facet, basis: zero-terminated names; connectivity: (nodes of the facet, facets), counted from
+    ! 0; segment_points: (m, facets); begin: (points + 1); point_nodes, weights: (terms).
+    function ents_smooth(facet, basis, ends, facets, connectivity, nodes, points, terms, segment_points, begin, point_nodes, &
+      weights, report) result(status) bind(c, name="ents_smooth")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
+      character(kind=c_char), intent(in) :: facet(*), basis(*)
+      integer(c_int32_t), value :: ends
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes, points, terms
+      integer(c_int64_t), intent(inout) :: segment_points(*), begin(*), point_nodes(*)
+      real(c_double), intent(inout) :: weights(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_smooth
 
     ! Evaluate elements and add them to the host's equations. output: c_loc of an ents_output or c_null_ptr.
     function ents_assemble(model, first, count, input, output, system, report) result(status) bind(c, name="ents_assemble")

@@ -365,8 +365,8 @@ typedef struct ents_combination {
   const double *weights;             /* [begin[points]] */
 } ents_combination;
 
-/* Positions of the points.
- *   dimension  d
+/* Positions of the points, or what else is given per node (surface coordinates).
+ *   dimension  numbers per node: 1, 2 or 3
  *   positions  [nodes][d] of the host's nodes, [L], finite
  *   points     [points][d] out */
 ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimension, int64_t nodes, const double *positions,
@@ -384,6 +384,49 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
 ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
                                       int64_t nodes, const double *positions, double thickness, int64_t *begin,
                                       int64_t *point_nodes, double *weights, double *areas, ents_report *report);
+
+#define ENTS_ENDS_STRAIGHT 0 /* beyond a free end or border: 2 x_0 - x_1, x_1 the neighbour inside (x_0 a node of the border) */
+#define ENTS_ENDS_REPEATED 1 /* x_0 once more */
+
+/* A smoothed master surface over ordinary facets: one segment of a smoothed basis per facet, in the same order and with the
+ * same natural coordinates, and control points that are linear combinations of the host's nodes. It follows from the connectivity
+ * alone: make it once. From then on a surface is
+ *   mesh.connectivity = segment_points, mesh.nodes = points, mesh.positions = ents_combine(positions of the nodes),
+ * and ents_assemble, told of the combination in system.master, puts residual and tangent on the host's own nodes.
+ *   facet -> basis
+ *   line2 -> catmull_rom4   through the nodes; C1
+ *   line2 -> bspline4       near the nodes (at x the curve is at x_(i-1)/6 + 2 x_i/3 + x_(i+1)/6); C2
+ *   quad4 -> catmull_rom16  through the nodes; C1. Regular meshes: four facets meet in every inner node, two in every node of a
+ *                           border, one in a corner
+ *   quad4 -> bspline16      near the nodes; any mesh. C2 where facets are regular. A facet with an extraordinary node (where it is not
+ *                           so) has a bicubic patch near the Catmull-Clark surface (C. Loop and S. Schaefer, ACM TOG 27(1), 2008;
+ *                           next to extraordinary nodes C. Loop, S. Schaefer, T. Ni, I. Castano, ACM TOG 28(5), 2009). It meets
+ *                           all its neighbours; along edges that do not end in an extraordinary node with one normal, along
+ *                           those that do with one at their ends and a kink between them: 2 to 5 % of the angle between the plain
+ *                           facets for nodes of 3 to 8 facets
+ * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
+ * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
+ * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
+ * With repeated ends, control points of regular meshes are single nodes; bspline surfaces then end short of their borders.
+ * Facets must be oriented alike. Chains and surfaces may be several, open or closed.
+ *   facet, basis    as above, zero-terminated
+ *   ends            ENTS_ENDS_...
+ *   connectivity    [facets][nodes of the facet], 0 <= index < nodes
+ *   points, terms   sizes of what ents_smooth fills: ents_smooth_size gives them
+ *   segment_points  [facets][m] out
+ *   begin           [points + 1] out
+ *   point_nodes     [terms] out
+ *   weights         [terms] out; those of a point add up to 1
+ * begin, point_nodes and weights make an ents_combination; its points 0 .. nodes - 1 are the nodes themselves.
+ * Errors: BAD_VALUE names facet and node: a node that does not exist or is twice in a facet; more than two facets that meet in a
+ * node (lines) or along an edge; neighbours that are not oriented alike; facets that touch in a node alone; an inner node of two
+ * facets; an irregular mesh for catmull_rom16. BAD_COUNT: sizes that are not those of ents_smooth_size. Both allocate (NO_MEMORY); after an error nothing is written. */
+ENTS_API int32_t ents_smooth_size(const char *facet, const char *basis, int32_t ends, int64_t facets,
+                                  const int64_t *connectivity, int64_t nodes, int64_t *points, int64_t *terms,
+                                  ents_report *report);
+ENTS_API int32_t ents_smooth(const char *facet, const char *basis, int32_t ends, int64_t facets, const int64_t *connectivity,
+                             int64_t nodes, int64_t points, int64_t terms, int64_t *segment_points, int64_t *begin,
+                             int64_t *point_nodes, double *weights, ents_report *report);
 
 /* The host's equations. */
 typedef struct ents_system {

@@ -159,8 +159,8 @@ int32_t ents_combine(const ents_combination* combination, int32_t dimension, int
     ents_combination c;
     std::int32_t status = check_combination(combination, "combination", c, report);
     if (status != ENTS_OK) return status;
-    if (dimension != 2 && dimension != 3)
-      return report_message(report, ENTS_BAD_VALUE, -1, "argument 'dimension' is %d; it must be 2 or 3",
+    if (dimension < 1 || dimension > 3)
+      return report_message(report, ENTS_BAD_VALUE, -1, "argument 'dimension' is %d; it must be 1, 2 or 3",
                             dimension);
     if (c.points > 0 && (!positions || !points))
       return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null",
