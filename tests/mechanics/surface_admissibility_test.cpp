@@ -245,7 +245,7 @@ TEST(SurfaceAdmissibility, PanelANearlyFlatNeighbours) {
   }
   MeshSurface step = polyline({0.0, 0.0, 1.0, 0.0, 2.0, 0.0}); // by less than what counts as a jump
   step.surface_coordinates = {0.0, 0.0, 1e-10, 1e-10};
-  EXPECT_EQ(check(model("line2", {{"type", "polynomial"}, {"coefficients", {0.02, 1.0}}}), step, 0.5).violated, 0);
+  EXPECT_EQ(check(model("line2", {{"type", "polynomial"}, {"coefficients", {0.02, 1.0}}}), step, 0.01).violated, 0);
 }
 
 // Panel b. A sine under a slanted light: admissible up to the angle of its steepest flank; beyond, the number is the
