@@ -163,7 +163,10 @@ void print(const Answer& answer, std::size_t segments) {
 int check_command(const CommonOptions& common, const CheckOptions& options) {
   const EntsLibrary library(common.library);
   const EntsModel model(library, options.model);
-  const std::string name = parse_json_file(options.model).at("segment").get<std::string>();
+  const Json text = parse_json_file(options.model);
+  if (text.contains("patch"))
+    throw InputError(options.model.string() + ": /patch: the segments are those of --mesh here; leave the key out");
+  const std::string name = text.at("segment").get<std::string>();
   const MasterSurface surface = read_surface(options.mesh, name, model.layout());
   const Answer answer(model, surface, options);
   if (common.json) {

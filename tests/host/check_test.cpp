@@ -142,6 +142,7 @@ TEST_F(Check, WrongInputIsExitCodeTwo) {
   EXPECT_EQ(check(good, "").exit_code, 0);
   EXPECT_EQ(check(quoted(folder_ / "none.json"), "").exit_code, 2);
   EXPECT_EQ(check(write("model.json", {{"segment", "line7"}}), "").exit_code, 2);
+  EXPECT_EQ(check(write("model.json", {{"segment", "line2"}, {"patch", {{0, 1}, {1, 2}}}}), "").exit_code, 2);
   EXPECT_EQ(check(good, "--reach -1").exit_code, 2);
   EXPECT_EQ(check(good, "--kink 200").exit_code, 2);
   const ProgramOutput corners = check(good, "--mesh " + write("mesh.json", {{"nodes", {{0, 0}, {1, 0}}}, {"segments", {{0, 1, 2}}}}));

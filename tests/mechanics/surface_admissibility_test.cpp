@@ -2,8 +2,8 @@
 // the number and the place of the worst; then what a mesh adds: neighbours, both sides of a gap, self-shadow from afar.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -61,6 +61,18 @@ Checked check(const Model& m, const MeshSurface& surface, double reach = 0.0, in
     for (int a = 0; there.status == ENTS_OK && a < m.dimension(); ++a) {
       EXPECT_EQ(result.point[k][a], there.point[static_cast<std::size_t>(a)]) << k;
     }
+  }
+  // the two ends of a jump, and the deepest place with its foot on the other segment, are that far apart
+  for (const int k : {ENTS_CHECK_JUMP, ENTS_CHECK_CROSSING}) {
+    if (result.segment[k] < 0 || result.segment[k] == result.other[k]) continue;
+    const std::vector<double> xi(result.other_xi[k], result.other_xi[k] + m.parameters());
+    const SurfacePoints there = evaluate_surface(
+        m, surface.master(result.other[k]).data(),
+        surface.surface_coordinates.empty() ? nullptr : surface.coordinates(result.other[k]), xi);
+    double distance2 = 0.0;
+    for (int a = 0; a < m.dimension(); ++a)
+      distance2 += std::pow(result.point[k][a] - there.point[static_cast<std::size_t>(a)], 2);
+    EXPECT_NEAR(std::sqrt(distance2), result.value[k], 1e-9) << k; // as exact as a projection
   }
   return result;
 }
@@ -159,6 +171,7 @@ TEST(SurfaceAdmissibility, PanelATwoSidesOfAGap) {
     const auto upper = [&](std::int64_t s) { return s >= surface.segments() / 2; };
     EXPECT_NE(upper(c.segment[ENTS_CHECK_PROJECTION]), upper(c.other[ENTS_CHECK_PROJECTION])) << basis;
     for (const std::int64_t mark : c.marks) EXPECT_EQ(mark, bit(ENTS_CHECK_PROJECTION)) << basis; // all four
+    EXPECT_NEAR(check(m, surface, 10.0).value[ENTS_CHECK_PROJECTION], half, rounding) << basis; // from a ball far too large
   }
 }
 
@@ -230,6 +243,9 @@ TEST(SurfaceAdmissibility, PanelANearlyFlatNeighbours) {
     const Model m = model("quad4", {{"type", "constant"}, {"value", 0.02}});
     EXPECT_FALSE(check(m, surface, 0.5).violates(ENTS_CHECK_PROJECTION)) << bend;
   }
+  MeshSurface step = polyline({0.0, 0.0, 1.0, 0.0, 2.0, 0.0}); // by less than what counts as a jump
+  step.surface_coordinates = {0.0, 0.0, 1e-10, 1e-10};
+  EXPECT_EQ(check(model("line2", {{"type", "polynomial"}, {"coefficients", {0.02, 1.0}}}), step, 0.01).violated, 0);
 }
 
 // Panel b. A sine under a slanted light: admissible up to the angle of its steepest flank; beyond, the number is the
@@ -297,6 +313,42 @@ TEST(SurfaceAdmissibility, PanelBAPartInTheLightOfAnother) {
   }
 }
 
+// Every piece of a facet casts a shadow: a small triangle under the middle piece of a large one that is cut into four.
+TEST(SurfaceAdmissibility, PanelBTheMiddleOfATriangle) {
+  MeshSurface surface;
+  surface.basis = &basis_named("tri3");
+  surface.positions = {0, 0, 1, 4, 0, 1, 0, 4, 1, 1.2, 1.2, 0, 1.4, 1.2, 0, 1.2, 1.4, 0};
+  surface.connectivity = {0, 1, 2, 3, 4, 5};
+  const json light = {{"projection", {{"type", "shadow_direction"}, {"direction", {0, 0, 1}}}}};
+  const Checked c = check(model("tri3", nullptr, light), surface, 0.0, 3);
+  EXPECT_EQ(c.violated, bit(ENTS_CHECK_OCCLUSION));
+  EXPECT_NEAR(c.value[ENTS_CHECK_OCCLUSION], 1.0, rounding);
+  EXPECT_EQ(c.segment[ENTS_CHECK_OCCLUSION], 1);
+  EXPECT_EQ(c.other[ENTS_CHECK_OCCLUSION], 0);
+  for (int a = 0; a < 2; ++a)
+    EXPECT_NEAR(c.other_xi[ENTS_CHECK_OCCLUSION][a], 0.25 * c.point[ENTS_CHECK_OCCLUSION][a], rounding);
+}
+
+// A textured square that no ray meets at less than 3 degrees lies in nobody's shadow, its own facets' least of all.
+TEST(SurfaceAdmissibility, PanelBNoFalseShadows) {
+  Random random(5);
+  int lit = 0;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    const Basis& basis = basis_named(repeat % 2 ? "quad4" : "tri3");
+    MeshSurface surface = draw_mesh(random, basis, 2, 0.0);
+    const json height = {{"type", "sine"},
+                         {"amplitude", random.uniform(0.05, 0.3)},
+                         {"wave_vector", {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)}}};
+    const json light = {{"type", "shadow_direction"},
+                        {"direction", {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 1.0}}};
+    const Checked c = check(model(basis.name, height, {{"projection", light}}), surface, 0.0, 41);
+    if (!(c.value[ENTS_CHECK_SHADOW] > 0.05)) continue;
+    ++lit;
+    EXPECT_EQ(c.violated, 0) << height << light;
+  }
+  EXPECT_GT(lit, 10);
+}
+
 // Panel c. A local height that does not vanish on the edges: the surface is torn by 2 h sin(angle / 2) where segments
 // meet at an angle, and by nothing where they do not. The kink is the angle, turned by the slopes of h.
 TEST(SurfaceAdmissibility, PanelCHeightOnTheEdges) {
@@ -338,9 +390,9 @@ TEST(SurfaceAdmissibility, SmoothedSurfacesAreNotTorn) {
     MeshSurface surface;
     surface.basis = &basis_named(basis);
     surface.positions = points;
-    for (std::int64_t i = 0; i + 3 < 9; ++i)
+    for (std::int64_t i = -1; i < 7; ++i) // at the ends of the chain its last node stands in for the missing one
       for (std::int64_t a = 0; a < 4; ++a) {
-        surface.connectivity.push_back(i + a);
+        surface.connectivity.push_back(std::clamp<std::int64_t>(i + a, 0, 8));
         surface.surface_coordinates.push_back(0.5 * static_cast<double>(i + a));
       }
     const Checked c = check(model(basis, waves(0.02, 0.8)), surface, 0.0, 0, 1e-10);
