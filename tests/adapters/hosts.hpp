@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <ostream>
+#include <tuple>
 
 #include "emulated_host.hpp"
 
@@ -12,12 +13,17 @@ namespace adapters {
 
 struct HostKind {
   std::string name;
-  std::function<std::unique_ptr<EmulatedHost>(const Elements&)> make; ///< null: it cannot have these elements
+  std::function<std::unique_ptr<EmulatedHost>(const Elements&)> make;
   bool cuts = true;      ///< it can cut its increments when an element asks for it
+  int dimension = 0;     ///< 0: both
+  bool multipliers = true; ///< its elements can carry them as unknowns
   bool same_bits = true; ///< its elements get the positions that the plain interface gets, to the last bit
 };
 inline void PrintTo(const HostKind& kind, std::ostream* out) { *out << kind.name; }
 
 std::vector<HostKind> hosts();
+
+/// Hosts with the problems that they can have.
+std::vector<std::tuple<HostKind, std::string>> hosts_and_problems();
 
 } // namespace adapters

@@ -18,7 +18,6 @@ TEST_P(EveryHost, SolvesAsThePlainInterface) {
   const Solution expected = solve(p, *plain_host(p.elements));
   ASSERT_GE(expected.in_contact, 5) << "the problem is not about contact";
   const std::unique_ptr<EmulatedHost> host = kind.make(p.elements);
-  if (!host) return; // this host has no elements of this kind: hosts.cpp says which, and why
   if (expected.cuts && !kind.cuts) {
     EXPECT_THROW(solve(p, *host), HostStopped); // an increment too large ends the job: never a wrong number
     return;
@@ -42,8 +41,18 @@ TEST(Problems, FrictionMakesTheTangentUnsymmetricAndCutsHappen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Adapters, EveryHost, testing::Combine(testing::ValuesIn(hosts()), testing::ValuesIn(problem_names())),
+    Adapters, EveryHost, testing::ValuesIn(hosts_and_problems()),
     [](const auto& test) { return std::get<0>(test.param).name + "_" + std::get<1>(test.param); });
 
 } // namespace
+
+std::vector<std::tuple<HostKind, std::string>> hosts_and_problems() {
+  std::vector<std::tuple<HostKind, std::string>> pairs;
+  for (const HostKind& host : hosts())
+    for (const ProblemName& p : problem_names())
+      if ((host.dimension == 0 || host.dimension == p.dimension) && (host.multipliers || !p.multipliers))
+        pairs.emplace_back(host, p.name);
+  return pairs;
+}
+
 } // namespace adapters

@@ -50,9 +50,10 @@ const Kind kinds[] = {
 
 } // namespace
 
-std::vector<std::string> problem_names() {
-  std::vector<std::string> names;
-  for (const Kind& kind : kinds) names.push_back(kind.name);
+std::vector<ProblemName> problem_names() {
+  std::vector<ProblemName> names;
+  for (const Kind& kind : kinds)
+    names.push_back({kind.name, kind.dimension, std::string(kind.name).find("multiplier") != std::string::npos});
   return names;
 }
 

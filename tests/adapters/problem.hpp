@@ -20,8 +20,12 @@ struct Problem {
   int increments = 4;
 };
 
-/// Models that every host can take: names for problem().
-std::vector<std::string> problem_names();
+struct ProblemName {
+  std::string name;
+  int dimension;
+  bool multipliers;
+};
+std::vector<ProblemName> problem_names();
 
 /// Writes ents_k.json, with a k of its own, into the working directory. The same numbers in every call.
 Problem problem(const std::string& name);
