@@ -8,8 +8,19 @@
 #define HOST_FUNCTION(lower, UPPER) UPPER
 #define HOST_WEAK
 #else
-#define HOST_FUNCTION(lower, UPPER) lower##_
+#define JOINED(name) name##_
+#define HOST_FUNCTION(lower, UPPER) JOINED(lower)
 #define HOST_WEAK __attribute__((weak))
+#endif
+
+// Abaqus/Explicit has the same services by other names.
+#if defined(ENTS_ABAQUS_EXPLICIT)
+#define getoutdir vgetoutdir
+#define GETOUTDIR VGETOUTDIR
+#define stdb_abqerr xplb_abqerr
+#define STDB_ABQERR XPLB_ABQERR
+#define xit xplb_exit
+#define XIT XPLB_EXIT
 #endif
 
 // Fortran routines; lengths of character arguments come last, by value.

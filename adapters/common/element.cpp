@@ -102,6 +102,9 @@ std::string check_sizes(const Element& e, const LoadedModel& model) {
   if (e.dofs < layout.dimension || e.coordinates < layout.dimension)
     return model.file + " is a model in " + std::to_string(layout.dimension) + "D, the element has " +
            std::to_string(std::min(e.dofs, e.coordinates)) + " coordinates and degrees of freedom a node";
+  if (layout.multipliers && e.position && !e.displacement)
+    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another contact.normal.type, "
+                        "\"augmented\" for one";
   if (e.history_size < layout.state_size)
     return model.file + " needs " + std::to_string(layout.state_size) + " history variables, the element has " +
            std::to_string(e.history_size) + ". Write " + e.host->history + std::to_string(layout.state_size);
@@ -148,6 +151,12 @@ void begin_state(const Element& e, const LoadedModel& model, double* state) {
   if (!any) ents_state_init(model.model, 1, state, model.layout.state_size, nullptr);
 }
 
+void describe(const ents_layout& layout, Result& result) {
+  result.symmetric = layout.symmetric_tangent != 0;
+  result.dimension = layout.dimension;
+  result.state_size = layout.state_size;
+}
+
 } // namespace
 
 int options(const Row<const double>& properties, int count) {
@@ -168,10 +177,13 @@ Result check(const Element& e) {
   Arguments arguments;
   std::string wrong = read_properties(e, arguments);
   if (wrong.empty()) wrong = check_sizes(e, *arguments.model);
-  if (!wrong.empty()) return fail(e, wrong);
   Result result;
-  result.symmetric = arguments.model->layout.symmetric_tangent != 0;
-  result.message[0] = 0;
+  if (!wrong.empty()) {
+    result = fail(e, wrong);
+  } else {
+    result.message[0] = 0;
+  }
+  if (arguments.model) describe(arguments.model->layout, result);
   return result;
 }
 
@@ -188,7 +200,7 @@ Result evaluate(const Element& e) {
   clear(e);
   Result result;
   result.message[0] = 0;
-  result.symmetric = layout.symmetric_tangent != 0;
+  describe(layout, result);
   if (!gather(e, layout, unknowns)) { // a diverged iteration of the host
     result.outcome = Outcome::cut;
     result.step_factor = 0.5;
