@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Teach the sources of ccx 2.20 the element U1E of libents_calculix.so.
+"""Teach the sources of ccx 2.20 the elements U1E and U1A of libents_calculix.so.
 
 usage: patch.py CCX_SOURCES OUT
 
@@ -17,6 +17,8 @@ PATCHES = {
         "      if(lakonl(2:3).eq.'1E') then\n"
         "        call ents_ccx_stiffness(nelem,kon,ipkon,lakonl,co,vold,mi,\n"
         "     &       ielprop,prop,s,sm,ff)\n"
+        "      elseif(lakonl(2:3).eq.'1A') then\n"
+        "        call ents_ccx_uel_stiffness(nelem,lakonl,s,sm,ff)\n"
         "      elseif(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(")],
     # force pass
     "resultsmech_u.f": [(
@@ -25,12 +27,17 @@ PATCHES = {
         "         call ents_ccx_force(nelem,kon,ipkon,lakon(nelem),co,v,mi,\n"
         "     &        ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,\n"
         "     &        xstateini,xstate,nstate_)\n"
+        "      elseif(lakon(nelem)(2:3).eq.'1A') then\n"
+        "         call ents_ccx_uel_force(nelem,kon,ipkon,lakon(nelem),co,v,\n"
+        "     &        vini,mi,ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,\n"
+        "     &        xstateini,xstate,nstate_,time,ttime,dtime,istep,iinc)\n"
         "      elseif(lakon(nelem)(2:2).eq.'1') then\n")],
     # with the unsymmetric solver the elements are assembled by mafillsmas, as ccx does with its own frictional contact
     "mafillsm.f": [(
         "            ndof=ichar(lakon(i)(7:7))\n            nope=ichar(lakon(i)(8:8))\n          else\n            cycle\n"
         "          endif\n!     \nc     mortar start\n",
-        "            if((nasym.eq.1).and.(lakon(i)(1:3).eq.'U1E')) cycle\n"
+        "            if((nasym.eq.1).and.((lakon(i)(1:3).eq.'U1E').or.\n"
+        "     &           (lakon(i)(1:3).eq.'U1A'))) cycle\n"
         "            ndof=ichar(lakon(i)(7:7))\n            nope=ichar(lakon(i)(8:8))\n          else\n            cycle\n"
         "          endif\n!     \nc     mortar start\n")],
     "mafillsmas.f": [
@@ -40,6 +47,10 @@ PATCHES = {
          "            nope=ichar(lakon(i)(8:8))\n"
          "            call ents_ccx_stiffness(i,kon,ipkon,lakon(i),co,vold,mi,\n"
          "     &           ielprop,prop,s,sm,ff)\n"
+         "          elseif(lakon(i)(1:3).eq.'U1A') then\n"
+         "            indexe=ipkon(i)\n"
+         "            nope=ichar(lakon(i)(8:8))\n"
+         "            call ents_ccx_uel_stiffness(i,lakon(i),s,sm,ff)\n"
          "          else\n"
          "          if(lakon(i)(1:2).ne.'ES') cycle\n"),
         ("     &         set,nset,islavelinv,autloc1,irowtloc1,jqtloc1,\n"
@@ -53,7 +64,9 @@ PATCHES = {
     "nonlingeo.c": [(
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,",
         "  extern ITG ents_ccx_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
-        "  if(ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop)) nasym=1;\n"
+        "  extern ITG ents_ccx_uel_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
+        "  if(ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop)||\n"
+        "     ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop)) nasym=1;\n"
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,")],
 }
 

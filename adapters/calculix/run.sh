@@ -90,9 +90,9 @@ if [ ! -f "$ccx/ccx_2.20.a" ] || [ ! -f "$ccx/ccx_2.20.o" ]; then
 fi
 
 # 4. The adapter, the six changed routines, and the program.
-if [ ! -f "$build/lib/libents_calculix.so" ] || [ ! -f "$build/bin/ents-host" ]; then
+if [ ! -f "$build/lib/libents_calculix.so" ] || [ ! -f "$build/lib/libents_abaqus.so" ] || [ ! -f "$build/bin/ents-host" ]; then
   step "building ents"
-  cmake --build "$build" --target ents_calculix ents-host --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
+  cmake --build "$build" --target ents_calculix ents_abaqus ents-host --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
 fi
 step "linking ccx with libents_calculix.so"
 rm -rf "$work/patched"
@@ -108,10 +108,11 @@ cd "$work/patched"
 
 # 5. The same problems in ccx and in the reference host.
 status=0
-for name in sphere texture friction; do
-  step "$name"
-  rm -rf "$work/$name"
-  python3 "$here/example/make.py" "$name" "$work/$name"
+export CCX_UEL="$build/lib/libents_abaqus.so" # what U1A loads
+for name in sphere texture friction; do for element in U1E U1A; do
+  step "$name, $element"
+  rm -rf "${work:?}/$name"
+  python3 "$here/example/make.py" "$name" $element "$work/$name"
   for threads in 1 2; do
     (cd "$work/$name" && OMP_NUM_THREADS=$threads "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped"
     [ $threads -eq 1 ] && mv "$work/$name/job.dat" "$work/$name/one_thread.dat"
@@ -119,5 +120,14 @@ for name in sphere texture friction; do
   done
   "$build/bin/ents-host" run "$work/$name/scene.json" --out "$work/$name/host" >"$log" 2>&1 || failed "ents-host failed"
   python3 "$here/example/compare.py" "$work/$name" || status=1
-done
+done; done
+
+# 6. A mistake in the deck reaches the user as ccx's own errors do.
+step "a mistake"
+cd "$work/sphere"
+code=0
+python3 "$here/example/make.py" sphere U1E .
+rm ents_1.json
+OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
+grep 'ERROR in U1E.*ents_1.json' "$log" && [ $code -eq 201 ] || { echo "run.sh: no message, or exit status $code instead of 201" >&2; status=1; }
 exit $status

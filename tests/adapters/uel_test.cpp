@@ -2,6 +2,7 @@
 // Abaqus's protocol of a user element: what LFLAGS asks for is formed, all of it and nothing else; mistakes in the deck reach the user
 // through Abaqus's own channel.
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -149,6 +150,10 @@ TEST_F(Uel, SelfcheckReportsIntoTheMessageFile) {
   const std::string text = only_message(1);
   EXPECT_NE(text.find("element 90001"), std::string::npos) << text;
   EXPECT_NE(text.find("K is the slope of R"), std::string::npos) << text;
+  double errors[3] = {1, 1, 1};
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find('='), "= %lf, %lf, %lf", errors, errors + 1, errors + 2), 3) << text;
+  EXPECT_LT(errors[1], 0.02 * errors[0]); // second order: a tenth of the step leaves a hundredth
+  EXPECT_LT(errors[2], 1e-8);             // and roundings over the step, 1e-16 / 1e-6 times a few
   UelCall silent = request(1);
   silent();
   EXPECT_TRUE(same(c.amatrx, silent.amatrx, c.amatrx.size()));

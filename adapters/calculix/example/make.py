@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Write one problem for CalculiX and for ents-host: a block is pressed by a rigid surface that is nothing but a height on ONE quad4 segment.
 
-usage: make.py sphere|texture|friction OUT
+usage: make.py sphere|texture|friction U1E|U1A OUT
 
 OUT/block.inp   mesh, read by both
-OUT/job.inp     ccx: U1E elements, NLGEOM, several increments
+OUT/job.inp     ccx: elements U1E, or U1A that run an Abaqus user element; NLGEOM, several increments
 OUT/ents_1.json, OUT/ents_1.txt   their model and areas
 OUT/scene.json  the same for ents-host"""
 import json
@@ -28,10 +28,10 @@ CASES = {  # height, friction, travel of the rigid surface
 
 
 def main():
-    if len(sys.argv) != 3 or sys.argv[1] not in CASES:
+    if len(sys.argv) != 4 or sys.argv[1] not in CASES or sys.argv[2] not in ("U1E", "U1A"):
         sys.exit(__doc__)
     height, friction, travel = CASES[sys.argv[1]]
-    out = pathlib.Path(sys.argv[2])
+    element, out = sys.argv[2], pathlib.Path(sys.argv[3])
     out.mkdir(parents=True, exist_ok=True)
 
     n = CELLS + 1
@@ -60,7 +60,7 @@ def main():
     master = [first_node + 1 + a for a in range(4)]
     deck = ["*INCLUDE, INPUT=block.inp", "*NODE, NSET=MASTER"]
     deck += [f"{m}, {p[0]!r}, {p[1]!r}, {p[2]!r}" for m, p in zip(master, MASTER)]
-    deck += ["*USER ELEMENT, TYPE=U1E, NODES=5, INTEGRATION POINTS=1, MAXDOF=3", "*ELEMENT, TYPE=U1E, ELSET=CONTACT"]
+    deck += [f"*USER ELEMENT, TYPE={element}, NODES=5, INTEGRATION POINTS=1, MAXDOF=3", f"*ELEMENT, TYPE={element}, ELSET=CONTACT"]
     areas = ["# element, area of its slave node"]
     for j in range(n):
         for i in range(n):
@@ -70,7 +70,8 @@ def main():
     (out / "ents_1.txt").write_text("\n".join(areas) + "\n")
     deck += ["*MATERIAL, NAME=RUBBER", "*ELASTIC", f"{YOUNG}, {POISSON}", "*SOLID SECTION, ELSET=BLOCK, MATERIAL=RUBBER",
              "*MATERIAL, NAME=CONTACT", "*ELASTIC", "1., 0.", "*DEPVAR", "16",
-             "*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=3", "1., 0., 0.",
+             *(["*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=3", "1., 0., 0."] if element == "U1E" else
+               ["*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=5", f"3., {1 if friction else 0}., 1., 0., 0."]),
              f"*STEP, NLGEOM, INC=100", "*STATIC, DIRECT", f"{1 / STEPS!r}, 1.",
              "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
              "*BOUNDARY", "BOTTOM, 1, 3", *[f"MASTER, {i}, {i}, {u!r}" for i, u in enumerate(travel, 1)],
