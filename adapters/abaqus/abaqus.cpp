@@ -26,9 +26,10 @@
 // Fortran routines; lengths of character arguments come last, by value.
 extern "C" {
 HOST_WEAK void HOST_FUNCTION(getoutdir, GETOUTDIR)(char* directory, int* length, std::size_t capacity);
-HOST_WEAK void HOST_FUNCTION(stdb_abqerr, STDB_ABQERR)(const int* severity, const char* text, const int* integers,
-                                                       const double* reals, const char* words,
-                                                       std::size_t text_length, std::size_t word_length);
+HOST_WEAK void HOST_FUNCTION(stdb_abqerr, STDB_ABQERR)(const int* severity, const char* text,
+                                                       const int* integers, const double* reals,
+                                                       const char* words, std::size_t text_length,
+                                                       std::size_t word_length);
 HOST_WEAK void HOST_FUNCTION(xit, XIT)();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What Abaqus offers its user subroutines: job directory, message file, stop. In other programs that load Abaqus subroutines (MOOSE,
-// OOFEM) these functions do not exist; there the directory is the working directory and messages go to stderr.
+// What Abaqus offers its user subroutines: job directory, message file, stop. In other programs that load
+// Abaqus subroutines (MOOSE, OOFEM) these functions do not exist; there the directory is the working
+// directory and messages go to stderr.
 #pragma once
 
 #include <cstddef>
@@ -23,12 +24,13 @@ bool stop();
 
 } // namespace abaqus
 
-// Abaqus looks for uel_, since 2024 also for uel, on Windows for UEL; every entry has all the names of its system.
+// Abaqus looks for uel_, since 2024 also for uel, on Windows for UEL; every entry has all the names of its
+// system.
 #if defined(_WIN32)
 #define ENTS_ENTRY(lower, UPPER, parameters) extern "C" __declspec(dllexport) void UPPER parameters
 #else
-#define ENTS_ENTRY(lower, UPPER, parameters)                                                                           \
-  extern "C" __attribute__((visibility("default"))) void lower parameters;                                             \
-  extern "C" __attribute__((visibility("default"), alias(#lower))) void lower##_ parameters;                           \
+#define ENTS_ENTRY(lower, UPPER, parameters)                                                                 \
+  extern "C" __attribute__((visibility("default"))) void lower parameters;                                   \
+  extern "C" __attribute__((visibility("default"), alias(#lower))) void lower##_ parameters;                 \
   extern "C" void lower parameters
 #endif

@@ -14,11 +14,8 @@ PATCHES = {
     # stiffness pass
     "e_c3d_u.f": [(
         "      if(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(",
-        "      if(lakonl(2:3).eq.'1E') then\n"
-        "        call ents_ccx_stiffness(nelem,kon,ipkon,lakonl,co,vold,mi,\n"
-        "     &       ielprop,prop,s,sm,ff)\n"
-        "      elseif(lakonl(2:3).eq.'1A') then\n"
-        "        call ents_ccx_uel_stiffness(nelem,lakonl,s,sm,ff)\n"
+        "      if((lakonl(2:3).eq.'1E').or.(lakonl(2:3).eq.'1A')) then\n"
+        "        call ents_ccx_stiffness(nelem,lakonl,s,sm,ff)\n"
         "      elseif(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(")],
     # force pass
     "resultsmech_u.f": [(
@@ -42,15 +39,11 @@ PATCHES = {
         "          endif\n!     \nc     mortar start\n")],
     "mafillsmas.f": [
         ("          if(lakon(i)(1:2).ne.'ES') cycle\n",
-         "          if(lakon(i)(1:3).eq.'U1E') then\n"
+         "          if((lakon(i)(1:3).eq.'U1E').or.\n"
+         "     &       (lakon(i)(1:3).eq.'U1A')) then\n"
          "            indexe=ipkon(i)\n"
          "            nope=ichar(lakon(i)(8:8))\n"
-         "            call ents_ccx_stiffness(i,kon,ipkon,lakon(i),co,vold,mi,\n"
-         "     &           ielprop,prop,s,sm,ff)\n"
-         "          elseif(lakon(i)(1:3).eq.'U1A') then\n"
-         "            indexe=ipkon(i)\n"
-         "            nope=ichar(lakon(i)(8:8))\n"
-         "            call ents_ccx_uel_stiffness(i,lakon(i),s,sm,ff)\n"
+         "            call ents_ccx_stiffness(i,lakon(i),s,sm,ff)\n"
          "          else\n"
          "          if(lakon(i)(1:2).ne.'ES') cycle\n"),
         ("     &         set,nset,islavelinv,autloc1,irowtloc1,jqtloc1,\n"
@@ -67,7 +60,11 @@ PATCHES = {
         "  extern ITG ents_ccx_uel_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
         "  if(ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop)||\n"
         "     ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop)) nasym=1;\n"
-        "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,")],
+        "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,"),
+        # with friction an increment starts where the last one ended, as ccx does after other discontinuities: from a state extrapolated
+        # along the sliding, nodes that stick start slipping, and Newton's iteration throws them to and fro
+        ("    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],",
+         "    if(nasym==1) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],")],
 }
 
 

@@ -36,7 +36,8 @@ void clear(const Element& e) {
 
 void say(Result& result, const Element& e, const std::string& text) {
   if (e.number >= 0)
-    std::snprintf(result.message, sizeof result.message, "ents, element %lld: %s", static_cast<long long>(e.number), text.c_str());
+    std::snprintf(result.message, sizeof result.message, "ents, element %lld: %s",
+                  static_cast<long long>(e.number), text.c_str());
   else
     std::snprintf(result.message, sizeof result.message, "ents: %s", text.c_str());
 }
@@ -53,14 +54,16 @@ Result fail(const Element& e, const std::string& text) {
 std::string read_properties(const Element& e, Arguments& arguments) {
   const auto entry = [&](int i) { return e.host->properties + std::to_string(i); };
   if (!e.properties || e.property_count < 2)
-    return "two properties at least are needed, the model's number k (file ents_k.json) and the area: write " + entry(1) +
-           " and 2";
+    return "two properties at least are needed, the model's number k (file ents_k.json) and the area: "
+           "write " +
+           entry(1) + " and 2";
   const double number = e.properties(0), area = e.properties(1);
   if (!(number >= 1 && number <= largest_model_number) || number != std::floor(number))
     return entry(1) + " is " + std::to_string(number) + "; write the model's number k, 1 .. " +
            std::to_string(largest_model_number) + ", of the file ents_k.json";
   if (!(area >= 0) || !std::isfinite(area))
-    return entry(2) + " is " + std::to_string(area) + "; write the tributary area of the slave node, > 0, or 0 to take it from ents_" +
+    return entry(2) + " is " + std::to_string(area) +
+           "; write the tributary area of the slave node, > 0, or 0 to take it from ents_" +
            std::to_string(static_cast<int>(number)) + ".txt";
   arguments.options = options(e.properties, e.property_count);
   if (arguments.options < 0) return entry(3) + ", the sum of options, is not 0 .. 7";
@@ -75,15 +78,18 @@ std::string read_properties(const Element& e, Arguments& arguments) {
       if (arguments.own_coordinates[i] = e.properties(3 + i); !std::isfinite(e.properties(3 + i)))
         return entry(4 + i) + ", a surface coordinate, is not finite";
     // Hosts with a fixed number of properties fill up with zeros: a segment without extent is none given.
-    if (std::any_of(arguments.own_coordinates, arguments.own_coordinates + coordinates, [](double s) { return s != 0; }))
+    if (std::any_of(arguments.own_coordinates, arguments.own_coordinates + coordinates,
+                    [](double s) { return s != 0; }))
       arguments.surface_coordinates = arguments.own_coordinates;
   }
   const ElementRow* row = model.row(e.number);
-  if (row && !row->surface_coordinates.empty()) arguments.surface_coordinates = row->surface_coordinates.data();
+  if (row && !row->surface_coordinates.empty())
+    arguments.surface_coordinates = row->surface_coordinates.data();
   if (area == 0) {
     if (!row)
       return entry(2) + ", the area, is 0 and there is no line for this element in " +
-             model.file.substr(0, model.file.size() - 4) + "txt; write \"ELEMENT AREA\" there, or the area in the deck";
+             model.file.substr(0, model.file.size() - 4) +
+             "txt; write \"ELEMENT AREA\" there, or the area in the deck";
     arguments.area = row->area;
   }
   return "";
@@ -93,21 +99,25 @@ std::string read_properties(const Element& e, Arguments& arguments) {
 std::string check_sizes(const Element& e, const LoadedModel& model) {
   const ents_layout& layout = model.layout;
   const int needed = 1 + layout.nodes + (layout.multipliers ? 1 : 0);
-  if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers || layout.state_size > largest_state)
+  if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers ||
+      layout.state_size > largest_state)
     return "a segment of " + std::to_string(layout.nodes) + " nodes is more than this adapter was built for";
   if (e.nodes < needed || (e.nodes > needed && !e.host->spare_nodes))
-    return model.file + " needs " + std::to_string(needed) + " nodes, the slave node, " + std::to_string(layout.nodes) +
-           " master nodes" + (layout.multipliers ? ", one that carries multipliers" : "") + "; the element has " + std::to_string(e.nodes) +
-           ". Write " + e.host->nodes + std::to_string(needed);
+    return model.file + " needs " + std::to_string(needed) + " nodes, the slave node, " +
+           std::to_string(layout.nodes) + " master nodes" +
+           (layout.multipliers ? ", one that carries multipliers" : "") + "; the element has " +
+           std::to_string(e.nodes) + ". Write " + e.host->nodes + std::to_string(needed);
   if (e.dofs < layout.dimension || e.coordinates < layout.dimension)
     return model.file + " is a model in " + std::to_string(layout.dimension) + "D, the element has " +
            std::to_string(std::min(e.dofs, e.coordinates)) + " coordinates and degrees of freedom a node";
   if (layout.multipliers && e.position && !e.displacement)
-    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another contact.normal.type, "
+    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
+                        "contact.normal.type, "
                         "\"augmented\" for one";
   if (e.history_size < layout.state_size)
-    return model.file + " needs " + std::to_string(layout.state_size) + " history variables, the element has " +
-           std::to_string(e.history_size) + ". Write " + e.host->history + std::to_string(layout.state_size);
+    return model.file + " needs " + std::to_string(layout.state_size) +
+           " history variables, the element has " + std::to_string(e.history_size) + ". Write " +
+           e.host->history + std::to_string(layout.state_size);
   return "";
 }
 

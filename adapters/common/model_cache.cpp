@@ -45,7 +45,8 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
     if (numbers[0] < 1 || numbers[0] > 9e15 || numbers[0] != std::floor(numbers[0]))
       throw where + "the first number is the element's, a whole number > 0";
     if (numbers[1] < 0) throw where + "the area is negative";
-    loaded.rows.push_back({static_cast<std::int64_t>(numbers[0]), numbers[1], {numbers.begin() + 2, numbers.end()}});
+    loaded.rows.push_back(
+        {static_cast<std::int64_t>(numbers[0]), numbers[1], {numbers.begin() + 2, numbers.end()}});
   }
   const auto earlier = [](const ElementRow& a, const ElementRow& b) { return a.element < b.element; };
   std::sort(loaded.rows.begin(), loaded.rows.end(), earlier);
@@ -79,8 +80,9 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
 } // namespace
 
 const ElementRow* LoadedModel::row(std::int64_t element) const {
-  const auto at = std::lower_bound(rows.begin(), rows.end(), element,
-                                   [](const ElementRow& row, std::int64_t value) { return row.element < value; });
+  const auto at =
+      std::lower_bound(rows.begin(), rows.end(), element,
+                       [](const ElementRow& row, std::int64_t value) { return row.element < value; });
   return at != rows.end() && at->element == element ? &*at : nullptr;
 }
 

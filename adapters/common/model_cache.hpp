@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Models by number: the one rule for all hosts. Property 1 of an element is a whole number k; its model is the file ents_k.json
-// of the job's directory, and ents_k.txt beside it, if there, holds what differs from element to element.
+// Models by number: the one rule for all hosts. Property 1 of an element is a whole number k; its model is
+// the file ents_k.json of the job's directory, and ents_k.txt beside it, if there, holds what differs from
+// element to element.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ inline constexpr int largest_model_number = 9999;
 
 /// A line of ents_k.txt: "ELEMENT AREA [S ...]", # starts a comment.
 struct ElementRow {
-  std::int64_t element = 0;               ///< the host's number
-  double area = 0;                        ///< [A] tributary area of the slave node, >= 0
+  std::int64_t element = 0;                ///< the host's number
+  double area = 0;                         ///< [A] tributary area of the slave node, >= 0
   std::vector<double> surface_coordinates; ///< [m][d-1] of the master nodes; or empty
 };
 
@@ -31,8 +32,8 @@ struct LoadedModel {
   const ElementRow* row(std::int64_t element) const;
 };
 
-/// The model with this number. It is read at the first call, by one thread, and lives until the process ends; a failure is
-/// remembered, too. Any number of threads.
+/// The model with this number. It is read at the first call, by one thread, and lives until the process ends;
+/// a failure is remembered, too. Any number of threads.
 /// @param number     1 .. largest_model_number
 /// @param directory  the job's directory, "" or with a separator at its end; asked once per number
 const LoadedModel& model_number(int number, std::string (*directory)());

@@ -23,7 +23,8 @@ double segment_length(const ents_layout& layout, const double* master) {
 bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_input& input, double* unknowns,
                const double* tangent, char* text, std::size_t size) {
   constexpr double steps[3] = {1e-4, 1e-5, 1e-6};
-  const int dofs = layout.dofs, of_nodes = dofs - layout.multipliers, all_nodes = layout.dimension * (layout.nodes + 1);
+  const int dofs = layout.dofs, of_nodes = dofs - layout.multipliers,
+            all_nodes = layout.dimension * (layout.nodes + 1);
   const double length = segment_length(layout, unknowns + layout.dimension);
   double largest = 0, errors[3] = {};
   for (int i = 0; i < dofs * dofs; ++i) largest = std::max(largest, std::abs(tangent[i]));
@@ -55,10 +56,12 @@ bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_in
       }
     }
   const bool good = std::min({errors[0], errors[1], errors[2]}) <= 1e-5;
-  std::snprintf(text, size, "selfcheck: |K - dR/du| / |K| = %.1e, %.1e, %.1e for steps of 1e-4, 1e-5, 1e-6 segments: %s",
+  std::snprintf(text, size,
+                "selfcheck: |K - dR/du| / |K| = %.1e, %.1e, %.1e for steps of 1e-4, 1e-5, 1e-6 segments: %s",
                 errors[0], errors[1], errors[2],
                 good ? "K is the slope of R"
-                     : "K is NOT the slope of R (an approximate or symmetrised \"tangent\" in the model, or contact about to change?)");
+                     : "K is NOT the slope of R (an approximate or symmetrised \"tangent\" in the model, or "
+                       "contact about to change?)");
   return good;
 }
 

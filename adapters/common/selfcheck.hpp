@@ -8,7 +8,8 @@
 
 namespace ents_adapter {
 
-/// @param unknowns  positions of slave and master nodes, then multipliers: where `input` points. Changed and restored
+/// @param unknowns  positions of slave and master nodes, then multipliers: where `input` points. Changed and
+/// restored
 /// @param tangent   [dofs][dofs] to be tested
 /// @param text      [size] out: the errors at three steps, and the verdict
 /// @return the verdict: |K - dR/du| falls below 1e-5 of |K|

@@ -12,7 +12,8 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"nodes of the elements: ", "history variables (set by the element): ", "MATErial, user 7, entry ", [] { return std::string(); }};
+constexpr Host host{"nodes of the elements: ", "history variables (set by the element): ",
+                    "MATErial, user 7, entry ", [] { return std::string(); }};
 
 Element describe(const double* d, int nodes, int ndf, int ndm) {
   Element e;
@@ -28,7 +29,8 @@ Element describe(const double* d, int nodes, int ndf, int ndm) {
 void keep(const Result& result, char* text, int length) {
   std::memset(text, ' ', static_cast<std::size_t>(length));
   const std::size_t size = std::strlen(result.message);
-  std::memcpy(text, result.message, size < static_cast<std::size_t>(length) ? size : static_cast<std::size_t>(length));
+  std::memcpy(text, result.message,
+              size < static_cast<std::size_t>(length) ? size : static_cast<std::size_t>(length));
 }
 
 } // namespace
@@ -36,8 +38,10 @@ void keep(const Result& result, char* text, int length) {
 /// isw 1: history words that the model needs.
 /// @param nodes  of the largest element of the job, which may be another one's
 /// @return 0; 1: text (blank padded) says why the job should stop
-FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* history, char* text, int length) {
-  static constexpr Host any{"nodes of the elements: ", "", "MATErial, user 7, entry ", [] { return std::string(); }, true};
+FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* history, char* text,
+                             int length) {
+  static constexpr Host any{"nodes of the elements: ", "", "MATErial, user 7, entry ",
+                            [] { return std::string(); }, true};
   Element e = describe(d, nodes, ndf, ndm);
   e.host = &any;
   e.history_size = 64;
@@ -50,9 +54,9 @@ FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* 
 /// isw 3, 6: p = -R, s = factor K.
 /// @param factor  ctan(1)
 /// @return 0; 1: stop; 2: the selfcheck has something to say
-FEAP_API int ents_feap_form(const double* d, const double* xl, const double* ul, int number, int nodes, int ndf, int ndm, int nst,
-                            int tangent, double factor, const double* begin, double* end, int history, double* s, double* p,
-                            char* text, int length) {
+FEAP_API int ents_feap_form(const double* d, const double* xl, const double* ul, int number, int nodes,
+                            int ndf, int ndm, int nst, int tangent, double factor, const double* begin,
+                            double* end, int history, double* s, double* p, char* text, int length) {
   Element e = describe(d, nodes, ndf, ndm);
   e.number = number;
   e.position = {xl, 1, ndm};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenSees: element entsContact, loaded at run time from entsContact.so. The interface is that of OpenSees's elementAPI.h.
+// OpenSees: element entsContact, loaded at run time from entsContact.so. The interface is that of OpenSees's
+// elementAPI.h.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -33,10 +34,12 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"element entsContact tag k nodes..., with nodes: ", "", "element entsContact, property ", [] { return std::string(); }};
+constexpr Host host{"element entsContact tag k nodes..., with nodes: ", "", "element entsContact, property ",
+                    [] { return std::string(); }};
 
 enum Request { initialise = 0, commit = 1, revert = 2, form = 3, mass = 4, revert_to_start = 5 };
-constexpr int largest_nodes = 18, largest_dofs = 3 * largest_nodes, parameters = 4; // k, area, options, dimension
+constexpr int largest_nodes = 18, largest_dofs = 3 * largest_nodes,
+              parameters = 4; // k, area, options, dimension
 
 int tell(const char* text) {
   char line[1100];
@@ -88,7 +91,8 @@ int evaluate_element(eleObject* ele, double* tang, double* resid) {
   for (int node = 0; node < ele->nNode; ++node)
     if (ops_getnodecrd_(&ele->node[node], &d, position + d * node) != 0 ||
         ops_getnodedisp_(&ele->node[node], &d, displacement + d * node) != 0)
-      return tell("ents: the nodes of entsContact need the coordinates and degrees of freedom of the model: 2 each in 2D, 3 in 3D");
+      return tell("ents: the nodes of entsContact need the coordinates and degrees of freedom of the model: "
+                  "2 each in 2D, 3 in 3D");
   Element e;
   e.host = &host;
   e.number = ele->tag;
@@ -110,19 +114,30 @@ int evaluate_element(eleObject* ele, double* tang, double* resid) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) void entsContact(eleObject* ele, modelState*, double* tang, double* resid,
-                                                                   int* isw, int* error) {
+extern "C" __attribute__((visibility("default"))) void entsContact(eleObject* ele, modelState*, double* tang,
+                                                                   double* resid, int* isw, int* error) {
   *error = 0;
   switch (*isw) {
-  case initialise: *error = read(ele); break;
-  case commit: std::copy(ele->tState, ele->tState + ele->nState, ele->cState); break;
-  case revert: std::copy(ele->cState, ele->cState + ele->nState, ele->tState); break;
-  case form: *error = evaluate_element(ele, tang, resid); break;
-  case mass: std::fill(tang, tang + ele->nDOF * ele->nDOF, 0.0); break;
+  case initialise:
+    *error = read(ele);
+    break;
+  case commit:
+    std::copy(ele->tState, ele->tState + ele->nState, ele->cState);
+    break;
+  case revert:
+    std::copy(ele->cState, ele->cState + ele->nState, ele->tState);
+    break;
+  case form:
+    *error = evaluate_element(ele, tang, resid);
+    break;
+  case mass:
+    std::fill(tang, tang + ele->nDOF * ele->nDOF, 0.0);
+    break;
   case revert_to_start:
     std::fill(ele->cState, ele->cState + ele->nState, 0.0);
     std::fill(ele->tState, ele->tState + ele->nState, 0.0);
     break;
-  default: break;
+  default:
+    break;
   }
 }

@@ -29,15 +29,18 @@ void getoutdir_(char* directory, int* length, std::size_t capacity) {
   *length = static_cast<int>(here.size());
 }
 
-void stdb_abqerr_(const int* severity, const char* text, const int*, const double*, const char*, std::size_t length, std::size_t) {
+void stdb_abqerr_(const int* severity, const char* text, const int*, const double*, const char*,
+                  std::size_t length, std::size_t) {
   const std::lock_guard lock(mutex);
   messages.push_back({*severity, std::string(text, length)});
 }
 
 // The same in Abaqus/Explicit.
-void vgetoutdir_(char* directory, int* length, std::size_t capacity) { getoutdir_(directory, length, capacity); }
-void xplb_abqerr_(const int* severity, const char* text, const int* integers, const double* reals, const char* words, std::size_t length,
-                  std::size_t word) {
+void vgetoutdir_(char* directory, int* length, std::size_t capacity) {
+  getoutdir_(directory, length, capacity);
+}
+void xplb_abqerr_(const int* severity, const char* text, const int* integers, const double* reals,
+                  const char* words, std::size_t length, std::size_t word) {
   stdb_abqerr_(severity, text, integers, reals, words, length, word);
 }
 void xplb_exit_() { throw adapters::HostStopped("XPLB_EXIT"); }

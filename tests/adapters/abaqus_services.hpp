@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions that Abaqus offers its user subroutines, emulated: GETOUTDIR, STDB_ABQERR, XIT (which throws HostStopped).
+// The functions that Abaqus offers its user subroutines, emulated: GETOUTDIR, STDB_ABQERR, XIT (which throws
+// HostStopped).
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the emulated hosts have in common: each owns the contact elements of a small problem, keeps their history as its host does,
-// and calls its adapter as its host would. Answers come back in one form, so that one solver serves all of them.
+// What the emulated hosts have in common: each owns the contact elements of a small problem, keeps their
+// history as its host does, and calls its adapter as its host would. Answers come back in one form, so that
+// one solver serves all of them.
 #pragma once
 
 #include <stdexcept>
@@ -58,7 +59,9 @@ protected:
         values.push_back(nodal[static_cast<std::size_t>(node * elements_.dimension + i)]);
     return values;
   }
-  const std::vector<int>& nodes(int element) const { return elements_.nodes[static_cast<std::size_t>(element)]; }
+  const std::vector<int>& nodes(int element) const {
+    return elements_.nodes[static_cast<std::size_t>(element)];
+  }
   double area(int element) const { return elements_.area[static_cast<std::size_t>(element)]; }
 
   const Elements elements_;

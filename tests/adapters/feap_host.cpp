@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FEAPpv, emulated: common blocks, history in hr at nh1 and nh2, s and p zeroed by the host. Elements have room for more nodes than they use.
+// FEAPpv, emulated: common blocks, history in hr at nh1 and nh2, s and p zeroed by the host. Elements have
+// room for more nodes than they use.
 #include <algorithm>
 #include <cstdint>
 
@@ -7,16 +8,12 @@
 #include "other_hosts.hpp"
 
 extern "C" {
-extern struct {
-  int numnp, numel, nummat, nen, neq, ipr, netyp;
-} cdata_;
+extern struct { int numnp, numel, nummat, nen, neq, ipr, netyp; } cdata_;
 extern struct {
   double dm;
   int n_el, ma, mct, iel, nel, pstyp, eltyp, elty2, elty3;
 } eldata_;
-extern struct {
-  double bpr[3], ctan[3];
-} eltran_;
+extern struct { double bpr[3], ctan[3]; } eltran_;
 extern struct {
   std::int64_t nh1, nh2, nh3, ht1, ht2, ht3;
   int nlm;
@@ -25,7 +22,8 @@ extern struct {
   double hr[1024];
   int mr[1024];
 } comblk_;
-void elmt07_(double* d, double* ul, double* xl, int* ix, double* tl, double* s, double* p, int* ndf, int* ndm, int* nst, int* isw);
+void elmt07_(double* d, double* ul, double* xl, int* ix, double* tl, double* s, double* p, int* ndf, int* ndm,
+             int* nst, int* isw);
 }
 
 namespace adapters {
@@ -37,7 +35,8 @@ std::vector<double> material_line; ///< what pinput reads
 
 class FeapHost : public EmulatedHost {
 public:
-  explicit FeapHost(const Elements& elements) : EmulatedHost(elements), d_(elements.nodes.size(), std::vector<double>(50)) {
+  explicit FeapHost(const Elements& elements)
+      : EmulatedHost(elements), d_(elements.nodes.size(), std::vector<double>(50)) {
     cdata_.nen = static_cast<int>(elements.nodes[0].size()) + 1;
     for (int k = 0; k < static_cast<int>(d_.size()); ++k) {
       material_line = {static_cast<double>(elements.model), area(k), 0};
@@ -105,7 +104,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<EmulatedHost> feap_host(const Elements& elements) { return std::make_unique<FeapHost>(elements); }
+std::unique_ptr<EmulatedHost> feap_host(const Elements& elements) {
+  return std::make_unique<FeapHost>(elements);
+}
 
 } // namespace adapters
 

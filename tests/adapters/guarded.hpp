@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory of an emulated host: filled with NaN before a call, with guard zones around it that must survive the call.
+// Memory of an emulated host: filled with NaN before a call, with guard zones around it that must survive the
+// call.
 #pragma once
 
 #include <cmath>

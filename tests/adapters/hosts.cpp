@@ -9,10 +9,12 @@ namespace adapters {
 
 std::vector<HostKind> hosts() {
   return {
-      {"abaqus_uel", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::abaqus); }},
+      {"abaqus_uel",
+       [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::abaqus); }},
       // A plane model is a layer of solids there.
       {"calculix", [](const Elements& e) { return std::make_unique<CalculixHost>(e); }, true, 3},
-      {"abaqus_vuel", vuel_host, false, 0, false}, // an explicit increment cannot be cut, nor solved for multipliers
+      {"abaqus_vuel", vuel_host, false, 0,
+       false}, // an explicit increment cannot be cut, nor solved for multipliers
       {"opensees", opensees_host},
       {"feap", feap_host, false},
       {"ansys", ansys_host},

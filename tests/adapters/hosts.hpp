@@ -14,10 +14,10 @@ namespace adapters {
 struct HostKind {
   std::string name;
   std::function<std::unique_ptr<EmulatedHost>(const Elements&)> make;
-  bool cuts = true;      ///< it can cut its increments when an element asks for it
-  int dimension = 0;     ///< 0: both
+  bool cuts = true;        ///< it can cut its increments when an element asks for it
+  int dimension = 0;       ///< 0: both
   bool multipliers = true; ///< its elements can carry them as unknowns
-  bool same_bits = true; ///< its elements get the positions that the plain interface gets, to the last bit
+  bool same_bits = true;   ///< its elements get the positions that the plain interface gets, to the last bit
 };
 inline void PrintTo(const HostKind& kind, std::ostream* out) { *out << kind.name; }
 

@@ -29,8 +29,8 @@ TEST_P(EveryHost, SolvesAsThePlainInterface) {
   double worst = 0;
   for (std::size_t i = 0; i < expected.displacement.size(); ++i)
     worst = std::max(worst, std::abs(solution.displacement[i] - expected.displacement[i]));
-  // The same bits. Where the host adds positions up in another order, Newton's iterations end at another place within the
-  // tolerance: a residual of 1e-11 of all forces, about 100, against springs of 40 and more.
+  // The same bits. Where the host adds positions up in another order, Newton's iterations end at another
+  // place within the tolerance: a residual of 1e-11 of all forces, about 100, against springs of 40 and more.
   EXPECT_LE(worst, kind.same_bits ? 0.0 : 1e-11 * 100 / 40);
 }
 
@@ -40,9 +40,9 @@ TEST(Problems, FrictionMakesTheTangentUnsymmetricAndCutsHappen) {
   EXPECT_GT(solve(p, *plain_host(p.elements)).cuts, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Adapters, EveryHost, testing::ValuesIn(hosts_and_problems()),
-    [](const auto& test) { return std::get<0>(test.param).name + "_" + std::get<1>(test.param); });
+INSTANTIATE_TEST_SUITE_P(Adapters, EveryHost, testing::ValuesIn(hosts_and_problems()), [](const auto& test) {
+  return std::get<0>(test.param).name + "_" + std::get<1>(test.param);
+});
 
 } // namespace
 

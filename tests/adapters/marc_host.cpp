@@ -4,10 +4,11 @@
 #include "histories.hpp"
 #include "other_hosts.hpp"
 
-extern "C" void uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double* r, int* jtype, double* dispt, double* disp,
-                        int* ndi, int* nshear, int* jpass, int* nstats, int* ngenel, int* intel, double* coord, int* ncrd, int* iflag,
-                        int* idss, double* t, double* dt, double* etota, double* gsigs, double* de, double* geom, int* jgeom, double* sigxx,
-                        int* nstrmu);
+extern "C" void uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double* r,
+                        int* jtype, double* dispt, double* disp, int* ndi, int* nshear, int* jpass,
+                        int* nstats, int* ngenel, int* intel, double* coord, int* ncrd, int* iflag, int* idss,
+                        double* t, double* dt, double* etota, double* gsigs, double* de, double* geom,
+                        int* jgeom, double* sigxx, int* nstrmu);
 extern "C" void quit_(int*) { throw adapters::HostStopped("quit"); }
 
 namespace adapters {
@@ -20,15 +21,17 @@ public:
   explicit MarcHost(const Elements& elements) : HostWithHistory(elements, 2) {}
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    int number = element + 1, nnode = static_cast<int>(nodes(element).size()), d = elements_.dimension, idss = nnode * d, jtype = -9, none = 0,
-        nstats = size_;
+    int number = element + 1, nnode = static_cast<int>(nodes(element).size()), d = elements_.dimension,
+        idss = nnode * d, jtype = -9, none = 0, nstats = size_;
     const auto n = at(idss);
     Guarded xk(n * n), xm(n * n), f(n), r(n), dt(at(size_));
-    std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement), increment(n, 1e99), t = committed(element);
+    std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
+                        increment(n, 1e99), t = committed(element);
     double geom[8] = {static_cast<double>(elements_.model), area(element), 0, 1e99, 1e99, 1e99, 1e99, 1e99};
     const auto call = [&](int iflag) {
-      uselem_(&number, xk.data(), xm.data(), &nnode, &d, f.data(), r.data(), &jtype, u.data(), increment.data(), &none, &none, &none, &nstats,
-              &none, &none, x.data(), &d, &iflag, &idss, t.data(), dt.data(), nullptr, nullptr, nullptr, geom, nullptr, nullptr, &none);
+      uselem_(&number, xk.data(), xm.data(), &nnode, &d, f.data(), r.data(), &jtype, u.data(),
+              increment.data(), &none, &none, &none, &nstats, &none, &none, x.data(), &d, &iflag, &idss,
+              t.data(), dt.data(), nullptr, nullptr, nullptr, geom, nullptr, nullptr, &none);
       for (const Guarded* array : {&xk, &xm, &f, &r, &dt}) array->check_guards("an array");
     };
     Answer answer;
@@ -50,6 +53,8 @@ public:
 
 } // namespace
 
-std::unique_ptr<EmulatedHost> marc_host(const Elements& elements) { return std::make_unique<MarcHost>(elements); }
+std::unique_ptr<EmulatedHost> marc_host(const Elements& elements) {
+  return std::make_unique<MarcHost>(elements);
+}
 
 } // namespace adapters

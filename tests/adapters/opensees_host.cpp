@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenSees, emulated: the functions that it offers loaded elements, and an element's life: INIT, FORM ... COMMIT or REVERT.
+// OpenSees, emulated: the functions that it offers loaded elements, and an element's life: INIT, FORM ...
+// COMMIT or REVERT.
 #include <cstring>
 
 #include "guarded.hpp"
@@ -49,7 +50,8 @@ public:
       domain.doubles = {area(k), 0};
       objects_.push_back(std::make_unique<eleObject>());
       request(k, 0, nullptr, nullptr);
-      if (objects_.back()->nDOF != elements.dimension * static_cast<int>(list.size())) throw std::runtime_error("nDOF");
+      if (objects_.back()->nDOF != elements.dimension * static_cast<int>(list.size()))
+        throw std::runtime_error("nDOF");
     }
   }
   ~OpenSeesHost() override {
@@ -61,13 +63,15 @@ public:
     for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 2, nullptr, nullptr); // REVERT
   }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    domain.reference = &elements_.reference, domain.displacement = &displacement, domain.dimension = elements_.dimension;
+    domain.reference = &elements_.reference, domain.displacement = &displacement,
+    domain.dimension = elements_.dimension;
     const auto n = at(objects_[at(element)]->nDOF);
     Guarded tang(n * n), resid(n);
     Answer answer;
     try {
       request(element, 3, tang.data(), resid.data());
-    } catch (const HostStopped&) { // the script repeats the step with half its size, whatever the element thinks
+    } catch (
+        const HostStopped&) { // the script repeats the step with half its size, whatever the element thinks
       if (domain.error.find("penetration_limit") == std::string::npos) throw;
       answer.step_factor = 0.5;
       return answer;
@@ -97,7 +101,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<EmulatedHost> opensees_host(const Elements& elements) { return std::make_unique<OpenSeesHost>(elements); }
+std::unique_ptr<EmulatedHost> opensees_host(const Elements& elements) {
+  return std::make_unique<OpenSeesHost>(elements);
+}
 
 } // namespace adapters
 
@@ -126,8 +132,12 @@ int ops_allocateelement_(eleObject* e, int*, int*) {
   e->param = array(e->nParam), e->cState = array(e->nState), e->tState = array(e->nState);
   return 0;
 }
-int ops_getnodecrd_(int* node, int* count, double* data) { return adapters::nodal(*domain.reference, node, count, data); }
-int ops_getnodedisp_(int* node, int* count, double* data) { return adapters::nodal(*domain.displacement, node, count, data); }
+int ops_getnodecrd_(int* node, int* count, double* data) {
+  return adapters::nodal(*domain.reference, node, count, data);
+}
+int ops_getnodedisp_(int* node, int* count, double* data) {
+  return adapters::nodal(*domain.displacement, node, count, data);
+}
 int ops_error_(char* text, int length) {
   domain.error.assign(text, static_cast<std::size_t>(length));
   return 0;

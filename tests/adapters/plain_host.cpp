@@ -10,7 +10,8 @@ class PlainHost : public EmulatedHost {
 public:
   explicit PlainHost(const Elements& elements)
       : EmulatedHost(elements), model_("ents_" + std::to_string(elements.model) + ".json"),
-        history_(elements.nodes.size(), std::vector<double>(static_cast<std::size_t>(elements.state_size))), trial_(history_) {
+        history_(elements.nodes.size(), std::vector<double>(static_cast<std::size_t>(elements.state_size))),
+        trial_(history_) {
     for (auto& state : history_) ents_state_init(model_.get(), 1, state.data(), elements.state_size, nullptr);
   }
 
@@ -58,6 +59,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<EmulatedHost> plain_host(const Elements& elements) { return std::make_unique<PlainHost>(elements); }
+std::unique_ptr<EmulatedHost> plain_host(const Elements& elements) {
+  return std::make_unique<PlainHost>(elements);
+}
 
 } // namespace adapters

@@ -53,7 +53,8 @@ const Kind kinds[] = {
 std::vector<ProblemName> problem_names() {
   std::vector<ProblemName> names;
   for (const Kind& kind : kinds)
-    names.push_back({kind.name, kind.dimension, std::string(kind.name).find("multiplier") != std::string::npos});
+    names.push_back(
+        {kind.name, kind.dimension, std::string(kind.name).find("multiplier") != std::string::npos});
   return names;
 }
 
@@ -98,7 +99,8 @@ Problem problem(const std::string& name) {
     for (int i = 0; i < m; ++i) {
       std::vector<double> x(static_cast<std::size_t>(d));
       for (int a = 0; a + 1 < d; ++a)
-        x[static_cast<std::size_t>(a)] = (a == 0 ? 4.0 * segment : 0.0) + (d == 2 ? 2.0 * i - 1 : corners[i][a]) + uniform(-0.15, 0.15);
+        x[static_cast<std::size_t>(a)] =
+            (a == 0 ? 4.0 * segment : 0.0) + (d == 2 ? 2.0 * i - 1 : corners[i][a]) + uniform(-0.15, 0.15);
       x.back() = uniform(-0.1, 0.1);
       master.push_back(add_node(x, std::vector<double>(static_cast<std::size_t>(d), 0.0), 300));
     }
@@ -113,12 +115,14 @@ Problem problem(const std::string& name) {
       target.back() = -uniform(0.25, 0.4);
       std::vector<int> nodes{add_node(x, target, 40)};
       nodes.insert(nodes.end(), master.begin(), master.end());
-      // The dofs of a multiplier's node that it does not use hang on springs, too; its own start from nothing.
+      // The dofs of a multiplier's node that it does not use hang on springs, too; its own start from
+      // nothing.
       if (e.multipliers) {
         nodes.push_back(add_node(x, std::vector<double>(static_cast<std::size_t>(d), 0.0), 1));
         for (int i = 0; i < d; ++i)
           for (int j = 0; j < d; ++j)
-            if (i < e.multipliers || j < e.multipliers) p.spring[p.spring.size() - static_cast<std::size_t>(d * d - i * d - j)] = 0;
+            if (i < e.multipliers || j < e.multipliers)
+              p.spring[p.spring.size() - static_cast<std::size_t>(d * d - i * d - j)] = 0;
       }
       e.nodes.push_back(nodes);
       e.area.push_back(uniform(0.3, 0.7));

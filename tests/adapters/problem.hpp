@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small problem for every host: slave nodes that hang on springs are pressed on and dragged over textured segments whose nodes stand
-// on springs. The springs of a node couple its components without symmetry, nodes are scattered irregularly in all directions: an
-// index in the wrong place changes the solution.
+// A small problem for every host: slave nodes that hang on springs are pressed on and dragged over textured
+// segments whose nodes stand on springs. The springs of a node couple its components without symmetry, nodes
+// are scattered irregularly in all directions: an index in the wrong place changes the solution.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace adapters {
 struct Problem {
   std::string name;
   Elements elements;
-  std::vector<double> spring;   ///< [nodes][d][d] stiffness, row by row
-  std::vector<double> target;   ///< [nodes][d] displacement of the springs' feet at the end of the path
+  std::vector<double> spring; ///< [nodes][d][d] stiffness, row by row
+  std::vector<double> target; ///< [nodes][d] displacement of the springs' feet at the end of the path
   int increments = 4;
 };
 

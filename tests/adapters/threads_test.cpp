@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Eight threads of the host call the adapter for elements of their own, and meet where the model is read. Built with the thread
-// sanitizer, too.
+// Eight threads of the host call the adapter for elements of their own, and meet where the model is read.
+// Built with the thread sanitizer, too.
 #include <cstring>
 #include <fstream>
 #include <thread>
@@ -13,10 +13,13 @@
 namespace adapters {
 namespace {
 
-bool same(Guarded& a, Guarded& b, std::size_t count) { return std::memcmp(a.data(), b.data(), count * sizeof(double)) == 0; }
+bool same(Guarded& a, Guarded& b, std::size_t count) {
+  return std::memcmp(a.data(), b.data(), count * sizeof(double)) == 0;
+}
 
 TEST(Threads, EightGiveTheSameBits) {
-  std::ofstream("ents_51.json") << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+  std::ofstream("ents_51.json")
+      << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
     "contact": {"normal": {"type": "penalty", "stiffness": 400}, "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 200}}})";
   std::ofstream("ents_51.txt") << "90001 0.5\n90002 0.6\n90003 0.7\n";
   const Problem p = problem("quad4_friction");

@@ -8,14 +8,17 @@ namespace adapters {
 void UelCall::operator()(UelFunction* function) {
   int nprops = static_cast<int>(props.size()), zero = 0, one = 1;
   double time[2] = {0.5, 1.5}, dtime = 0.5, period = 1, params[3] = {}, adlmag = 0;
-  std::vector<double> still(static_cast<std::size_t>(ndofel), 0.0), predef(2 * static_cast<std::size_t>(nnode));
+  std::vector<double> still(static_cast<std::size_t>(ndofel), 0.0),
+      predef(2 * static_cast<std::size_t>(nnode));
   du.resize(static_cast<std::size_t>(mlvarx), std::numeric_limits<double>::quiet_NaN());
-  function(rhs.data(), amatrx.data(), svars.data(), energy.data(), &ndofel, &nrhs, &nsvars, props.data(), &nprops,
-           coords.data(), &mcrd, &nnode, u.data(), du.data(), still.data(), still.data(), &jtype, time, &dtime, &kstep, &kinc,
-           &jelem, null_flags ? nullptr : params, &zero, nullptr, null_flags ? nullptr : &adlmag, predef.data(), &one,
-           null_flags ? nullptr : lflags.data(), &mlvarx, nullptr, &zero, &pnewdt, null_flags ? nullptr : &zero, &zero, &period);
+  function(rhs.data(), amatrx.data(), svars.data(), energy.data(), &ndofel, &nrhs, &nsvars, props.data(),
+           &nprops, coords.data(), &mcrd, &nnode, u.data(), du.data(), still.data(), still.data(), &jtype,
+           time, &dtime, &kstep, &kinc, &jelem, null_flags ? nullptr : params, &zero, nullptr,
+           null_flags ? nullptr : &adlmag, predef.data(), &one, null_flags ? nullptr : lflags.data(), &mlvarx,
+           nullptr, &zero, &pnewdt, null_flags ? nullptr : &zero, &zero, &period);
   rhs.check_guards("RHS");
-  rhs.check_untouched("padding of RHS", static_cast<std::size_t>(ndofel), static_cast<std::size_t>(mlvarx - ndofel));
+  rhs.check_untouched("padding of RHS", static_cast<std::size_t>(ndofel),
+                      static_cast<std::size_t>(mlvarx - ndofel));
   amatrx.check_guards("AMATRX");
   svars.check_guards("SVARS");
   energy.check_guards("ENERGY");
@@ -23,7 +26,9 @@ void UelCall::operator()(UelFunction* function) {
 
 UelHost::UelHost(const Elements& elements, Program program)
     : EmulatedHost(elements), program_(program),
-      committed_(elements.nodes.size(), std::vector<double>(static_cast<std::size_t>(elements.state_size) + 1)), trial_(committed_) {}
+      committed_(elements.nodes.size(),
+                 std::vector<double>(static_cast<std::size_t>(elements.state_size) + 1)),
+      trial_(committed_) {}
 
 UelCall UelHost::call(int element, const std::vector<double>& displacement) const {
   const int d = elements_.dimension;
@@ -33,10 +38,12 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   const std::vector<double> old = begin_.empty() ? std::vector<double>(c.u.size()) : gather(element, begin_);
   for (std::size_t i = 0; i < c.u.size(); ++i) c.du.push_back(c.u[i] - old[i]);
   c.props = {static_cast<double>(elements_.model), area(element)};
-  for (std::size_t i = 0; i < c.svars.size(); ++i) c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
+  for (std::size_t i = 0; i < c.svars.size(); ++i)
+    c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
   c.jelem = 90001 + element;
   switch (program_) {
-  case Program::abaqus: break;
+  case Program::abaqus:
+    break;
   case Program::moose: // U is the old solution, DU leads to the present one
     c.u = old;
     c.props.push_back(2);

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs that call an Abaqus UEL, emulated: Abaqus/Standard, MOOSE's AbaqusUserElement and OOFEM's AbaqusUserElement.
+// Programs that call an Abaqus UEL, emulated: Abaqus/Standard, MOOSE's AbaqusUserElement and OOFEM's
+// AbaqusUserElement.
 #pragma once
 
 #include "emulated_host.hpp"
 #include "guarded.hpp"
 
 extern "C" {
-using UelFunction = void(double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs, int* nsvars,
-                         double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double* v,
-                         double* a, int* jtype, double* time, double* dtime, int* kstep, int* kinc, int* jelem, double* params,
-                         int* ndload, int* jdltyp, double* adlmag, double* predef, int* npredf, int* lflags, int* mlvarx,
-                         double* ddlmag, int* mdload, double* pnewdt, int* jprops, int* njprop, double* period);
+using UelFunction = void(double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs,
+                         int* nsvars, double* props, int* nprops, double* coords, int* mcrd, int* nnode,
+                         double* u, double* du, double* v, double* a, int* jtype, double* time, double* dtime,
+                         int* kstep, int* kinc, int* jelem, double* params, int* ndload, int* jdltyp,
+                         double* adlmag, double* predef, int* npredf, int* lflags, int* mlvarx,
+                         double* ddlmag, int* mdload, double* pnewdt, int* jprops, int* njprop,
+                         double* period);
 UelFunction uel, uel_;
 }
 
 namespace adapters {
 
-/// Arguments of one call, as Abaqus passes them: two columns of RHS apart by MLVARX > NDOFEL, outputs poisoned, guard zones.
+/// Arguments of one call, as Abaqus passes them: two columns of RHS apart by MLVARX > NDOFEL, outputs
+/// poisoned, guard zones.
 struct UelCall {
   UelCall(int nodes, int dofs_per_node, int variables)
-      : nnode(nodes), ndofel(nodes * dofs_per_node), mlvarx(ndofel + 5), nsvars(variables), mcrd(dofs_per_node),
-        rhs(2 * static_cast<std::size_t>(mlvarx)), amatrx(static_cast<std::size_t>(ndofel) * static_cast<std::size_t>(ndofel)),
+      : nnode(nodes), ndofel(nodes * dofs_per_node), mlvarx(ndofel + 5), nsvars(variables),
+        mcrd(dofs_per_node), rhs(2 * static_cast<std::size_t>(mlvarx)),
+        amatrx(static_cast<std::size_t>(ndofel) * static_cast<std::size_t>(ndofel)),
         svars(static_cast<std::size_t>(variables)), energy(8) {
     for (std::size_t i = 0; i < svars.size(); ++i) svars[i] = 0;
     for (std::size_t i = 0; i < 8; ++i) energy[i] = 0;

@@ -8,8 +8,10 @@ namespace adapters {
 std::vector<HostKind> hosts() {
   return {
       // It adds old solution and increment, in another order than the plain interface.
-      {"moose", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::moose); }, false, 0, true, false},
-      {"oofem", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::oofem); }, false},
+      {"moose", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::moose); },
+       false, 0, true, false},
+      {"oofem", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::oofem); },
+       false},
   };
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Abaqus's protocol of a user element: what LFLAGS asks for is formed, all of it and nothing else; mistakes in the deck reach the user
-// through Abaqus's own channel.
+// Abaqus's protocol of a user element: what LFLAGS asks for is formed, all of it and nothing else; mistakes
+// in the deck reach the user through Abaqus's own channel.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -42,7 +42,9 @@ bool zero(Guarded& array, std::size_t count) {
     if (array[i] != 0) return false; // NaN, too
   return true;
 }
-bool same(Guarded& a, Guarded& b, std::size_t count) { return std::memcmp(a.data(), b.data(), count * sizeof(double)) == 0; }
+bool same(Guarded& a, Guarded& b, std::size_t count) {
+  return std::memcmp(a.data(), b.data(), count * sizeof(double)) == 0;
+}
 
 TEST_F(Uel, FormsWhatIsAskedFor) {
   UelCall both = request(1);
@@ -75,7 +77,9 @@ TEST_F(Uel, FormsWhatIsAskedFor) {
   EXPECT_TRUE(abaqus_messages().empty());
 }
 
-TEST_F(Uel, BothNamesAreTheSameFunction) { EXPECT_EQ(reinterpret_cast<void*>(uel), reinterpret_cast<void*>(uel_)); }
+TEST_F(Uel, BothNamesAreTheSameFunction) {
+  EXPECT_EQ(reinterpret_cast<void*>(uel), reinterpret_cast<void*>(uel_));
+}
 
 TEST_F(Uel, SecondRightHandSideIsTheLoadWhichIsZero) {
   UelCall c = request(1);
@@ -151,7 +155,8 @@ TEST_F(Uel, SelfcheckReportsIntoTheMessageFile) {
   EXPECT_NE(text.find("element 90001"), std::string::npos) << text;
   EXPECT_NE(text.find("K is the slope of R"), std::string::npos) << text;
   double errors[3] = {1, 1, 1};
-  ASSERT_EQ(std::sscanf(text.c_str() + text.find('='), "= %lf, %lf, %lf", errors, errors + 1, errors + 2), 3) << text;
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find('='), "= %lf, %lf, %lf", errors, errors + 1, errors + 2), 3)
+      << text;
   EXPECT_LT(errors[1], 0.02 * errors[0]); // second order: a tenth of the step leaves a hundredth
   EXPECT_LT(errors[2], 1e-8);             // and roundings over the step, 1e-16 / 1e-6 times a few
   UelCall silent = request(1);
@@ -160,7 +165,8 @@ TEST_F(Uel, SelfcheckReportsIntoTheMessageFile) {
 }
 
 TEST_F(Uel, SelfcheckFindsAnApproximateTangent) {
-  std::ofstream("ents_31.json") << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+  std::ofstream("ents_31.json")
+      << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
     "tangent": "first_variation", "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
   UelCall c = request(1);
   c.props = {31, 0.5, 1};
@@ -169,9 +175,11 @@ TEST_F(Uel, SelfcheckFindsAnApproximateTangent) {
 }
 
 TEST_F(Uel, AreasAndSurfaceCoordinatesFromTheTable) {
-  std::ofstream("ents_32.json") << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+  std::ofstream("ents_32.json")
+      << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
     "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
-  std::ofstream("ents_32.txt") << "# element area s1 s2 ...\n\n90001, 0.25\n90002\t0.5 0 0  3 0  3 2  0 2 # stretched\n";
+  std::ofstream("ents_32.txt")
+      << "# element area s1 s2 ...\n\n90001, 0.25\n90002\t0.5 0 0  3 0  3 2  0 2 # stretched\n";
   UelCall in_deck = request(1), in_table = request(1);
   in_deck.props = {32, 0.25};
   in_table.props = {32, 0};
@@ -206,21 +214,66 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
   write("ents_47.txt", "90002 0.5\n");
   const Mistake mistakes[] = {
       {"no properties", [](UelCall& c) { c.props = {}; }, "write *UEL PROPERTY, entry 1 and 2"},
-      {"no file", [](UelCall& c) { c.props = {40, 0.5}; }, "ents_40.json"},
-      {"not a number k", [](UelCall& c) { c.props = {1.5, 0.5}; }, "*UEL PROPERTY, entry 1"},
-      {"k not a number", [](UelCall& c) { c.props = {std::nan(""), 0.5}; }, "*UEL PROPERTY, entry 1"},
-      {"k too large", [](UelCall& c) { c.props = {1e300, 0.5}; }, "1 .. 9999"},
+      {"no file",
+       [](UelCall& c) {
+         c.props = {40, 0.5};
+       },
+       "ents_40.json"},
+      {"not a number k",
+       [](UelCall& c) {
+         c.props = {1.5, 0.5};
+       },
+       "*UEL PROPERTY, entry 1"},
+      {"k not a number",
+       [](UelCall& c) {
+         c.props = {std::nan(""), 0.5};
+       },
+       "*UEL PROPERTY, entry 1"},
+      {"k too large",
+       [](UelCall& c) {
+         c.props = {1e300, 0.5};
+       },
+       "1 .. 9999"},
       {"negative area", [](UelCall& c) { c.props[1] = -1; }, "*UEL PROPERTY, entry 2"},
       {"area not a number", [](UelCall& c) { c.props[1] = std::nan(""); }, "*UEL PROPERTY, entry 2"},
       {"no such option", [](UelCall& c) { c.props.push_back(1000); }, "*UEL PROPERTY, entry 3"},
-      {"JSON", [](UelCall& c) { c.props = {41, 0.5}; }, "ents_41.json"},
-      {"key", [](UelCall& c) { c.props = {42, 0.5}; }, "hight"},
-      {"no law", [](UelCall& c) { c.props = {43, 0.5}; }, "contact"},
-      {"word in the table", [](UelCall& c) { c.props = {44, 0}; }, "ents_44.txt, line 2"},
-      {"length of a line", [](UelCall& c) { c.props = {45, 0}; }, "8 surface coordinates"},
-      {"element twice", [](UelCall& c) { c.props = {46, 0}; }, "two lines for element 90001"},
-      {"element missing", [](UelCall& c) { c.props = {47, 0}; }, "ents_47.txt"},
-      {"surface coordinate", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, std::nan(""), 0, 2}; }, "entry 9"},
+      {"JSON",
+       [](UelCall& c) {
+         c.props = {41, 0.5};
+       },
+       "ents_41.json"},
+      {"key",
+       [](UelCall& c) {
+         c.props = {42, 0.5};
+       },
+       "hight"},
+      {"no law",
+       [](UelCall& c) {
+         c.props = {43, 0.5};
+       },
+       "contact"},
+      {"word in the table",
+       [](UelCall& c) {
+         c.props = {44, 0};
+       },
+       "ents_44.txt, line 2"},
+      {"length of a line",
+       [](UelCall& c) {
+         c.props = {45, 0};
+       },
+       "8 surface coordinates"},
+      {"element twice",
+       [](UelCall& c) {
+         c.props = {46, 0};
+       },
+       "two lines for element 90001"},
+      {"element missing",
+       [](UelCall& c) {
+         c.props = {47, 0};
+       },
+       "ents_47.txt"},
+      {"surface coordinate", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, std::nan(""), 0, 2}; },
+       "entry 9"},
       {"too few nodes", [](UelCall& c) { c.nnode = 4, c.ndofel = 12; }, "Write *USER ELEMENT, NODES=5"},
       {"too many nodes", [](UelCall& c) { c.props[0] = 15; }, "Write *USER ELEMENT, NODES=4"},
       {"plane element", [](UelCall& c) { c.ndofel = 10, c.mcrd = 2; }, "3D"},

@@ -15,22 +15,27 @@ extern "C" {
 using Real = double*;
 using Text = char*;
 using Whole = int*;
-void uinter_(Real stress, Real ddsddr, Real dviscous, Real dstructural, Real flux, Real ddfddt, Real ddsddt, Real ddfddr, Real statev, Real sed,
-             Real sfd, Real spd, Real svd, Real scd, Real pnewdt, Real rdisp, Real drdisp, Real temp, Real dtemp, Real predef, Real dpred,
-             Real time, Real dtime, Real freqr, Text ciname, Text secname, Text mainname, Real props, Real coords, Real alocaldir, Real drot,
-             Real area, Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred, Whole nprops, Whole mcrd, Whole kstep, Whole kinc,
-             Whole kit, Whole linper, Whole lopenclose, Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
-using Uinter44 = void(Real stress, Real ddsddr, Real flux, Real ddfddt, Real ddsddt, Real ddfddr, Real statev, Real sed, Real sfd, Real spd,
-                      Real svd, Real scd, Real pnewdt, Real rdisp, Real drdisp, Real temp, Real dtemp, Real predef, Real dpred, Real time,
-                      Real dtime, Text ciname, Text slname, Text msname, Real props, Real coords, Real alocaldir, Real drot, Real area,
-                      Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred, Whole nprops, Whole mcrd, Whole kstep, Whole kinc,
-                      Whole kit, Whole linper, Whole lopenclose, Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
+void uinter_(Real stress, Real ddsddr, Real dviscous, Real dstructural, Real flux, Real ddfddt, Real ddsddt,
+             Real ddfddr, Real statev, Real sed, Real sfd, Real spd, Real svd, Real scd, Real pnewdt,
+             Real rdisp, Real drdisp, Real temp, Real dtemp, Real predef, Real dpred, Real time, Real dtime,
+             Real freqr, Text ciname, Text secname, Text mainname, Real props, Real coords, Real alocaldir,
+             Real drot, Real area, Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred,
+             Whole nprops, Whole mcrd, Whole kstep, Whole kinc, Whole kit, Whole linper, Whole lopenclose,
+             Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
+using Uinter44 = void(Real stress, Real ddsddr, Real flux, Real ddfddt, Real ddsddt, Real ddfddr, Real statev,
+                      Real sed, Real sfd, Real spd, Real svd, Real scd, Real pnewdt, Real rdisp, Real drdisp,
+                      Real temp, Real dtemp, Real predef, Real dpred, Real time, Real dtime, Text ciname,
+                      Text slname, Text msname, Real props, Real coords, Real alocaldir, Real drot, Real area,
+                      Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred, Whole nprops,
+                      Whole mcrd, Whole kstep, Whole kinc, Whole kit, Whole linper, Whole lopenclose,
+                      Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
 }
 
 namespace adapters {
 namespace {
 
-/// One point; outputs poisoned, guard zones. Its master surface is inclined; the slip directions start at known coordinates.
+/// One point; outputs poisoned, guard zones. Its master surface is inclined; the slip directions start at
+/// known coordinates.
 struct Call {
   explicit Call(int directions) : ndir(directions) {
     for (std::size_t i = 0; i < statev.size(); ++i) statev[i] = 0;
@@ -40,7 +45,8 @@ struct Call {
   }
 
   int ndir, node = 17, linper = 0, lopenclose = -1, nprops = 2;
-  Guarded stress{3}, ddsddr{9}, dviscous{9}, dstructural{9}, flux{2}, ddfddt{4}, ddsddt{6}, ddfddr{6}, statev{20}, sed{1};
+  Guarded stress{3}, ddsddr{9}, dviscous{9}, dstructural{9}, flux{2}, ddfddt{4}, ddsddt{6}, ddfddr{6},
+      statev{20}, sed{1};
   double pnewdt = 1e36, rdisp[3] = {}, coords[3] = {}, alocaldir[9], props[3] = {61, 2, 0};
 
   /// Surface coordinates of the point, which has slipped by rdisp since it was there.
@@ -57,20 +63,27 @@ struct Call {
     int nstatv = 20, npred = 0, mcrd = ndir, step = 1, lstate = -1, lsdi = 0, lprint = 0;
     char name[81] = "ENTS                                                                            ";
     if (old)
-      old(stress.data(), ddsddr.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still,
-          still, still, &pnewdt, rdisp, still, still, still, still, still, time, &one, name, name, name, props, coords, alocaldir, still, &one,
-          &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
+      old(stress.data(), ddsddr.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(),
+          statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp, still, still, still, still,
+          still, time, &one, name, name, name, props, coords, alocaldir, still, &one, &one, &node, &ndir,
+          &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi, &lprint,
+          80, 80, 80);
     else
-      uinter_(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(),
-              statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp, still, still, still, still, still, time, &one, &one, name,
-              name, name, props, coords, alocaldir, still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step,
-              &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
-    for (const Guarded* array : {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &dviscous, &dstructural})
+      uinter_(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(),
+              ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still, still, still, &pnewdt,
+              rdisp, still, still, still, still, still, time, &one, &one, name, name, name, props, coords,
+              alocaldir, still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step,
+              &step, &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
+    for (const Guarded* array :
+         {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &dviscous, &dstructural})
       array->check_guards("an array");
     const auto d = static_cast<std::size_t>(ndir);
-    stress.check_written("STRESS", 0, d), ddsddr.check_written("DDSDDR", 0, d * d), flux.check_written("FLUX", 0, 2);
-    ddfddt.check_written("DDFDDT", 0, 4), ddsddt.check_written("DDSDDT", 0, 2 * d), ddfddr.check_written("DDFDDR", 0, 2 * d);
-    if (!old) dviscous.check_written("DVISCOUS", 0, d * d), dstructural.check_written("DSTRUCTURAL", 0, d * d);
+    stress.check_written("STRESS", 0, d), ddsddr.check_written("DDSDDR", 0, d * d),
+        flux.check_written("FLUX", 0, 2);
+    ddfddt.check_written("DDFDDT", 0, 4), ddsddt.check_written("DDSDDT", 0, 2 * d),
+        ddfddr.check_written("DDFDDR", 0, 2 * d);
+    if (!old)
+      dviscous.check_written("DVISCOUS", 0, d * d), dstructural.check_written("DSTRUCTURAL", 0, d * d);
   }
 };
 
@@ -78,24 +91,29 @@ class Uinter : public testing::Test {
 protected:
   void SetUp() override {
     abaqus_messages();
-    std::ofstream("ents_61.json") << R"({"segment": "line2", "projection": {"type": "shadow_direction", "direction": [0, 1]},
+    std::ofstream("ents_61.json")
+        << R"({"segment": "line2", "projection": {"type": "shadow_direction", "direction": [0, 1]},
       "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8], "phase": 0.4}, "contact": {"normal": {"type": "penalty", "stiffness": 500}}})";
-    std::ofstream("ents_62.json") << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8, 0.3]},
+    std::ofstream("ents_62.json")
+        << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8, 0.3]},
       "contact": {"normal": {"type": "penalty", "stiffness": 500}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 300}}})";
-    std::ofstream("ents_63.json") << R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]},
+    std::ofstream("ents_63.json")
+        << R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]},
       "contact": {"normal": {"type": "penalty", "stiffness": 500}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 300}}})";
   }
 };
 
 TEST_F(Uinter, FrictionlessLawAlongTheNormalIsThatOfThePotential) {
-  // W(g), g = closing + h(s), s = start + slip: traction W' (1, h'), stiffness W'' (1, h')(1, h') + W' h'' in the slip's place.
+  // W(g), g = closing + h(s), s = start + slip: traction W' (1, h'), stiffness W'' (1, h')(1, h') + W' h'' in
+  // the slip's place.
   for (const double slip : {-0.3, 0.0, 0.17, 0.4}) {
     Call c(2);
     c.rdisp[0] = 0.01, c.rdisp[1] = slip;
     c.place(0.25, 0);
     c();
-    const double k = 2 * M_PI * 0.8, s = 0.25 + slip, h = 0.03 * std::sin(k * s + 0.4), h1 = 0.03 * k * std::cos(k * s + 0.4), h2 = -k * k * h,
-                 g = 0.01 + h, force = g > 0 ? 500 * g : 0, stiffness = g > 0 ? 500.0 : 0.0;
+    const double k = 2 * M_PI * 0.8, s = 0.25 + slip, h = 0.03 * std::sin(k * s + 0.4),
+                 h1 = 0.03 * k * std::cos(k * s + 0.4), h2 = -k * k * h, g = 0.01 + h,
+                 force = g > 0 ? 500 * g : 0, stiffness = g > 0 ? 500.0 : 0.0;
     const double expected[4] = {stiffness, stiffness * h1, stiffness * h1, stiffness * h1 * h1 + force * h2};
     EXPECT_NEAR(c.stress[0], force, 1e-12 * 500); // roundings of lengths of order one times the stiffness
     EXPECT_NEAR(c.stress[1], force * h1, 1e-12 * 500);
@@ -133,7 +151,8 @@ TEST_F(Uinter, StiffnessIsTheSlopeOfTheTraction) {
           const auto entry = static_cast<std::size_t>(i + d * j), row = static_cast<std::size_t>(i);
           // Differences: step^2 times third derivatives of 500 (2 pi 0.8)^3; roundings: 1e-14 / step.
           EXPECT_NEAR(c.ddsddr[entry], (more.stress[row] - less.stress[row]) / (2 * step), 1e-5) << i << j;
-          symmetric = symmetric && std::abs(c.ddsddr[entry] - c.ddsddr[static_cast<std::size_t>(j + d * i)]) < 1;
+          symmetric =
+              symmetric && std::abs(c.ddsddr[entry] - c.ddsddr[static_cast<std::size_t>(j + d * i)]) < 1;
         }
       }
       EXPECT_GT(c.stress[0], 0);

@@ -10,7 +10,8 @@ namespace {
 class WorkingDirectory : public testing::Environment {
 public:
   void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() / ("ents-adapters-" + std::to_string(std::random_device{}()));
+    path_ =
+        std::filesystem::temp_directory_path() / ("ents-adapters-" + std::to_string(std::random_device{}()));
     std::filesystem::create_directory(path_);
     std::filesystem::current_path(path_);
   }
@@ -23,6 +24,7 @@ private:
   std::filesystem::path path_;
 };
 
-[[maybe_unused]] const testing::Environment* const registered = testing::AddGlobalTestEnvironment(new WorkingDirectory);
+[[maybe_unused]] const testing::Environment* const registered =
+    testing::AddGlobalTestEnvironment(new WorkingDirectory);
 
 } // namespace

@@ -34,14 +34,15 @@ void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int 
 
 ENTS_ENTRY(uel, UEL,
            (double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs, int* nsvars,
-            double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double*, double*,
-            int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*, int*, int* lflags,
-            int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
+            double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double*,
+            double*, int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*,
+            int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
   const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
   const auto request = static_cast<Request>(lflags && lflags[2] ? lflags[2] : 1);
   const bool perturbation = lflags && lflags[3] == 1;
   fill(0, rhs, amatrx, dofs, columns, *mlvarx);
-  if (request == Request::damping || request == Request::mass || request == Request::perturbation_output) return;
+  if (request == Request::damping || request == Request::mass || request == Request::perturbation_output)
+    return;
 
   Element e;
   e.host = &host;
@@ -60,7 +61,8 @@ ENTS_ENTRY(uel, UEL,
   e.sign = -1; // RHS is external minus internal force
   e.tangent_sign = option > 0 && (option & option_negative_tangent) ? -1 : 1;
   if (request != Request::stiffness && !perturbation) e.residual = {rhs, 1, e.dofs};
-  if (request == Request::residual_and_stiffness || request == Request::stiffness) e.tangent = {amatrx, 1, dofs};
+  if (request == Request::residual_and_stiffness || request == Request::stiffness)
+    e.tangent = {amatrx, 1, dofs};
   if (request == Request::residual_and_stiffness && !perturbation) {
     e.history_end = {svars};
     if (energy) e.energy = energy + 1; // elastic strain energy

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Abaqus/Standard UINTER: the law of one contact point. Abaqus tells gap and slip but not the segment: the texture lies on the master surface
-// along its slip directions, which suits flat and gently curved masters. ENTS_UINTER_44: the 44 arguments of releases before 2017.
+// Abaqus/Standard UINTER: the law of one contact point. Abaqus tells gap and slip but not the segment: the
+// texture lies on the master surface along its slip directions, which suits flat and gently curved masters.
+// ENTS_UINTER_44: the 44 arguments of releases before 2017.
 #include <algorithm>
 
 #include "../../common/point.hpp"
@@ -10,8 +11,9 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ", "*SURFACE INTERACTION, DEPVAR= 3 and ",
-                    "*SURFACE INTERACTION, property ", abaqus::job_directory};
+constexpr Host host{"a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
+                    "*SURFACE INTERACTION, DEPVAR= 3 and ", "*SURFACE INTERACTION, property ",
+                    abaqus::job_directory};
 constexpr double no_master = -1e35; // Abaqus: -1e36
 /// STATEV: 1 if the start is known, the start, then the model's state.
 constexpr int start_size = 3;
@@ -27,11 +29,12 @@ constexpr int start_size = 3;
 #endif
 
 ENTS_ENTRY(uinter, UINTER,
-           (double* stress, double* ddsddr, UINTER_MATRICES double* flux, double* ddfddt, double* ddsddt, double* ddfddr,
-            double* statev, double* sed, double*, double*, double*, double*, double* pnewdt, double* rdisp, double*, double*,
-            double*, double*, double*, double*, double*, UINTER_FREQUENCY char*, char*, char*, double* props, double* coords,
-            double* alocaldir, double*, double*, double*, int* node, int* ndir, int* nstatv, int*, int* nprops, int* mcrd,
-            int*, int*, int*, int* linper, int* lopenclose, int*, int*, int*, std::size_t, std::size_t, std::size_t)) {
+           (double* stress, double* ddsddr, UINTER_MATRICES double* flux, double* ddfddt, double* ddsddt,
+            double* ddfddr, double* statev, double* sed, double*, double*, double*, double*, double* pnewdt,
+            double* rdisp, double*, double*, double*, double*, double*, double*, double*,
+            UINTER_FREQUENCY char*, char*, char*, double* props, double* coords, double* alocaldir, double*,
+            double*, double*, int* node, int* ndir, int* nstatv, int*, int* nprops, int* mcrd, int*, int*,
+            int*, int* linper, int* lopenclose, int*, int*, int*, std::size_t, std::size_t, std::size_t)) {
   const int d = *ndir;
   std::fill(stress, stress + d, 0.0);
   std::fill(ddsddr, ddsddr + d * d, 0.0);
@@ -53,8 +56,10 @@ ENTS_ENTRY(uinter, UINTER,
   p.properties = {props};
   p.property_count = *nprops;
   if (*linper == 1 || *nstatv < start_size) {
-    abaqus::tell(abaqus::Severity::error, *linper == 1 ? "ents: UINTER has no linear perturbation steps, Abaqus does not tell the base state"
-                                                       : "ents: write *SURFACE INTERACTION, USER, DEPVAR=16 or more");
+    abaqus::tell(abaqus::Severity::error,
+                 *linper == 1
+                     ? "ents: UINTER has no linear perturbation steps, Abaqus does not tell the base state"
+                     : "ents: write *SURFACE INTERACTION, USER, DEPVAR=16 or more");
     abaqus::stop();
     return;
   }

@@ -11,7 +11,8 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ", abaqus::job_directory};
+constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
+                    abaqus::job_directory};
 
 enum Operation { form_mass = 1, form_internal_force = 2, form_external_force = 3 }; // lflags(3)
 constexpr int internal_energy = 2;                                                  // energy(:,3)
@@ -19,10 +20,10 @@ constexpr int internal_energy = 2;                                              
 } // namespace
 
 ENTS_ENTRY(vuel, VUEL,
-           (int* nblock, double* rhs, double* amass, double* dtime_stable, double* svars, int* nsvars, double* energy,
-            int* nnode, int* ndofel, double* props, int* nprops, int*, int*, double* coords, int* mcrd, double* u, double*,
-            double*, double*, int*, int* jelem, double*, double* period, double*, double*, int*, int*, int* lflags, double*,
-            double*, int*, int*, double*)) {
+           (int* nblock, double* rhs, double* amass, double* dtime_stable, double* svars, int* nsvars,
+            double* energy, int* nnode, int* ndofel, double* props, int* nprops, int*, int*, double* coords,
+            int* mcrd, double* u, double*, double*, double*, int*, int* jelem, double*, double* period,
+            double*, double*, int*, int*, int* lflags, double*, double*, int*, int*, double*)) {
   const std::ptrdiff_t block = *nblock, dofs = *ndofel, nodes = *nnode;
   if (lflags[2] == form_mass) {
     std::fill(amass, amass + block * dofs * dofs, 0.0); // that of the bodies

@@ -18,19 +18,22 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"USRELEM, NNODES=", "USRELEM, NSAVEVARS=", "real constant R, entry ", [] { return std::string(); }};
+constexpr Host host{"USRELEM, NNODES=", "USRELEM, NSAVEVARS=", "real constant R, entry ",
+                    [] { return std::string(); }};
 
 /// keyMtx: which of them are to be formed.
 enum Key { stiffness, mass, damping, stress_stiffness, external_force, internal_force };
 
 } // namespace
 
-USERELEM_API void USERELEM_NAME(int* elId, int*, int* keyMtx, int*, int* nDim, int* nNodes, int*, int*, int* nUsrDof, int*, int*, int*,
-                                int*, int*, double*, double*, double*, int*, int*, double*, int*, int* nReal, double* RealConst,
-                                int* nSaveVars, double* saveVars, double* xRef, double*, double* TotValDofs, double*, double*,
-                                double*, double*, int*, int*, int*, int*, int*, int*, int* keyHisUpd, int*, int*, int*, double*,
-                                int* keyEleErr, int* keyEleCnv, double* eStiff, double* eMass, double* eDamp, double* eSStiff,
-                                double* fExt, double* fInt, double*, double*, double*, int*, double*, int*, double*, int* nElEng,
+USERELEM_API void USERELEM_NAME(int* elId, int*, int* keyMtx, int*, int* nDim, int* nNodes, int*, int*,
+                                int* nUsrDof, int*, int*, int*, int*, int*, double*, double*, double*, int*,
+                                int*, double*, int*, int* nReal, double* RealConst, int* nSaveVars,
+                                double* saveVars, double* xRef, double*, double* TotValDofs, double*, double*,
+                                double*, double*, int*, int*, int*, int*, int*, int*, int* keyHisUpd, int*,
+                                int*, int*, double*, int* keyEleErr, int* keyEleCnv, double* eStiff,
+                                double* eMass, double* eDamp, double* eSStiff, double* fExt, double* fInt,
+                                double*, double*, double*, int*, double*, int*, double*, int* nElEng,
                                 double* elEnergy) {
   const std::ptrdiff_t dofs = *nUsrDof, entries = dofs * dofs;
   const auto clear = [&](Key key, double* array, std::ptrdiff_t size) {

@@ -15,7 +15,8 @@ namespace {
 using namespace ents_adapter;
 
 constexpr int property_count = 3; // geom has no length
-constexpr Host host{"nodes of the element: ", "STATE VARS, number: ", "GEOMETRY, EGEOM", [] { return std::string(); }, true};
+constexpr Host host{"nodes of the element: ", "STATE VARS, number: ", "GEOMETRY, EGEOM",
+                    [] { return std::string(); }, true};
 
 enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // iflag
 
@@ -28,16 +29,24 @@ enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // 
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) void
-uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double* r, int*, double* dispt, double* disp, int*, int*, int*,
-        int* nstats, int*, int*, double* coord, int* ncrd, int* iflag, int* idss, double* t, double* dt, double*, double*, double*,
-        double* geom, int*, double*, int*) {
+uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double* r, int*, double* dispt,
+        double* disp, int*, int*, int*, int* nstats, int*, int*, double* coord, int* ncrd, int* iflag,
+        int* idss, double* t, double* dt, double*, double*, double*, double* geom, int*, double*, int*) {
   const std::ptrdiff_t rows = *idss, dofs = static_cast<std::ptrdiff_t>(*nnode) * *ndeg;
   switch (*iflag) {
-  case loads: std::fill(f, f + dofs, 0.0); return;
-  case mass: std::fill(xm, xm + rows * rows, 0.0); return;
-  case stiffness: std::fill(xk, xk + rows * rows, 0.0); break;
-  case forces: break;
-  default: return;
+  case loads:
+    std::fill(f, f + dofs, 0.0);
+    return;
+  case mass:
+    std::fill(xm, xm + rows * rows, 0.0);
+    return;
+  case stiffness:
+    std::fill(xk, xk + rows * rows, 0.0);
+    break;
+  case forces:
+    break;
+  default:
+    return;
   }
 
   constexpr int largest_state = 64;
