@@ -161,6 +161,19 @@ void begin_state(const Element& e, const LoadedModel& model, double* state) {
   if (!any) ents_state_init(model.model, 1, state, model.layout.state_size, nullptr);
 }
 
+/// Projection on the segment without its height. A state that has seen a projection overrides it.
+/// @return false: there is none, the library shall search
+bool find_start(const LoadedModel& model, const ents_input& input, double* start) {
+  if (!model.base) return false;
+  ents_input plain = input;
+  plain.state_begin = nullptr;
+  ents_output output{};
+  output.struct_size = sizeof output;
+  output.wanted = ENTS_XI;
+  output.xi = start;
+  return ents_evaluate(model.base, 0, 1, &plain, &output, nullptr) == ENTS_OK;
+}
+
 void describe(const ents_layout& layout, Result& result) {
   result.symmetric = layout.symmetric_tangent != 0;
   result.dimension = layout.dimension;
@@ -228,6 +241,8 @@ Result evaluate(const Element& e) {
   input.surface_coordinates = arguments.surface_coordinates;
   input.area = &arguments.area;
   input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
+  double start[2];
+  if (find_start(model, input, start)) input.start = start;
   int32_t flags = 0;
   ents_output output{};
   output.struct_size = sizeof output;

@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 
+#include <nlohmann/json.hpp>
+
 namespace ents_adapter {
 namespace {
 
@@ -55,6 +57,19 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
       throw file + ": two lines for element " + std::to_string(loaded.rows[i].element);
 }
 
+/// @return null if the model has no height
+ents_model* without_height(const std::string& file, const std::string& directory) {
+  std::ifstream in(file, std::ios::binary);
+  auto model = nlohmann::json::parse(in, nullptr, false);
+  if (!model.is_object() || !model.contains("height") || model["height"].is_null()) return nullptr;
+  model["height"] = nullptr;
+  const std::string text = model.dump();
+  ents_model* base = nullptr;
+  ents_model_create(text.data(), static_cast<std::int64_t>(text.size()),
+                    directory.empty() ? nullptr : directory.c_str(), nullptr, 0, &base, nullptr);
+  return base;
+}
+
 std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
   auto loaded = std::make_unique<LoadedModel>();
   const std::string stem = directory + "ents_" + std::to_string(number);
@@ -73,7 +88,11 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
   } catch (const std::string& error) {
     loaded->error = error;
   }
-  if (!loaded->error.empty()) ents_model_destroy(&loaded->model, nullptr);
+  if (!loaded->error.empty()) {
+    ents_model_destroy(&loaded->model, nullptr);
+    return loaded;
+  }
+  loaded->base = without_height(loaded->file, directory);
   return loaded;
 }
 

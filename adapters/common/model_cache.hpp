@@ -23,6 +23,10 @@ struct ElementRow {
 
 struct LoadedModel {
   ents_model* model = nullptr; ///< null: `error` says why
+  /// The same without its height; null if it has none. Where the state knows no projection yet, the one on
+  /// this segment is the start: the point of a rough surface straight ahead of the node. Closer ones, if any,
+  /// lie to the side.
+  ents_model* base = nullptr;
   ents_layout layout{};
   std::string file; ///< ents_k.json with its folder
   std::string error;

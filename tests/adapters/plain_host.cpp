@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The problem without an adapter: what every other host has to agree with.
+#include <fstream>
+
 #include "plain_model.hpp"
 #include "problem.hpp"
 
 namespace adapters {
 namespace {
 
+nlohmann::json without_height(const std::string& file) {
+  std::ifstream in(file);
+  auto model = nlohmann::json::parse(in);
+  model["height"] = nullptr;
+  return model;
+}
+
 class PlainHost : public EmulatedHost {
 public:
   explicit PlainHost(const Elements& elements)
       : EmulatedHost(elements), model_("ents_" + std::to_string(elements.model) + ".json"),
+        base_(without_height("ents_" + std::to_string(elements.model) + ".json")),
         history_(elements.nodes.size(), std::vector<double>(static_cast<std::size_t>(elements.state_size))),
         trial_(history_) {
     for (auto& state : history_) ents_state_init(model_.get(), 1, state.data(), elements.state_size, nullptr);
@@ -35,6 +45,14 @@ public:
     output.residual = residual.data();
     output.tangent = tangent.data();
     output.state_end = trial_[k].data();
+    // Start straight ahead, on the segment without its height.
+    auto no_history = input;
+    no_history.state_begin = nullptr;
+    double start[2];
+    auto projection = ents_struct<ents_output>();
+    projection.wanted = ENTS_XI;
+    projection.xi = start;
+    if (ents_evaluate(base_.get(), 0, 1, &no_history, &projection, nullptr) == ENTS_OK) input.start = start;
     const int32_t status = ents_evaluate(model_.get(), 0, 1, &input, &output, &report);
     if (status < 0) throw HostStopped(report.message);
     Answer answer;
@@ -53,7 +71,7 @@ public:
   void accept() override { history_ = trial_; }
 
 private:
-  PlainModel model_;
+  PlainModel model_, base_;
   std::vector<std::vector<double>> history_, trial_;
 };
 

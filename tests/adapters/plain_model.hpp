@@ -6,6 +6,7 @@
 #include <string>
 
 #include <ents.h>
+#include <nlohmann/json.hpp>
 
 namespace adapters {
 
@@ -22,6 +23,11 @@ public:
     if (ents_model_create_from_file(file.c_str(), &model_, &report) != ENTS_OK ||
         ents_model_layout(model_, &layout_, &report) != ENTS_OK)
       throw std::runtime_error(file + ": " + report.message);
+  }
+  explicit PlainModel(const nlohmann::json& model) : layout_(ents_struct<ents_layout>()) {
+    auto report = ents_struct<ents_report>();
+    if (ents_model_create(model.dump().c_str(), -1, nullptr, nullptr, 0, &model_, &report) != ENTS_OK)
+      throw std::runtime_error(report.message);
   }
   ~PlainModel() { ents_model_destroy(&model_, nullptr); }
   PlainModel(const PlainModel&) = delete;

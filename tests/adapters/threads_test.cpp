@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Eight threads of the host call the adapter for elements of their own, and meet where the model is read.
 // Built with the thread sanitizer, too.
+#include <array>
 #include <cstring>
 #include <fstream>
+#include <latch>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "../../adapters/common/model_cache.hpp"
 #include "problem.hpp"
 #include "uel_host.hpp"
 
@@ -44,6 +47,26 @@ TEST(Threads, EightGiveTheSameBits) {
     EXPECT_TRUE(same(serial[i].rhs, parallel[i].rhs, static_cast<std::size_t>(serial[i].ndofel)));
     EXPECT_TRUE(same(serial[i].amatrx, parallel[i].amatrx, serial[i].amatrx.size()));
     EXPECT_TRUE(same(serial[i].svars, parallel[i].svars, serial[i].svars.size()));
+  }
+}
+
+std::string working_directory() { return ""; }
+
+TEST(Threads, ModelIsReadOnce) {
+  for (int number = 701; number < 721; ++number) {
+    std::ofstream("ents_" + std::to_string(number) + ".json") << R"({"segment": "line2"})";
+    constexpr int threads = 8;
+    std::array<const ents_adapter::LoadedModel*, threads> found{};
+    std::latch start(threads);
+    std::vector<std::thread> pool;
+    for (int t = 0; t < threads; ++t)
+      pool.emplace_back([&, t] {
+        start.arrive_and_wait();
+        found[static_cast<std::size_t>(t)] = &ents_adapter::model_number(number, working_directory);
+      });
+    for (std::thread& thread : pool) thread.join();
+    for (const auto* model : found) EXPECT_EQ(model, found[0]);
+    EXPECT_NE(found[0]->model, nullptr);
   }
 }
 
