@@ -51,7 +51,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 1
+#define ENTS_CONTRACT_MINOR 2
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -79,6 +79,7 @@ extern "C" {
   X(ENTS_BAD_COUNT, -10, "negative count, or a stride or leading dimension too small")             \
   X(ENTS_BAD_HANDLE, -11, "not a live model handle")                                               \
   X(ENTS_BAD_STATE, -12, "state block of another model, version, or not initialised")              \
+  X(ENTS_BAD_PATTERN, -13, "the host's sparse matrix has no place for an entry")                   \
   X(ENTS_NO_MEMORY, -100, "out of memory")                                                         \
   X(ENTS_INTERNAL, -101, "internal error, please report it")
 
@@ -145,7 +146,7 @@ ENTS_API int32_t ents_model_destroy(ents_model **model, ents_report *report);
 typedef struct ents_layout {
   int32_t struct_size;
   int32_t dimension;           /* d: 2 or 3 */
-  int32_t nodes;               /* m: master nodes of the segment */
+  int32_t nodes;               /* m: master nodes of the segment; of the patch, if the model has one */
   int32_t parameters;          /* d-1: convective coordinates xi; also surface coordinates per master node */
   int32_t dofs;                /* d (m+1), or d for a rigid master; plus multipliers */
   int32_t state_size;          /* per element */
@@ -196,7 +197,7 @@ typedef struct ents_detection {
   int64_t *segment;                  /* [count] in: the segment of before, or -1; out: the segment, -1: nothing within reach */
   double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
   double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow) */
-  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, ENTS_FLAG_AMBIGUOUS */
+  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE */
   int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or -1 */
 } ents_detection;
 
@@ -207,7 +208,10 @@ typedef struct ents_detection {
  * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
  * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
  * one on the segment with the smaller number is given), or the proof took too long.
- * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one.
+ * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
+ * concave edge between segments (a kink of a plain mesh) that is a penetration that nobody sees: the normals of both
+ * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE says so (normal projection): cut the step, widen the border, or
+ * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open.
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
@@ -271,6 +275,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
 #define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
+#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: ahead of no segment, but behind an edge between segments: not open, but lost */
 #define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A
@@ -306,6 +311,10 @@ typedef struct ents_output {
  * element; n elements give the same bits as n single calls. All levels are here: kinematics (ENTS_XI .. ENTS_XI_HESSIAN) to
  * build any method of eq. (3)-(4) with, and the element (ENTS_ENERGY .. ENTS_STATE), which needs "contact" in the model.
  * For a kinematic quantity alone the segment has no border: xi may lie outside.
+ * A model with a "patch" has elements of several segments (for hosts whose elements have fixed nodes): m is then the number of the
+ * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does, from the one in `state_begin` on; xi and its
+ * variations are those of that segment. A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
+ * functions of whole surfaces take such a model's segments one by one.
  * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
  * visited, the recoverable status of the first element that has one. */
 ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t count,
@@ -328,7 +337,7 @@ ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, doub
  *   old_master, new_master  [m][d] positions, [L], both at the same instant (the begin of the increment)
  *   old_..., new_surface_coordinates  [m][d-1] or null: the model's own, else s = xi (then positions decide)
  *   state, moved            [state_size] in, out; may not overlap
- * Recoverable: NO_PROJECTION, DEGENERATE_SEGMENT. */
+ * Recoverable: NO_PROJECTION (of the anchor: without friction there is none), DEGENERATE_SEGMENT. */
 ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_master, const double *old_surface_coordinates,
                                      const double *new_master, const double *new_surface_coordinates,
                                      const double *state, double *moved, ents_report *report);
@@ -342,6 +351,114 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
  *   areas         [nodes] out, [A]; 0 for nodes on no facet */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
+
+/* ---- points inside facets, and assembly -------------------------------------------------------- */
+
+/* Points that are linear combinations of a host's nodes: sampling points inside slave facets, control points of a smoothed
+ * master surface.  x_i = sum_j weights[j] X[nodes[j]],  j = begin[i] .. begin[i+1] - 1. The arrays stay the caller's. */
+typedef struct ents_combination {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  int64_t points;
+  const int64_t *begin;              /* [points + 1], begin[0] = 0, never falling */
+  const int64_t *nodes;              /* [begin[points]], >= 0 */
+  const double *weights;             /* [begin[points]] */
+} ents_combination;
+
+/* Positions of the points, or what else is given per node (surface coordinates).
+ *   dimension  numbers per node: 1, 2 or 3
+ *   positions  [nodes][d] of the host's nodes, [L], finite
+ *   points     [points][d] out */
+ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimension, int64_t nodes, const double *positions,
+                              double *points, ents_report *report);
+
+/* Sampling points of slave facets, so that texture between slave nodes is seen and a constant pressure gives every
+ * slave node its exact share (Zavarise and De Lorenzis, IJNME 79, 2009). Arguments as of ents_tributary_areas, and
+ *   per_direction  n, 1 .. 64: lines have n points, triangles and quadrilaterals n^2. Lines and quadrilaterals: Gauss and
+ *                  Legendre's; triangles: the centroids of n^2 equal parts
+ *   begin          [points + 1] out, points = facets * points of a facet, those of a facet one after the other
+ *   point_nodes    [points * nodes of the facet] out
+ *   weights        [points * nodes of the facet] out
+ *   areas          [points] out, [A]
+ * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). */
+ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
+                                      int64_t nodes, const double *positions, double thickness, int64_t *begin,
+                                      int64_t *point_nodes, double *weights, double *areas, ents_report *report);
+
+#define ENTS_ENDS_STRAIGHT 0 /* beyond a free end or border: 2 x_0 - x_1, x_1 the neighbour inside (x_0 a node of the border) */
+#define ENTS_ENDS_REPEATED 1 /* x_0 once more */
+
+/* A smoothed master surface over ordinary facets: one segment of a smoothed basis per facet, in the same order and with the
+ * same natural coordinates, and control points that are linear combinations of the host's nodes. It follows from the connectivity
+ * alone: make it once. From then on a surface is
+ *   mesh.connectivity = segment_points, mesh.nodes = points, mesh.positions = ents_combine(positions of the nodes),
+ * and ents_assemble, told of the combination in system.master, puts residual and tangent on the host's own nodes.
+ *   facet -> basis
+ *   line2 -> catmull_rom4   through the nodes; C1
+ *   line2 -> bspline4       near the nodes (at x the curve is at x_(i-1)/6 + 2 x_i/3 + x_(i+1)/6); C2
+ *   quad4 -> catmull_rom16  through the nodes; C1. Regular meshes: four facets meet in every inner node, two in every node of a
+ *                           border, one in a corner
+ *   quad4 -> bspline16      near the nodes; any mesh. C2 where facets are regular. A facet with an extraordinary node (where it is not
+ *                           so) has a bicubic patch near the Catmull-Clark surface (C. Loop and S. Schaefer, ACM TOG 27(1), 2008;
+ *                           next to extraordinary nodes C. Loop, S. Schaefer, T. Ni, I. Castano, ACM TOG 28(5), 2009). It meets
+ *                           all its neighbours; along edges that do not end in an extraordinary node with one normal, along
+ *                           those that do with one at their ends and a kink between them: 2 to 5 % of the angle between the plain
+ *                           facets for nodes of 3 to 8 facets
+ * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
+ * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
+ * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
+ * With repeated ends, control points of regular meshes are single nodes; bspline surfaces then end short of their borders.
+ * Facets must be oriented alike. Chains and surfaces may be several, open or closed.
+ *   facet, basis    as above, zero-terminated
+ *   ends            ENTS_ENDS_...
+ *   connectivity    [facets][nodes of the facet], 0 <= index < nodes
+ *   points, terms   sizes of what ents_smooth fills: ents_smooth_size gives them
+ *   segment_points  [facets][m] out
+ *   begin           [points + 1] out
+ *   point_nodes     [terms] out
+ *   weights         [terms] out; those of a point add up to 1
+ * begin, point_nodes and weights make an ents_combination; its points 0 .. nodes - 1 are the nodes themselves.
+ * Errors: BAD_VALUE names facet and node: a node that does not exist or is twice in a facet; more than two facets that meet in a
+ * node (lines) or along an edge; neighbours that are not oriented alike; facets that touch in a node alone; an inner node of two
+ * facets; an irregular mesh for catmull_rom16. BAD_COUNT: sizes that are not those of ents_smooth_size. Both allocate (NO_MEMORY); after an error nothing is written. */
+ENTS_API int32_t ents_smooth_size(const char *facet, const char *basis, int32_t ends, int64_t facets,
+                                  const int64_t *connectivity, int64_t nodes, int64_t *points, int64_t *terms,
+                                  ents_report *report);
+ENTS_API int32_t ents_smooth(const char *facet, const char *basis, int32_t ends, int64_t facets, const int64_t *connectivity,
+                             int64_t nodes, int64_t points, int64_t terms, int64_t *segment_points, int64_t *begin,
+                             int64_t *point_nodes, double *weights, ents_report *report);
+
+/* The host's equations. */
+typedef struct ents_system {
+  int32_t struct_size;
+  int32_t index_size;                /* 4 or 8: bytes of an index in row_begin and columns */
+  const ents_combination *slave;     /* slave points over the host's nodes; null: slave point i is node i */
+  const ents_combination *master;    /* nodes of the mesh (control points) over the host's nodes; null: node i is node i */
+  int64_t slave_nodes;               /* nodes of the host that slave_equations covers */
+  const int64_t *slave_equations;    /* [slave_nodes][d] row of each dof; -1: prescribed, left out */
+  int64_t master_nodes;
+  const int64_t *master_equations;   /* [master_nodes][d]; not read for a rigid master. May be slave_equations */
+  const int64_t *multiplier_equations; /* [elements][multipliers]; needed if the layout has any */
+  int64_t rows;
+  double *residual;                  /* [rows] R is added; null: not wanted */
+  const void *row_begin;             /* [rows + 1] compressed rows, counted from 0 */
+  const void *columns;               /* [row_begin[rows]] ascending in each row */
+  double *values;                    /* [row_begin[rows]] K is added; null: not wanted */
+  int64_t *places;                   /* [elements][places_size] or null: where the entries of each element are in `values`, kept
+                                        from call to call: zero it once, and whenever the pattern or the equations change */
+  int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination */
+} ents_system;
+
+/* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
+ * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
+ * them; an element with segment -1 is open (and output.wanted must be 0, for there is nothing to tell). What is open adds
+ * nothing, but for the equations "multiplier = 0".
+ * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
+ *   output  results per element as of ents_evaluate, or null
+ * Errors: those of ents_evaluate; BAD_PATTERN names the row and column that the pattern lacks. After an error or a
+ * recoverable status the system holds a part of the sum: start again from zero. */
+ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t count, const ents_input *input,
+                               const ents_output *output, const ents_system *system, ents_report *report);
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 
@@ -383,6 +500,62 @@ typedef struct ents_admissibility {
 ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
                                   const double *surface_coordinates, ents_admissibility *result,
                                   ents_report *report);
+
+/* Conditions of a whole surface (sections 2 and 3 and Fig. 4 of the paper): name, place in the arrays below, and the bound that the
+ * worst value is held against. Grids and facets measure them: what is smaller than the distance of the samples may be missed. */
+#define ENTS_CONDITION_TABLE(X)                                                                                        \
+  X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; 3 for the consistent tangent with friction")              \
+  X(ENTS_CHECK_FOLD, 1, "max |h| |kappa| of rho: below 1, else rho_e folds over itself")                               \
+  X(ENTS_CHECK_EDGE, 2, "max |h| on the edges [L]: 0 for a local enrichment (s = xi); else not judged")                \
+  X(ENTS_CHECK_JUMP, 3, "max distance of the two rho_e on an edge of two segments [L]: 0")                             \
+  X(ENTS_CHECK_KINK, 4, "max angle between the two n_e on such an edge [rad]: at most `kink`")                         \
+  X(ENTS_CHECK_WEDGE, 5, "min angle free outside between two segments at their edge [rad]: above 0")                   \
+  X(ENTS_CHECK_PROJECTION, 6, "min |gap| at which a slave has two normal projections [L]: at least `reach`")           \
+  X(ENTS_CHECK_SHADOW, 7, "min n_e . e of the ray through each point: above 0, else self-shadow")                      \
+  X(ENTS_CHECK_OCCLUSION, 8, "max distance along the ray to another part of the surface in its light [L]: 0")          \
+  X(ENTS_CHECK_CROSSING, 9, "max depth of a segment behind another that it intersects [L]: 0")
+
+enum {
+#define ENTS_CONDITION_ENUM(name, value, text) name = value,
+  ENTS_CONDITION_TABLE(ENTS_CONDITION_ENUM)
+#undef ENTS_CONDITION_ENUM
+  ENTS_CHECK_COUNT_ = 16 /* room in the arrays */
+};
+
+/* Is the enrichment admissible on a whole surface? All arrays: one entry per condition.
+ *   judged       bit 1 << ENTS_CHECK_...: the model, the surface or the caller sets a bound; else the value is for information
+ *   violated     the same: the value is beyond its bound. Bounds of 0 [L] leave room for rounding, see `bound`
+ *   projection   normal projection only. Places beside a kink between two segments have two projections by nature and do not
+ *                count. Without a reach: the smallest radius of curvature of rho_e alone
+ *   shadow, occlusion   shadow projections only
+ *   kink, edge, jump, wedge   neighbours are segments that share the nodes at the ends of an edge (smoothed segments: the inner
+ *                nodes, between which they lie); `kink` does not depend on whether the base has it, too
+ *   crossing     of a segment with itself: what sticks through one facet, a lower bound
+ * Allocates (NO_MEMORY): about 200 bytes per sample; 2^18 samples, or the corners of all segments if they are more. Takes
+ * seconds for 10^6 samples: once per surface and motion of interest, not once per iteration. */
+typedef struct ents_surface_admissibility {
+  int32_t struct_size;
+  int32_t samples;         /* in: points per direction and segment, 2 .. 4096; 0: as fine as the height asks for. out: most taken */
+  double reach;            /* in: [L], a slave is searched up to this |gap|; 0: the model's penetration_limit, if it has one */
+  double kink;             /* in: [rad], tolerated between neighbours; 0: not judged */
+  int64_t *violations;     /* [segments] out or null: bits 1 << ENTS_CHECK_... that this segment violates */
+  int64_t judged;          /* out, and all below */
+  int64_t violated;
+  double value[16];        /* the worst; infinite if there is none (a flat surface has no smallest radius) */
+  double bound[16];
+  double missing[16];      /* > 0: by how much the value misses its bound; 0: it holds, or is not judged */
+  int64_t segment[16];     /* where; -1: nowhere, or everywhere */
+  double xi[16][2];
+  double point[16][3];     /* rho_e there [L]; 2D: third entry 0 */
+  int64_t other[16];       /* the other segment of an edge or a pair; may be the same; -1: none */
+  double other_xi[16][2];
+  double height_min, height_max; /* [L] */
+} ents_surface_admissibility;
+
+/* Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE, NON_FINITE, NO_MEMORY. Recoverable: DEGENERATE_SEGMENT (a plain
+ * segment without a normal, report.element). A surface that is not admissible is no error: 0, and `violated` says so. */
+ENTS_API int32_t ents_surface_check(const ents_model *model, const ents_master_mesh *mesh,
+                                    ents_surface_admissibility *result, ents_report *report);
 
 #ifdef __cplusplus
 }

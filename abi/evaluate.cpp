@@ -3,9 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "abi/element_call.hpp"
 #include "abi/guard.hpp"
-#include "abi/handle.hpp"
-#include "abi/mesh.hpp"
 
 namespace ents {
 
@@ -42,16 +41,13 @@ struct Array {
   std::int64_t size; // of one element
 };
 
-template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
-  return data ? data + stride * element : nullptr;
+std::int64_t leading_dimension(const ents_model& model, const ents_output& out) noexcept {
+  return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
-std::int64_t leading_dimension(const Plan& plan, const ents_output& out) noexcept {
-  return out.tangent_leading_dimension == 0 ? plan.dofs : out.tangent_leading_dimension;
-}
-
-Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
-  const std::int64_t d = plan.dimension, t = plan.parameters, all = plan.dofs, n = all - plan.multipliers;
+Array output_array(const ents_model& model, const ents_output& out, int bit) noexcept {
+  const Plan& plan = model.plan;
+  const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs, n = all - plan.multipliers;
   switch (1 << bit) {
   case ENTS_XI:
     return {"xi", out.xi, out.xi_stride, t};
@@ -78,9 +74,9 @@ Array output_array(const Plan& plan, const ents_output& out, int bit) noexcept {
   case ENTS_RESIDUAL:
     return {"residual", out.residual, out.residual_stride, all};
   case ENTS_TANGENT:
-    return {"tangent", out.tangent, out.tangent_stride, (all - 1) * leading_dimension(plan, out) + all};
+    return {"tangent", out.tangent, out.tangent_stride, (all - 1) * leading_dimension(model, out) + all};
   case ENTS_STATE:
-    return {"state_end", out.state_end, out.state_end_stride, plan.state.size};
+    return {"state_end", out.state_end, out.state_end_stride, model.sizes.state};
   case ENTS_FLAGS:
     return {"flags", out.flags, out.flags_stride, 1};
   case ENTS_ITERATIONS:
@@ -110,7 +106,6 @@ std::int32_t check_stride(const char* group, const Array& a, std::int64_t smalle
 
 std::int32_t check_output(const ents_model& model, std::int64_t first, std::int64_t count,
                           const ents_output& out, ents_report* report) {
-  const Plan& plan = model.plan;
   if ((out.wanted & ~want::all) != 0)
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
                           static_cast<unsigned>(out.wanted & ~want::all));
@@ -121,13 +116,13 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
         "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
   if (count == 0) return ENTS_OK;
   const std::int64_t last = first + count - 1;
-  if (const std::int64_t leading = leading_dimension(plan, out);
-      (out.wanted & ENTS_TANGENT) != 0 && (leading < plan.dofs || leading > INT32_MAX))
+  if (const std::int64_t leading = leading_dimension(model, out);
+      (out.wanted & ENTS_TANGENT) != 0 && (leading < model.sizes.dofs || leading > INT32_MAX))
     return report_message(report, ENTS_BAD_COUNT, -1,
                           "output.tangent_leading_dimension is %lld; 0 or %d .. %d is needed",
-                          static_cast<long long>(leading), plan.dofs, INT32_MAX);
+                          static_cast<long long>(leading), model.sizes.dofs, INT32_MAX);
   for (std::uint32_t bits = static_cast<std::uint32_t>(out.wanted); bits != 0; bits &= bits - 1) {
-    const Array a = output_array(plan, out, std::countr_zero(bits));
+    const Array a = output_array(model, out, std::countr_zero(bits));
     if (!a.data)
       return report_message(report, ENTS_NULL_ARGUMENT, -1,
                             "output.%s is null but its bit is set in output.wanted", a.name);
@@ -141,8 +136,9 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
 }
 
 constexpr int input_arrays = 7;
-Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
-  const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes;
+Array input_array(const ents_model& model, const ents_input& in, int index) noexcept {
+  const Plan& plan = model.plan;
+  const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes;
   switch (index) {
   case 0:
     return {"slave", in.slave, in.slave_stride, d};
@@ -155,13 +151,13 @@ Array input_array(const Plan& plan, const ents_input& in, int index) noexcept {
   case 4:
     return {"area", in.area, in.area_stride, 1};
   case 5:
-    return {"state_begin", in.state_begin, in.state_begin_stride, plan.state.size};
+    return {"state_begin", in.state_begin, in.state_begin_stride, model.sizes.state};
   default:
     return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
   }
 }
 
-std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t count, const ents_input& in,
+std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64_t count, const ents_input& in,
                          ents_report* report) {
   constexpr std::int64_t most = std::int64_t{1} << 50;
   if (first < 0 || count < 0 || first > most - count)
@@ -177,9 +173,12 @@ std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t coun
                           in.master ? "master" : "surface_coordinates");
   if (!in.mesh && !in.master)
     return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.master is null (and input.mesh, too)");
-  if (plan.multipliers > 0 && !in.multiplier)
+  if (in.mesh && !model.model.patch.empty())
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.mesh is given, but the model has a \"patch\": its elements bring their own nodes in input.master");
+  if (model.plan.multipliers > 0 && !in.multiplier)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
-                          plan.multipliers);
+                          model.plan.multipliers);
   const std::int64_t last = first + count - 1;
   if (in.mesh && last > 0 && in.segment_stride != 0)
     if (const std::int32_t status = check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
@@ -187,7 +186,7 @@ std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t coun
       return status;
   if (last > 0)
     for (int i = 0; i < input_arrays; ++i) {
-      const Array a = input_array(plan, in, i);
+      const Array a = input_array(model, in, i);
       if (!a.data || a.stride == 0) continue;
       if (const std::int32_t status = check_stride("input", a, a.size, last, report); status != ENTS_OK)
         return status;
@@ -196,12 +195,12 @@ std::int32_t check_input(const Plan& plan, std::int64_t first, std::int64_t coun
 }
 
 // Name the entry a kernel refused.
-std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element, const ents_input& in,
+std::int32_t explain(const ents_model& model, std::int32_t status, std::int64_t element, const ents_input& in,
                      ents_report* report) {
   const long long e = element;
   if (status == ENTS_NON_FINITE)
     for (int i = 0; i < input_arrays; ++i) {
-      const Array a = input_array(plan, in, i);
+      const Array a = input_array(model, in, i);
       const double* v = at(static_cast<const double*>(a.data), a.stride, element);
       const std::int64_t k = first_non_finite(v, a.size);
       if (k >= 0)
@@ -219,81 +218,79 @@ std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element
   return report_message(report, status, element, "element %lld: %s", e, ents_status_text(status));
 }
 
-std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t count,
-                      const ents_input* input, const ents_output* output, ents_report* report) {
-  std::int32_t status = check_handle(model, report);
-  if (status != ENTS_OK) return status;
-  ents_input input_copy;
-  ents_output output_copy;
-  const ents_input* in = known_struct(input, input_copy, "input", status, report);
-  if (!in) return status;
-  const ents_output* out = known_struct(output, output_copy, "output", status, report);
-  if (!out) return status;
-  const Plan& plan = model->plan;
-  if ((status = check_input(plan, first, count, *in, report)) != ENTS_OK) return status;
-  if ((status = check_output(*model, first, count, *out, report)) != ENTS_OK) return status;
-
-  MasterMesh mesh;
-  if (in->mesh && (status = check_mesh(in->mesh, "input.mesh", mesh, report)) != ENTS_OK) return status;
-
-  report_ok(report);
-  std::int32_t result = ENTS_OK;
-  SegmentNodes nodes;
-  for (std::int64_t e = first; e < first + count; ++e) {
-    if (in->mesh) {
-      const std::int64_t segment = *at(in->segment, in->segment_stride, e);
-      const bool known = segment >= 0 && segment < mesh.segments;
-      if (const Status outcome = known ? gather(plan, mesh, segment, nodes) : Status::bad_value; outcome != Status::ok) {
-        if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
-        if (known) return explain_segment(plan, mesh, outcome, segment, report);
-        return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
-                              static_cast<long long>(e), static_cast<long long>(segment),
-                              static_cast<long long>(mesh.segments - 1));
-      }
-    }
-    const ElementInput element = {at(in->slave, in->slave_stride, e),
-                                  in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
-                                  in->mesh ? nodes.surface_coordinates
-                                           : at(in->surface_coordinates, in->surface_coordinates_stride, e),
-                                  at(in->start, in->start_stride, e),
-                                  at(in->area, in->area_stride, e),
-                                  at(in->state_begin, in->state_begin_stride, e),
-                                  at(in->multiplier, in->multiplier_stride, e)};
-    const ElementOutput results = {out->wanted,
-                                   at(out->xi, out->xi_stride, e),
-                                   at(out->gap, out->gap_stride, e),
-                                   at(out->normal_gap, out->normal_gap_stride, e),
-                                   at(out->normal, out->normal_stride, e),
-                                   at(out->point, out->point_stride, e),
-                                   at(out->gap_gradient, out->gap_gradient_stride, e),
-                                   at(out->gap_hessian, out->gap_hessian_stride, e),
-                                   at(out->xi_gradient, out->xi_gradient_stride, e),
-                                   at(out->xi_hessian, out->xi_hessian_stride, e),
-                                   at(out->energy, out->energy_stride, e),
-                                   at(out->pressure, out->pressure_stride, e),
-                                   at(out->residual, out->residual_stride, e),
-                                   at(out->tangent, out->tangent_stride, e),
-                                   at(out->state_end, out->state_end_stride, e),
-                                   leading_dimension(plan, *out),
-                                   at(out->flags, out->flags_stride, e),
-                                   at(out->iterations, out->iterations_stride, e),
-                                   at(out->traction, out->traction_stride, e),
-                                   at(out->slip, out->slip_stride, e),
-                                   at(out->age, out->age_stride, e)};
-    const std::int32_t outcome = static_cast<std::int32_t>(plan.element(plan, element, results));
-    if (out->status) *at(out->status, out->status_stride, e) = outcome;
-    if (outcome < 0) return explain(plan, outcome, e, *in, report);
-    if (outcome > 0 && result == ENTS_OK) {
-      result = outcome;
-      explain(plan, outcome, e, *in, report);
-    }
-  }
-  return result;
-}
-
 } // namespace
 
+std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count, const ents_input* input,
+                               const ents_output* output, ents_report* report) {
+  std::int32_t status = check_handle(handle, report);
+  if (status != ENTS_OK) return status;
+  model = handle, plan = &handle->plan;
+  in = known_struct(input, input_copy, "input", status, report);
+  if (!in) return status;
+  out = known_struct(output, output_copy, "output", status, report);
+  if (!out) return status;
+  if ((status = check_input(*handle, first, count, *in, report)) != ENTS_OK) return status;
+  if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
+  return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
+}
+
+std::int32_t ElementCall::refuse_segment(std::int64_t e, ents_report* report) const {
+  return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
+                        static_cast<long long>(e), static_cast<long long>(segment(e)),
+                        static_cast<long long>(mesh.segments - 1));
+}
+
+std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_report* report) const {
+  SegmentNodes nodes;
+  if (in->mesh) {
+    const std::int64_t s = segment(e);
+    const bool known = s >= 0 && s < mesh.segments;
+    if (const Status outcome = known ? gather(*plan, mesh, s, nodes) : Status::bad_value; outcome != Status::ok) {
+      if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
+      return known ? explain_segment(*plan, mesh, outcome, s, report) : refuse_segment(e, report);
+    }
+  }
+  const ElementInput element = {at(in->slave, in->slave_stride, e),
+                                in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
+                                in->mesh ? nodes.surface_coordinates
+                                        : at(in->surface_coordinates, in->surface_coordinates_stride, e),
+                                at(in->start, in->start_stride, e),
+                                at(in->area, in->area_stride, e),
+                                at(in->state_begin, in->state_begin_stride, e),
+                                at(in->multiplier, in->multiplier_stride, e)};
+  const ElementOutput results = {out->wanted | also.wanted,
+                                 at(out->xi, out->xi_stride, e),
+                                 at(out->gap, out->gap_stride, e),
+                                 at(out->normal_gap, out->normal_gap_stride, e),
+                                 at(out->normal, out->normal_stride, e),
+                                 at(out->point, out->point_stride, e),
+                                 at(out->gap_gradient, out->gap_gradient_stride, e),
+                                 at(out->gap_hessian, out->gap_hessian_stride, e),
+                                 at(out->xi_gradient, out->xi_gradient_stride, e),
+                                 at(out->xi_hessian, out->xi_hessian_stride, e),
+                                 at(out->energy, out->energy_stride, e),
+                                 at(out->pressure, out->pressure_stride, e),
+                                 also.residual ? also.residual : at(out->residual, out->residual_stride, e),
+                                 also.tangent ? also.tangent : at(out->tangent, out->tangent_stride, e),
+                                 at(out->state_end, out->state_end_stride, e),
+                                 also.tangent ? plan->dofs : leading_dimension(*model, *out),
+                                 also.flags ? also.flags : at(out->flags, out->flags_stride, e),
+                                 at(out->iterations, out->iterations_stride, e),
+                                 at(out->traction, out->traction_stride, e),
+                                 at(out->slip, out->slip_stride, e),
+                                 at(out->age, out->age_stride, e)};
+  const Status done = model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results);
+  const std::int32_t outcome = static_cast<std::int32_t>(done);
+  if (out->status) *at(out->status, out->status_stride, e) = outcome;
+  return outcome;
+}
+
+std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {
+  return ents::explain(*model, status, e, *in, report);
+}
+
 } // namespace ents
+
 
 extern "C" {
 
@@ -301,7 +298,11 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
                       const ents_output* output, ents_report* report) {
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
-    return ents::evaluate(model, first, count, input, output, report);
+    ents::ElementCall call;
+    if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
+      return status;
+    ents::report_ok(report);
+    return call.for_each(first, count, report, [&](std::int64_t e) { return call.evaluate(e, {}, report); });
   });
 }
 

@@ -3,14 +3,16 @@
 #pragma once
 
 #include "abi/door.hpp"
+#include "abi/patch.hpp"
 #include "core/plan.hpp"
 
 struct ents_model {
   static constexpr std::uint64_t live = 0x656e74736d6f646c;  // "entsmodl"
   static constexpr std::uint64_t dead = 0x646561646d6f646c;
   std::uint64_t magic;
-  ents::Plan plan;    // points into `model`
-  ents::Model model;
+  ents::Plan plan;    // of one segment; points into `model`
+  ents::PatchedModel model;
+  ents::ElementSizes sizes; // of an element as the host sees it
 };
 
 namespace ents {

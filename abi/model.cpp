@@ -13,9 +13,11 @@ namespace ents {
 
 namespace {
 
-std::int32_t finish(Model&& checked, ents_model** model, ents_report* report) {
-  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked)};
+std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* report) {
+  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked), {}};
   handle->plan = make_plan(handle->model);
+  if (!handle->model.patch.empty()) handle->plan.surface_coordinates = nullptr; // they are those of the patch's nodes
+  handle->sizes = sizes_of(handle->plan, handle->model.patch);
   *model = handle;
   return report_ok(report);
 }
@@ -132,10 +134,10 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     if (!known) return status;
     ents_layout out = *known;
     out.dimension = model->plan.dimension;
-    out.nodes = model->plan.nodes;
+    out.nodes = model->sizes.nodes;
     out.parameters = model->plan.parameters;
-    out.dofs = model->plan.dofs;
-    out.state_size = model->plan.state.size;
+    out.dofs = model->sizes.dofs;
+    out.state_size = model->sizes.state;
     out.symmetric_tangent = !model->model.law.has_friction() || model->model.law.symmetrised;
     out.own_surface_coordinates = model->model.own_surface_coordinates;
     out.multipliers = model->plan.multipliers;

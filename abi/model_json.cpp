@@ -26,20 +26,47 @@ Basis read_segment(const json& value) {
 }
 
 // [m][parameters]
-std::vector<double> read_surface_coordinates(const json& value, const BasisEntry& basis) {
+std::vector<double> read_surface_coordinates(const json& value, const BasisEntry& basis, const Patch& patch) {
   const std::string path = "/surface_coordinates";
-  const auto nodes = static_cast<std::size_t>(basis.nodes);
+  const auto nodes = static_cast<std::size_t>(patch.empty() ? basis.nodes : patch.nodes);
   check_array(value, path, most_json_values, "arrays, one per master node");
   if (value.size() != nodes)
     fail(ENTS_BAD_VALUE, path,
-         "has " + std::to_string(value.size()) + " entries; " + basis.name + " has " + std::to_string(nodes) +
-             " master nodes, write one array for each");
+         "has " + std::to_string(value.size()) + " entries; " + (patch.empty() ? basis.name : "the patch") + " has " +
+             std::to_string(nodes) + " master nodes, write one array for each");
   std::vector<double> result;
   for (std::size_t i = 0; i < nodes; ++i)
     for (const double s : read_vector(value[i], item(path, i), static_cast<std::size_t>(basis.parameters),
                                       Range::any, "the surface coordinates of this master node"))
       result.push_back(s);
   return result;
+}
+
+// [segments][m] indices of the patch's nodes
+Patch read_patch(const json& value, const BasisEntry& basis) {
+  const std::string path = "/patch";
+  check_array(value, path, most_patch_segments, "arrays, the nodes of one segment each");
+  if (value.empty()) fail(ENTS_BAD_VALUE, path, "is empty; leave it out for elements of one segment");
+  Patch patch;
+  for (std::size_t s = 0; s < value.size(); ++s) {
+    const auto nodes = read_vector(value[s], item(path, s), static_cast<std::size_t>(basis.nodes), Range::any,
+                                   "the patch's nodes that this segment has, counted from 0");
+    for (const double node : nodes) {
+      if (node < 0.0 || node >= most_patch_nodes || node != std::floor(node))
+        fail(ENTS_BAD_VALUE, item(path, s),
+             "has an entry that is not a node 0 .. " + std::to_string(most_patch_nodes - 1));
+      const auto index = static_cast<std::int64_t>(node);
+      if (std::count(patch.connectivity.end() - static_cast<std::ptrdiff_t>(patch.connectivity.size() % nodes.size()),
+                     patch.connectivity.end(), index) > 0)
+        fail(ENTS_BAD_VALUE, item(path, s), "has node " + std::to_string(index) + " twice");
+      patch.connectivity.push_back(index);
+      patch.nodes = std::max(patch.nodes, static_cast<std::int32_t>(index) + 1);
+    }
+  }
+  for (std::int64_t node = 0; node < patch.nodes; ++node)
+    if (std::find(patch.connectivity.begin(), patch.connectivity.end(), node) == patch.connectivity.end())
+      fail(ENTS_BAD_VALUE, path, "has no segment with node " + std::to_string(node) + "; nodes are numbered without gaps");
+  return patch;
 }
 
 void read_projection(const json& value, Model& model) {
@@ -131,20 +158,21 @@ void read_contact(const json& value, Model& model) {
 
 } // namespace
 
-Model read_model(std::string_view text, const std::filesystem::path& directory,
+PatchedModel read_model(std::string_view text, const std::filesystem::path& directory,
                  std::span<const NamedData> data) {
   const JsonTree tree = parse_json(text);
   const json& root = *tree;
   check_keys(
       root, "", {"segment"},
-      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit", "border"});
+      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit", "border", "patch"});
 
-  Model model;
+  PatchedModel model;
   model.basis = read_segment(root.at("segment"));
   const BasisEntry& basis = basis_entry(model.basis);
+  if (root.contains("patch")) model.patch = read_patch(root.at("patch"), basis);
   if (root.contains("surface_coordinates")) {
     model.own_surface_coordinates = true;
-    model.surface_coordinates = read_surface_coordinates(root.at("surface_coordinates"), basis);
+    model.surface_coordinates = read_surface_coordinates(root.at("surface_coordinates"), basis, model.patch);
   }
   if (root.contains("projection")) read_projection(root.at("projection"), model);
   if (root.contains("contact")) read_contact(root.at("contact"), model);
@@ -164,6 +192,11 @@ Model read_model(std::string_view text, const std::filesystem::path& directory,
       fail(ENTS_BAD_VALUE, "/border", "is not in 1e-9 .. 0.5; it is a length in natural coordinates");
   }
 
+  if (!model.patch.empty() && model.law.multiplier_in_state() && model.law.has_friction())
+    fail(ENTS_BAD_VALUE, "/contact/normal/type",
+         "is \"augmented\" with friction: its multipliers cannot change segments within a patch; write "
+         "\"augmented_multiplier\" or \"penalty\"");
+
   // Last: it may read a file.
   model.height = Height(basis.parameters);
   if (root.contains("height") && !root.at("height").is_null())
@@ -171,7 +204,7 @@ Model read_model(std::string_view text, const std::filesystem::path& directory,
   return model;
 }
 
-Model read_model_file(std::string_view path) {
+PatchedModel read_model_file(std::string_view path) {
   const std::filesystem::path file = path_from_utf8(path);
   return read_model(read_text_file(file, largest_json_text), file.parent_path());
 }

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "abi/model_error.hpp"
-#include "core/model.hpp"
+#include "abi/patch.hpp"
 
 namespace ents {
 
@@ -22,10 +22,10 @@ struct NamedData {
 
 // directory: where relative file names of height maps start; empty: the working directory.
 // Throws ModelError, and std::bad_alloc when memory runs out.
-Model read_model(std::string_view text, const std::filesystem::path& directory = {},
+PatchedModel read_model(std::string_view text, const std::filesystem::path& directory = {},
                  std::span<const NamedData> data = {});
 
 // The same from a file; relative names start at its own folder. path: UTF-8.
-Model read_model_file(std::string_view path);
+PatchedModel read_model_file(std::string_view path);
 
 } // namespace ents

@@ -33,6 +33,8 @@ void keep_smaller(Worst& worst, double value, const double* xi) {
   if (value < worst.value) worst = {value, {xi[0], xi[1]}};
 }
 
+}  // namespace
+
 double cosine_of_ray(const Plan& plan, const double* point, const double* normal) {
   if (plan.projection == ProjectionKind::normal) return 1.0;
   double ray[3], length = 0.0, cosine = 0.0;
@@ -43,8 +45,6 @@ double cosine_of_ray(const Plan& plan, const double* point, const double* normal
   }
   return length > 0.0 ? cosine / std::sqrt(length) : 0.0;
 }
-
-}  // namespace
 
 Status check_admissibility(const Model& model, const Plan& plan, const double* master,
                            const double* surface_coordinates, int samples, Admissibility& result) {

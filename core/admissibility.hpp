@@ -25,6 +25,9 @@ struct Admissibility {
 
 inline constexpr int most_samples = 4096;
 
+// n_e . e of the ray through a point of the surface; 1 for normal projection.
+double cosine_of_ray(const Plan& plan, const double* point, const double* normal);
+
 // samples: 2 .. most_samples per direction, or 0 for as many as the height's features ask for (at most 1025).
 Status check_admissibility(const Model& model, const Plan& plan, const double* master,
                            const double* surface_coordinates, int samples, Admissibility& result);

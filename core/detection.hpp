@@ -43,12 +43,13 @@ struct Detection {
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;
   bool searched;
+  bool behind_edge; // no segment: the slave is behind an edge that two segments share, ahead of neither
 };
 
 // The projection of a slave among all segments.
 //   normal: the closest one within reach; shadow: the lit point, if it is within reach along the ray.
 // A previous projection (out.segment >= 0, out.at.xi) that is still on its segment and within reach is kept:
-// the slave stays on the branch it was on.
+// the slave stays on the branch it was on. Without a tree (null) all segments are looked at.
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out);
 

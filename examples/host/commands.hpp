@@ -48,7 +48,9 @@ int verify_command(const CommonOptions& common, const VerifyOptions& options);
 
 struct CheckOptions {
   std::filesystem::path model, mesh, out;
-  int samples = 0;
+  int samples = 0;  ///< 0: as fine as the height asks for
+  double reach = 0; ///< 0: the model's penetration_limit, if it has one
+  double kink = 0;  ///< degrees; 0: not judged
 };
 int check_command(const CommonOptions& common, const CheckOptions& options);
 

@@ -34,9 +34,11 @@ Solution solve_once(const Scene& scene, const EntsLibrary& library, int division
   solution.row.contact_time = simulation.timings().contact;
   solution.row.exact = records.back().exact;
   const auto d = static_cast<std::size_t>(scene.dimension);
-  for (const int node : simulation.contact()->slaves())
-    for (std::size_t i = 0; i < d; ++i)
-      solution.displacement.push_back(simulation.now().displacement[static_cast<std::size_t>(node) * d + i]);
+  const SlavePoints& slaves = simulation.contact()->slaves();
+  for (std::size_t k = 0; k < slaves.size(); ++k) {
+    const auto moved = slaves.combine(k, simulation.now().displacement, d);
+    solution.displacement.insert(solution.displacement.end(), moved.begin(), moved.begin() + scene.dimension);
+  }
   solution.areas = simulation.contact()->areas();
   solution.approach = records.back().approach;
   solution.force = records.back().force;

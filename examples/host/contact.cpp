@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 
 #include "segment_search.hpp"
@@ -27,9 +26,8 @@ double stiffness_of(const Json& model, const char* law) {
 
 } // namespace
 
-Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs,
-                 const std::vector<Face>& slave_faces, double thickness, bool axisymmetric)
-    : master_(std::move(master)), mesh_(&mesh), dofs_(&dofs) {
+Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs, SlavePoints points)
+    : master_(std::move(master)), mesh_(&mesh), dofs_(&dofs), points_(std::move(points)) {
   const ents_layout& layout = master_.model->layout();
   d_ = static_cast<std::size_t>(layout.dimension);
   m_ = static_cast<std::size_t>(layout.nodes);
@@ -41,33 +39,24 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   normal_stiffness_ = stiffness_of(spec.model, "normal");
   tangential_stiffness_ = stiffness_of(spec.model, "friction");
 
-  const std::vector<int> nodes = nodes_of(slave_faces);
-  const std::vector<double> areas = tributary_areas(mesh, slave_faces, nodes, thickness, axisymmetric);
-  // Tied nodes are one node: it carries the areas of all.
-  std::map<int, double> merged;
-  for (std::size_t i = 0; i < nodes.size(); ++i) merged[dofs.representative(nodes[i])] += areas[i];
-  for (const auto& [node, area] : merged) {
-    slaves_.push_back(node);
-    areas_.push_back(area);
-  }
   for (std::size_t i = 0; i < d_; ++i) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const int node : nodes) {
+    for (const int node : points_.nodes) {
       low = std::min(low, mesh.node(node)[i]);
       high = std::max(high, mesh.node(node)[i]);
     }
     size_ = std::hypot(size_, high - low);
   }
-  segment_.assign(slaves_.size(), -1);
+  segment_.assign(points_.size(), -1);
   segment_begin_ = found_ = segment_;
-  state_begin_.assign(slaves_.size() * state_size_, 0.0);
-  last_xi_.assign(slaves_.size() * parameters_, not_a_number);
+  state_begin_.assign(points_.size() * state_size_, 0.0);
+  last_xi_.assign(points_.size() * parameters_, not_a_number);
   xi_begin_ = last_xi_;
-  accepted_.pressure.assign(slaves_.size(), 0.0);
-  accepted_.traction.assign(slaves_.size() * d_, 0.0);
+  accepted_.pressure.assign(points_.size(), 0.0);
+  accepted_.traction.assign(points_.size() * d_, 0.0);
 }
 
-double Contact::total_area() const { return std::accumulate(areas_.begin(), areas_.end(), 0.0); }
+double Contact::total_area() const { return std::accumulate(points_.areas.begin(), points_.areas.end(), 0.0); }
 
 bool Contact::has_history() const {
   const ents_layout& layout = master_.model->layout();
@@ -92,6 +81,13 @@ void Contact::gather_master(std::size_t segment, const std::vector<double>& disp
     }
 }
 
+std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<double>& displacement) const {
+  std::array<double, 3> position = points_.place(k, *mesh_);
+  const std::array<double, 3> moved = points_.combine(k, displacement, d_);
+  for (std::size_t i = 0; i < d_; ++i) position[i] += moved[i];
+  return position;
+}
+
 void Contact::search(const Configuration& at, bool only_lost) {
   if (master_.segments == 1) {
     std::fill(segment_.begin(), segment_.end(), 0);
@@ -110,12 +106,10 @@ void Contact::search(const Configuration& at, bool only_lost) {
   std::vector<std::size_t> owner;
   std::vector<int> candidate;
   std::vector<double> slave, master, coordinates;
-  for (std::size_t k = 0; k < slaves_.size(); ++k) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
     Point position = Point::Zero();
-    for (std::size_t i = 0; i < d_; ++i) {
-      const std::size_t dof = static_cast<std::size_t>(slaves_[k]) * d_ + i;
-      position[static_cast<Eigen::Index>(i)] = mesh_->coordinates[dof] + at.displacement[dof];
-    }
+    const std::array<double, 3> now = position_of(k, at.displacement);
+    for (std::size_t i = 0; i < d_; ++i) position[static_cast<Eigen::Index>(i)] = now[i];
     for (const int s : search.near(position)) {
       owner.push_back(k);
       candidate.push_back(s);
@@ -154,31 +148,32 @@ void Contact::search(const Configuration& at, bool only_lost) {
 
   const std::vector<int> before = segment_;
   std::fill(segment_.begin(), segment_.end(), -1);
-  std::vector<double> best_excess(slaves_.size(), INFINITY), best_gap = best_excess, own_excess = best_excess,
-                      own_gap = best_excess;
+  constexpr double same = 1e-9;
+  std::vector<double> best_excess(points_.size(), INFINITY), best_gap = best_excess, own_gap = best_excess;
   for (std::size_t c = 0; c < owner.size(); ++c) {
     if (status[c] != ENTS_OK) continue;
     const std::size_t k = owner[c];
     const double excess = master_.excess(xi.data() + c * parameters_), distance = std::abs(gap[c]);
-    if (candidate[c] == before[k]) own_excess[k] = excess, own_gap[k] = distance;
+    if (candidate[c] == before[k] &&
+        (only_lost ? master_.excess_over_margin(xi.data() + c * parameters_) : excess) <= same)
+      own_gap[k] = distance;
     if (excess > best_excess[k] || (excess == best_excess[k] && distance >= best_gap[k])) continue;
     best_excess[k] = excess, best_gap[k] = distance;
     segment_[k] = candidate[c];
   }
   // A node on the common border of two segments stays where it is.
-  constexpr double same = 1e-9;
-  for (std::size_t k = 0; k < slaves_.size(); ++k)
-    if (own_excess[k] <= same && (only_lost || own_gap[k] <= best_gap[k] * (1 + same))) segment_[k] = before[k];
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (only_lost ? own_gap[k] < INFINITY : own_gap[k] <= best_gap[k] * (1 + same)) segment_[k] = before[k];
 }
 
 void Contact::list_active() {
   active_.clear();
   active_areas_.clear();
   active_coordinates_.clear();
-  for (std::size_t k = 0; k < slaves_.size(); ++k) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
     if (segment_[k] < 0) continue;
     active_.push_back(k);
-    active_areas_.push_back(areas_[k]);
+    active_areas_.push_back(points_.areas[k]);
     if (master_.surface_coordinates.empty()) continue;
     const auto first = master_.surface_coordinates.begin() +
                        offset(static_cast<std::size_t>(segment_[k]) * m_ * parameters_);
@@ -191,7 +186,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   report.status = ENTS_OK;
   search(at, only_lost);
   if (segment_ == before) return segment_ != stencil_segment_;
-  for (std::size_t k = 0; k < slaves_.size(); ++k)
+  for (std::size_t k = 0; k < points_.size(); ++k)
     if (segment_[k] != before[k])
       std::fill_n(last_xi_.begin() + offset(k * parameters_), parameters_, not_a_number);
   list_active();
@@ -202,28 +197,21 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
 StencilGroup Contact::stencil() {
   stencil_segment_ = segment_;
   StencilGroup group;
-  group.dofs = static_cast<int>(element_dofs_);
-  const auto add_multipliers = [&](std::size_t k) {
+  group.dofs = static_cast<int>(expanded_dofs());
+  const auto add_node = [&](int node) {
+    for (std::size_t i = 0; i < d_; ++i) group.equations.push_back(dofs_->equation(node, static_cast<int>(i)));
+  };
+  const auto add = [&](std::size_t k) {
+    for (std::size_t a = 0; a < points_.nodes_per_point; ++a) add_node(points_.nodes[k * points_.nodes_per_point + a]);
+    for (std::size_t a = 0; !master_.rigid && a < m_; ++a)
+      add_node(master_.nodes[static_cast<std::size_t>(segment_[k]) * m_ + a]);
     for (std::size_t j = 0; j < multipliers_; ++j)
       group.equations.push_back(dofs_->size() + static_cast<int>(k * multipliers_ + j));
   };
-  if (master_.rigid) { // one element per slave node, whether it has a segment or not
-    for (std::size_t k = 0; k < slaves_.size(); ++k) {
-      for (std::size_t i = 0; i < d_; ++i)
-        group.equations.push_back(dofs_->equation(slaves_[k], static_cast<int>(i)));
-      add_multipliers(k);
-    }
-    return group;
-  }
-  for (const std::size_t k : active_) {
-    for (std::size_t i = 0; i < d_; ++i)
-      group.equations.push_back(dofs_->equation(slaves_[k], static_cast<int>(i)));
-    for (std::size_t a = 0; a < m_; ++a)
-      for (std::size_t i = 0; i < d_; ++i)
-        group.equations.push_back(dofs_->equation(
-            master_.nodes[static_cast<std::size_t>(segment_[k]) * m_ + a], static_cast<int>(i)));
-    add_multipliers(k);
-  }
+  if (master_.rigid) // one element per slave point, whether it has a segment or not
+    for (std::size_t k = 0; k < points_.size(); ++k) add(k);
+  else
+    for (const std::size_t k : active_) add(k);
   return group;
 }
 
@@ -235,12 +223,26 @@ StencilGroup Contact::idle_stencil() const {
 }
 
 std::size_t Contact::unknown(std::size_t element, std::size_t local) const {
-  const std::size_t k = active_[element];
-  if (local >= node_dofs_)
-    return static_cast<std::size_t>(dofs_->dofs()) + k * multipliers_ + (local - node_dofs_);
-  const int node =
-      local < d_ ? slaves_[k] : master_.nodes[static_cast<std::size_t>(segment_[k]) * m_ + local / d_ - 1];
+  const std::size_t k = active_[element], q = points_.nodes_per_point, node_dofs = expanded_dofs() - multipliers_;
+  if (local >= node_dofs)
+    return static_cast<std::size_t>(dofs_->dofs()) + k * multipliers_ + (local - node_dofs);
+  const std::size_t a = local / d_;
+  const int node = a < q ? points_.nodes[k * q + a] : master_.nodes[static_cast<std::size_t>(segment_[k]) * m_ + a - q];
   return static_cast<std::size_t>(node) * d_ + local % d_;
+}
+
+void Contact::expand(std::size_t k, const double* residual, const double* tangent, Expanded& out) const {
+  const std::size_t n = element_dofs_, q = points_.nodes_per_point, all = expanded_dofs();
+  // Which dof of the element each dof of the nodes is, and with what weight.
+  const auto local = [&](std::size_t a) { return a < q * d_ ? a % d_ : a - (q - 1) * d_; };
+  const auto weight = [&](std::size_t a) { return a < q * d_ ? points_.weights[k * q + a / d_] : 1.; };
+  out.residual.resize(all);
+  for (std::size_t a = 0; a < all; ++a) out.residual[a] = weight(a) * residual[local(a)];
+  if (tangent == nullptr) return;
+  out.tangent.resize(all * all);
+  for (std::size_t b = 0; b < all; ++b)
+    for (std::size_t a = 0; a < all; ++a)
+      out.tangent[b * all + a] = weight(a) * weight(b) * tangent[local(b) * n + local(a)];
 }
 
 void Contact::gather(const Configuration& at) {
@@ -250,10 +252,8 @@ void Contact::gather(const Configuration& at) {
   bool all_known = true;
   for (std::size_t e = 0; e < active_.size(); ++e) {
     const std::size_t k = active_[e];
-    for (std::size_t i = 0; i < d_; ++i) {
-      const std::size_t dof = static_cast<std::size_t>(slaves_[k]) * d_ + i;
-      slave_positions_[e * d_ + i] = mesh_->coordinates[dof] + at.displacement[dof];
-    }
+    const std::array<double, 3> now = position_of(k, at.displacement);
+    std::copy_n(now.begin(), d_, slave_positions_.begin() + offset(e * d_));
     for (std::size_t j = 0; j < multipliers_; ++j)
       active_multipliers_[e * multipliers_ + j] = at.multiplier[k * multipliers_ + j];
     if (master_.segments > 1)
@@ -335,43 +335,50 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   if (status != ENTS_OK) return status;
 
   squared_force = 0;
-  std::vector<int> found(slaves_.size(), -1);
+  std::vector<int> found(points_.size(), -1);
   for (std::size_t e = 0; e < active_.size(); ++e)
     if ((flags[e] & ENTS_FLAG_CONTACT) != 0)
       found[active_[e]] = 2 * segment_[active_[e]] + ((flags[e] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
   status_changes_ = 0;
-  for (std::size_t k = 0; k < slaves_.size(); ++k) status_changes_ += found[k] != found_[k];
+  for (std::size_t k = 0; k < points_.size(); ++k) status_changes_ += found[k] != found_[k];
   found_ = std::move(found);
   if (coupling != nullptr) {
     coupling->force = coupling->diagonal = 0;
     coupling->column.assign(residual.size(), 0.0);
     coupling->row.assign(residual.size(), 0.0);
   }
+  Expanded nodal;
   for (std::size_t e = 0; e < active_.size(); ++e) {
     const std::size_t k = active_[e];
     std::copy_n(xi.begin() + offset(e * parameters_), parameters_, last_xi_.begin() + offset(k * parameters_));
-    const double* R = force.data() + e * n;
-    for (std::size_t a = 0; a < n; ++a) residual[unknown(e, a)] += R[a];
+    const double *R = force.data() + e * n, *K = tangent.empty() ? nullptr : tangent.data() + e * n * n;
+    expand(k, R, K, nodal);
+    const std::size_t all = nodal.residual.size();
+    for (std::size_t a = 0; a < all; ++a) residual[unknown(e, a)] += nodal.residual[a];
     for (std::size_t i = 0; i < d_; ++i) squared_force += R[i] * R[i];
-    if (system != nullptr) system->add(group, master_.rigid ? k : e, tangent.data() + e * n * n);
+    if (system != nullptr) system->add(group, master_.rigid ? k : e, nodal.tangent.data());
     if (coupling == nullptr) continue;
-    const double* K = tangent.data() + e * n * n;
-    // Only the relative position of slave and master counts: moving the master is moving the slave back.
+    // Only the relative position of slave and master counts: moving the master is moving the slave point back.
     for (std::size_t i = 0; i < d_; ++i) {
       const double direction = master_.direction[i];
       coupling->force -= R[i] * direction;
-      for (std::size_t a = 0; a < n; ++a) {
-        coupling->column[unknown(e, a)] -= K[i * n + a] * direction;
-        coupling->row[unknown(e, a)] -= direction * K[a * n + i];
-      }
       for (std::size_t j = 0; j < d_; ++j) coupling->diagonal += direction * K[j * n + i] * master_.direction[j];
+      for (std::size_t a = 0; a < all; ++a) { // the weights of a point's nodes add to one
+        double column = 0, row = 0;
+        for (std::size_t b = 0; b < points_.nodes_per_point; ++b) {
+          column += nodal.tangent[(b * d_ + i) * all + a];
+          row += nodal.tangent[a * all + b * d_ + i];
+        }
+        coupling->column[unknown(e, a)] -= column * direction;
+        coupling->row[unknown(e, a)] -= direction * row;
+      }
     }
   }
   if (multipliers_ == 0) return ENTS_OK;
-  for (std::size_t k = 0; k < slaves_.size(); ++k)
+  for (std::size_t k = 0; k < points_.size(); ++k)
     for (std::size_t j = 0; segment_[k] < 0 && j < multipliers_; ++j) { // lambda = 0, scaled like the others
       const std::size_t index = k * multipliers_ + j;
-      const double slope = -areas_[k] / multiplier_scale(index);
+      const double slope = -points_.areas[k] / multiplier_scale(index);
       residual[static_cast<std::size_t>(dofs_->dofs()) + index] += slope * at.multiplier[index];
       if (system != nullptr) system->add(group + 1, index, &slope);
     }

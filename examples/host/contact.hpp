@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Node-to-segment contact: one element of the library per slave node.
+// Node-to-segment contact: one element of the library per slave node, or per sampling point inside the slave faces.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 #include "configuration.hpp"
 #include "dof_map.hpp"
 #include "master.hpp"
+#include "slave_points.hpp"
 #include "sparse_system.hpp"
 
 namespace host {
@@ -41,13 +42,13 @@ struct ContactHistory {
 
 class Contact {
 public:
-  /// @param axisymmetric,thickness  weights of the slave nodes' tributary areas in 2D
-  Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs,
-          const std::vector<Face>& slave_faces, double thickness, bool axisymmetric);
+  Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs, SlavePoints points);
 
   const Master& master() const { return master_; }
-  const std::vector<int>& slaves() const { return slaves_; }  ///< nodes of the mesh
-  const std::vector<double>& areas() const { return areas_; } ///< tributary, [slaves]
+  const SlavePoints& slaves() const { return points_; }
+  const std::vector<double>& areas() const { return points_.areas; } ///< [slaves]
+  /// Current position.
+  std::array<double, 3> position_of(std::size_t slave, const std::vector<double>& displacement) const;
   double total_area() const;
   /// Diagonal of the box round the slave nodes: the length that penetrations are measured by.
   double size() const { return size_; }
@@ -57,7 +58,7 @@ public:
   bool augmentable() const { return master_.model->layout().augmentable != 0; }
   /// Unknowns of multipliers: so many per slave node, in the order of `slaves`, after the displacements.
   std::size_t multipliers() const { return multipliers_; }
-  std::size_t multiplier_count() const { return multipliers_ * slaves_.size(); }
+  std::size_t multiplier_count() const { return multipliers_ * points_.size(); }
   /// Residuals of the multipliers times this are forces per area times area.
   double multiplier_scale(std::size_t index) const;
 
@@ -66,7 +67,7 @@ public:
 
   /// Choose a segment for every slave node: of those near by, the one that is least outside, then the
   /// closest, then the first. The history of a node that moved on to another segment moves with it.
-  /// @param only_lost  a node that projects inside its segment stays there
+  /// @param only_lost  a node that projects inside its segment or its margin stays there
   /// @param report     of a history that could not be moved: its status is positive, cut the step
   /// @return the choice is not that of the last `stencil`: the pattern of a deformable master's equations is another one
   bool choose(const Configuration& at, bool only_lost, ents_report& report);
@@ -116,7 +117,13 @@ private:
   /// History of the active elements as seen from their segments.
   void move_history(ents_report& report);
   void list_active();
-  std::size_t unknown(std::size_t element, std::size_t local) const; ///< index into [dofs, multipliers]
+  /// Dofs of an element in the mesh: a slave point inside a face has those of the face's nodes.
+  std::size_t expanded_dofs() const { return element_dofs_ + (points_.nodes_per_point - 1) * d_; }
+  struct Expanded {
+    std::vector<double> residual, tangent;
+  };
+  void expand(std::size_t k, const double* residual, const double* tangent, Expanded& out) const;
+  std::size_t unknown(std::size_t element, std::size_t expanded) const; ///< index into [dofs, multipliers]
   /// Projections on the segment without its height, for elements whose own is not known yet: the point of a rough surface
   /// straight ahead of the node, at the price of a plain segment. Searching the whole enriched one would find a closer point
   /// somewhere else, or two that are equally close.
@@ -126,10 +133,9 @@ private:
   Master master_;
   const Mesh* mesh_;
   const DofMap* dofs_;
+  SlavePoints points_;
   std::size_t d_, m_, parameters_, element_dofs_, node_dofs_, state_size_, multipliers_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
-  std::vector<int> slaves_;
-  std::vector<double> areas_;
   /// [slaves] chosen; chosen when the history was written; chosen when the equations were listed
   std::vector<int> segment_, segment_begin_, stencil_segment_;
   std::vector<double> state_begin_;          ///< [slaves][state_size]

@@ -35,7 +35,7 @@ ContactFields Contact::fields(const Configuration& at) {
   const std::int32_t result = library.evaluate(master_.model->get(), 0, stride(count), &in, &out, &report);
   if (result < 0) throw JobError("contact: " + describe(library, result, report));
 
-  const std::size_t slaves = slaves_.size();
+  const std::size_t slaves = points_.size();
   ContactFields fields;
   fields.gap.assign(slaves, not_a_number);
   fields.normal_gap = fields.gap;

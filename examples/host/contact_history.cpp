@@ -65,7 +65,7 @@ void Contact::move_history(ents_report& report) {
 double Contact::augment(const Configuration& at, double enough) {
   const ContactFields now = fields(at);
   double largest = 0;
-  for (std::size_t k = 0; k < slaves_.size(); ++k) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
     largest = std::max(largest, std::abs(now.pressure[k] - pressure_[k]) / normal_stiffness_);
     double squared = 0;
     for (std::size_t i = 0; i < d_; ++i) squared += std::pow(now.traction[k * d_ + i] - traction_[k * d_ + i], 2);

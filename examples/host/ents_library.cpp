@@ -64,8 +64,11 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(state_init, "ents_state_init");
     find(state_augment, "ents_state_augment");
     find(state_transfer, "ents_state_transfer");
+    find(sampling_points, "ents_sampling_points");
+    find(smooth_size, "ents_smooth_size");
+    find(smooth, "ents_smooth");
     find(surface_evaluate, "ents_surface_evaluate");
-    find(model_check, "ents_model_check");
+    find(surface_check, "ents_surface_check");
   } catch (...) {
     dlclose(handle_);
     throw;

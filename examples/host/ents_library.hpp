@@ -38,8 +38,11 @@ public:
   decltype(&ents_state_init) state_init = nullptr;
   decltype(&ents_state_augment) state_augment = nullptr;
   decltype(&ents_state_transfer) state_transfer = nullptr;
+  decltype(&ents_sampling_points) sampling_points = nullptr;
+  decltype(&ents_smooth_size) smooth_size = nullptr;
+  decltype(&ents_smooth) smooth = nullptr;
   decltype(&ents_surface_evaluate) surface_evaluate = nullptr;
-  decltype(&ents_model_check) model_check = nullptr;
+  decltype(&ents_surface_check) surface_check = nullptr;
 
 private:
   void* handle_ = nullptr;

@@ -134,6 +134,17 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     return compare_with_cattaneo(scene, state);
   case Type::slope:
     return compare_with_slope(scene, state);
+  case Type::uniform_pressure: {
+    double squares = 0, area = 0;
+    for (std::size_t k = 0; k < state.pressure.size(); ++k) {
+      squares += state.area[k] * squared(state.pressure[k] / exact.pressure - 1);
+      area += state.area[k];
+    }
+    return {quantity("largest pressure", units.pressure, peak, exact.pressure),
+            quantity("smallest pressure", units.pressure,
+                     *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
+            {"scatter of the pressure (rms)", "", std::sqrt(squares / area)}};
+  }
   case Type::none:
     break;
   }

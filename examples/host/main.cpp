@@ -100,8 +100,20 @@ int main(int argc, char** argv) {
                         "at their natural coordinates]");
   check_app->add_option("--samples", check.samples, "grid points per direction of a segment [as the height asks for]")
       ->check(CLI::Range(2, 4096));
-  check_app->add_option("--out", check.out, "folder for a picture of the enriched surface and the offences");
+  check_app->add_option("--reach", check.reach,
+                        "a slave node this far from the surface shall have one normal projection [the model's \"penetration_limit\"; "
+                        "without one: for information]")
+      ->check(CLI::PositiveNumber);
+  check_app->add_option("--kink", check.kink, "largest angle of the normals where segments meet, degrees [for information]")
+      ->check(CLI::Range(0.0, 180.0));
+  check_app->add_option("--out", check.out, "folder for a picture of the enriched surface with the offending places marked");
   add_common(*check_app);
+  check_app->footer("Each condition prints its worst value on the whole surface, the bound, how much is missing, and where: the segment, natural\n"
+                    "coordinates on it and, for edges and pairs, the other segment. Lengths are the mesh's.\n\n"
+                    "Examples:\n"
+                    "  ents-host check model.json                                        one flat segment of size 2\n"
+                    "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
+                    "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
 
   try {
     app.parse(argc, argv);

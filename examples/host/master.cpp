@@ -10,7 +10,7 @@
 namespace host {
 namespace {
 
-constexpr double margin = 0.05;
+constexpr double margin = 0.25;
 
 std::string where(const Scene& scene) { return scene.contact->model_where; }
 
@@ -24,10 +24,6 @@ void check_sizes(const Scene& scene, const EntsModel& model, std::size_t nodes, 
                      " nodes, here are " + std::to_string(nodes));
 }
 
-bool is_smoothed_line(const Json& model) {
-  return model.contains("segment") && (model.at("segment") == "catmull_rom4" || model.at("segment") == "bspline4");
-}
-
 bool has_triangles(const Json& model) {
   return model.contains("segment") && model.at("segment").is_string() &&
          model.at("segment").get<std::string>().starts_with("tri");
@@ -35,11 +31,11 @@ bool has_triangles(const Json& model) {
 
 } // namespace
 
-double Master::excess(const double* xi) const {
+double Master::excess(const double* xi, double end) const {
   const int parameters = model->layout().parameters;
   if (triangles) return std::max({0., -xi[0], -xi[1], xi[0] + xi[1] - 1});
   double result = 0;
-  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - border);
+  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - end);
   return result;
 }
 
@@ -65,9 +61,9 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   const auto found = mesh.face_sets.find(contact.master);
   if (found == mesh.face_sets.end() || found->second.empty())
     throw InputError(contact.master_where + ": no faces \"" + contact.master + "\" in the mesh");
-  if (is_smoothed_line(contact.model)) {
-    check_sizes(scene, *master.model, 4, contact.master_where);
-    master.nodes = smoothed_lines(found->second, contact.master_where);
+  if (const std::string segment = contact.model.value("segment", ""); is_smoothed(segment)) {
+    check_sizes(scene, *master.model, static_cast<std::size_t>(master.model->layout().nodes), contact.master_where);
+    master.nodes = smoothed_nodes(library, segment, found->second, contact.master_where);
   } else {
     for (const Face& face : found->second) {
       check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);

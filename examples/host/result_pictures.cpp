@@ -191,11 +191,12 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pictures::Maps maps;
   const Scene& scene = simulation.scene();
   if (scene.dimension != 3) return maps;
-  const std::vector<int>& slaves = simulation.contact()->slaves();
+  const SlavePoints& slaves = simulation.contact()->slaves();
   std::map<double, int> columns, rows;
-  for (const int node : slaves) {
-    columns.emplace(simulation.mesh().node(node)[0], 0);
-    rows.emplace(simulation.mesh().node(node)[1], 0);
+  for (std::size_t k = 0; k < slaves.size(); ++k) {
+    const auto position = slaves.place(k, simulation.mesh());
+    columns.emplace(position[0], 0);
+    rows.emplace(position[1], 0);
   }
   if (columns.size() * rows.size() != slaves.size() || columns.size() < 3 || rows.size() < 3) return maps;
   const auto regular = [](std::map<double, int>& axis) {
@@ -224,7 +225,7 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pressure.columns = static_cast<int>(columns.size()), pressure.rows = static_cast<int>(rows.size());
   pressure.values.assign(slaves.size(), 0.0);
   for (std::size_t k = 0; k < slaves.size(); ++k) {
-    const auto position = simulation.mesh().node(slaves[k]);
+    const auto position = slaves.place(k, simulation.mesh());
     const auto at = static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
     pressure.values[at] = record.fields.pressure[k];
   }

@@ -95,7 +95,6 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   Contact* contact = simulation.contact();
   if (contact == nullptr) return;
   const Scene& scene = simulation.scene();
-  const auto d = static_cast<std::size_t>(scene.dimension);
   record.fields = contact->accepted();
   record.contact_force = record.fields.force;
   for (double& component : record.contact_force) component *= scene.symmetry_copies;
@@ -117,10 +116,8 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
     }
     if (!std::isnan(record.fields.gap[k])) gap += area * record.fields.gap[k], gap_area += area;
     record.peak_pressure = std::max(record.peak_pressure, record.fields.pressure[k]);
-    for (std::size_t i = 0; i < d; ++i) {
-      const std::size_t dof = static_cast<std::size_t>(contact->slaves()[k]) * d + i;
-      record.positions.push_back(simulation.mesh().coordinates[dof] + simulation.now().displacement[dof]);
-    }
+    const auto position = contact->position_of(k, simulation.now().displacement);
+    record.positions.insert(record.positions.end(), position.begin(), position.begin() + scene.dimension);
   }
   record.contact_fraction = closed / simulation.contact_area();
   record.mean_gap = gap / gap_area;
@@ -158,8 +155,8 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   const Contact& contact = *simulation.contact();
   const auto d = static_cast<std::size_t>(simulation.mesh().dimension);
   SurfaceState state;
-  for (const int node : contact.slaves()) {
-    const auto position = simulation.mesh().node(node);
+  for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
+    const auto position = contact.slaves().place(k, simulation.mesh());
     state.distance.push_back(simulation.mesh().dimension == 2 ? std::abs(position[0])
                                                               : std::hypot(position[0], position[1]));
   }
@@ -167,9 +164,8 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   const std::vector<double> loads = simulation.loads(simulation.now().load_factor);
   for (std::size_t dof = 0; dof < loads.size(); ++dof) state.load[dof % d] += loads[dof];
   for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
-    const auto node = static_cast<std::size_t>(contact.slaves()[k]);
-    state.place.push_back(simulation.mesh().coordinates[node * d]);
-    state.moved.push_back(simulation.now().displacement[node * d]);
+    state.place.push_back(contact.slaves().place(k, simulation.mesh())[0]);
+    state.moved.push_back(contact.slaves().combine(k, simulation.now().displacement, d)[0]);
     state.shear.push_back(record.fields.traction[k * d]);
     state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);
   }

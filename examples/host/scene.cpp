@@ -134,6 +134,12 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   ContactSpec contact;
   contact.slave = object.at("slave").string();
   contact.slave_where = object.at("slave").where();
+  contact.sampling = object.integer_or("sampling", 1, 64, 0);
+  if (object.has("areas")) {
+    const JsonValue areas = object.at("areas");
+    contact.equal_areas = areas.word({"tributary", "equal"}) == "equal";
+    if (contact.equal_areas && contact.sampling > 0) areas.fail("sampling points have areas of their own; leave it out");
+  }
   JsonObject master(object.at("master"));
   if (master.has("faces")) {
     contact.master = master.at("faces").string();
@@ -177,11 +183,12 @@ ExactSpec read_exact(const JsonValue& value) {
                                                  {"westergaard", Type::westergaard},
                                                  {"double_sine", Type::double_sine},
                                                  {"cattaneo", Type::cattaneo},
-                                                 {"slope", Type::slope}};
+                                                 {"slope", Type::slope},
+                                                 {"uniform_pressure", Type::uniform_pressure}};
   JsonObject object(value);
   ExactSpec exact;
   exact.type = types.at(object.at("type").word(
-      {"hertz_line", "hertz_point", "westergaard", "double_sine", "cattaneo", "slope"}));
+      {"hertz_line", "hertz_point", "westergaard", "double_sine", "cattaneo", "slope", "uniform_pressure"}));
   if (exact.type == Type::hertz_line || exact.type == Type::hertz_point) {
     exact.radius = object.at("radius").positive();
   } else if (exact.type == Type::cattaneo) {
@@ -190,6 +197,8 @@ ExactSpec read_exact(const JsonValue& value) {
     exact.distance = object.at("distance").positive();
   } else if (exact.type == Type::slope) {
     exact.coefficient = object.at("coefficient").positive();
+  } else if (exact.type == Type::uniform_pressure) {
+    exact.pressure = object.at("pressure").positive();
   } else {
     exact.amplitude = object.at("amplitude").positive();
     exact.wavelength = object.at("wavelength").positive();
@@ -303,7 +312,7 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     if (scene.exact.type == Type::cattaneo) {
       if (scene.dimension != 2 || !scene.contact->rigid.empty())
         object.at("exact").fail("\"cattaneo\" is for two elastic bodies in the plane");
-    } else if (scene.contact->rigid.empty()) {
+    } else if (scene.contact->rigid.empty() && scene.exact.type != ExactSpec::Type::uniform_pressure) {
       object.at("exact").fail("this exact solution is for contact with a rigid master");
     }
   }

@@ -60,6 +60,8 @@ struct PeriodicSpec {
 
 struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
+  int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
+  bool equal_areas = false;       ///< every slave node gets the same area, as if it had no neighbours to share with
   std::vector<double> rigid;      ///< rigid master: [m][d], nodes of its one segment; empty: deformable
   std::string master, master_where; ///< deformable master: faces, each one segment
   std::vector<int> surface_axes;  ///< deformable master: surface coordinates are these reference coordinates
@@ -78,12 +80,13 @@ enum class Control {
 
 /// Which exact solution the result is held against.
 struct ExactSpec {
-  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope };
+  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope, uniform_pressure };
   Type type = Type::none;
   double radius = 0;                    ///< hertz_line, hertz_point, cattaneo [L]
   double coefficient = 0;               ///< cattaneo, slope: friction
   double distance = 0;                  ///< cattaneo: of the points that displacements are measured against [L]
   double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
+  double pressure = 0;                  ///< uniform_pressure [F/L^2]
 };
 
 /// Words for tables and pictures; the numbers are never converted.

@@ -166,8 +166,13 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions) {
   Master master = divisions > 0 ? explicit_master(*library, *scene_, divisions)
                                 : scene_master(*library, *scene_, mesh_);
   const ElementSetup& setup = scene_->parts.front().setup;
-  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, slaves, setup.thickness,
-                                       setup.formulation == Formulation::axisymmetric);
+  const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,
+                               scene_->contact->equal_areas};
+  const int sampling = scene_->contact->sampling;
+  SlavePoints points = sampling > 0
+                           ? sampling_points(*library, mesh_, slaves, sampling, geometry, scene_->contact->slave_where)
+                           : slave_nodes(mesh_, *dofs_, slaves, geometry);
+  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, std::move(points));
 }
 
 void Simulation::build_pattern() {

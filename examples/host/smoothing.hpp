@@ -5,14 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "ents_library.hpp"
 #include "mesh.hpp"
 
 namespace host {
 
-/// Nodes of catmull_rom4 and bspline4 segments on a chain of lines: the node before, the two of the line itself,
-/// and the node after. At an open end of the chain its last node stands in for the missing one.
-/// @param where  for the message if more than two lines meet in a node
-/// @return [faces][4]
-std::vector<int> smoothed_lines(const std::vector<Face>& faces, const std::string& where);
+/// Is it a basis over several faces: catmull_rom4, bspline4 on lines, catmull_rom16, bspline16 on
+/// quadrilaterals?
+bool is_smoothed(const std::string& segment);
+
+/// Nodes of smoothed segments, one on each face, by the library. Beyond a free end or border its own node
+/// stands in for the missing one (ENTS_ENDS_REPEATED), so that all control points are nodes and the equations
+/// of this program serve them as they serve any segment.
+/// @param where  for messages: faces that do not fit, or a mesh that is not regular
+/// @return [faces][4 or 16]
+std::vector<int> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
+                                const std::vector<Face>& faces, const std::string& where);
 
 } // namespace host

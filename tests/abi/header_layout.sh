@@ -45,7 +45,8 @@ FORTRAN
     echo "  call number(\"$struct\", x_$struct%struct_size)"
   done
   printf '%s\n' "$fields" | while read -r struct field; do
-    echo "  call field(\"$struct%$field\", c_loc(x_$struct), c_loc(x_$struct%$field), &"
+    echo "  call field(\"$struct%$field\", &"
+    echo "    c_loc(x_$struct), c_loc(x_$struct%$field), &"
     echo "    size(transfer(x_$struct%$field, [0_c_int8_t])))"
   done
   cat <<'FORTRAN'

@@ -18,6 +18,15 @@ function kind(declaration) {
   return "unknown(" declaration ")"
 }
 
+# "[16][2]" is 32.
+function product(extents,    count, sizes, i, result) {
+  gsub(/[][]+/, " ", extents)
+  count = split(extents, sizes, " ")
+  result = 1
+  for (i = 1; i <= count; i++) result *= sizes[i]
+  return result
+}
+
 # "double a, b[2]" is two fields.
 function add(table, owner, declaration,    type, count, names, i, name, extent) {
   type = declaration
@@ -29,7 +38,7 @@ function add(table, owner, declaration,    type, count, names, i, name, extent) 
     gsub(/ /, "", name)
     extent = ""
     if (match(name, /\[.*\]/)) {
-      extent = substr(name, RSTART)
+      extent = "[" product(substr(name, RSTART)) "]" # gfortran writes [16][2] as [32]
       name = substr(name, 1, RSTART - 1)
     }
     print table, owner, place++, kind(type) extent, name

@@ -154,6 +154,43 @@ TEST(OutOfMemory, WhileReportingAnotherMistake) {
   }
 }
 
+// The check of a whole surface allocates: the same there.
+TEST(OutOfMemory, SurfaceCheck) {
+  const int64_t connectivity[] = {0, 1, 1, 2};
+  const double positions[] = {0, 0, 1, 0, 1.5, 1}; // a concave corner: a crossing, and two projections
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 2, mesh.nodes = 3;
+  mesh.connectivity = connectivity, mesh.positions = positions;
+  for (const char* projection : {R"({"type": "normal"})", R"({"type": "shadow_direction", "direction": [1, 1]})"}) {
+    const Model model(std::string(R"({"segment": "line2", "height": {"type": "constant", "value": 0.1}, "projection": )") +
+                      projection + "}");
+    const auto check = [&](ents_report* report) {
+      ents_surface_admissibility result{};
+      result.struct_size = sizeof result;
+      result.reach = 0.5;
+      return ents_surface_check(model.get(), &mesh, &result, report);
+    };
+    ents_report report = new_report();
+    ASSERT_EQ(check(&report), ENTS_OK) << report.message;
+    memory_watch(0, 0);
+    check(&report);
+    memory_unwatch();
+    const long all = memory_allocations();
+    EXPECT_EQ(memory_left(), 0);
+    ASSERT_GT(all, 10);
+    for (const int forever : {0, 1})
+      for (long k = 1; k <= all; ++k) {
+        memory_watch(k, forever);
+        const int32_t status = check(&report);
+        memory_unwatch();
+        ASSERT_EQ(status, ENTS_NO_MEMORY) << "allocation " << k << " of " << all << ": " << report.message;
+        ASSERT_EQ(memory_left(), 0) << "leaked when allocation " << k << " of " << all << " failed";
+      }
+    EXPECT_EQ(check(&report), ENTS_OK);
+  }
+}
+
 // The counters themselves: they see an allocation, and one that fails.
 TEST(OutOfMemory, TheWatchSees) {
   memory_watch(2, 0);

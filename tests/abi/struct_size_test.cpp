@@ -173,6 +173,25 @@ TEST(StructSize, Admissibility) {
       0, ENTS_OK);
 }
 
+TEST(StructSize, SurfaceAdmissibility) {
+  const Model model(text(kind));
+  const std::vector<double> nodes = flat_master(basis("quad4"));
+  const int64_t connectivity[] = {0, 1, 2, 3};
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 1, mesh.nodes = 4;
+  mesh.connectivity = connectivity, mesh.positions = nodes.data();
+  ents_surface_admissibility result{};
+  result.struct_size = sizeof result;
+  result.samples = 3;
+  try_sizes<ents_surface_admissibility>(
+      "result", result,
+      [&](ents_surface_admissibility* r, ents_report* report) {
+        return call::surface_check(model.get(), &mesh, r, report);
+      },
+      0, ENTS_OK);
+}
+
 TEST(StructSize, Data) {
   const double values[4] = {0.0, 0.1, 0.2, 0.1};
   ents_data data{};

@@ -38,6 +38,7 @@ program procedures
   call check_areas()
   call check_surface()
   call check_admissibility()
+  call check_whole_surface()
   call expect(ents_model_destroy(model, report) == ENTS_OK .and. .not. c_associated(model), "model_destroy clears the handle")
 
   call check_data()
@@ -191,6 +192,34 @@ contains
     call expect(same(result%height_max, 0.25d0) .and. same(result%edge_height, 0.25d0), "heights of model_check")
     call expect(ents_model_check(model, c_loc(master), c_loc(s), result, report) == ENTS_OK, "model_check with coordinates")
   end subroutine check_admissibility
+
+  ! Two squares at right angles, whose heights face each other: the edges of each are 1/4 behind the other.
+  subroutine check_whole_surface()
+    type(ents_master_mesh) :: mesh
+    type(ents_surface_admissibility) :: result
+    integer(c_int64_t), target :: connectivity(4, 2) = reshape([0_c_int64_t, 1_c_int64_t, 2_c_int64_t, 3_c_int64_t, &
+      1_c_int64_t, 4_c_int64_t, 5_c_int64_t, 2_c_int64_t], [4, 2]), violations(2)
+    real(c_double), target :: nodes(3, 6)
+    nodes(:, 1:4) = master
+    nodes(:, 5) = [1d0, -1d0, 2d0]
+    nodes(:, 6) = [1d0, 1d0, 2d0]
+    call ents_init(mesh)
+    mesh%segments = 2
+    mesh%connectivity = c_loc(connectivity)
+    mesh%nodes = 6
+    mesh%positions = c_loc(nodes)
+    call ents_init(result)
+    result%samples = 9
+    violations = -7
+    result%violations = c_loc(violations)
+    call expect(ents_surface_check(model, mesh, result, report) == ENTS_OK, "surface_check")
+    call expect(same(result%value(ENTS_CHECK_EDGE + 1), 0.25d0), "height on the edges")
+    call expect(abs(result%value(ENTS_CHECK_JUMP + 1) - 0.25d0*sqrt(2d0)) < 1d-15, "jump")
+    call expect(same(result%value(ENTS_CHECK_CROSSING + 1), 0.25d0), "depth of the crossing")
+    call expect(result%segment(ENTS_CHECK_JUMP + 1) == 0 .and. result%other(ENTS_CHECK_JUMP + 1) == 1, "segments, from 0")
+    call expect(same(result%xi(1, ENTS_CHECK_JUMP + 1), 1d0) .and. same(result%point(3, ENTS_CHECK_JUMP + 1), 0.25d0), "place")
+    call expect(btest(result%violated, ENTS_CHECK_CROSSING) .and. all(violations == result%violated), "bits of conditions")
+  end subroutine check_whole_surface
 
   ! A height map from the caller's memory: samples equal to 1/2 make a flat surface at 1/2.
   subroutine check_data()

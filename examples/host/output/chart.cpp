@@ -155,6 +155,7 @@ std::string free_corner(const Chart& chart, const Scale& x, const Scale& y, std:
 
 std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
   static constexpr const char* markers[] = {"7", "5", "9", "13", "11", "15"}; // filled: circle, square ...
+  static constexpr const char* open_markers[] = {"6", "4", "8", "12", "10", "14"};
   const std::string color =
       " linecolor rgb '" +
       (curve.style == Style::exact ? std::string(gnuplot::ink) : gnuplot::curve_color(index, count)) + "'";
@@ -173,8 +174,10 @@ std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
   case Style::area:
     return "with filledcurves x1 fillstyle solid 0.18" + color;
   case Style::wrong:
-    return "with points pointtype 6 pointsize 1.8 linewidth 2.2 linecolor rgb '" +
-           std::string(gnuplot::wrong) + "'";
+    return "with points pointtype " + std::string(open_markers[index % std::size(open_markers)]) +
+           " pointsize 1.8 linewidth 2.2 linecolor rgb '" + std::string(gnuplot::wrong) + "'";
+  case Style::wrong_line:
+    return "with lines linewidth 2.4 linecolor rgb '" + std::string(gnuplot::wrong) + "'";
   case Style::both:
     break;
   }
@@ -250,7 +253,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   std::string computed, exact; // the exact line lies on top: dense markers do not hide it
   std::size_t block = 0, entries = 0, letters = 0, colored = 0;
   const auto colors = static_cast<std::size_t>(std::count_if(
-      chart.curves.begin(), chart.curves.end(), [](auto& c) { return c.style != Style::exact; }));
+      chart.curves.begin(), chart.curves.end(), [](auto& c) { return c.style != Style::exact && c.style != Style::wrong_line; }));
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
     if (curve.fit_order && !std::isnan(fitted_order(curve)))
@@ -258,7 +261,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
     job.data += "\n\n# " + label + "\n";
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       job.data += number(curve.x[i]) + " " + number(curve.y[i]) + "\n";
-    const bool on_top = curve.style == Style::exact;
+    const bool on_top = curve.style == Style::exact || curve.style == Style::wrong_line;
     std::string& plot = on_top ? exact : computed;
     plot += ", \\\n data index " + std::to_string(block++);
     plot += " using ($1*" + number(x.unit) + "):($2*" + number(y.unit) + ") ";

@@ -36,6 +36,7 @@ enum class Style {
   dashed, ///< thin dashed line: a bound or a second reference
   area,   ///< line with a light fill down to the axis
   wrong,  ///< large red marker: an offence
+  wrong_line, ///< thick red line: the same
 };
 
 struct Curve {
@@ -102,15 +103,16 @@ struct Place {
   bool wrong = true; ///< drawn as an offence, else as a remark
 };
 
-/// The enriched surface of one segment for `ents-host check`: a section in 2D, a shaded surface in 3D.
+/// The enriched surface of segments for `ents-host check`: a section in 2D, a shaded surface in 3D.
 struct Surface {
   std::string title, subtitle;
   std::string unit;  ///< of length
   int dimension = 2; ///< 2: rows = 1
   int columns = 0, rows = 1;
-  std::vector<double> enriched; ///< [rows][columns][dimension] rho_e
-  std::vector<double> base;     ///< [rows][columns][dimension] rho
-  std::vector<double> height;   ///< [rows][columns] h, colours the surface in 3D
+  std::vector<double> enriched; ///< [segments][rows][columns][dimension] rho_e
+  std::vector<double> base;     ///< [segments][rows][columns][dimension] rho
+  std::vector<double> height;   ///< [segments][rows][columns] h, colours the surface in 3D
+  std::vector<char> wrong;      ///< [segments] drawn as an offence; empty: one segment that is none
   std::vector<Place> places;
 };
 

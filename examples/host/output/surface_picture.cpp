@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The enriched surface of one segment with the places a check found: a section in 2D, a shaded surface in 3D.
+// The enriched surface with the segments and places a check found: a section in 2D, a shaded surface in 3D.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "gnuplot.hpp"
 
@@ -28,14 +31,24 @@ Box box_of(const Surface& surface) {
   return box;
 }
 
+bool is_wrong(const Surface& surface, std::size_t segment) {
+  return segment < surface.wrong.size() && surface.wrong[segment] != 0;
+}
+
 /// 2D: lines with markers on them.
 Outcome draw_section(const Surface& surface, const std::filesystem::path& directory,
                      const std::string& name) {
-  const auto line = [&](const char* label, const std::vector<double>& points, Style style) {
+  // segments end to end, with a gap in the line: they need not meet
+  const auto columns = static_cast<std::size_t>(surface.columns);
+  const auto line = [&](const char* label, const std::vector<double>& points, Style style, int which) {
     Curve out;
     out.label = label, out.style = style;
-    for (std::size_t i = 0; i + 1 < points.size(); i += 2)
-      out.x.push_back(points[i]), out.y.push_back(points[i + 1]);
+    for (std::size_t s = 0; 2 * s * columns < points.size(); ++s) {
+      if (which >= 0 && is_wrong(surface, s) != (which != 0)) continue;
+      for (std::size_t i = s * columns; i < (s + 1) * columns; ++i)
+        out.x.push_back(points[2 * i]), out.y.push_back(points[2 * i + 1]);
+      out.x.push_back(automatic), out.y.push_back(automatic);
+    }
     return out;
   };
   Chart chart;
@@ -45,8 +58,10 @@ Outcome draw_section(const Surface& surface, const std::filesystem::path& direct
   chart.equal_axes = box.span(1) > 0.2 * box.span(0) && box.span(0) > 0.2 * box.span(1);
   if (!chart.equal_axes)
     chart.subtitle += (chart.subtitle.empty() ? "" : "; ") + std::string("axes not to the same scale");
-  if (!surface.base.empty()) chart.curves.push_back(line("segment ρ", surface.base, Style::dashed));
-  chart.curves.push_back(line("enriched surface ρₑ = ρ + h n", surface.enriched, Style::exact));
+  if (!surface.base.empty()) chart.curves.push_back(line("segment ρ", surface.base, Style::dashed, -1));
+  for (const auto& [label, style, which] : {std::tuple{"enriched surface ρₑ = ρ + h n", Style::exact, 0},
+                                            {"segments that fail", Style::wrong_line, 1}})
+    if (Curve curve = line(label, surface.enriched, style, which); !curve.x.empty()) chart.curves.push_back(curve);
   for (const Place& place : surface.places) {
     Curve mark;
     mark.label = place.label, mark.style = place.wrong ? Style::wrong : Style::points;
@@ -56,9 +71,9 @@ Outcome draw_section(const Surface& surface, const std::filesystem::path& direct
   return draw(chart, directory, name);
 }
 
-/// 0, step, 2 step ... and the last one: at most about 72, so that the SVG stays small.
-std::vector<std::size_t> thinned(int count) {
-  const int step = std::max(1, (count + 70) / 72);
+/// 0, step, 2 step ... and the last one: at most about `most`, so that the SVG stays small.
+std::vector<std::size_t> thinned(int count, int most) {
+  const int step = std::max(1, (count + most - 2) / most);
   std::vector<std::size_t> out;
   for (int i = 0; i < count - 1; i += step) out.push_back(static_cast<std::size_t>(i));
   out.push_back(static_cast<std::size_t>(count - 1));
@@ -105,22 +120,38 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   // gnuplot centres the base plane: a high surface hangs out below by about this many pixels
   const double drop = 250 * std::clamp(relief * z_scale / plan - 0.15, 0.0, 1.0);
   job.height = 600 + static_cast<int>(list + drop);
-  job.data = "# x y z h of the enriched surface\n";
-  for (const std::size_t j : thinned(surface.rows)) {
-    for (const std::size_t i : thinned(surface.columns)) {
-      const std::size_t sample = j * static_cast<std::size_t>(surface.columns) + i;
-      for (std::size_t a = 0; a < 3; ++a) job.data += number(surface.enriched[3 * sample + a]) + " ";
-      job.data += number(surface.height[sample]) + "\n";
+  job.data = "# x y z h of the enriched surface, one block per segment\n";
+  const auto rows = static_cast<std::size_t>(surface.rows), columns = static_cast<std::size_t>(surface.columns);
+  const std::size_t segments = surface.height.size() / (rows * columns);
+  const int most = std::max(3, static_cast<int>(72 / std::sqrt(static_cast<double>(segments))));
+  const std::vector<std::size_t> j_drawn = thinned(surface.rows, most), i_drawn = thinned(surface.columns, most);
+  const auto line_of = [&](std::size_t s, std::size_t j, std::size_t i) {
+    const std::size_t sample = (s * rows + j) * columns + i;
+    std::string out;
+    for (std::size_t a = 0; a < 3; ++a) out += number(surface.enriched[3 * sample + a]) + " ";
+    return out + number(surface.height[sample]) + "\n";
+  };
+  // those that fail come last and in the colour of offences; the heights are worth more where all do
+  const auto fails = [&](std::size_t s) { return is_wrong(surface, s); };
+  std::vector<std::size_t> order(segments);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto right = static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), std::not_fn(fails)) - order.begin());
+  const std::size_t plain = right == 0 ? segments : right;
+  for (const std::size_t s : order) {
+    for (const std::size_t j : j_drawn) {
+      for (const std::size_t i : i_drawn) job.data += line_of(s, j, i);
+      job.data += "\n";
     }
-    job.data += "\n";
+    job.data += "\n"; // two empty lines: the next surface
   }
 
   Surface scaled = surface;
   for (Place& place : scaled.places) place.x *= length, place.y *= length, place.z *= length;
   std::string subtitle = surface.subtitle;
+  const auto join = [&](const std::string& more) { subtitle += (subtitle.empty() ? "" : "; ") + more; };
+  if (right < segments && segments > 1) join(right == 0 ? "all of them fail" : "those in red fail");
   if (z_scale > 1)
-    subtitle += (subtitle.empty() ? "" : "; ") + std::string("heights drawn ") +
-                std::to_string(static_cast<int>(z_scale)) + " times";
+    join("heights drawn " + std::to_string(static_cast<int>(z_scale)) + " times");
   const double pixels = job.height, foot = (list + drop + 30) / pixels;
   job.script = "reset\nset minussign\nunset key\nset border 15 linewidth 0.8 linecolor rgb '#999999'\n"
                "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30\nset view equal "
@@ -139,6 +170,10 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   job.script += "set xlabel " + gnuplot::text(gnuplot::axis_label("x", surface.unit, power)) +
                 " offset 0,-0.5\nset ylabel " + gnuplot::text(gnuplot::axis_label("y", surface.unit, power)) +
                 " offset 0.5,-0.5\n";
+  const auto [low, high] = std::minmax_element(surface.height.begin(), surface.height.end());
+  if (*low < *high) // else gnuplot would take the range of z
+    job.script += "set cbrange [" + number(*low * std::pow(10.0, -height_power)) + ":" +
+                  number(*high * std::pow(10.0, -height_power)) + "]\n";
   job.script +=
       gnuplot::palette(Map::Palette::viridis) + "set pm3d depthorder lighting primary 0.4 specular 0.05\n";
   for (const std::size_t axis : {0, 1})
@@ -147,8 +182,13 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
                   number((box.max[axis] + 0.01 * plan) * length) + "]\n";
   job.script += marks(scaled, z_scale, 0.22 * plan * length, pixels);
   const std::string l = number(length);
-  job.script += "splot data using ($1*" + l + "):($2*" + l + "):($3*" + number(length * z_scale) + "):($4*" +
-                number(std::pow(10.0, -height_power)) + ") with pm3d\n";
+  const std::string place = "($1*" + l + "):($2*" + l + "):($3*" + number(length * z_scale) + ")";
+  job.script += "splot data index 0:" + std::to_string(plain - 1) + " using " + place + ":($4*" +
+                number(std::pow(10.0, -height_power)) + ") with pm3d";
+  if (plain < segments)
+    job.script += ", data index " + std::to_string(plain) + ":" + std::to_string(segments - 1) + " using " + place +
+                  " with pm3d fillcolor rgb '" + gnuplot::wrong + "'";
+  job.script += "\n";
   return gnuplot::render(job, directory, name);
 }
 
@@ -163,7 +203,8 @@ void check_size(const char* what, std::size_t found, std::size_t expected) {
 Outcome draw(const Surface& surface, const std::filesystem::path& directory, const std::string& name) {
   if (surface.dimension != 2 && surface.dimension != 3)
     throw std::invalid_argument("surface picture: dimension must be 2 or 3");
-  const auto samples = static_cast<std::size_t>(surface.columns) * static_cast<std::size_t>(surface.rows);
+  const auto samples = static_cast<std::size_t>(surface.columns) * static_cast<std::size_t>(surface.rows) *
+                       std::max<std::size_t>(1, surface.wrong.size());
   if (samples == 0) return {{}, "picture " + name + ": nothing to draw"};
   check_size("enriched", surface.enriched.size(), samples * static_cast<std::size_t>(surface.dimension));
   if (surface.dimension == 2) return draw_section(surface, directory, name);

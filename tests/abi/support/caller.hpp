@@ -39,6 +39,7 @@ template <class... A> int32_t state_transfer(A... a) { return in_host(ents_state
 template <class... A> int32_t tributary_areas(A... a) { return in_host(ents_tributary_areas, a...); }
 template <class... A> int32_t surface_evaluate(A... a) { return in_host(ents_surface_evaluate, a...); }
 template <class... A> int32_t model_check(A... a) { return in_host(ents_model_check, a...); }
+template <class... A> int32_t surface_check(A... a) { return in_host(ents_surface_check, a...); }
 template <class... A> int32_t tree_size(A... a) { return in_host(ents_tree_size, a...); }
 template <class... A> int32_t tree_build(A... a) { return in_host(ents_tree_build, a...); }
 template <class... A> int32_t tree_refit(A... a) { return in_host(ents_tree_refit, a...); }

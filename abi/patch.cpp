@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abi/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/segment_tree.hpp"
+
+namespace ents {
+
+namespace {
+
+constexpr int most_nodes = 1 + 16, most_dofs = 3 * most_nodes, most_state = 16;
+
+// One element: which segment it is on now, and the kernel's results spread over the patch's dofs.
+class PatchElement {
+public:
+  PatchElement(const Plan& plan, const PatchedModel& model, const ElementInput& in, const ElementOutput& out)
+      : plan_(plan), patch_(model.patch), in_(in), out_(out), sizes_(sizes_of(plan, model.patch)),
+        d_(plan.dimension), segments_(static_cast<std::int64_t>(patch_.connectivity.size()) / plan.nodes) {
+    const double* s = in.surface_coordinates          ? in.surface_coordinates
+                      : model.own_surface_coordinates ? model.surface_coordinates.data()
+                                                      : nullptr;
+    if (s)
+      for (std::size_t i = 0; i < patch_.connectivity.size(); ++i)
+        for (int t = 0; t < plan.parameters; ++t)
+          coordinates_[i * static_cast<std::size_t>(plan.parameters) + static_cast<std::size_t>(t)] =
+              s[patch_.connectivity[i] * plan.parameters + t];
+    mesh_ = {segments_, patch_.connectivity.data(), patch_.nodes, in.master, s ? coordinates_ : nullptr};
+  }
+
+  Status evaluate() {
+    double sum = 0.0;
+    for (int i = 0; i < patch_.nodes * d_; ++i) sum += 0.0 * in_.master[i];
+    for (int i = 0; i < d_; ++i) sum += 0.0 * in_.slave[i];
+    if (sum != 0.0) return Status::non_finite; // NaN, too
+    if (in_.state_begin && !known_state()) return Status::bad_state;
+
+    Detection found;
+    if (const Status status = choose(found); status != Status::ok) return status;
+    SegmentNodes nodes;
+    if (const Status status = gather(plan_, mesh_, segment_, nodes); status != Status::ok) return status;
+    double state_begin[most_state], state_end[most_state];
+    if (in_.state_begin) {
+      std::copy_n(in_.state_begin, plan_.state.size, state_begin);
+      if (has_history() && before() != segment_) {
+        SegmentNodes old;
+        if (const Status status = gather(plan_, mesh_, before(), old); status != Status::ok) return status;
+        const Status status = plan_.transfer(plan_, old.positions, old.surface_coordinates, nodes.positions,
+                                             nodes.surface_coordinates, in_.state_begin, state_begin);
+        if (status != Status::ok) return status;
+      }
+      if (has_history())
+        for (int t = 0; t < plan_.parameters; ++t) state_begin[StateLayout::xi_at + t] = found.at.xi[t];
+    }
+    const ElementInput element = {in_.slave,     nodes.positions, nodes.surface_coordinates,
+                                  found.at.xi,   in_.area,        in_.state_begin ? state_begin : nullptr,
+                                  in_.multiplier};
+    ElementOutput results = out_;
+    results.state_end = state_end;
+    // What has as many entries as dofs comes here first.
+    const auto local = [&](std::int32_t bit, double*& pointer, double* room) {
+      if ((out_.wanted & bit) != 0 && spreads()) pointer = room;
+    };
+    local(want::gap_gradient, results.gap_gradient, gap_gradient_);
+    local(want::gap_hessian, results.gap_hessian, gap_hessian_);
+    local(want::xi_gradient, results.xi_gradient, xi_gradient_);
+    local(want::xi_hessian, results.xi_hessian, xi_hessian_);
+    local(want::residual, results.residual, residual_);
+    local(want::tangent, results.tangent, tangent_);
+    if (spreads()) results.tangent_leading_dimension = plan_.dofs;
+    const Status status = plan_.element(plan_, element, results);
+    if (status != Status::ok) return status;
+    if ((out_.wanted & want::state) != 0) {
+      std::copy_n(state_end, plan_.state.size, out_.state_end);
+      out_.state_end[plan_.state.size] = static_cast<double>(segment_);
+    }
+    if (spreads()) spread();
+    return Status::ok;
+  }
+
+private:
+  bool spreads() const { return plan_.dofs != d_ + plan_.multipliers; } // a rigid master has no dofs
+  std::int64_t before() const { return static_cast<std::int64_t>(in_.state_begin[plan_.state.size]); }
+  bool has_history() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] != 0.0; }
+  bool known_state() const {
+    const double segment = in_.state_begin[plan_.state.size];
+    return in_.state_begin[StateLayout::tag_at] == plan_.state.tag && segment >= 0.0 &&
+           segment < static_cast<double>(segments_) && segment == std::floor(segment);
+  }
+
+  // The segment of before while the slave is on it; else the best of all; where there is none, the nearest,
+  // and the kernel finds that it is open there.
+  Status choose(Detection& found) {
+    found.segment = has_history() ? before() : -1;
+    for (int t = 0; t < plan_.parameters; ++t)
+      found.at.xi[t] = has_history() ? in_.state_begin[StateLayout::xi_at + t] : 0.0;
+    if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok)
+      return status;
+    segment_ = found.segment;
+    if (segment_ >= 0) {
+      const bool doubtful = found.at.ambiguous && found.at.gap < 0.0 && !has_history();
+      return doubtful ? Status::ambiguous_projection : Status::ok;
+    }
+    if (found.behind_edge) return Status::no_projection;
+    double least = infinity;
+    for (std::int64_t s = 0; s < segments_; ++s) {
+      SegmentNodes nodes;
+      double box[6];
+      if (const Status status = gather(plan_, mesh_, s, nodes); status != Status::ok) return status;
+      plan_.box(plan_, nodes.positions, nodes.surface_coordinates, box, box + d_);
+      const double distance = distance_to_box(d_, in_.slave, box);
+      if (segment_ < 0 || distance < least) segment_ = s, least = distance;
+    }
+    const bool triangle = plan_.nodes == 3 || plan_.nodes == 6;
+    for (double& xi : found.at.xi) xi = d_ == 3 && triangle ? 1.0 / 3.0 : 0.0;
+    return Status::ok;
+  }
+
+  // Dof of the patch that a dof of the kernel's element is.
+  int dof(int local) const {
+    const int nodes = plan_.dofs - plan_.multipliers;
+    if (local < d_) return local;
+    if (local >= nodes) return local - nodes + sizes_.dofs - plan_.multipliers;
+    const std::int64_t node =
+        patch_.connectivity[static_cast<std::size_t>(segment_ * plan_.nodes + local / d_ - 1)];
+    return d_ * (1 + static_cast<int>(node)) + local % d_;
+  }
+
+  void spread_vector(const double* from, int n, int all, double* to) const {
+    std::fill_n(to, all, 0.0);
+    for (int i = 0; i < n; ++i) to[dof(i)] = from[i];
+  }
+  void spread_matrix(const double* from, int n, int all, std::int64_t leading, double* to) const {
+    for (int j = 0; j < all; ++j) std::fill_n(to + j * leading, all, 0.0);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) to[dof(j) * leading + dof(i)] = from[j * n + i];
+  }
+
+  void spread() const {
+    const int n = plan_.dofs - plan_.multipliers, all = sizes_.dofs - plan_.multipliers, w = out_.wanted;
+    if (w & want::gap_gradient) spread_vector(gap_gradient_, n, all, out_.gap_gradient);
+    if (w & want::gap_hessian) spread_matrix(gap_hessian_, n, all, all, out_.gap_hessian);
+    for (int t = 0; t < plan_.parameters; ++t) {
+      if (w & want::xi_gradient) spread_vector(xi_gradient_ + t * n, n, all, out_.xi_gradient + t * all);
+      if (w & want::xi_hessian)
+        spread_matrix(xi_hessian_ + t * n * n, n, all, all, out_.xi_hessian + t * all * all);
+    }
+    if (w & want::residual) spread_vector(residual_, plan_.dofs, sizes_.dofs, out_.residual);
+    if (w & want::tangent)
+      spread_matrix(tangent_, plan_.dofs, sizes_.dofs, out_.tangent_leading_dimension, out_.tangent);
+  }
+
+  const Plan& plan_;
+  const Patch& patch_;
+  const ElementInput& in_;
+  const ElementOutput& out_;
+  const ElementSizes sizes_;
+  const int d_;
+  const std::int64_t segments_;
+  MasterMesh mesh_;
+  std::int64_t segment_ = -1;
+  double coordinates_[most_patch_segments * 16 * 2];
+  double gap_gradient_[most_dofs], gap_hessian_[most_dofs * most_dofs], xi_gradient_[2 * most_dofs],
+      xi_hessian_[2 * most_dofs * most_dofs], residual_[most_dofs + 3],
+      tangent_[(most_dofs + 3) * (most_dofs + 3)];
+};
+
+} // namespace
+
+ElementSizes sizes_of(const Plan& plan, const Patch& patch) {
+  if (patch.empty()) return {plan.nodes, plan.dofs, plan.state.size};
+  const bool rigid = plan.dofs == plan.dimension + plan.multipliers;
+  return {patch.nodes, plan.dimension * (rigid ? 1 : 1 + patch.nodes) + plan.multipliers,
+          plan.state.size + 1};
+}
+
+Status evaluate_patch(const Plan& plan, const PatchedModel& model, const ElementInput& in,
+                      const ElementOutput& out) {
+  return PatchElement(plan, model, in, out).evaluate();
+}
+
+} // namespace ents

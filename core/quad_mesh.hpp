@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A surface of quadrilaterals with one ring of facets laid around its borders, so that every node of the
+// surface lies inside: what is said of inner nodes holds for all.
+#pragma once
+
+#include "core/smoothing.hpp"
+
+namespace ents {
+
+// The facets around a node, counter-clockwise as seen against the normal; `edge[i]` and `edge[i + 1]` are the
+// node's neighbours in facet i, `face[i]` is the node opposite to it.
+struct Ring {
+  std::vector<std::int64_t> edge, face;
+  std::size_t size() const { return edge.size(); }
+};
+
+class QuadMesh {
+public:
+  Refusal build(Ends ends, std::int64_t facets, const std::int64_t* connectivity, std::int64_t nodes);
+
+  std::int64_t facets() const { return facets_; }
+  std::int64_t nodes() const { return nodes_; }
+  // Node at a corner; those from nodes() on are laid around: combinations of the others.
+  std::int64_t node(std::int64_t facet, int corner) const { return corners_[index(4 * facet + corner)]; }
+  const std::vector<Terms>& laid_around() const { return laid_around_; }
+
+  // The ring of the node at a corner of a facet, which is the ring's first.
+  void ring(std::int64_t facet, int corner, Ring& out) const;
+  // How many facets have a node; more than its ring has where parts of the surface touch.
+  std::int64_t incident(std::int64_t node) const { return incident_[index(node)]; }
+
+private:
+  static std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+  static std::int64_t next(std::int64_t half) { return (half & ~std::int64_t{3}) | ((half + 1) & 3); }
+  static std::int64_t previous(std::int64_t half) { return (half & ~std::int64_t{3}) | ((half + 3) & 3); }
+  std::int64_t start(std::int64_t half) const { return corners_[index(half)]; }
+  std::int64_t end(std::int64_t half) const { return corners_[index(next(half))]; }
+  Refusal pair();
+  Refusal extend(Ends ends);
+  std::int64_t lay(Terms terms);
+
+  std::int64_t facets_ = 0, nodes_ = 0;
+  std::vector<std::int64_t> corners_; // [facets][4], those laid around at the end
+  std::vector<std::int64_t> twin_; // of half-edge 4 facet + corner: the same edge in the other facet, or -1
+  std::vector<std::int64_t> incident_;
+  std::vector<Terms> laid_around_;
+};
+
+} // namespace ents

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The picture of `ents-host check`.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "check_mesh.hpp"
+#include "output/pictures.hpp"
+
+namespace host {
+
+/// The enriched surface, the segments in `violations` (one entry each; not 0: it fails) in the colour of offences, and the
+/// worst places. More segments than a picture can show: those around the first place, and the caption says so.
+pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surface,
+                             const std::vector<std::int64_t>& violations, const std::vector<pictures::Place>& places,
+                             bool triangles, const std::filesystem::path& folder);
+
+} // namespace host

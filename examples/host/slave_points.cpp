@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "slave_points.hpp"
+
+#include <map>
+#include <numeric>
+
+#include "error.hpp"
+
+namespace host {
+
+std::array<double, 3> SlavePoints::combine(std::size_t point, const std::vector<double>& field, std::size_t d) const {
+  std::array<double, 3> sum{};
+  for (std::size_t a = 0; a < nodes_per_point; ++a) {
+    const std::size_t at = point * nodes_per_point + a;
+    for (std::size_t i = 0; i < d; ++i) sum[i] += weights[at] * field[static_cast<std::size_t>(nodes[at]) * d + i];
+  }
+  return sum;
+}
+
+std::array<double, 3> SlavePoints::place(std::size_t point, const Mesh& mesh) const {
+  return combine(point, mesh.coordinates, static_cast<std::size_t>(mesh.dimension));
+}
+
+SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,
+                        const SlaveGeometry& geometry) {
+  const std::vector<int> nodes = nodes_of(faces);
+  const std::vector<double> areas = tributary_areas(mesh, faces, nodes, geometry.thickness, geometry.axisymmetric);
+  std::map<int, double> merged; // tied nodes are one node: it carries the areas of all
+  for (std::size_t i = 0; i < nodes.size(); ++i) merged[dofs.representative(nodes[i])] += areas[i];
+  SlavePoints points;
+  for (const auto& [node, area] : merged) {
+    points.nodes.push_back(node);
+    points.weights.push_back(1);
+    points.areas.push_back(area);
+  }
+  if (geometry.equal) {
+    const double total = std::accumulate(points.areas.begin(), points.areas.end(), 0.);
+    points.areas.assign(points.areas.size(), total / static_cast<double>(points.areas.size()));
+  }
+  return points;
+}
+
+SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces, int per_direction,
+                            const SlaveGeometry& geometry, const std::string& where) {
+  const auto count = static_cast<std::size_t>(faces.front().count);
+  std::vector<std::int64_t> connectivity;
+  for (const Face& face : faces) {
+    if (static_cast<std::size_t>(face.count) != count)
+      throw InputError(where + ": the slave's faces must be all triangles or all quadrilaterals");
+    connectivity.insert(connectivity.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+  }
+  const char* facet = mesh.dimension == 2 ? "line2" : (count == 3 ? "tri3" : "quad4");
+  const auto n = static_cast<std::size_t>(per_direction), each = mesh.dimension == 2 ? n : n * n;
+  SlavePoints points;
+  points.nodes_per_point = count;
+  std::vector<std::int64_t> begin(faces.size() * each + 1), nodes(faces.size() * each * count);
+  points.weights.resize(nodes.size());
+  points.areas.resize(faces.size() * each);
+  auto report = ents_struct<ents_report>();
+  const std::int32_t status = library.sampling_points(
+      facet, per_direction, static_cast<std::int64_t>(faces.size()), connectivity.data(), mesh.node_count(),
+      mesh.coordinates.data(), geometry.axisymmetric ? 0 : geometry.thickness, begin.data(), nodes.data(),
+      points.weights.data(), points.areas.data(), &report);
+  if (status != ENTS_OK) throw InputError(where + ": " + describe(library, status, report));
+  points.nodes.assign(nodes.begin(), nodes.end());
+  return points;
+}
+
+} // namespace host

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The slave side of a contact: its nodes, or sampling points inside its faces.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "dof_map.hpp"
+#include "ents_library.hpp"
+#include "mesh.hpp"
+
+namespace host {
+
+/// Points that are combinations of nodes of the mesh, the same number for each.
+struct SlavePoints {
+  std::size_t nodes_per_point = 1;
+  std::vector<int> nodes;      ///< [points][nodes_per_point]
+  std::vector<double> weights; ///< [points][nodes_per_point]
+  std::vector<double> areas;   ///< [points]
+
+  std::size_t size() const { return areas.size(); }
+  bool are_nodes() const { return nodes_per_point == 1; }
+
+  /// Sum of the weights times a field [mesh nodes][d].
+  std::array<double, 3> combine(std::size_t point, const std::vector<double>& field, std::size_t d) const;
+  /// Reference position.
+  std::array<double, 3> place(std::size_t point, const Mesh& mesh) const;
+};
+
+/// What areas are made of.
+struct SlaveGeometry {
+  double thickness = 1;
+  bool axisymmetric = false;
+  bool equal = false; ///< nodes: all the same area, wherever they are
+};
+
+/// The nodes of the faces with their tributary areas; tied nodes are one.
+SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces, const SlaveGeometry& geometry);
+
+/// `per_direction` points per direction inside every face, from the library.
+/// @throws InputError if the faces are not all of one kind
+SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces, int per_direction,
+                            const SlaveGeometry& geometry, const std::string& where);
+
+} // namespace host

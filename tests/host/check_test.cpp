@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents-host check: exit codes, what is printed, and the picture. What the numbers mean is tested in tests/mechanics.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "output/pictures.hpp"
+#include "program.hpp"
+
+namespace host::test {
+namespace {
+
+std::string quoted(const std::filesystem::path& file) { return std::string("'").append(file.string()).append("'"); }
+
+class Check : public testing::Test {
+protected:
+  Check() : folder_(std::filesystem::temp_directory_path() / ("ents_check_" + std::to_string(std::rand()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Check() override { std::filesystem::remove_all(folder_); }
+  std::string write(const std::string& name, const Json& json) const {
+    std::ofstream(folder_ / name) << json;
+    return quoted(folder_ / name);
+  }
+  std::string content(const std::filesystem::path& file) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / file).rdbuf();
+    return text.str();
+  }
+  static const Json& condition(const Json& result, const std::string& name) {
+    for (const Json& entry : result.at("conditions"))
+      if (entry.at("name") == name) return entry;
+    throw std::runtime_error("no condition " + name + " in " + result.dump());
+  }
+  ProgramOutput check(const std::string& model, const std::string& more) const { return ents_host("check " + model + " " + more); }
+  Json result(const std::string& model, const std::string& more, int exit_code) const {
+    const ProgramOutput output = check(model, more + " --json");
+    EXPECT_EQ(output.exit_code, exit_code) << output.text;
+    return Json::parse(output.text);
+  }
+
+  std::filesystem::path folder_;
+  const Json roof_ = {{"nodes", {{0, 0}, {1, 0.5}, {2, 0}}}, {"segments", {{0, 1}, {1, 2}}}};
+};
+
+// The four panels of Fig. 4 as a user meets them: a model, a mesh, and an exit code with a reason.
+TEST_F(Check, TheFourPanelsOfFigureFour) {
+  const double pi = std::acos(-1.0);
+  const Json flat = {{"nodes", {{0, 0}, {1, 0}, {2, 0}}},
+                     {"segments", {{0, 1}, {1, 2}}},
+                     {"surface_coordinates", {{0}, {1}, {2}}}};
+  const std::string mesh = " --mesh " + write("flat.json", flat);
+  const Json wave = {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {1}}};
+  // a: two projections beyond the radius 1 / (a k^2)
+  const double radius = 1 / (0.05 * 4 * pi * pi);
+  const std::string a = write("a.json", {{"segment", "line2"}, {"height", wave}});
+  EXPECT_EQ(check(a, mesh + " --reach " + std::to_string(0.99 * radius)).exit_code, 0);
+  const Json two = result(a, mesh + " --reach " + std::to_string(1.5 * radius), 1);
+  EXPECT_NEAR(condition(two, "projection").at("value").get<double>(), radius, 1e-9);
+  EXPECT_NEAR(condition(two, "projection").at("missing").get<double>(), 0.5 * radius, 2e-6); // digits of --reach
+  // b: self-shadow
+  const auto lit = [&](double x) {
+    return write("b.json", {{"segment", "line2"},
+                            {"height", wave},
+                            {"projection", {{"type", "shadow_direction"}, {"direction", {x, 1}}}}});
+  };
+  EXPECT_EQ(check(lit(1), mesh).exit_code, 0);
+  const Json dark = result(lit(4), mesh, 1);
+  EXPECT_TRUE(condition(dark, "shadow").at("violated").get<bool>());
+  EXPECT_TRUE(condition(dark, "occlusion").at("violated").get<bool>());
+  // c: the height does not vanish on the edges
+  const auto local = [&](double edge) {
+    return write("c.json", {{"segment", "line2"},
+                            {"height", {{"type", "polynomial"}, {"coefficients", {0.1 + edge, 0, -0.1}}}}});
+  };
+  const std::string roof = " --mesh " + write("roof.json", roof_);
+  EXPECT_EQ(check(local(0), roof).exit_code, 0);
+  const Json torn = result(local(0.02), roof, 1);
+  EXPECT_NEAR(condition(torn, "jump").at("value").get<double>(), 0.04 * std::sin(std::atan(0.5)), 1e-12);
+  EXPECT_TRUE(condition(torn, "edge").at("violated").get<bool>());
+  EXPECT_EQ(torn.at("failing_segments"), Json({0, 1}));
+  // d: the surface folds (a parabola under a height beyond its radius 1.25), and neighbours cross (a valley)
+  const auto deep = [&](double h) {
+    return write("d.json", {{"segment", "line3"},
+                            {"surface_coordinates", {{0}, {2}, {1}}},
+                            {"height", {{"type", "constant"}, {"value", h}}}});
+  };
+  const std::string arc =
+      " --mesh " + write("arc.json", {{"nodes", {{-1, 0}, {1, 0}, {0, 0.4}}}, {"segments", {{0, 1, 2}}}});
+  EXPECT_EQ(check(deep(-1.2), arc).exit_code, 0);
+  EXPECT_NEAR(condition(result(deep(-1.3), arc, 1), "fold").at("value").get<double>(), 1.04, 1e-12);
+  const std::string valley =
+      " --mesh " + write("valley.json", {{"nodes", {{0, 0.5}, {1, 0}, {2, 0.5}}}, {"segments", {{0, 1}, {1, 2}}}});
+  const std::string even = write("even.json", {{"segment", "line2"}, {"height", {{"type", "constant"}, {"value", 0.02}}}});
+  const Json crossed = result(even, valley, 1);
+  EXPECT_TRUE(condition(crossed, "crossing").at("violated").get<bool>());
+  EXPECT_NEAR(condition(crossed, "crossing").at("value").get<double>(), 0.02 * (1 - std::cos(2 * std::atan(0.5))), 1e-9);
+}
+
+TEST_F(Check, SaysWhatFailsWhereAndByHowMuch) {
+  const std::string model = write(
+      "model.json", {{"segment", "line2"}, {"height", {{"type", "polynomial"}, {"coefficients", {0.12, 0, -0.1}}}}});
+  const std::string mesh = " --mesh " + write("roof.json", roof_);
+  const ProgramOutput text = check(model, mesh + " --kink 10");
+  EXPECT_EQ(text.exit_code, 1);
+  for (const char* words : {"FAILS", "not admissible: neighbours meet: largest jump of rho_e at an edge is 0.01789",
+                            "segment 0, xi = 1.000; segment 1, xi = -1.000", "2 of 2 segments fail", "bound <= 10.0"})
+    EXPECT_NE(text.text.find(words), std::string::npos) << words << "\n" << text.text;
+  const Json json = result(model, mesh, 1);
+  const Json& jump = condition(json, "jump");
+  EXPECT_EQ(jump.at("segment"), 0);
+  EXPECT_EQ(jump.at("other"), 1);
+  EXPECT_EQ(jump.at("xi"), Json({1.0}));
+  EXPECT_EQ(jump.at("other_xi"), Json({-1.0}));
+  EXPECT_EQ(jump.at("point").size(), 2u);
+  EXPECT_FALSE(condition(json, "kink").at("judged").get<bool>());
+  EXPECT_FALSE(condition(json, "kink").contains("bound"));
+}
+
+// The shipped scan on its one segment: admissible, with two projections beyond some nanometres.
+TEST_F(Check, AMeasuredSurface) {
+  const Json scene = parse_json_file(std::filesystem::path(EXAMPLES) / "rough_afm" / "scene.json");
+  Json text = scene.at("contact").at("model");
+  text["height"]["file"] = std::filesystem::absolute(std::filesystem::path(EXAMPLES) / "rough_afm" / "afm_10um_256.txt").string();
+  const std::string model = write("model.json", text);
+  const std::string mesh = " --samples 257 --mesh " +
+                           write("mesh.json", {{"nodes", scene.at("contact").at("master").at("nodes")}, {"segments", {{0, 1, 2, 3}}}});
+  const Json wide = result(model, mesh, 0);
+  EXPECT_EQ(condition(wide, "continuity").at("value"), 2.0);
+  const double least = condition(wide, "projection").at("value").get<double>();
+  EXPECT_GT(least, 0.0);
+  const Json near = result(model, mesh + " --reach " + std::to_string(10 * least), 1);
+  EXPECT_LE(condition(near, "projection").at("value").get<double>(), least);
+  EXPECT_EQ(condition(near, "projection").at("segment"), 0);
+}
+
+TEST_F(Check, WrongInputIsExitCodeTwo) {
+  const std::string good = write("good.json", {{"segment", "line2"}});
+  EXPECT_EQ(check(good, "").exit_code, 0);
+  EXPECT_EQ(check(quoted(folder_ / "none.json"), "").exit_code, 2);
+  EXPECT_EQ(check(write("model.json", {{"segment", "line7"}}), "").exit_code, 2);
+  EXPECT_EQ(check(good, "--reach -1").exit_code, 2);
+  EXPECT_EQ(check(good, "--kink 200").exit_code, 2);
+  const ProgramOutput corners = check(good, "--mesh " + write("mesh.json", {{"nodes", {{0, 0}, {1, 0}}}, {"segments", {{0, 1, 2}}}}));
+  EXPECT_EQ(corners.exit_code, 2);
+  EXPECT_NE(corners.text.find("the model's segment has 2 nodes, here are 3"), std::string::npos) << corners.text;
+  // a mesh that is read and has no normal: the job fails
+  const ProgramOutput degenerate = check(good, "--mesh " + write("mesh.json", {{"nodes", {{1, 1}, {1, 1}}}, {"segments", {{0, 1}}}}));
+  EXPECT_EQ(degenerate.exit_code, 1);
+  EXPECT_NE(degenerate.text.find("segment 0"), std::string::npos) << degenerate.text;
+}
+
+// The picture shows every segment, those that fail in their own colour, and the worst places.
+TEST_F(Check, ThePictureMarksTheOffences) {
+  const Json sheet = {{"nodes", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0.5}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0.5}, {-1, 0, 0}, {-1, 1, 0}}},
+                      {"segments", {{0, 1, 4, 3}, {1, 2, 5, 4}, {6, 0, 3, 7}}},
+                      {"surface_coordinates", {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {-1, 0}, {-1, 1}}}};
+  const Json bump = {{"type", "gaussian"}, {"amplitude", 0.1}, {"center", {1, 0.5}}, {"width", 0.1}};
+  const std::string model = write("model.json", {{"segment", "quad4"}, {"height", bump}});
+  const std::string out = " --out " + quoted(folder_ / "out");
+  EXPECT_EQ(result(model, "--mesh " + write("sheet.json", sheet) + out, 1).at("failing_segments"), Json({0, 1}));
+  const std::string script = content("out/check.gp"), data = content("out/check.dat");
+  EXPECT_NE(script.find("index 0:0 using"), std::string::npos) << script; // the third, which does not fail
+  EXPECT_NE(script.find("index 1:2 using"), std::string::npos) << script;
+  EXPECT_NE(script.find("neighbours meet"), std::string::npos);
+  EXPECT_NE(script.find("3 segments; those in red fail"), std::string::npos);
+  EXPECT_LT(data.find("-1 0 "), data.find("0.1\n")); // drawn first
+  if (pictures::gnuplot_available()) {
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "check.png"));
+  }
+  // in the plane: a red line beside the dark one
+  const Json line = {{"nodes", {{0, 0}, {1, 0}, {2, 0}, {3, 1}}}, {"segments", {{0, 1}, {1, 2}, {2, 3}}}, {"surface_coordinates", {{0}, {1}, {2}, {3}}}};
+  const std::string plane = write("plane.json", {{"segment", "line2"}, {"height", {{"type", "constant"}, {"value", 0.1}}}});
+  EXPECT_EQ(check(plane, "--mesh " + write("line.json", line) + out).exit_code, 1);
+  EXPECT_NE(content("out/check.gp").find("segments that fail"), std::string::npos);
+  EXPECT_NE(content("out/check.gp").find("segments do not cross"), std::string::npos);
+}
+
+} // namespace
+} // namespace host::test
