@@ -101,7 +101,8 @@ std::string check_sizes(const Element& e, const LoadedModel& model) {
   const int needed = 1 + layout.nodes + (layout.multipliers ? 1 : 0);
   if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers ||
       layout.state_size > largest_state)
-    return "a segment of " + std::to_string(layout.nodes) + " nodes is more than this adapter was built for";
+    return model.file + " has " + std::to_string(layout.nodes) + " master nodes; the adapters take " +
+           std::to_string(largest_nodes - 1);
   if (e.nodes < needed || (e.nodes > needed && !e.host->spare_nodes))
     return model.file + " needs " + std::to_string(needed) + " nodes, the slave node, " +
            std::to_string(layout.nodes) + " master nodes" +

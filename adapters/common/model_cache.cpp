@@ -57,11 +57,12 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
       throw file + ": two lines for element " + std::to_string(loaded.rows[i].element);
 }
 
-/// @return null if the model has no height
+/// @return null if the model has no height, or takes no start
 ents_model* without_height(const std::string& file, const std::string& directory) {
   std::ifstream in(file, std::ios::binary);
   auto model = nlohmann::json::parse(in, nullptr, false);
-  if (!model.is_object() || !model.contains("height") || model["height"].is_null()) return nullptr;
+  if (!model.is_object() || !model.contains("height") || model["height"].is_null() || model.contains("patch"))
+    return nullptr; // on a patch the library finds the start by itself
   model["height"] = nullptr;
   const std::string text = model.dump();
   ents_model* base = nullptr;

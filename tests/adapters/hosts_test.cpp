@@ -40,6 +40,20 @@ TEST(Problems, FrictionMakesTheTangentUnsymmetricAndCutsHappen) {
   EXPECT_GT(solve(p, *plain_host(p.elements)).cuts, 0);
 }
 
+TEST(Problems, SlaveNodesOfAPatchMoveOnToItsNextSegment) {
+  const Problem p = problem("line2_patch");
+  const Solution solution = solve(p, *plain_host(p.elements));
+  const std::size_t unknowns = p.target.size(), last = solution.displacement.size() - unknowns;
+  const auto x = [&](int node, std::size_t from) {
+    const auto at = static_cast<std::size_t>(2 * node);
+    return p.elements.reference[at] + solution.displacement[from + at];
+  };
+  int crossed = 0;
+  for (const auto& nodes : p.elements.nodes)
+    crossed += x(nodes[0], 0) < x(nodes[2], 0) && x(nodes[0], last) > x(nodes[2], last);
+  EXPECT_GE(crossed, 5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Adapters, EveryHost, testing::ValuesIn(hosts_and_problems()), [](const auto& test) {
   return std::get<0>(test.param).name + "_" + std::get<1>(test.param);
 });

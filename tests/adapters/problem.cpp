@@ -46,6 +46,11 @@ const Kind kinds[] = {
      R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]}, "penetration_limit": 0.06,
          "contact": {"normal": {"type": "penalty", "stiffness": 400},
                      "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 200}}})"},
+    // Slave nodes slide from the first segment of the element to the second.
+    {"line2_patch", 18, 2,
+     R"({"segment": "line2", "patch": [[0, 1], [1, 2], [2, 3]],
+         "contact": {"normal": {"type": "penalty", "stiffness": 400},
+                     "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 200}}})"},
 };
 
 } // namespace
@@ -110,6 +115,10 @@ Problem problem(const std::string& name) {
         const double middle = a == 0 ? 4.0 * segment : 0.0;
         x[static_cast<std::size_t>(a)] = middle + (m == 3 ? -0.35 : 0.0) + uniform(-0.3, 0.1);
         target[static_cast<std::size_t>(a)] = uniform(0.1, 0.2);
+      }
+      if (m == 4 && d == 2) { // a polyline
+        x[0] = 4.0 * segment + uniform(0.7, 0.8);
+        target[0] = uniform(0.5, 0.6);
       }
       x.back() = uniform(0.12, 0.2);
       target.back() = -uniform(0.25, 0.4);
