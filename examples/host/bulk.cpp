@@ -113,7 +113,7 @@ void Bulk::stress_of_group(const ElementGroup& group, const std::vector<double>&
                           : evaluate(setup.material, H, false, material_point);
       if (!ok) continue;
       Matrix3 cauchy = material_point.stress;
-      if (setup.material.law == Material::Law::neo_hooke) {
+      if (setup.material.law != Material::Law::linear_elastic) {
         const Matrix3 F = Matrix3::Identity() + H;
         cauchy = material_point.stress * F.transpose() / F.determinant();
       }

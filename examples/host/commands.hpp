@@ -19,6 +19,7 @@ struct RunOptions {
   int explicit_divisions = 0;       ///< > 0: the master as an explicit mesh of plain segments
   bool compare = false;             ///< the scene against explicit meshes
   std::vector<int> compare_divisions; ///< empty: the scene's own list
+  std::string adapter = "plain"; ///< of adapter_names()
   bool pictures = true;
   std::string variant;  ///< of the scene; empty: the scene as it is
   bool nodes = false;   ///< fields of the slave nodes in the JSON result

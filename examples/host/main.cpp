@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "adapter.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 
@@ -37,9 +38,8 @@ int main(int argc, char** argv) {
                       "folder for result.json, the VTU series (open result.pvd in ParaView) and the pictures; without "
                       "it only the terminal is told")
       ->type_name("DIR");
-  std::string adapter = "plain";
-  run_app->add_option("--adapter", adapter, "how the contact reaches the library")
-      ->check(CLI::IsMember({"plain"}))
+  run_app->add_option("--adapter", run.adapter, "how the contact reaches the library: directly, or through the adapter of another program")
+      ->check(CLI::IsMember(adapter_names()))
       ->capture_default_str();
   run_app->add_option("--explicit", run.explicit_divisions,
                       "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")

@@ -12,11 +12,12 @@ namespace host {
 using Matrix3 = Eigen::Matrix3d;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
-/// Linear elasticity (small strains and rotations, W = mu |sym H|^2 + lambda/2 tr(H)^2), or the compressible
+/// Linear elasticity (small strains and rotations, W = mu |sym H|^2 + lambda/2 tr(H)^2), St. Venant and
+/// Kirchhoff's material, the same of Green's strain E = (F^T F - 1)/2 (what codes call linear elastic at finite rotations), or the compressible
 /// neo-Hooke material W = mu/2 (|F|^2 - 3) - mu ln J + lambda/2 (ln J)^2, F = 1 + H, J = det F
 /// (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27).
 struct Material {
-  enum class Law { linear_elastic, neo_hooke };
+  enum class Law { linear_elastic, st_venant_kirchhoff, neo_hooke };
   Law law = Law::linear_elastic;
   double young = 1;   ///< E > 0 [F/L^2]
   double poisson = 0; ///< -1 < nu < 0.5
@@ -57,6 +58,24 @@ inline bool evaluate(const Material& material, const Matrix3& gradient, bool wan
   const Matrix3 deformation = Matrix3::Identity() + gradient;
   const double jacobian = deformation.determinant();
   if (!(jacobian > 0) || !std::isfinite(jacobian)) return false;
+  if (material.law == Material::Law::st_venant_kirchhoff) {
+    const Matrix3 strain = 0.5 * (gradient + gradient.transpose() + gradient.transpose() * gradient);
+    const double trace = strain.trace();
+    const Matrix3 second = 2 * mu * strain + lambda * trace * Matrix3::Identity(); // second Piola-Kirchhoff stress
+    point.energy = mu * strain.squaredNorm() + 0.5 * lambda * trace * trace;
+    point.stress = deformation * second;
+    if (want_tangent) {
+      const Matrix3 left = deformation * deformation.transpose();
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l)
+              point.tangent(3 * i + j, 3 * k + l) =
+                  (i == k ? second(j, l) : 0) + lambda * deformation(i, j) * deformation(k, l) +
+                  mu * ((j == l ? left(i, k) : 0) + deformation(i, l) * deformation(k, j));
+    }
+    return true;
+  }
   const Matrix3 inverse = deformation.inverse();
   const double log_jacobian = std::log(jacobian);
   point.energy = 0.5 * mu * (deformation.squaredNorm() - 3) - mu * log_jacobian +

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "adapter.hpp"
 #include "commands.hpp"
 #include "result.hpp"
 
@@ -43,6 +44,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.variant);
   std::unique_ptr<EntsLibrary> library;
   if (scene.contact) library = std::make_unique<EntsLibrary>(common.library);
+  if (library) install_adapter(*library, options.adapter);
   Simulation simulation(scene, library.get(), options.explicit_divisions);
 
   StepPlan plan;

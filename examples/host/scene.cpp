@@ -14,9 +14,10 @@ using Materials = std::map<std::string, Material>;
 Material read_material(const JsonValue& value) {
   JsonObject object(value);
   Material material;
-  material.law = object.at("law").word({"linear_elastic", "neo_hooke"}) == "neo_hooke"
-                     ? Material::Law::neo_hooke
-                     : Material::Law::linear_elastic;
+  const std::string law = object.at("law").word({"linear_elastic", "st_venant_kirchhoff", "neo_hooke"});
+  material.law = law == "neo_hooke"             ? Material::Law::neo_hooke
+                 : law == "st_venant_kirchhoff" ? Material::Law::st_venant_kirchhoff
+                                                : Material::Law::linear_elastic;
   material.young = object.at("young").positive();
   material.poisson = object.at("poisson").number();
   if (!(material.poisson > -1 && material.poisson < 0.5))

@@ -23,9 +23,11 @@ Eigen::Matrix<double, 9, 1> flat(const Matrix3& matrix) {
   return vector;
 }
 
-TEST(Material, NeoHookeStressAndTangentAreDerivatives) {
+class FiniteStrain : public testing::TestWithParam<Material::Law> {};
+
+TEST_P(FiniteStrain, StressAndTangentAreDerivatives) {
   test::Random random(1);
-  const Material material{Material::Law::neo_hooke, 210, 0.3};
+  const Material material{GetParam(), 210, 0.3};
   for (int sample = 0; sample < 50; ++sample) {
     const Matrix3 gradient = random_gradient(random, 0.3), direction = random_gradient(random, 1);
     MaterialPoint point, moved;
@@ -46,9 +48,9 @@ TEST(Material, NeoHookeStressAndTangentAreDerivatives) {
   }
 }
 
-TEST(Material, NeoHookeIsLinearElasticForSmallStrains) {
+TEST_P(FiniteStrain, IsLinearElasticForSmallStrains) {
   test::Random random(2);
-  const Material finite{Material::Law::neo_hooke, 210, 0.3}, small{Material::Law::linear_elastic, 210, 0.3};
+  const Material finite{GetParam(), 210, 0.3}, small{Material::Law::linear_elastic, 210, 0.3};
   const Matrix3 gradient = 1e-7 * random_gradient(random, 1);
   MaterialPoint a, b;
   ASSERT_TRUE(evaluate(finite, gradient, true, a));
@@ -58,8 +60,8 @@ TEST(Material, NeoHookeIsLinearElasticForSmallStrains) {
   EXPECT_LT((a.tangent - b.tangent).norm(), 1e-6 * b.tangent.norm());
 }
 
-TEST(Material, StressVanishesUnderRotation) {
-  const Material material{Material::Law::neo_hooke, 210, 0.3};
+TEST_P(FiniteStrain, StressVanishesUnderRotation) {
+  const Material material{GetParam(), 210, 0.3};
   const Matrix3 rotation = (Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized())).toRotationMatrix();
   MaterialPoint point;
   ASSERT_TRUE(evaluate(material, rotation - Matrix3::Identity(), false, point));
@@ -69,7 +71,7 @@ TEST(Material, StressVanishesUnderRotation) {
 
 TEST(Material, PlaneStressHasNone) {
   test::Random random(3);
-  for (const auto law : {Material::Law::linear_elastic, Material::Law::neo_hooke}) {
+  for (const auto law : {Material::Law::linear_elastic, Material::Law::st_venant_kirchhoff, Material::Law::neo_hooke}) {
     const Material material{law, 210, 0.3};
     for (int sample = 0; sample < 20; ++sample) {
       Matrix3 gradient = random_gradient(random, 0.2);
@@ -98,13 +100,19 @@ TEST(Material, PlaneStressHasNone) {
   }
 }
 
-TEST(Material, InsideOutIsRefused) {
-  const Material material{Material::Law::neo_hooke, 210, 0.3};
+TEST_P(FiniteStrain, InsideOutIsRefused) {
+  const Material material{GetParam(), 210, 0.3};
   Matrix3 gradient = Matrix3::Zero();
   gradient(0, 0) = -1.5;
   MaterialPoint point;
   EXPECT_FALSE(evaluate(material, gradient, true, point));
 }
+
+INSTANTIATE_TEST_SUITE_P(Material, FiniteStrain,
+                         testing::Values(Material::Law::st_venant_kirchhoff, Material::Law::neo_hooke),
+                         [](const auto& test) {
+                           return test.param == Material::Law::neo_hooke ? "neo_hooke" : "st_venant_kirchhoff";
+                         });
 
 } // namespace
 } // namespace host

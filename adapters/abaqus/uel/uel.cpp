@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Abaqus/Standard UEL, and the programs that load one: MOOSE and OOFEM, which pass fewer arguments.
+#include <cmath>
+#include <limits>
+
+#include "../../common/element.hpp"
+#include "../abaqus.hpp"
+
+namespace {
+
+using namespace ents_adapter;
+
+constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
+                    abaqus::job_directory};
+
+/// LFLAGS(3): what is to be formed.
+enum class Request {
+  residual_and_stiffness = 1,
+  stiffness = 2,
+  damping = 3,
+  mass = 4,
+  residual = 5,
+  mass_and_residual = 6,
+  perturbation_output = 100
+};
+
+void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int mlvarx) {
+  for (int k = 0; rhs && k < columns; ++k)
+    for (int i = 0; i < dofs; ++i) rhs[i + static_cast<std::ptrdiff_t>(k) * mlvarx] = value;
+  for (std::ptrdiff_t i = 0; amatrx && i < static_cast<std::ptrdiff_t>(dofs) * dofs; ++i) amatrx[i] = value;
+}
+
+} // namespace
+
+ENTS_ENTRY(uel, UEL,
+           (double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs, int* nsvars,
+            double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double*,
+            double*, int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*,
+            int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
+  const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
+  const auto request = static_cast<Request>(lflags && lflags[2] ? lflags[2] : 1);
+  const bool perturbation = lflags && lflags[3] == 1;
+  fill(0, rhs, amatrx, dofs, columns, *mlvarx);
+  if (request == Request::damping || request == Request::mass || request == Request::perturbation_output)
+    return;
+
+  Element e;
+  e.host = &host;
+  e.number = jelem ? *jelem : -1;
+  e.nodes = nodes;
+  e.dofs = nodes > 0 ? dofs / nodes : 0;
+  e.coordinates = *mcrd;
+  e.properties = {props};
+  e.property_count = *nprops;
+  e.position = {coords, 1, *mcrd};
+  e.displacement = {u, 1, e.dofs};
+  const int option = options(e.properties, e.property_count);
+  if (option > 0 && (option & option_old_displacement)) e.increment = {du, 1, e.dofs};
+  e.history = {svars};
+  e.history_size = *nsvars;
+  e.sign = -1; // RHS is external minus internal force
+  e.tangent_sign = option > 0 && (option & option_negative_tangent) ? -1 : 1;
+  if (request != Request::stiffness && !perturbation) e.residual = {rhs, 1, e.dofs};
+  if (request == Request::residual_and_stiffness || request == Request::stiffness)
+    e.tangent = {amatrx, 1, dofs};
+  if (request == Request::residual_and_stiffness && !perturbation) {
+    e.history_end = {svars};
+    if (energy) e.energy = energy + 1; // elastic strain energy
+  }
+
+  const Result result = evaluate(e);
+  if (result.outcome == Outcome::done) {
+    if (result.message[0]) abaqus::tell(abaqus::Severity::information, result.message);
+    // About the base state U the forces of the perturbation DU are -K DU.
+    if (perturbation && e.tangent) negative_product({amatrx, 1, dofs}, dofs, du, rhs);
+    return;
+  }
+  const bool cut = result.outcome == Outcome::cut && pnewdt;
+  if (cut) *pnewdt = result.step_factor;
+  abaqus::tell(cut ? abaqus::Severity::information : abaqus::Severity::error, result.message);
+  // A host that can neither cut nor stop gets numbers that it cannot take for a solution.
+  if (!abaqus::is_host() || (!cut && !abaqus::stop()))
+    fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
+}

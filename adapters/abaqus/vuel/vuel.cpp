@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Abaqus/Explicit VUEL, double precision: blocks of elements, the block index first in every array.
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "../../common/element.hpp"
+#include "../abaqus.hpp"
+
+namespace {
+
+using namespace ents_adapter;
+
+constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
+                    abaqus::job_directory};
+
+enum Operation { form_mass = 1, form_internal_force = 2, form_external_force = 3 }; // lflags(3)
+constexpr int internal_energy = 2;                                                  // energy(:,3)
+
+} // namespace
+
+ENTS_ENTRY(vuel, VUEL,
+           (int* nblock, double* rhs, double* amass, double* dtime_stable, double* svars, int* nsvars,
+            double* energy, int* nnode, int* ndofel, double* props, int* nprops, int*, int*, double* coords,
+            int* mcrd, double* u, double*, double*, double*, int*, int* jelem, double*, double* period,
+            double*, double*, int*, int*, int* lflags, double*, double*, int*, int*, double*)) {
+  const std::ptrdiff_t block = *nblock, dofs = *ndofel, nodes = *nnode;
+  if (lflags[2] == form_mass) {
+    std::fill(amass, amass + block * dofs * dofs, 0.0); // that of the bodies
+    return;
+  }
+  std::fill(rhs, rhs + block * dofs, 0.0);
+  if (lflags[2] != form_internal_force) return;
+  for (std::ptrdiff_t b = 0; b < block; ++b) {
+    Element e;
+    e.host = &host;
+    e.number = jelem[b];
+    e.nodes = *nnode;
+    e.dofs = *nnode > 0 ? *ndofel / *nnode : 0;
+    e.coordinates = *mcrd;
+    e.position = {coords + b, block * nodes, block};
+    e.displacement = {u + b, block, block * e.dofs};
+    e.properties = {props};
+    e.property_count = *nprops;
+    e.history = {svars + b, block};
+    e.history_size = *nsvars;
+    const int option = options(e.properties, e.property_count);
+    e.sign = option > 0 && (option & option_negative_tangent) ? -1 : 1;
+    e.residual = {rhs + b, block, block * e.dofs};
+    e.history_end = {svars + b, block};
+    e.energy = energy + b + block * internal_energy;
+    dtime_stable[b] = *period; // the element has no mass of its own, so no limit either
+    const Result result = evaluate(e);
+    if (result.outcome == Outcome::done) continue;
+    abaqus::tell(abaqus::Severity::error, result.message); // an explicit increment cannot be repeated
+    if (!abaqus::stop()) std::fill(rhs, rhs + block * dofs, std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// CalculiX (ccx 2.20): element U1E.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "../common/element.hpp"
+#include "stiffness_store.hpp"
+
+#define CCX_API extern "C" __attribute__((visibility("default")))
+
+namespace {
+
+using namespace ents_adapter;
+
+constexpr int property_count = 3; // ccx does not tell a user element how many CONSTANTS there are
+constexpr Host host{"*USER ELEMENT, NODES=", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry ",
+                    [] { return std::string(); }};
+
+Element describe(int nelem, const char* label, const double* properties) {
+  Element e;
+  e.host = &host;
+  e.number = nelem;
+  e.nodes = static_cast<unsigned char>(label[7]);
+  e.dofs = e.coordinates = 3;
+  e.properties = {properties};
+  e.property_count = property_count;
+  if (static_cast<unsigned char>(label[6]) != 3) ccx::stop("U1E", "write *USER ELEMENT, MAXDOF=3");
+  if (3 * e.nodes > ccx::leading_dimension) ccx::stop("U1E", "more than 20 nodes");
+  return e;
+}
+
+} // namespace
+
+/// Force pass: fn += R; history of the increment.
+CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
+                             const double* co, const double* v, const int* mi, const int* ielprop,
+                             const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
+                             const int* calcul_qa, const double* xstateini, double* xstate,
+                             const int* nstate_, std::size_t) {
+  Element e = describe(*nelem, lakonl, prop + ielprop[*nelem - 1]);
+  const int* nodes = kon + ipkon[*nelem - 1];
+  const int dofs = 3 * e.nodes;
+  const auto nodal = [&](int i) {
+    return static_cast<std::ptrdiff_t>(mi[1] + 1) * (nodes[i / 3] - 1) + 1 + i % 3;
+  };
+  double reference[ccx::leading_dimension], displacement[ccx::leading_dimension],
+      residual[ccx::leading_dimension];
+  for (int i = 0; i < dofs; ++i) {
+    reference[i] = co[3 * (nodes[i / 3] - 1) + i % 3];
+    displacement[i] = v[nodal(i)];
+  }
+  std::vector<double>& tangent = ccx::stiffness(*nelem);
+  tangent.resize(static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs));
+  const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(*nstate_) * mi[0] * (*nelem - 1);
+  e.position = {reference, 1, 3};
+  e.displacement = {displacement, 1, 3};
+  e.history = {xstateini + at};
+  e.history_size = *nstate_;
+  e.residual = {residual, 1, 3};
+  e.tangent = {tangent.data(), 1, dofs};
+  e.history_end = {xstate + at};
+  const Result result = evaluate(e);
+  if (result.outcome == Outcome::failed) ccx::stop("U1E", result.message);
+  if (result.outcome == Outcome::cut)
+    qa[2] = qa[2] > 0 ? std::fmin(qa[2], result.step_factor) : result.step_factor;
+  if (result.message[0]) std::printf(" %s\n", result.message);
+  for (int i = 0; i < dofs; ++i) {
+    if (*calcul_fn == 1) fn[nodal(i)] += residual[i];
+    if (*calcul_qa == 1) qa[0] += std::fabs(residual[i]);
+  }
+  if (*calcul_qa == 1) *nal += dofs;
+}
+
+/// Before the first increment: does a contact element need ccx's unsymmetric solver?
+CCX_API int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
+                                  const double* prop) {
+  for (int i = 0; i < *ne; ++i) {
+    if (ipkon[i] < 0 || std::strncmp(lakon + 8 * i, "U1E", 3) != 0) continue;
+    Element e = describe(i + 1, lakon + 8 * i, prop + ielprop[i]);
+    e.history_size = 64; // the force pass looks at it
+    const Result result = check(e);
+    if (result.outcome == Outcome::failed) ccx::stop("U1E", result.message);
+    if (!result.symmetric) return 1;
+  }
+  return 0;
+}

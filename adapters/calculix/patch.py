@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Teach the sources of ccx 2.20 the elements U1E and U1A of libents_calculix.so.
+
+usage: patch.py CCX_SOURCES OUT
+
+Writes the six changed files to OUT. ccx itself is not part of this project (GPL); its files are read from CCX_SOURCES, the folder
+with ccx_2.20.c. Every place that is changed must be there exactly once: another version of ccx is refused, not damaged."""
+import pathlib
+import sys
+
+# file: [(text that must be there once, text that takes its place)]
+PATCHES = {
+    # stiffness pass
+    "e_c3d_u.f": [(
+        "      if(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(",
+        "      if((lakonl(2:3).eq.'1E').or.(lakonl(2:3).eq.'1A')) then\n"
+        "        call ents_ccx_stiffness(nelem,lakonl,s,sm,ff)\n"
+        "      elseif(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(")],
+    # force pass
+    "resultsmech_u.f": [(
+        "      if(lakon(nelem)(2:2).eq.'1') then\n",
+        "      if(lakon(nelem)(2:3).eq.'1E') then\n"
+        "         call ents_ccx_force(nelem,kon,ipkon,lakon(nelem),co,v,mi,\n"
+        "     &        ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,\n"
+        "     &        xstateini,xstate,nstate_)\n"
+        "      elseif(lakon(nelem)(2:3).eq.'1A') then\n"
+        "         call ents_ccx_uel_force(nelem,kon,ipkon,lakon(nelem),co,v,\n"
+        "     &        vini,mi,ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,\n"
+        "     &        xstateini,xstate,nstate_,time,ttime,dtime,istep,iinc)\n"
+        "      elseif(lakon(nelem)(2:2).eq.'1') then\n")],
+    # with the unsymmetric solver the elements are assembled by mafillsmas, as ccx does with its own frictional contact
+    "mafillsm.f": [(
+        "            ndof=ichar(lakon(i)(7:7))\n            nope=ichar(lakon(i)(8:8))\n          else\n            cycle\n"
+        "          endif\n!     \nc     mortar start\n",
+        "            if((nasym.eq.1).and.((lakon(i)(1:3).eq.'U1E').or.\n"
+        "     &           (lakon(i)(1:3).eq.'U1A'))) cycle\n"
+        "            ndof=ichar(lakon(i)(7:7))\n            nope=ichar(lakon(i)(8:8))\n          else\n            cycle\n"
+        "          endif\n!     \nc     mortar start\n")],
+    "mafillsmas.f": [
+        ("          if(lakon(i)(1:2).ne.'ES') cycle\n",
+         "          if((lakon(i)(1:3).eq.'U1E').or.\n"
+         "     &       (lakon(i)(1:3).eq.'U1A')) then\n"
+         "            indexe=ipkon(i)\n"
+         "            nope=ichar(lakon(i)(8:8))\n"
+         "            call ents_ccx_stiffness(i,lakon(i),s,sm,ff)\n"
+         "          else\n"
+         "          if(lakon(i)(1:2).ne.'ES') cycle\n"),
+        ("     &         set,nset,islavelinv,autloc1,irowtloc1,jqtloc1,\n"
+         "     &         mortartrafoflag)\n!     \n          do jj=1,3*nope\n",
+         "     &         set,nset,islavelinv,autloc1,irowtloc1,jqtloc1,\n"
+         "     &         mortartrafoflag)\n          endif\n!     \n          do jj=1,3*nope\n")],
+    # ... which looks at all elements then, not only at those of contact pairs
+    "mafillsmasmain.c": [(
+        "  if(nec>0){\n",
+        "  if(*ne>0){\n    elementcpuload(neaparm,nebparm,ne,ipkon,&num_cpus);\n  }else if(nec>0){\n")],
+    "nonlingeo.c": [(
+        "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,",
+        "  extern ITG ents_ccx_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
+        "  extern ITG ents_ccx_uel_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
+        "  if(ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop)||\n"
+        "     ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop)) nasym=1;\n"
+        "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,"),
+        # with friction an increment starts where the last one ended, as ccx does after other discontinuities: from a state extrapolated
+        # along the sliding, nodes that stick start slipping, and Newton's iteration throws them to and fro
+        ("    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],",
+         "    if(nasym==1) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],")],
+}
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    sources, out = map(pathlib.Path, sys.argv[1:])
+    out.mkdir(parents=True, exist_ok=True)
+    for name, changes in PATCHES.items():
+        text = (sources / name).read_text(encoding="latin-1")
+        for old, new in changes:
+            if text.count(old) != 1:
+                sys.exit(f"patch.py: {sources / name}: {text.count(old)} places instead of 1 read:\n{old}\nIs this ccx 2.20?")
+            text = text.replace(old, new)
+        (out / name).write_text(text, encoding="latin-1")
+    print(f"patched: {', '.join(PATCHES)}")
+
+
+main()

@@ -1,0 +1,133 @@
+#!/bin/sh
+# Build ccx with ents from Debian's source package, solve the examples with it and with ents-host, compare.
+set -eu
+
+usage() {
+  cat <<'HELP'
+usage: sh adapters/calculix/run.sh [--build DIR] [--only-build]
+
+  --build DIR   this project's build folder (default: build); ccx goes to DIR/calculix
+  --only-build  leave the program DIR/calculix/ccx_ents and stop
+
+Fetches the source package calculix-ccx with apt-get (no system file is changed), installs the libraries that ccx needs (as root, or
+through sudo when it asks for no password), compiles ccx 2.20 once (1 to 3 minutes) and links it with libents_calculix.so.
+
+exit status: 0 done; 1 failed, or the answers differ; 2 wrong command line or a package is missing; 3 the source package cannot be had here
+HELP
+}
+
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+build=$root/build only_build=
+while [ $# -gt 0 ]; do
+  case $1 in
+    -h | --help) usage; exit 0 ;;
+    --build) [ $# -ge 2 ] || { usage >&2; exit 2; }; build=$2; shift ;;
+    --only-build) only_build=yes ;;
+    *) echo "run.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
+  esac
+  shift
+done
+mkdir -p "$build/calculix"
+build=$(cd "$build" && pwd)
+work=$build/calculix
+log=$work/log
+exec 3>&1
+step() { echo "== $*" >&3; }
+failed() { tail -n 30 "$log" >&2; echo "run.sh: $* (whole output: $log)" >&2; exit 1; }
+
+# 1. Libraries and tools.
+packages='g++ gfortran make python3-minimal libspooles-dev libarpack2-dev liblapack-dev dpkg-dev'
+command -v apt-get >/dev/null 2>&1 || { echo "run.sh: no apt-get here, so no Debian source package of ccx"; exit 3; }
+wanted=$(for package in $packages; do
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || printf '%s ' "$package"
+done)
+if [ -n "$wanted" ]; then
+  as_root=
+  if [ "$(id -u)" -ne 0 ]; then
+    sudo -n true 2>/dev/null || { echo "run.sh: as root: apt-get install $wanted" >&2; exit 2; }
+    as_root='sudo -n'
+  fi
+  step "installing: $wanted"
+  # shellcheck disable=SC2086 # the list is words
+  if ! { $as_root apt-get -qq update && $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $wanted; } >"$log" 2>&1; then
+    tail -n 5 "$log" >&2
+    echo "run.sh: missing and cannot be installed: $wanted" >&2
+    exit 2
+  fi
+fi
+
+# 2. Sources: the machine's own package sources, as deb-src, with lists of their own.
+sources() { find "$work" -name ccx_2.20.c -exec dirname {} \; | head -n 1; }
+if [ -z "$(sources)" ]; then
+  step "fetching the source package calculix-ccx"
+  mkdir -p "$work/apt/lists/partial" "$work/apt/parts"
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [ -f "$file" ] && sed -n 's/^deb /deb-src /p' "$file"
+  done >"$work/apt/sources.list"
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [ -f "$file" ] && sed 's/^Types:.*/Types: deb-src/' "$file" >"$work/apt/parts/$(basename "$file")"
+  done
+  from="-o Dir::Etc::SourceList=$work/apt/sources.list -o Dir::Etc::SourceParts=$work/apt/parts -o Dir::State::Lists=$work/apt/lists"
+  # shellcheck disable=SC2086 # the options are words
+  (cd "$work" && apt-get $from update && apt-get $from source calculix-ccx=2.20-1) >"$log" 2>&1 || {
+    tail -n 5 "$log"
+    echo "run.sh: the source package calculix-ccx 2.20-1 cannot be had here (no network?)"
+    exit 3
+  }
+fi
+ccx=$(sources)
+[ -n "$ccx" ] || { echo "run.sh: the source package has no ccx_2.20.c" >&2; exit 1; }
+
+# 3. ccx itself, once.
+fortran='-O2 -w -fallow-argument-mismatch'
+if [ ! -f "$ccx/ccx_2.20.a" ] || [ ! -f "$ccx/ccx_2.20.o" ]; then
+  step "compiling ccx 2.20"
+  # Its own link step may miss libraries; what counts are the objects.
+  (cd "$ccx" && make -j"$(nproc)" 'CFLAGS=-O2 -w -I/usr/include/spooles -DARCH="Linux" -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1' \
+    "FFLAGS=$fortran") >"$log" 2>&1 || true
+  [ -f "$ccx/ccx_2.20.a" ] && [ -f "$ccx/ccx_2.20.o" ] || failed "ccx did not compile"
+fi
+
+# 4. The adapter, the six changed routines, and the program.
+if [ ! -f "$build/lib/libents_calculix.so" ] || [ ! -f "$build/lib/libents_abaqus.so" ] || [ ! -f "$build/bin/ents-host" ]; then
+  step "building ents"
+  cmake --build "$build" --target ents_calculix ents_abaqus ents-host --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
+fi
+step "linking ccx with libents_calculix.so"
+rm -rf "$work/patched"
+python3 "$here/patch.py" "$ccx" "$work/patched"
+cd "$work/patched"
+{
+  for file in *.c; do gcc -O2 -w -I/usr/include/spooles -I"$ccx" -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1 -c "$file"; done &&
+    for file in *.f; do gfortran $fortran -c "$file"; done &&
+    gfortran -O2 -fopenmp -o ../ccx_ents "$ccx/ccx_2.20.o" ./*.o "$ccx/ccx_2.20.a" \
+      -L"$build/lib" -lents_calculix -lents -Wl,-rpath,"$build/lib" -lspooles -lpthread -larpack -llapack -lblas -lm
+} >"$log" 2>&1 || failed "ccx did not link"
+[ -z "$only_build" ] || exit 0
+
+# 5. The same problems in ccx and in the reference host.
+status=0
+export CCX_UEL="$build/lib/libents_abaqus.so" # what U1A loads
+for name in sphere texture friction; do for element in U1E U1A; do
+  step "$name, $element"
+  rm -rf "${work:?}/$name"
+  python3 "$here/example/make.py" "$name" $element "$work/$name"
+  for threads in 1 2; do
+    (cd "$work/$name" && OMP_NUM_THREADS=$threads "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped"
+    [ $threads -eq 1 ] && mv "$work/$name/job.dat" "$work/$name/one_thread.dat"
+    cp "$log" "$work/$name/ccx.log"
+  done
+  "$build/bin/ents-host" run "$work/$name/scene.json" --out "$work/$name/host" >"$log" 2>&1 || failed "ents-host failed"
+  python3 "$here/example/compare.py" "$work/$name" || status=1
+done; done
+
+# 6. A mistake in the deck reaches the user as ccx's own errors do.
+step "a mistake"
+cd "$work/sphere"
+code=0
+python3 "$here/example/make.py" sphere U1E .
+rm ents_1.json
+OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
+grep 'ERROR in U1E.*ents_1.json' "$log" && [ $code -eq 201 ] || { echo "run.sh: no message, or exit status $code instead of 201" >&2; status=1; }
+exit $status

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stiffness_store.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace ccx {
+
+std::vector<double>& stiffness(int element) {
+  // Never freed: threads of the host may outlive static objects.
+  static std::mutex& mutex = *new std::mutex;
+  static auto& all = *new std::map<int, std::vector<double>>;
+  const std::lock_guard lock(mutex);
+  return all[element];
+}
+
+void stop(const char* label, const char* message) {
+  std::printf("*ERROR in %s: %s\n", label, message);
+  std::fflush(stdout);
+  std::_Exit(201); // ccx's own status; other threads are still running
+}
+
+} // namespace ccx
+
+/// Stiffness pass of U1E and U1A: s = K, no mass, no load.
+extern "C" __attribute__((visibility("default"))) void
+ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm, double* ff, std::size_t) {
+  const int dofs = 3 * static_cast<unsigned char>(lakonl[7]);
+  if (dofs > ccx::leading_dimension) ccx::stop("U1E, U1A", "more than 20 nodes");
+  const std::vector<double>& kept = ccx::stiffness(*nelem);
+  const bool known = kept.size() == static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs);
+  for (int j = 0; j < dofs; ++j) {
+    ff[j] = 0;
+    for (int i = 0; i < dofs; ++i) {
+      sm[i + ccx::leading_dimension * j] = 0;
+      s[i + ccx::leading_dimension * j] = known ? kept[static_cast<std::size_t>(i + dofs * j)] : 0;
+    }
+  }
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ccx asks twice in an iteration: for forces, with the history of the element, and for its stiffness,
+// without. Both come from the same place only if the stiffness is kept from the force pass, which has just
+// been at the displacements whose residual is being solved for.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <vector>
+
+namespace ccx {
+
+inline constexpr int leading_dimension = 60; ///< s(60,60): 20 nodes of 3 degrees of freedom
+
+/// Column-major stiffness of an element as its last force pass left it; empty before. Elements come from
+/// several threads, each from one at a time.
+std::vector<double>& stiffness(int element);
+
+/// "*ERROR in LABEL: message" into ccx's output, and its exit status.
+[[noreturn]] void stop(const char* label, const char* message);
+
+} // namespace ccx

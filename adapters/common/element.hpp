@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One contact element between a host's arrays and the library: dof order, sign, reference + displacement,
+// properties, history. Written once; the hosts' entry routines say where things lie and nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace ents_adapter {
+
+/// A host's two-dimensional array wherever and however it lies: (i, j) is data[i * first + j * second].
+template <class T> struct Grid {
+  T* data = nullptr;
+  std::ptrdiff_t first = 1, second = 0;
+  T& operator()(std::ptrdiff_t i, std::ptrdiff_t j) const { return data[i * first + j * second]; }
+  explicit operator bool() const { return data != nullptr; }
+};
+
+template <class T> struct Row {
+  T* data = nullptr;
+  std::ptrdiff_t stride = 1;
+  T& operator()(std::ptrdiff_t i) const { return data[i * stride]; }
+  explicit operator bool() const { return data != nullptr; }
+};
+
+/// What a host calls the things that a user can get wrong: a number is put behind each.
+struct Host {
+  const char* nodes;          ///< "*USER ELEMENT, NODES="
+  const char* history;        ///< "*USER ELEMENT, VARIABLES="
+  const char* properties;     ///< "*UEL PROPERTY, entry "
+  std::string (*directory)(); ///< the job's directory, see model_number
+  bool spare_nodes = false;   ///< the host's element may have more nodes than needed
+};
+
+/// Properties of an element, in this order in every host:
+///   1  k, whole number: the model is ents_k.json
+///   2  tributary area of the slave node [A], > 0; 0: from ents_k.txt
+///   3  options, a sum: 1 selfcheck; others are a host's own. May be absent
+///   4 ..  surface coordinates [m][d-1] of the master nodes. May be absent
+enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative_tangent = 4 };
+
+struct Element {
+  const Host* host = nullptr;
+  std::int64_t number = -1; ///< the host's; -1: it has none
+  int nodes = 0; ///< slave, master nodes of the segment, then one for the multipliers if the model has any
+  int dofs = 0;  ///< per node
+  int coordinates = 0;         ///< per node
+  Grid<const double> position; ///< (coordinate, node) reference, or current with no displacement, [L]
+  Grid<const double>
+      displacement;             ///< (dof, node) or null; multipliers are the "displacements" of the last node
+  Grid<const double> increment; ///< (dof, node) or null: added, too
+  Row<const double> properties;
+  int property_count = 0;
+  Row<const double>
+      history; ///< begin of the increment; all zero: none yet. May be the same memory as `history_end`
+  int history_size = 0;
+  double sign = 1;         ///< of the residual: -1 where the host wants external minus internal
+  double tangent_sign = 1; ///< of the tangent
+  // Out; null: not wanted. Every entry is written: (nodes * dofs), zero where nothing acts.
+  Grid<double> residual;    ///< (dof, node) [F]
+  Grid<double> tangent;     ///< (row, column), node-major, [F/L]
+  Row<double> history_end;  ///< [history_size] end of the increment
+  double* energy = nullptr; ///< [1] [F L]
+};
+
+enum class Outcome {
+  done,
+  cut, ///< the host should repeat the increment with `step_factor` of its size; residual and tangent are zero
+  failed ///< the deck or the model is wrong, the job should stop; residual and tangent are zero
+};
+
+struct Result {
+  Outcome outcome = Outcome::done;
+  double step_factor = 1;            ///< in (0, 1) for Outcome::cut
+  bool symmetric = true;             ///< the tangent of this model always is
+  bool contact = false;              ///< the element carries pressure
+  int dimension = 0, state_size = 0; ///< of the model, as far as it could be read
+  char message[1024];                ///< for `cut` and `failed`, and what the selfcheck found; else empty
+};
+
+/// @return what happened; the history is written for `done` only
+Result evaluate(const Element& element);
+
+/// The value of an option property; 0 if it is absent.
+int options(const Row<const double>& properties, int count);
+
+/// result = -matrix vector, both [n]: forces of a small change about the present state.
+void negative_product(const Grid<const double>& matrix, int n, const double* vector, double* result);
+
+/// What evaluate() would say to an element's description, without evaluating: for hosts that ask once, before
+/// the job.
+Result check(const Element& element);
+
+} // namespace ents_adapter

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model_cache.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <mutex>
+
+#include <nlohmann/json.hpp>
+
+namespace ents_adapter {
+namespace {
+
+/// Numbers of one line, apart by blanks, tabs or commas.
+/// @return false: something else is in it
+bool read_numbers(const std::string& line, std::vector<double>& numbers) {
+  const char *at = line.data(), *end = at + std::min(line.find_first_of("#\r"), line.size());
+  numbers.clear();
+  for (;;) {
+    while (at != end && (*at == ' ' || *at == '\t' || *at == ',')) ++at;
+    if (at == end) return true;
+    double value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || !std::isfinite(value)) return false;
+    numbers.push_back(value);
+    at = next;
+  }
+}
+
+/// @throws std::string what is wrong, with the line
+void read_rows(const std::string& file, LoadedModel& loaded) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return; // the file is optional
+  const auto coordinates = static_cast<std::size_t>(loaded.layout.nodes * loaded.layout.parameters);
+  std::string line;
+  std::vector<double> numbers;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const std::string where = file + ", line " + std::to_string(number) + ": ";
+    if (!read_numbers(line, numbers)) throw where + "not a list of numbers";
+    if (numbers.empty()) continue;
+    if (numbers.size() != 2 && numbers.size() != 2 + coordinates)
+      throw where + "write ELEMENT AREA, or ELEMENT AREA and " + std::to_string(coordinates) +
+          " surface coordinates of the master nodes";
+    if (numbers[0] < 1 || numbers[0] > 9e15 || numbers[0] != std::floor(numbers[0]))
+      throw where + "the first number is the element's, a whole number > 0";
+    if (numbers[1] < 0) throw where + "the area is negative";
+    loaded.rows.push_back(
+        {static_cast<std::int64_t>(numbers[0]), numbers[1], {numbers.begin() + 2, numbers.end()}});
+  }
+  const auto earlier = [](const ElementRow& a, const ElementRow& b) { return a.element < b.element; };
+  std::sort(loaded.rows.begin(), loaded.rows.end(), earlier);
+  for (std::size_t i = 1; i < loaded.rows.size(); ++i)
+    if (loaded.rows[i].element == loaded.rows[i - 1].element)
+      throw file + ": two lines for element " + std::to_string(loaded.rows[i].element);
+}
+
+/// @return null if the model has no height, or takes no start
+ents_model* without_height(const std::string& file, const std::string& directory) {
+  std::ifstream in(file, std::ios::binary);
+  auto model = nlohmann::json::parse(in, nullptr, false);
+  if (!model.is_object() || !model.contains("height") || model["height"].is_null() || model.contains("patch"))
+    return nullptr; // on a patch the library finds the start by itself
+  model["height"] = nullptr;
+  const std::string text = model.dump();
+  ents_model* base = nullptr;
+  ents_model_create(text.data(), static_cast<std::int64_t>(text.size()),
+                    directory.empty() ? nullptr : directory.c_str(), nullptr, 0, &base, nullptr);
+  return base;
+}
+
+std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
+  auto loaded = std::make_unique<LoadedModel>();
+  const std::string stem = directory + "ents_" + std::to_string(number);
+  loaded->file = stem + ".json";
+  ents_report report{};
+  report.struct_size = sizeof report;
+  loaded->layout.struct_size = sizeof loaded->layout;
+  if (ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report) != ENTS_OK ||
+      ents_model_create_from_file(loaded->file.c_str(), &loaded->model, &report) != ENTS_OK ||
+      ents_model_layout(loaded->model, &loaded->layout, &report) != ENTS_OK) {
+    loaded->error = "model " + loaded->file + ": " + report.message;
+    return loaded;
+  }
+  try {
+    read_rows(stem + ".txt", *loaded);
+  } catch (const std::string& error) {
+    loaded->error = error;
+  }
+  if (!loaded->error.empty()) {
+    ents_model_destroy(&loaded->model, nullptr);
+    return loaded;
+  }
+  loaded->base = without_height(loaded->file, directory);
+  return loaded;
+}
+
+} // namespace
+
+const ElementRow* LoadedModel::row(std::int64_t element) const {
+  const auto at =
+      std::lower_bound(rows.begin(), rows.end(), element,
+                       [](const ElementRow& row, std::int64_t value) { return row.element < value; });
+  return at != rows.end() && at->element == element ? &*at : nullptr;
+}
+
+const LoadedModel& model_number(int number, std::string (*directory)()) {
+  // Never freed: host threads may still be in an evaluation when static objects are destroyed.
+  static std::atomic<const LoadedModel*> known[largest_model_number + 1];
+  static std::mutex& mutex = *new std::mutex;
+  auto& slot = known[number];
+  if (const LoadedModel* loaded = slot.load(std::memory_order_acquire)) return *loaded;
+  const std::lock_guard lock(mutex);
+  if (const LoadedModel* loaded = slot.load(std::memory_order_acquire)) return *loaded;
+  const LoadedModel* loaded = load(number, directory()).release();
+  slot.store(loaded, std::memory_order_release);
+  return *loaded;
+}
+
+} // namespace ents_adapter

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ents_adapter {
+namespace {
+
+constexpr int largest_corners = 4;
+
+Result fail(const Point& p, const char* text) {
+  Result result;
+  result.outcome = Outcome::failed;
+  std::snprintf(result.message, sizeof result.message, "ents, point %lld: %s",
+                static_cast<long long>(p.number), text);
+  return result;
+}
+
+} // namespace
+
+Result evaluate(const Point& p) {
+  const int d = p.directions, corners = d == 2 ? 2 : 4;
+  std::fill(p.traction, p.traction + d, 0.0);
+  std::fill(p.stiffness, p.stiffness + d * d, 0.0);
+  if (p.energy) *p.energy = 0;
+  if (!p.properties || p.property_count < 2)
+    return fail(p, "write at least two properties: the model's number k (file ents_k.json), half the length "
+                   "of the face");
+  const double half = p.properties(1);
+  if (!(half > 0) || !std::isfinite(half))
+    return fail(p, "property 2, half the length of the face under the point, must be > 0");
+
+  // Slave node over the face; its corners lie where their surface coordinates say, the normal is the last
+  // axis.
+  static constexpr double sign[largest_corners][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  double position[3 * (1 + largest_corners)] = {},
+                           properties[3 + 2 * largest_corners] = {p.properties(0), 1, 0};
+  if (p.property_count > 2) properties[2] = p.properties(2);
+  for (int a = 0; a + 1 < d; ++a) position[a] = p.start[a] + p.closing[1 + a];
+  position[d - 1] = -p.closing[0];
+  for (int corner = 0; corner < corners; ++corner)
+    for (int a = 0; a + 1 < d; ++a)
+      position[d * (1 + corner) + a] = properties[3 + (d - 1) * corner + a] =
+          p.start[a] + half * sign[corner][a];
+
+  double residual[3 * (1 + largest_corners)], tangent[9 * (1 + largest_corners) * (1 + largest_corners)];
+  const int rows = d * (1 + corners);
+  Element e;
+  e.host = p.host;
+  e.number = p.number;
+  e.nodes = 1 + corners;
+  e.dofs = e.coordinates = d;
+  e.position = {position, 1, d};
+  e.properties = {properties};
+  e.property_count = 3 + (d - 1) * corners;
+  e.history = p.history;
+  e.history_size = p.history_size;
+  e.residual = {residual, 1, d};
+  e.tangent = {tangent, 1, rows};
+  e.history_end = p.history_end;
+  e.energy = p.energy;
+  const Result result = evaluate(e);
+  if (result.outcome != Outcome::done) return result;
+
+  // The face closes where the node goes down; traction and slip are the master's and the slave's.
+  const auto entry = [d](int i) { return i == 0 ? d - 1 : i - 1; };
+  const auto side = [](int i) { return i == 0 ? -1.0 : 1.0; };
+  for (int j = 0; j < d; ++j) {
+    p.traction[j] = side(j) * residual[entry(j)];
+    for (int i = 0; i < d; ++i)
+      p.stiffness[i + d * j] = side(i) * side(j) * tangent[entry(i) + rows * entry(j)];
+  }
+  return result;
+}
+
+} // namespace ents_adapter

@@ -1,0 +1,72 @@
+!     SPDX-License-Identifier: BSD-3-Clause
+!     FEAP and FEAPpv: contact element of ents, MATErial type user 7.
+!     It goes to FEAP's user folder; another number NN: rename it.
+
+      subroutine elmt07(d,ul,xl,ix,tl,s,p,ndf,ndm,nst,isw)
+
+      use, intrinsic :: iso_c_binding
+      implicit none
+
+      include 'cdata.h'
+      include 'eldata.h'
+      include 'eltran.h'
+      include 'hdata.h'
+      include 'comblk.h'
+
+      integer       :: ndf,ndm,nst,isw, ix(*)
+      real (kind=8) :: d(*),ul(ndf,nen,*),xl(ndm,nen),tl(*)
+      real (kind=8) :: s(nst,nst),p(ndf,nen)
+
+      integer, parameter   :: width = 480
+      character (len=width) :: text
+      logical               :: errck, pinput
+      integer (c_int)       :: status, words, want
+      integer (kind=8)      :: i
+
+      interface
+        integer (c_int) function ents_feap_check(d,nodes,ndf,ndm,words,
+     &                           text,length) bind(c)
+          import :: c_int, c_double, c_char
+          real (c_double)           :: d(*)
+          integer (c_int), value    :: nodes,ndf,ndm,length
+          integer (c_int)           :: words
+          character (kind=c_char)   :: text(*)
+        end function
+        integer (c_int) function ents_feap_form(d,xl,ul,number,nodes,
+     &              ndf,ndm,nst,want,factor,start,end,words,s,p,text,
+     &              length) bind(c)
+          import :: c_int, c_double, c_char
+          real (c_double)           :: d(*),xl(*),ul(*),start(*),end(*)
+          real (c_double)           :: s(*),p(*)
+          integer (c_int), value    :: number,nodes,ndf,ndm,nst,want
+          integer (c_int), value    :: words,length
+          real (c_double), value    :: factor
+          character (kind=c_char)   :: text(*)
+        end function
+      end interface
+
+      status = 0
+      if(isw.eq.1) then
+        errck  = pinput(d,3)
+        status = ents_feap_check(d,nen,ndf,ndm,words,text,width)
+        nh1    = words
+        nh3    = 0
+        pstyp  = 0
+        d(4)   = words
+      elseif(isw.eq.3 .or. isw.eq.6) then
+        want   = 0
+        if(isw.eq.3) want = 1
+        words  = nint(d(4))
+        status = ents_feap_form(d,xl,ul,n_el,nel,ndf,ndm,nst,want,
+     &           ctan(1),hr(nh1),hr(nh2),words,s,p,text,width)
+      elseif(isw.eq.14) then
+        do i = 0,nint(d(4))-1
+          hr(nh1+i) = 0.0d0
+          hr(nh2+i) = 0.0d0
+        end do
+      endif
+
+      if(status.ne.0) write(*,'(1x,a)') trim(text)
+      if(status.eq.1) call plstop(.true.)
+
+      end subroutine elmt07

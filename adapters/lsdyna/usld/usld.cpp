@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LS-DYNA user element usld_e101: blocks of elements, the block index first. It is an eight-node solid; nodes
+// that the contact element does not need repeat others. What facts are known of the interface, README.md
+// says.
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+
+#include "../../common/element.hpp"
+
+// Length of a block: nlq of LS-DYNA's file nlqparm.
+#if !defined(ENTS_LSDYNA_NLQ)
+#define ENTS_LSDYNA_NLQ 192
+#endif
+
+// LS-DYNA's routine that ends the job.
+extern "C" __attribute__((weak)) void adios_(int* code);
+
+namespace {
+
+using namespace ents_adapter;
+
+constexpr std::ptrdiff_t nlq = ENTS_LSDYNA_NLQ;
+constexpr int nodes = 8;
+constexpr Host host{"nodes: ", "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry ",
+                    [] { return std::string(); }, true};
+
+[[noreturn]] void stop() {
+  int code = 2;
+  if (adios_) adios_(&code);
+  std::exit(code);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) void
+usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, double* x2, double* x3,
+           double* x4, double* x5, double* x6, double* x7, double* x8, double* y1, double* y2, double* y3,
+           double* y4, double* y5, double* y6, double* y7, double* y8, double* z1, double* z2, double* z3,
+           double* z4, double* z5, double* z6, double* z7, double* z8, double*, double*, double*, double*,
+           double*, double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
+           double*, double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
+           double* hsv, int*, int* nhsv, double* cm, int* lmc, double*, int* lft, int* llt, double* dener) {
+  const double* const x[3][nodes] = {
+      {x1, x2, x3, x4, x5, x6, x7, x8}, {y1, y2, y3, y4, y5, y6, y7, y8}, {z1, z2, z3, z4, z5, z6, z7, z8}};
+  const std::ptrdiff_t rows = *ndtot;
+  for (std::ptrdiff_t b = *lft - 1; b < *llt; ++b) {
+    double position[3 * nodes];
+    for (int node = 0; node < nodes; ++node)
+      for (int i = 0; i < 3; ++i) position[3 * node + i] = x[i][node][b];
+    for (std::ptrdiff_t i = 3 * nodes; i < rows; ++i) { // dofs of the host's that are not coordinates
+      force[b + nlq * i] = 0;
+      for (std::ptrdiff_t j = 0; *istif == 1 && j < rows; ++j)
+        stiff[b + nlq * (i + rows * j)] = stiff[b + nlq * (j + rows * i)] = 0;
+    }
+    Element e;
+    e.host = &host;
+    e.nodes = nodes;
+    e.dofs = e.coordinates = 3;
+    e.position = {position, 1, 3};
+    e.properties = {cm};
+    e.property_count = std::min(*lmc, 3 + 2 * (nodes - 1));
+    e.history = {hsv + b, nlq};
+    e.history_size = *nhsv;
+    e.residual = {force + b, nlq, 3 * nlq};
+    if (*istif == 1) e.tangent = {stiff + b, nlq, nlq * rows};
+    e.history_end = {hsv + b, nlq};
+    e.energy = dener + b;
+    const Result result = evaluate(e);
+    if (result.message[0]) std::printf(" *** %s\n", result.message), std::fflush(stdout);
+    if (result.outcome != Outcome::done) stop();
+  }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MSC Marc USELEM. What facts are known of the interface, README.md says.
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+
+#include "../../common/element.hpp"
+
+// MSC Marc's routine that ends the job.
+extern "C" __attribute__((weak)) void quit_(int* code);
+
+namespace {
+
+using namespace ents_adapter;
+
+constexpr int property_count = 3; // geom has no length
+constexpr Host host{"nodes of the element: ", "STATE VARS, number: ", "GEOMETRY, EGEOM",
+                    [] { return std::string(); }, true};
+
+enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // iflag
+
+[[noreturn]] void stop() {
+  int code = 2;
+  if (quit_) quit_(&code);
+  std::exit(code);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) void
+uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double* r, int*, double* dispt,
+        double* disp, int*, int*, int*, int* nstats, int*, int*, double* coord, int* ncrd, int* iflag,
+        int* idss, double* t, double* dt, double*, double*, double*, double* geom, int*, double*, int*) {
+  const std::ptrdiff_t rows = *idss, dofs = static_cast<std::ptrdiff_t>(*nnode) * *ndeg;
+  switch (*iflag) {
+  case loads:
+    std::fill(f, f + dofs, 0.0);
+    return;
+  case mass:
+    std::fill(xm, xm + rows * rows, 0.0);
+    return;
+  case stiffness:
+    std::fill(xk, xk + rows * rows, 0.0);
+    break;
+  case forces:
+    break;
+  default:
+    return;
+  }
+
+  constexpr int largest_state = 64;
+  double end[largest_state];
+  const int state = std::min(*nstats, largest_state);
+  std::copy(t, t + state, end);
+  Element e;
+  e.host = &host;
+  e.number = *m;
+  e.nodes = *nnode;
+  e.dofs = *ndeg;
+  e.coordinates = *ncrd;
+  e.position = {coord, 1, *ncrd};
+  e.displacement = {dispt, 1, *ndeg};
+  e.properties = {geom};
+  e.property_count = property_count;
+  const int option = options(e.properties, e.property_count);
+  if (option > 0 && (option & option_old_displacement)) e.increment = {disp, 1, *ndeg};
+  e.history = {t};
+  e.history_size = state;
+  e.residual = {r, 1, *ndeg};
+  if (*iflag == stiffness) e.tangent = {xk, 1, rows};
+  e.history_end = {end};
+  const Result result = evaluate(e);
+  if (result.message[0]) std::printf(" *** %s\n", result.message), std::fflush(stdout);
+  if (result.outcome != Outcome::done) stop();
+  for (int i = 0; i < state; ++i) dt[i] = end[i] - t[i]; // Marc keeps the increment of the state variables
+}

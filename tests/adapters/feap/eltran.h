@@ -1,0 +1,2 @@
+      real    (kind=8) :: bpr,   ctan
+      common /eltran/     bpr(3),ctan(3)

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All emulated hosts of a test program, by name.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <tuple>
+
+#include "emulated_host.hpp"
+
+namespace adapters {
+
+struct HostKind {
+  std::string name;
+  std::function<std::unique_ptr<EmulatedHost>(const Elements&)> make;
+  bool cuts = true;        ///< it can cut its increments when an element asks for it
+  int dimension = 0;       ///< 0: both
+  bool multipliers = true; ///< its elements can carry them as unknowns
+  bool same_bits = true;   ///< its elements get the positions that the plain interface gets, to the last bit
+};
+inline void PrintTo(const HostKind& kind, std::ostream* out) { *out << kind.name; }
+
+std::vector<HostKind> hosts();
+
+/// Hosts with the problems that they can have.
+std::vector<std::tuple<HostKind, std::string>> hosts_and_problems();
+
+} // namespace adapters

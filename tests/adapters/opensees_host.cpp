@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// OpenSees, emulated: the functions that it offers loaded elements, and an element's life: INIT, FORM ...
+// COMMIT or REVERT.
+#include <cstring>
+
+#include "guarded.hpp"
+#include "other_hosts.hpp"
+
+extern "C" {
+struct modelState {
+  double time, dt;
+};
+struct eleObject {
+  int tag, nNode, nDOF, nParam, nState, nMat;
+  int* node;
+  double *param, *cState, *tState;
+  void** mats;
+  void (*eleFunctPtr)(eleObject*, modelState*, double*, double*, int*, int*);
+};
+void entsContact(eleObject*, modelState*, double* tang, double* resid, int* isw, int* error);
+}
+
+namespace adapters {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// What the functions below are asked for.
+struct Domain {
+  std::vector<int> integers; ///< left on the command line
+  std::vector<double> doubles;
+  const std::vector<double>*reference = nullptr, *displacement = nullptr;
+  int dimension = 0;
+  std::string error;
+} domain;
+
+int nodal(const std::vector<double>& values, const int* node, const int* count, double* data) {
+  if (*count != domain.dimension) return -1;
+  for (int i = 0; i < *count; ++i) data[i] = values[at((*node - 1) * domain.dimension + i)];
+  return 0;
+}
+
+class OpenSeesHost : public EmulatedHost {
+public:
+  explicit OpenSeesHost(const Elements& elements) : EmulatedHost(elements) {
+    for (int k = 0; k < static_cast<int>(elements.nodes.size()); ++k) {
+      const auto& list = nodes(k);
+      domain.integers = {100 + k, elements.model, static_cast<int>(list.size())};
+      for (const int node : list) domain.integers.push_back(node + 1);
+      domain.doubles = {area(k), 0};
+      objects_.push_back(std::make_unique<eleObject>());
+      request(k, 0, nullptr, nullptr);
+      if (objects_.back()->nDOF != elements.dimension * static_cast<int>(list.size()))
+        throw std::runtime_error("nDOF");
+    }
+  }
+  ~OpenSeesHost() override {
+    for (auto& e : objects_) delete[] e->node, delete[] e->param, delete[] e->cState, delete[] e->tState;
+  }
+
+  void begin(const std::vector<double>& displacement) override {
+    EmulatedHost::begin(displacement);
+    for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 2, nullptr, nullptr); // REVERT
+  }
+  Answer evaluate(int element, const std::vector<double>& displacement) override {
+    domain.reference = &elements_.reference, domain.displacement = &displacement,
+    domain.dimension = elements_.dimension;
+    const auto n = at(objects_[at(element)]->nDOF);
+    Guarded tang(n * n), resid(n);
+    Answer answer;
+    try {
+      request(element, 3, tang.data(), resid.data());
+    } catch (
+        const HostStopped&) { // the script repeats the step with half its size, whatever the element thinks
+      if (domain.error.find("penetration_limit") == std::string::npos) throw;
+      answer.step_factor = 0.5;
+      return answer;
+    }
+    tang.check_guards("tang"), resid.check_guards("resid");
+    answer.residual.assign(resid.data(), resid.data() + n);
+    answer.tangent.assign(tang.data(), tang.data() + n * n);
+    request(element, 4, tang.data(), nullptr);
+    for (std::size_t i = 0; i < n * n; ++i)
+      if (tang[i] != 0) throw std::runtime_error("a mass");
+    return answer;
+  }
+  void accept() override {
+    for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 1, nullptr, nullptr);
+  }
+
+private:
+  void request(int k, int isw, double* tang, double* resid) {
+    modelState state{0, -0.1}; // the host's dt has the wrong sign
+    int error = 99;
+    entsContact(objects_[at(k)].get(), &state, tang, resid, &isw, &error);
+    if (error != 0) throw HostStopped(domain.error);
+  }
+
+  std::vector<std::unique_ptr<eleObject>> objects_;
+};
+
+} // namespace
+
+std::unique_ptr<EmulatedHost> opensees_host(const Elements& elements) {
+  return std::make_unique<OpenSeesHost>(elements);
+}
+
+} // namespace adapters
+
+extern "C" {
+
+using adapters::domain;
+
+int ops_getintinput_(int* count, int* data) {
+  if (domain.integers.size() < static_cast<std::size_t>(*count)) return -1;
+  for (int i = 0; i < *count; ++i) data[i] = domain.integers[static_cast<std::size_t>(i)];
+  domain.integers.erase(domain.integers.begin(), domain.integers.begin() + *count);
+  return 0;
+}
+int ops_getdoubleinput_(int* count, double* data) {
+  if (domain.doubles.size() < static_cast<std::size_t>(*count)) return -1;
+  std::memcpy(data, domain.doubles.data(), static_cast<std::size_t>(*count) * sizeof(double));
+  return 0;
+}
+int ops_allocateelement_(eleObject* e, int*, int*) {
+  const auto array = [](int size) { // not zeroed
+    auto* values = new double[static_cast<std::size_t>(size)];
+    for (int i = 0; i < size; ++i) values[i] = -1e99;
+    return values;
+  };
+  e->node = new int[static_cast<std::size_t>(e->nNode)];
+  e->param = array(e->nParam), e->cState = array(e->nState), e->tState = array(e->nState);
+  return 0;
+}
+int ops_getnodecrd_(int* node, int* count, double* data) {
+  return adapters::nodal(*domain.reference, node, count, data);
+}
+int ops_getnodedisp_(int* node, int* count, double* data) {
+  return adapters::nodal(*domain.displacement, node, count, data);
+}
+int ops_error_(char* text, int length) {
+  domain.error.assign(text, static_cast<std::size_t>(length));
+  return 0;
+}
+
+} // extern "C"

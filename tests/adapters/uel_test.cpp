@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Abaqus's protocol of a user element: what LFLAGS asks for is formed, all of it and nothing else; mistakes
+// in the deck reach the user through Abaqus's own channel.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "abaqus_services.hpp"
+#include "problem.hpp"
+#include "uel_host.hpp"
+
+namespace adapters {
+namespace {
+
+class Uel : public testing::Test {
+protected:
+  void SetUp() override { abaqus_messages(); }
+
+  Problem problem_ = problem("quad4_friction");
+  UelHost host_{problem_.elements, UelHost::Program::abaqus};
+
+  UelCall request(int what, int element = 0) {
+    UelCall c = host_.call(element, pressed(problem_));
+    c.lflags[2] = what;
+    return c;
+  }
+  std::string only_message(int severity) {
+    const auto messages = abaqus_messages();
+    if (messages.size() != 1) return std::to_string(messages.size()) + " messages";
+    EXPECT_EQ(messages[0].severity, severity);
+    EXPECT_LE(messages[0].text.size(), 500u);
+    return messages[0].text;
+  }
+};
+
+bool zero(Guarded& array, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (array[i] != 0) return false; // NaN, too
+  return true;
+}
+bool same(Guarded& a, Guarded& b, std::size_t count) {
+  return std::memcmp(a.data(), b.data(), count * sizeof(double)) == 0;
+}
+
+TEST_F(Uel, FormsWhatIsAskedFor) {
+  UelCall both = request(1);
+  both();
+  const auto n = static_cast<std::size_t>(both.ndofel);
+  EXPECT_FALSE(zero(both.rhs, n));
+  EXPECT_FALSE(zero(both.amatrx, n * n));
+  EXPECT_NE(both.svars[0], 0);
+  EXPECT_GT(both.energy[1], 0);
+
+  UelCall stiffness = request(2);
+  stiffness();
+  EXPECT_TRUE(same(stiffness.amatrx, both.amatrx, n * n));
+  EXPECT_TRUE(zero(stiffness.svars, stiffness.svars.size())) << "history belongs to request 1";
+
+  for (const int what : {5, 6}) { // half-increment residual; mass (there is none) and residual
+    UelCall residual = request(what);
+    residual();
+    EXPECT_TRUE(same(residual.rhs, both.rhs, n)) << what;
+    EXPECT_TRUE(zero(residual.amatrx, n * n)) << what;
+    EXPECT_TRUE(zero(residual.svars, residual.svars.size())) << what;
+  }
+  for (const int what : {3, 4, 100}) { // damping, mass, output of a perturbation: nothing
+    UelCall nothing = request(what);
+    nothing();
+    EXPECT_TRUE(zero(nothing.rhs, n)) << what;
+    EXPECT_TRUE(zero(nothing.amatrx, n * n)) << what;
+    EXPECT_TRUE(zero(nothing.svars, nothing.svars.size())) << what;
+  }
+  EXPECT_TRUE(abaqus_messages().empty());
+}
+
+TEST_F(Uel, BothNamesAreTheSameFunction) {
+  EXPECT_EQ(reinterpret_cast<void*>(uel), reinterpret_cast<void*>(uel_));
+}
+
+TEST_F(Uel, SecondRightHandSideIsTheLoadWhichIsZero) {
+  UelCall c = request(1);
+  c.nrhs = 2;
+  c();
+  for (int i = 0; i < c.ndofel; ++i) EXPECT_EQ(c.rhs[static_cast<std::size_t>(c.mlvarx + i)], 0);
+}
+
+TEST_F(Uel, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
+  UelCall c = request(1);
+  c();
+  const double step = 1e-6; // differences: step^2 times third derivatives; roundings: 1e-16 / step
+  for (std::size_t column = 0; column < static_cast<std::size_t>(c.ndofel); ++column) {
+    UelCall ends[2] = {request(1), request(1)};
+    ends[0].u[column] -= step, ends[1].u[column] += step;
+    ends[0](), ends[1]();
+    for (std::size_t row = 0; row < static_cast<std::size_t>(c.ndofel); ++row)
+      EXPECT_NEAR(c.amatrx[row + column * static_cast<std::size_t>(c.ndofel)],
+                  -(ends[1].rhs[row] - ends[0].rhs[row]) / (2 * step), 1e-6 * 400);
+  }
+}
+
+TEST_F(Uel, PerturbationIsLinearAboutTheBaseState) {
+  UelCall base = request(2);
+  base();
+  UelCall c = request(1);
+  c.lflags[3] = 1;
+  for (std::size_t i = 0; i < c.du.size(); ++i) c.du[i] = 1e-3 * static_cast<double>(i + 1);
+  c();
+  const auto n = static_cast<std::size_t>(c.ndofel);
+  EXPECT_TRUE(same(c.amatrx, base.amatrx, n * n));
+  EXPECT_TRUE(zero(c.svars, c.svars.size()));
+  for (std::size_t i = 0; i < n; ++i) {
+    double force = 0;
+    for (std::size_t j = 0; j < n; ++j) force -= base.amatrx[i + j * n] * c.du[j];
+    EXPECT_DOUBLE_EQ(c.rhs[i], force);
+  }
+}
+
+TEST_F(Uel, LargestElementNumber) {
+  UelCall c = request(1);
+  c.jelem = 2147483647;
+  c();
+  EXPECT_TRUE(abaqus_messages().empty());
+}
+
+TEST_F(Uel, DeepPenetrationCutsTheIncrement) {
+  const Problem deep = problem("line2_cuts");
+  std::vector<double> u(deep.target.size());
+  u[static_cast<std::size_t>(deep.elements.nodes[0][0] * 2 + 1)] = -0.4;
+  UelCall c = UelHost(deep.elements, UelHost::Program::abaqus).call(0, u);
+  c();
+  EXPECT_GT(c.pnewdt, 0);
+  EXPECT_LT(c.pnewdt, 1);
+  EXPECT_TRUE(zero(c.rhs, static_cast<std::size_t>(c.ndofel)));
+  EXPECT_TRUE(zero(c.svars, c.svars.size()));
+  EXPECT_NE(only_message(1).find("penetration_limit"), std::string::npos);
+}
+
+TEST_F(Uel, DivergedIterationCutsTheIncrement) {
+  UelCall c = request(1);
+  c.u[3] = std::nan("");
+  c();
+  EXPECT_EQ(c.pnewdt, 0.5);
+  EXPECT_TRUE(zero(c.amatrx, c.amatrx.size()));
+}
+
+TEST_F(Uel, SelfcheckReportsIntoTheMessageFile) {
+  UelCall c = request(1);
+  c.props.push_back(1);
+  c();
+  const std::string text = only_message(1);
+  EXPECT_NE(text.find("element 90001"), std::string::npos) << text;
+  EXPECT_NE(text.find("K is the slope of R"), std::string::npos) << text;
+  double errors[3] = {1, 1, 1};
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find('='), "= %lf, %lf, %lf", errors, errors + 1, errors + 2), 3)
+      << text;
+  EXPECT_LT(errors[1], 0.02 * errors[0]); // second order: a tenth of the step leaves a hundredth
+  EXPECT_LT(errors[2], 1e-8);             // and roundings over the step, 1e-16 / 1e-6 times a few
+  UelCall silent = request(1);
+  silent();
+  EXPECT_TRUE(same(c.amatrx, silent.amatrx, c.amatrx.size()));
+}
+
+TEST_F(Uel, SelfcheckFindsAnApproximateTangent) {
+  std::ofstream("ents_31.json")
+      << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+    "tangent": "first_variation", "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
+  UelCall c = request(1);
+  c.props = {31, 0.5, 1};
+  c();
+  EXPECT_NE(only_message(1).find("K is NOT the slope of R"), std::string::npos);
+}
+
+TEST_F(Uel, AreasAndSurfaceCoordinatesFromTheTable) {
+  std::ofstream("ents_32.json")
+      << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+    "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
+  std::ofstream("ents_32.txt")
+      << "# element area s1 s2 ...\n\n90001, 0.25\n90002\t0.5 0 0  3 0  3 2  0 2 # stretched\n";
+  UelCall in_deck = request(1), in_table = request(1);
+  in_deck.props = {32, 0.25};
+  in_table.props = {32, 0};
+  in_deck(), in_table();
+  EXPECT_TRUE(same(in_deck.rhs, in_table.rhs, static_cast<std::size_t>(in_deck.ndofel)));
+
+  UelCall stretched = request(1), properties = request(1);
+  stretched.props = {32, 0};
+  stretched.jelem = 90002;
+  properties.props = {32, 0.5, 0, 0, 0, 3, 0, 3, 2, 0, 2};
+  stretched(), properties();
+  EXPECT_TRUE(same(stretched.rhs, properties.rhs, static_cast<std::size_t>(in_deck.ndofel)));
+  EXPECT_FALSE(same(stretched.rhs, in_deck.rhs, static_cast<std::size_t>(in_deck.ndofel)));
+}
+
+struct Mistake {
+  const char* name;
+  std::function<void(UelCall&)> make;
+  const char* expected; ///< what the message says
+};
+
+TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
+  const auto write = [](const char* file, const char* text) { std::ofstream(file) << text; };
+  write("ents_41.json", "{\"segment\": \"quad4\",");
+  write("ents_42.json", R"({"segment": "quad4", "hight": null})");
+  write("ents_43.json", R"({"segment": "quad4"})");
+  const char* good = R"({"segment": "quad4", "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
+  for (const char* file : {"ents_44.json", "ents_45.json", "ents_46.json", "ents_47.json"}) write(file, good);
+  write("ents_44.txt", "90001 0.5\n90002 0.5 much\n");
+  write("ents_45.txt", "90001 0.5 1 2 3\n");
+  write("ents_46.txt", "90001 0.5\n90001 0.6\n");
+  write("ents_47.txt", "90002 0.5\n");
+  const Mistake mistakes[] = {
+      {"no properties", [](UelCall& c) { c.props = {}; }, "write *UEL PROPERTY, entry 1 and 2"},
+      {"no file",
+       [](UelCall& c) {
+         c.props = {40, 0.5};
+       },
+       "ents_40.json"},
+      {"not a number k",
+       [](UelCall& c) {
+         c.props = {1.5, 0.5};
+       },
+       "*UEL PROPERTY, entry 1"},
+      {"k not a number",
+       [](UelCall& c) {
+         c.props = {std::nan(""), 0.5};
+       },
+       "*UEL PROPERTY, entry 1"},
+      {"k too large",
+       [](UelCall& c) {
+         c.props = {1e300, 0.5};
+       },
+       "1 .. 9999"},
+      {"negative area", [](UelCall& c) { c.props[1] = -1; }, "*UEL PROPERTY, entry 2"},
+      {"area not a number", [](UelCall& c) { c.props[1] = std::nan(""); }, "*UEL PROPERTY, entry 2"},
+      {"no such option", [](UelCall& c) { c.props.push_back(1000); }, "*UEL PROPERTY, entry 3"},
+      {"JSON",
+       [](UelCall& c) {
+         c.props = {41, 0.5};
+       },
+       "ents_41.json"},
+      {"key",
+       [](UelCall& c) {
+         c.props = {42, 0.5};
+       },
+       "hight"},
+      {"no law",
+       [](UelCall& c) {
+         c.props = {43, 0.5};
+       },
+       "contact"},
+      {"word in the table",
+       [](UelCall& c) {
+         c.props = {44, 0};
+       },
+       "ents_44.txt, line 2"},
+      {"length of a line",
+       [](UelCall& c) {
+         c.props = {45, 0};
+       },
+       "8 surface coordinates"},
+      {"element twice",
+       [](UelCall& c) {
+         c.props = {46, 0};
+       },
+       "two lines for element 90001"},
+      {"element missing",
+       [](UelCall& c) {
+         c.props = {47, 0};
+       },
+       "ents_47.txt"},
+      {"surface coordinate", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, std::nan(""), 0, 2}; },
+       "entry 9"},
+      {"too few nodes", [](UelCall& c) { c.nnode = 4, c.ndofel = 12; }, "Write *USER ELEMENT, NODES=5"},
+      {"too many nodes", [](UelCall& c) { c.props[0] = 15; }, "Write *USER ELEMENT, NODES=4"},
+      {"plane element", [](UelCall& c) { c.ndofel = 10, c.mcrd = 2; }, "3D"},
+      {"too few SVARS", [](UelCall& c) { c.nsvars = 1; }, "Write *USER ELEMENT, VARIABLES="},
+      {"multipliers without a node", [](UelCall& c) { c.props[0] = 16; }, "NODES=6"},
+  };
+  problem("tri3_friction"), problem("quad4_multiplier"); // write their models
+  for (const Mistake& mistake : mistakes) {
+    UelCall c = request(1);
+    mistake.make(c);
+    EXPECT_THROW(c(), HostStopped) << mistake.name;
+    const std::string text = only_message(-2);
+    EXPECT_NE(text.find(mistake.expected), std::string::npos) << mistake.name << ": " << text;
+    EXPECT_NE(text.find("90001"), std::string::npos) << text;
+  }
+}
+
+} // namespace
+} // namespace adapters

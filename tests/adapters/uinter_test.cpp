@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Abaqus UINTER: traction and stiffness of one point, in both argument lists.
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include "abaqus_services.hpp"
+#include "emulated_host.hpp"
+#include "guarded.hpp"
+
+extern "C" {
+using Real = double*;
+using Text = char*;
+using Whole = int*;
+void uinter_(Real stress, Real ddsddr, Real dviscous, Real dstructural, Real flux, Real ddfddt, Real ddsddt,
+             Real ddfddr, Real statev, Real sed, Real sfd, Real spd, Real svd, Real scd, Real pnewdt,
+             Real rdisp, Real drdisp, Real temp, Real dtemp, Real predef, Real dpred, Real time, Real dtime,
+             Real freqr, Text ciname, Text secname, Text mainname, Real props, Real coords, Real alocaldir,
+             Real drot, Real area, Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred,
+             Whole nprops, Whole mcrd, Whole kstep, Whole kinc, Whole kit, Whole linper, Whole lopenclose,
+             Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
+using Uinter44 = void(Real stress, Real ddsddr, Real flux, Real ddfddt, Real ddsddt, Real ddfddr, Real statev,
+                      Real sed, Real sfd, Real spd, Real svd, Real scd, Real pnewdt, Real rdisp, Real drdisp,
+                      Real temp, Real dtemp, Real predef, Real dpred, Real time, Real dtime, Text ciname,
+                      Text slname, Text msname, Real props, Real coords, Real alocaldir, Real drot, Real area,
+                      Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred, Whole nprops,
+                      Whole mcrd, Whole kstep, Whole kinc, Whole kit, Whole linper, Whole lopenclose,
+                      Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
+}
+
+namespace adapters {
+namespace {
+
+/// One point; outputs poisoned, guard zones. Its master surface is inclined; the slip directions start at
+/// known coordinates.
+struct Call {
+  explicit Call(int directions) : ndir(directions) {
+    for (std::size_t i = 0; i < statev.size(); ++i) statev[i] = 0;
+    const double c = 0.8, s = 0.6;
+    const double plane[9] = {-s, c, 0, c, s, 0, 0, 0, 1}, space[9] = {-s, 0, c, c, 0, s, 0, 1, 0};
+    std::memcpy(alocaldir, directions == 2 ? plane : space, sizeof alocaldir);
+  }
+
+  int ndir, node = 17, linper = 0, lopenclose = -1, nprops = 2;
+  Guarded stress{3}, ddsddr{9}, dviscous{9}, dstructural{9}, flux{2}, ddfddt{4}, ddsddt{6}, ddfddr{6},
+      statev{20}, sed{1};
+  double pnewdt = 1e36, rdisp[3] = {}, coords[3] = {}, alocaldir[9], props[3] = {61, 2, 0};
+
+  /// Surface coordinates of the point, which has slipped by rdisp since it was there.
+  void place(double s1, double s2) {
+    const double at[2] = {s1 + rdisp[1], s2 + rdisp[2]};
+    for (int i = 0; i < 3; ++i) {
+      coords[i] = 0;
+      for (int a = 0; a + 1 < ndir; ++a) coords[i] += at[a] * alocaldir[i + 3 * (1 + a)];
+    }
+  }
+
+  void operator()(Uinter44* old = nullptr) {
+    double still[12] = {}, time[2] = {1, 1}, one = 1;
+    int nstatv = 20, npred = 0, mcrd = ndir, step = 1, lstate = -1, lsdi = 0, lprint = 0;
+    char name[81] = "ENTS                                                                            ";
+    if (old)
+      old(stress.data(), ddsddr.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(),
+          statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp, still, still, still, still,
+          still, time, &one, name, name, name, props, coords, alocaldir, still, &one, &one, &node, &ndir,
+          &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi, &lprint,
+          80, 80, 80);
+    else
+      uinter_(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(),
+              ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still, still, still, &pnewdt,
+              rdisp, still, still, still, still, still, time, &one, &one, name, name, name, props, coords,
+              alocaldir, still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step,
+              &step, &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
+    for (const Guarded* array :
+         {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &dviscous, &dstructural})
+      array->check_guards("an array");
+    const auto d = static_cast<std::size_t>(ndir);
+    stress.check_written("STRESS", 0, d), ddsddr.check_written("DDSDDR", 0, d * d),
+        flux.check_written("FLUX", 0, 2);
+    ddfddt.check_written("DDFDDT", 0, 4), ddsddt.check_written("DDSDDT", 0, 2 * d),
+        ddfddr.check_written("DDFDDR", 0, 2 * d);
+    if (!old)
+      dviscous.check_written("DVISCOUS", 0, d * d), dstructural.check_written("DSTRUCTURAL", 0, d * d);
+  }
+};
+
+class Uinter : public testing::Test {
+protected:
+  void SetUp() override {
+    abaqus_messages();
+    std::ofstream("ents_61.json")
+        << R"({"segment": "line2", "projection": {"type": "shadow_direction", "direction": [0, 1]},
+      "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8], "phase": 0.4}, "contact": {"normal": {"type": "penalty", "stiffness": 500}}})";
+    std::ofstream("ents_62.json")
+        << R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8, 0.3]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 500}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 300}}})";
+    std::ofstream("ents_63.json")
+        << R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 500}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 300}}})";
+  }
+};
+
+TEST_F(Uinter, FrictionlessLawAlongTheNormalIsThatOfThePotential) {
+  // W(g), g = closing + h(s), s = start + slip: traction W' (1, h'), stiffness W'' (1, h')(1, h') + W' h'' in
+  // the slip's place.
+  for (const double slip : {-0.3, 0.0, 0.17, 0.4}) {
+    Call c(2);
+    c.rdisp[0] = 0.01, c.rdisp[1] = slip;
+    c.place(0.25, 0);
+    c();
+    const double k = 2 * M_PI * 0.8, s = 0.25 + slip, h = 0.03 * std::sin(k * s + 0.4),
+                 h1 = 0.03 * k * std::cos(k * s + 0.4), h2 = -k * k * h, g = 0.01 + h,
+                 force = g > 0 ? 500 * g : 0, stiffness = g > 0 ? 500.0 : 0.0;
+    const double expected[4] = {stiffness, stiffness * h1, stiffness * h1, stiffness * h1 * h1 + force * h2};
+    EXPECT_NEAR(c.stress[0], force, 1e-12 * 500); // roundings of lengths of order one times the stiffness
+    EXPECT_NEAR(c.stress[1], force * h1, 1e-12 * 500);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(c.ddsddr[i], expected[i], 1e-11 * 500) << i;
+    EXPECT_EQ(c.ddsddr[1], c.ddsddr[2]) << "no UNSYMM without friction";
+    EXPECT_NEAR(c.sed[0], 0.5 * force * g, 1e-12);
+    EXPECT_EQ(c.lopenclose, g > 0 ? 1 : 0);
+  }
+}
+
+TEST_F(Uinter, StiffnessIsTheSlopeOfTheTraction) {
+  for (const int d : {2, 3}) {
+    Call before(d);
+    before.props[0] = d == 2 ? 63 : 62;
+    before.rdisp[0] = 0.02;
+    before.place(0.15, -0.35);
+    before();
+    for (const double slip : {0.002, 0.05}) { // sticking, slipping
+      const auto at = [&](int column, double step) {
+        Call c(d);
+        c.props[0] = before.props[0];
+        for (std::size_t i = 0; i < c.statev.size(); ++i) c.statev[i] = before.statev[i];
+        c.rdisp[0] = 0.025, c.rdisp[1] = slip, c.rdisp[2] = d == 3 ? -0.7 * slip : 0;
+        c.rdisp[column] += step;
+        c.coords[0] = c.coords[1] = 1e9; // the start is known by now
+        c();
+        return c;
+      };
+      Call c = at(0, 0);
+      const double step = 1e-6;
+      bool symmetric = true;
+      for (int j = 0; j < d; ++j) {
+        Call less = at(j, -step), more = at(j, step);
+        for (int i = 0; i < d; ++i) {
+          const auto entry = static_cast<std::size_t>(i + d * j), row = static_cast<std::size_t>(i);
+          // Differences: step^2 times third derivatives of 500 (2 pi 0.8)^3; roundings: 1e-14 / step.
+          EXPECT_NEAR(c.ddsddr[entry], (more.stress[row] - less.stress[row]) / (2 * step), 1e-5) << i << j;
+          symmetric =
+              symmetric && std::abs(c.ddsddr[entry] - c.ddsddr[static_cast<std::size_t>(j + d * i)]) < 1;
+        }
+      }
+      EXPECT_GT(c.stress[0], 0);
+      EXPECT_EQ(symmetric, slip < 0.01) << "slip depends on pressure, not the other way round";
+    }
+  }
+}
+
+TEST_F(Uinter, BothArgumentListsAgree) {
+  void* library = dlopen("libents_abaqus_uinter44.so", RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(library, nullptr) << dlerror();
+  Call now(3), old(3);
+  for (Call* c : {&now, &old}) {
+    c->props[0] = 62;
+    c->rdisp[0] = 0.02, c->rdisp[1] = 0.03, c->rdisp[2] = -0.01;
+    c->place(0.1, 0.2);
+  }
+  now();
+  old(reinterpret_cast<Uinter44*>(dlsym(library, "uinter_")));
+  EXPECT_NE(now.stress[1], 0);
+  EXPECT_EQ(std::memcmp(now.stress.data(), old.stress.data(), 3 * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(now.ddsddr.data(), old.ddsddr.data(), 9 * sizeof(double)), 0);
+  EXPECT_EQ(std::memcmp(now.statev.data(), old.statev.data(), 20 * sizeof(double)), 0);
+}
+
+TEST_F(Uinter, NoMasterIsNoContact) {
+  Call c(2);
+  c.rdisp[0] = -1e36;
+  c();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(c.ddsddr[i], 0);
+  EXPECT_EQ(c.stress[0], 0);
+  EXPECT_EQ(c.lopenclose, -1) << "not in use yet";
+  EXPECT_EQ(c.statev[0], 0);
+}
+
+TEST_F(Uinter, OpensAndCloses) {
+  Call c(2);
+  for (const double closing : {-0.1, 0.1, -0.1}) {
+    c.rdisp[0] = closing;
+    c.place(0, 0);
+    c();
+    EXPECT_EQ(c.lopenclose, closing > 0 ? 1 : 0);
+  }
+}
+
+TEST_F(Uinter, MistakesStopTheJobWithAdvice) {
+  const auto message = [](Call& c) {
+    EXPECT_THROW(c(), HostStopped);
+    const auto messages = abaqus_messages();
+    return messages.empty() ? std::string() : messages.back().text;
+  };
+  Call linear(2);
+  linear.linper = 1;
+  EXPECT_NE(message(linear).find("perturbation"), std::string::npos);
+  Call file(2);
+  file.props[0] = 60;
+  EXPECT_NE(message(file).find("ents_60.json"), std::string::npos);
+  Call segment(2);
+  segment.props[0] = 62;
+  EXPECT_NE(message(segment).find("line2"), std::string::npos);
+  Call face(2);
+  face.props[1] = 0;
+  EXPECT_NE(message(face).find("property 2"), std::string::npos);
+}
+
+} // namespace
+} // namespace adapters
