@@ -43,9 +43,10 @@ public:
       : library_(library), press_(press), rules_(rules) {}
 
   Outcome run() {
-    const int per_segment = press_.height.is_null() ? 1 : static_cast<int>(std::ceil(32 / press_.wavelength));
+    const double each = press_.dimension == 3 ? 16 : 32; // samples of a wave
+    const int per_segment = press_.height.is_null() ? 1 : static_cast<int>(std::ceil(each / press_.wavelength));
     model_ = std::make_unique<EntsModel>(library_, model_text(press_, 0), "", "chart");
-    points_ = sample_master(*model_, press_, press_.dimension == 3 ? std::min(per_segment, 64) : per_segment);
+    points_ = sample_master(*model_, press_, per_segment);
     if (rules_.check || rules_.reach) {
       const MasterCheck check = check_master(*model_, press_, points_);
       if (rules_.check && !admissible(check)) return outcome_;
@@ -54,8 +55,9 @@ public:
         model_ = std::make_unique<EntsModel>(library_, model_text(press_, limit_), "", "chart");
       }
     }
-    // what the element assumes if nothing is said: the size of the segment
-    if (!std::isfinite(limit_)) limit_ = segment_size();
+    const double size = segment_size();
+    longest_move_ = std::min(quarter_wave(per_segment), size);
+    if (!std::isfinite(limit_)) limit_ = size; // what the element assumes if nothing is said
     describe_mesh();
     walk();
     return outcome_;
@@ -69,6 +71,26 @@ private:
     else if (check.crossing) end = End::crossing;
     else if (check.shadow <= 0) end = End::self_shadow;
     return end == End::solved;
+  }
+
+  /// A quarter of the shortest wave, as it is on rho_e: a height above a hollow segment shortens it.
+  double quarter_wave(int per_segment) const {
+    const double quarter = 0.25 * press_.wavelength;
+    if (press_.height.is_null()) return quarter;
+    const auto d = static_cast<std::size_t>(press_.dimension);
+    const auto stride = static_cast<std::size_t>(std::lround(quarter * per_segment));
+    const std::size_t row = static_cast<std::size_t>(per_segment) + 1, rows = points_.point.size() / (d * row);
+    double least = quarter;
+    for (std::size_t j = 0; j < rows; ++j)
+      for (std::size_t i = 0; i + stride < row; ++i) {
+        double square = 0;
+        for (std::size_t k = 0; k < d; ++k) {
+          const double* point = points_.point.data() + (j * row + i) * d + k;
+          square += std::pow(point[stride * d] - point[0], 2);
+        }
+        least = std::min(least, std::sqrt(square));
+      }
+    return least;
   }
 
   double segment_size() const {
@@ -130,19 +152,18 @@ private:
   /// Newton's method from `begin` at the load t.
   std::optional<Obstacle> attempt(double t, const State& begin, State& next) {
     const Vec anchor = press_.anchor(t);
-    const double quarter = 0.25 * press_.wavelength;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       Contact contact;
       if (const auto obstacle = touch(begin, next, contact)) return obstacle;
       ++outcome_.iterations;
-      const Vec spring = press_.stiffness * (next.x - anchor), residual = spring + contact.force;
-      const Mat tangent = press_.stiffness * Mat::Identity(press_.dimension, press_.dimension) + contact.tangent;
+      const Vec spring = press_.spring().cwiseProduct(next.x - anchor), residual = spring + contact.force;
+      const Mat tangent = Mat(press_.spring().asDiagonal()) + contact.tangent;
       // relative to the forces, or to those of a hundredth of a segment
-      const double scale = std::max({spring.norm(), contact.force.norm(), 0.01 * press_.stiffness});
+      const double scale = std::max({spring.norm(), contact.force.norm(), 0.01});
       if (residual.norm() <= 1e-10 * scale) return judge(begin, next, contact, tangent);
       Vec step = -tangent.partialPivLu().solve(residual);
       if (!step.allFinite()) return Obstacle{End::diverged};
-      if (rules_.move && step.norm() > quarter) step *= quarter / step.norm();
+      if (rules_.move && step.norm() > longest_move_) step *= longest_move_ / step.norm();
       next.x += step;
       if (!(next.x.norm() < 1e3)) return Obstacle{End::diverged};
     }
@@ -151,7 +172,7 @@ private:
 
   /// May a converged increment be believed?
   std::optional<Obstacle> judge(const State& begin, const State& next, const Contact& contact, const Mat& tangent) const {
-    if (rules_.move && (next.x - begin.x).norm() > 0.25 * press_.wavelength) return Obstacle{End::jump};
+    if (rules_.move && (next.x - begin.x).norm() > longest_move_) return Obstacle{End::jump};
     if (rules_.flags && contact.closed && press_.method.tangent != TangentKind::first_variation) {
       const Mat symmetric = 0.5 * (tangent + tangent.transpose());
       const Eigen::SelfAdjointEigenSolver<Mat> spectrum(symmetric, Eigen::EigenvaluesOnly);
@@ -250,7 +271,8 @@ private:
   MasterPoints points_;
   ents_master_mesh mesh_{};
   std::vector<double> tree_;
-  double limit_ = INFINITY;
+  double limit_ = INFINITY;     ///< of penetration
+  double longest_move_ = INFINITY; ///< in an increment
   ents_report report_ = ents_struct<ents_report>();
   Outcome outcome_;
 };

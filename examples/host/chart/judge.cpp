@@ -11,12 +11,11 @@ namespace {
 
 double energy(const Press& press, const Vec& anchor, const Vec& x, const Pair& pair) {
   const double contact = pair.piece >= 0 && pair.gap < 0 ? press.penalty * pair.gap * pair.gap : 0;
-  return 0.5 * (press.stiffness * (x - anchor).squaredNorm() + contact);
+  return 0.5 * ((x - anchor).dot(press.spring().cwiseProduct(x - anchor)) + contact);
 }
 
 Mat energy_hessian(const Press& press, const Pair& pair) {
-  const auto d = press.dimension;
-  Mat hessian = press.stiffness * Mat::Identity(d, d);
+  Mat hessian = press.spring().asDiagonal();
   if (pair.piece >= 0 && pair.gap < 0)
     hessian += press.penalty * (pair.gradient * pair.gradient.transpose() + pair.gap * pair.hessian);
   return hessian;
@@ -41,8 +40,8 @@ bool settle_in_kink(const Press& press, const Vec& anchor, double longest, Vec& 
   const auto up = press.dimension - 1;
   if (!kink.found || std::abs(kink.point[0] - x[0]) > longest) return false;
   Vec place = kink.point;
-  place[up] = (press.stiffness * anchor[up] + press.penalty * kink.point[up]) / (press.stiffness + press.penalty);
-  const double gap = place[up] - kink.point[up], spring = press.stiffness * (place[0] - anchor[0]);
+  place[up] = (anchor[up] + press.penalty * kink.point[up]) / (1 + press.penalty);
+  const double gap = place[up] - kink.point[up], spring = press.lateral * (place[0] - anchor[0]);
   const auto lateral = [&](int side) { return spring + press.penalty * gap * kink.gradient[side][0]; };
   if (!(gap < 0) || lateral(0) * lateral(1) > 0) return false;
   Pair there = pair;
@@ -56,12 +55,12 @@ bool settle_in_kink(const Press& press, const Vec& anchor, double longest, Vec& 
 bool settle(const Press& press, const Vec& anchor, Vec& x, Pair& pair) {
   const double longest = 0.02 * press.wavelength;
   pair = press.truth->next(x, pair);
-  const double size = press.stiffness + press.penalty; // rounding: 1e-16 of positions of order 1, times this
+  const double size = press.lateral + press.penalty; // rounding: 1e-16 of positions of order 1, times this
   for (int iteration = 0; iteration < 2000; ++iteration) {
     const Vec gradient = energy_gradient(press, anchor, x, pair);
     const double residual = gradient.norm();
     if (residual < 1e-13 * size || settle_in_kink(press, anchor, longest, x, pair)) return true;
-    Vec step = downhill(energy_hessian(press, pair), gradient, 0.02 * press.stiffness);
+    Vec step = downhill(energy_hessian(press, pair), gradient, 0.02);
     if (step.norm() > longest) step *= longest / step.norm();
     const double before = energy(press, anchor, x, pair);
     bool accepted = false;
@@ -82,7 +81,7 @@ bool settle(const Press& press, const Vec& anchor, Vec& x, Pair& pair) {
 } // namespace
 
 Vec energy_gradient(const Press& press, const Vec& anchor, const Vec& x, const Pair& pair) {
-  Vec gradient = press.stiffness * (x - anchor);
+  Vec gradient = press.spring().cwiseProduct(x - anchor);
   if (pair.piece >= 0 && pair.gap < 0) gradient += press.penalty * pair.gap * pair.gradient;
   return gradient;
 }

@@ -2,6 +2,7 @@
 #include "chart/press.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "chart/true_curve.hpp"
 
@@ -20,6 +21,12 @@ Vec Press::anchor(double t) const {
   return x;
 }
 
+Vec Press::spring() const {
+  Vec stiffness = Vec::Constant(dimension, lateral);
+  stiffness[dimension - 1] = 1;
+  return stiffness;
+}
+
 Press make_press(const PressOptions& options) {
   Press press;
   const Profile& profile = options.profile;
@@ -30,15 +37,18 @@ Press make_press(const PressOptions& options) {
   // Plain segments meet in kinks. Beside a concave one a node that has penetrated is ahead of neither: they
   // reach beyond their ends by as much as the penetration asks for.
   const bool kinks = profile.surface == SurfaceKind::plain || press.local;
-  if (kinks) press.border = press.local ? 0.01 : 0.05;
+  if (kinks) press.border = press.local ? 0.01 : 0.1;
   press.penalty = options.penalty;
   press.increments = options.increments;
   press.wavelength = profile.wavelength;
   press.curvature = profile.curvature;
   // two ends of segments are crossed, at s = 0 and 1; neither end of the way is a symmetric place
   press.from = -0.83, press.to = 1.27;
-  press.above = profile.height.highest() + 0.02;
-  press.below = profile.height.constant - options.depth;
+  // B-splines run beside their control points, by (1 - cos curvature) / (3 curvature) on an arc
+  const bool beside = profile.surface == SurfaceKind::c2 || profile.surface == SurfaceKind::plain;
+  const double base = beside && profile.curvature != 0 ? (1 - std::cos(profile.curvature)) / (3 * profile.curvature) : 0;
+  press.above = base + profile.height.highest() + 0.02;
+  press.below = base + profile.height.constant - options.depth;
   press.truth = std::make_shared<TrueCurve>(profile, options.method.projection, 0.5 * press.border);
   return press;
 }

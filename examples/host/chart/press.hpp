@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model problem of the stability maps: one slave node on a spring, pressed into a wavy rigid master and drawn over
 // two borders of its segments. Its energy
-//   stiffness / 2 |x - anchor(t)|^2 + penalty / 2 <-g(x)>^2
+//   1/2 (x - anchor(t)) . K (x - anchor(t)) + penalty / 2 <-g(x)>^2
 // has 2 (3D: 3) unknowns, so that every equilibrium can be found without the library.
 #pragma once
 
@@ -22,7 +22,7 @@ struct Press {
   Method method;
   int dimension = 2;
   // the node
-  double stiffness = 1;  ///< of the spring, in every direction
+  double lateral = 4;    ///< stiffness of the spring along the row; 1 upwards
   double penalty = 100;
   int increments = 16;   ///< nominal
   double wavelength = 1; ///< shortest of the surface: what the host knows of it
@@ -31,6 +31,8 @@ struct Press {
   double across = 0; ///< 3D: second coordinate
 
   Vec anchor(double t) const;
+  /// Stiffness of the spring by direction.
+  Vec spring() const;
   /// The master as the judge sees it.
   std::shared_ptr<const TrueSurface> truth;
 };
