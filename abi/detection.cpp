@@ -146,7 +146,8 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
     if (io->gap) io->gap[i] = found.segment >= 0 ? found.at.gap : 0.0;
     if (io->flags)
       io->flags[i] =
-          (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0);
+          (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0) |
+                     (found.behind_edge ? ENTS_FLAG_BEHIND_EDGE : 0);
     if (io->other) io->other[i] = found.other;
   }
   return report_ok(report);

@@ -19,7 +19,7 @@ module ents
 
   ! What this module promises: pass both to ents_check_contract.
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 1
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 2
 
   ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
   integer(c_int32_t), parameter :: ENTS_OK = 0
@@ -42,6 +42,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_BAD_COUNT = -10
   integer(c_int32_t), parameter :: ENTS_BAD_HANDLE = -11
   integer(c_int32_t), parameter :: ENTS_BAD_STATE = -12
+  integer(c_int32_t), parameter :: ENTS_BAD_PATTERN = -13
   integer(c_int32_t), parameter :: ENTS_NO_MEMORY = -100
   integer(c_int32_t), parameter :: ENTS_INTERNAL = -101
 
@@ -75,6 +76,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_SLIP = 32
   integer(c_int32_t), parameter :: ENTS_FLAG_SHEAR_LIMIT = 64
   integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
+  integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
 
   type, bind(c) :: ents_report
@@ -130,6 +132,34 @@ module ents
     type(c_ptr) :: flags = c_null_ptr ! (nodes), int32
     type(c_ptr) :: other = c_null_ptr ! (nodes), int64
   end type ents_detection
+
+  type, bind(c) :: ents_combination
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: points = 0
+    type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64, counted from 0
+    type(c_ptr) :: nodes = c_null_ptr ! int64, counted from 0
+    type(c_ptr) :: weights = c_null_ptr
+  end type ents_combination
+
+  type, bind(c) :: ents_system
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: index_size = 0 ! 4 or 8: bytes of an index in row_begin and columns
+    type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
+    type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
+    integer(c_int64_t) :: slave_nodes = 0
+    type(c_ptr) :: slave_equations = c_null_ptr ! (d, slave_nodes), int64, counted from 0; -1: none
+    integer(c_int64_t) :: master_nodes = 0
+    type(c_ptr) :: master_equations = c_null_ptr ! (d, master_nodes)
+    type(c_ptr) :: multiplier_equations = c_null_ptr ! (multipliers, elements)
+    integer(c_int64_t) :: rows = 0
+    type(c_ptr) :: residual = c_null_ptr ! (rows)
+    type(c_ptr) :: row_begin = c_null_ptr ! (rows + 1), counted from 0
+    type(c_ptr) :: columns = c_null_ptr ! counted from 0
+    type(c_ptr) :: values = c_null_ptr
+    type(c_ptr) :: places = c_null_ptr ! (places_size, elements), int64
+    integer(c_int64_t) :: places_size = 0
+  end type ents_system
 
   type, bind(c) :: ents_input
     integer(c_int32_t) :: struct_size = 0
@@ -231,10 +261,12 @@ module ents
 
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
-    module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
+    module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
+      init_input, init_output, &
       init_surface, init_admissibility
   end interface ents_init
-  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_surface, &
+  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
+    init_input, init_output, init_surface, &
     init_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
@@ -374,6 +406,48 @@ module ents
       integer(c_int32_t) :: status
     end function ents_detect
 
+    ! Positions of points that are linear combinations of nodes. positions: (d, nodes); points: (d, points).
+    function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
+      import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
+      type(ents_combination), intent(in), target :: combination
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), intent(inout) :: points(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_combine
+
+    ! Sampling points inside slave facets; arguments as of ents_tributary_areas. begin: (points + 1); point_nodes, weights: (nodes of
+    ! the facet, points); areas: (points).
+    function ents_sampling_points(facet, per_direction, facets, connectivity, nodes, positions, thickness, begin, point_nodes, &
+      weights, areas, report) result(status) bind(c, name="ents_sampling_points")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
+      character(kind=c_char), intent(in) :: facet(*)
+      integer(c_int32_t), value :: per_direction
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), value :: thickness
+      integer(c_int64_t), intent(inout) :: begin(*), point_nodes(*)
+      real(c_double), intent(inout) :: weights(*), areas(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_sampling_points
+
+    ! Evaluate elements and add them to the host's equations. output: c_loc of an ents_output or c_null_ptr.
+    function ents_assemble(model, first, count, input, output, system, report) result(status) bind(c, name="ents_assemble")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_report, ents_system
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: first, count
+      type(ents_input), intent(in), target :: input
+      type(c_ptr), value :: output
+      type(ents_system), intent(in), target :: system
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_assemble
+
     ! Uzawa: the multipliers of the end states into the begin states; solve the increment again.
     function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
       bind(c, name="ents_state_augment")
@@ -471,6 +545,16 @@ contains
     type(ents_detection), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_detection
+
+  subroutine init_combination(x)
+    type(ents_combination), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_combination
+
+  subroutine init_system(x)
+    type(ents_system), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_system
 
   subroutine init_input(x)
     type(ents_input), intent(out) :: x

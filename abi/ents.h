@@ -51,7 +51,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 1
+#define ENTS_CONTRACT_MINOR 2
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -79,6 +79,7 @@ extern "C" {
   X(ENTS_BAD_COUNT, -10, "negative count, or a stride or leading dimension too small")             \
   X(ENTS_BAD_HANDLE, -11, "not a live model handle")                                               \
   X(ENTS_BAD_STATE, -12, "state block of another model, version, or not initialised")              \
+  X(ENTS_BAD_PATTERN, -13, "the host's sparse matrix has no place for an entry")                   \
   X(ENTS_NO_MEMORY, -100, "out of memory")                                                         \
   X(ENTS_INTERNAL, -101, "internal error, please report it")
 
@@ -196,7 +197,7 @@ typedef struct ents_detection {
   int64_t *segment;                  /* [count] in: the segment of before, or -1; out: the segment, -1: nothing within reach */
   double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
   double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow) */
-  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, ENTS_FLAG_AMBIGUOUS */
+  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE */
   int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or -1 */
 } ents_detection;
 
@@ -207,7 +208,10 @@ typedef struct ents_detection {
  * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
  * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
  * one on the segment with the smaller number is given), or the proof took too long.
- * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one.
+ * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
+ * concave edge between segments (a kink of a plain mesh) that is a penetration that nobody sees: the normals of both
+ * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE says so (normal projection): cut the step, widen the border, or
+ * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open.
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
@@ -271,6 +275,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
 #define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
+#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: ahead of no segment, but behind an edge between segments: not open, but lost */
 #define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A
@@ -328,7 +333,7 @@ ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, doub
  *   old_master, new_master  [m][d] positions, [L], both at the same instant (the begin of the increment)
  *   old_..., new_surface_coordinates  [m][d-1] or null: the model's own, else s = xi (then positions decide)
  *   state, moved            [state_size] in, out; may not overlap
- * Recoverable: NO_PROJECTION, DEGENERATE_SEGMENT. */
+ * Recoverable: NO_PROJECTION (of the anchor: without friction there is none), DEGENERATE_SEGMENT. */
 ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_master, const double *old_surface_coordinates,
                                      const double *new_master, const double *new_surface_coordinates,
                                      const double *state, double *moved, ents_report *report);
@@ -342,6 +347,71 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
  *   areas         [nodes] out, [A]; 0 for nodes on no facet */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
+
+/* ---- points inside facets, and assembly -------------------------------------------------------- */
+
+/* Points that are linear combinations of a host's nodes: sampling points inside slave facets, control points of a smoothed
+ * master surface.  x_i = sum_j weights[j] X[nodes[j]],  j = begin[i] .. begin[i+1] - 1. The arrays stay the caller's. */
+typedef struct ents_combination {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  int64_t points;
+  const int64_t *begin;              /* [points + 1], begin[0] = 0, never falling */
+  const int64_t *nodes;              /* [begin[points]], >= 0 */
+  const double *weights;             /* [begin[points]] */
+} ents_combination;
+
+/* Positions of the points.
+ *   dimension  d
+ *   positions  [nodes][d] of the host's nodes, [L], finite
+ *   points     [points][d] out */
+ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimension, int64_t nodes, const double *positions,
+                              double *points, ents_report *report);
+
+/* Sampling points of slave facets, so that texture between slave nodes is seen and a constant pressure gives every
+ * slave node its exact share (Zavarise and De Lorenzis, IJNME 79, 2009). Arguments as of ents_tributary_areas, and
+ *   per_direction  n, 1 .. 64: lines have n points, triangles and quadrilaterals n^2. Lines and quadrilaterals: Gauss and
+ *                  Legendre's; triangles: the centroids of n^2 equal parts
+ *   begin          [points + 1] out, points = facets * points of a facet, those of a facet one after the other
+ *   point_nodes    [points * nodes of the facet] out
+ *   weights        [points * nodes of the facet] out
+ *   areas          [points] out, [A]
+ * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). */
+ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
+                                      int64_t nodes, const double *positions, double thickness, int64_t *begin,
+                                      int64_t *point_nodes, double *weights, double *areas, ents_report *report);
+
+/* The host's equations. */
+typedef struct ents_system {
+  int32_t struct_size;
+  int32_t index_size;                /* 4 or 8: bytes of an index in row_begin and columns */
+  const ents_combination *slave;     /* slave points over the host's nodes; null: slave point i is node i */
+  const ents_combination *master;    /* nodes of the mesh (control points) over the host's nodes; null: node i is node i */
+  int64_t slave_nodes;               /* nodes of the host that slave_equations covers */
+  const int64_t *slave_equations;    /* [slave_nodes][d] row of each dof; -1: prescribed, left out */
+  int64_t master_nodes;
+  const int64_t *master_equations;   /* [master_nodes][d]; not read for a rigid master. May be slave_equations */
+  const int64_t *multiplier_equations; /* [elements][multipliers]; needed if the layout has any */
+  int64_t rows;
+  double *residual;                  /* [rows] R is added; null: not wanted */
+  const void *row_begin;             /* [rows + 1] compressed rows, counted from 0 */
+  const void *columns;               /* [row_begin[rows]] ascending in each row */
+  double *values;                    /* [row_begin[rows]] K is added; null: not wanted */
+  int64_t *places;                   /* [elements][places_size] or null: where the entries of each element are in `values`, kept
+                                        from call to call: zero it once, and whenever the pattern or the equations change */
+  int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination */
+} ents_system;
+
+/* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
+ * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
+ * them; an element with segment -1 is open (and output.wanted must be 0, for there is nothing to tell). What is open adds
+ * nothing, but for the equations "multiplier = 0".
+ * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
+ *   output  results per element as of ents_evaluate, or null
+ * Errors: those of ents_evaluate; BAD_PATTERN names the row and column that the pattern lacks. After an error or a
+ * recoverable status the system holds a part of the sum: start again from zero. */
+ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t count, const ents_input *input,
+                               const ents_output *output, const ents_system *system, ents_report *report);
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 

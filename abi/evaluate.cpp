@@ -3,9 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "abi/element_call.hpp"
 #include "abi/guard.hpp"
-#include "abi/handle.hpp"
-#include "abi/mesh.hpp"
 
 namespace ents {
 
@@ -41,10 +40,6 @@ struct Array {
   std::int64_t stride;
   std::int64_t size; // of one element
 };
-
-template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
-  return data ? data + stride * element : nullptr;
-}
 
 std::int64_t leading_dimension(const Plan& plan, const ents_output& out) noexcept {
   return out.tangent_leading_dimension == 0 ? plan.dofs : out.tangent_leading_dimension;
@@ -219,81 +214,78 @@ std::int32_t explain(const Plan& plan, std::int32_t status, std::int64_t element
   return report_message(report, status, element, "element %lld: %s", e, ents_status_text(status));
 }
 
-std::int32_t evaluate(const ents_model* model, std::int64_t first, std::int64_t count,
-                      const ents_input* input, const ents_output* output, ents_report* report) {
-  std::int32_t status = check_handle(model, report);
-  if (status != ENTS_OK) return status;
-  ents_input input_copy;
-  ents_output output_copy;
-  const ents_input* in = known_struct(input, input_copy, "input", status, report);
-  if (!in) return status;
-  const ents_output* out = known_struct(output, output_copy, "output", status, report);
-  if (!out) return status;
-  const Plan& plan = model->plan;
-  if ((status = check_input(plan, first, count, *in, report)) != ENTS_OK) return status;
-  if ((status = check_output(*model, first, count, *out, report)) != ENTS_OK) return status;
-
-  MasterMesh mesh;
-  if (in->mesh && (status = check_mesh(in->mesh, "input.mesh", mesh, report)) != ENTS_OK) return status;
-
-  report_ok(report);
-  std::int32_t result = ENTS_OK;
-  SegmentNodes nodes;
-  for (std::int64_t e = first; e < first + count; ++e) {
-    if (in->mesh) {
-      const std::int64_t segment = *at(in->segment, in->segment_stride, e);
-      const bool known = segment >= 0 && segment < mesh.segments;
-      if (const Status outcome = known ? gather(plan, mesh, segment, nodes) : Status::bad_value; outcome != Status::ok) {
-        if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
-        if (known) return explain_segment(plan, mesh, outcome, segment, report);
-        return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
-                              static_cast<long long>(e), static_cast<long long>(segment),
-                              static_cast<long long>(mesh.segments - 1));
-      }
-    }
-    const ElementInput element = {at(in->slave, in->slave_stride, e),
-                                  in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
-                                  in->mesh ? nodes.surface_coordinates
-                                           : at(in->surface_coordinates, in->surface_coordinates_stride, e),
-                                  at(in->start, in->start_stride, e),
-                                  at(in->area, in->area_stride, e),
-                                  at(in->state_begin, in->state_begin_stride, e),
-                                  at(in->multiplier, in->multiplier_stride, e)};
-    const ElementOutput results = {out->wanted,
-                                   at(out->xi, out->xi_stride, e),
-                                   at(out->gap, out->gap_stride, e),
-                                   at(out->normal_gap, out->normal_gap_stride, e),
-                                   at(out->normal, out->normal_stride, e),
-                                   at(out->point, out->point_stride, e),
-                                   at(out->gap_gradient, out->gap_gradient_stride, e),
-                                   at(out->gap_hessian, out->gap_hessian_stride, e),
-                                   at(out->xi_gradient, out->xi_gradient_stride, e),
-                                   at(out->xi_hessian, out->xi_hessian_stride, e),
-                                   at(out->energy, out->energy_stride, e),
-                                   at(out->pressure, out->pressure_stride, e),
-                                   at(out->residual, out->residual_stride, e),
-                                   at(out->tangent, out->tangent_stride, e),
-                                   at(out->state_end, out->state_end_stride, e),
-                                   leading_dimension(plan, *out),
-                                   at(out->flags, out->flags_stride, e),
-                                   at(out->iterations, out->iterations_stride, e),
-                                   at(out->traction, out->traction_stride, e),
-                                   at(out->slip, out->slip_stride, e),
-                                   at(out->age, out->age_stride, e)};
-    const std::int32_t outcome = static_cast<std::int32_t>(plan.element(plan, element, results));
-    if (out->status) *at(out->status, out->status_stride, e) = outcome;
-    if (outcome < 0) return explain(plan, outcome, e, *in, report);
-    if (outcome > 0 && result == ENTS_OK) {
-      result = outcome;
-      explain(plan, outcome, e, *in, report);
-    }
-  }
-  return result;
-}
-
 } // namespace
 
+std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count, const ents_input* input,
+                               const ents_output* output, ents_report* report) {
+  std::int32_t status = check_handle(handle, report);
+  if (status != ENTS_OK) return status;
+  plan = &handle->plan;
+  in = known_struct(input, input_copy, "input", status, report);
+  if (!in) return status;
+  out = known_struct(output, output_copy, "output", status, report);
+  if (!out) return status;
+  if ((status = check_input(*plan, first, count, *in, report)) != ENTS_OK) return status;
+  if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
+  return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
+}
+
+std::int32_t ElementCall::refuse_segment(std::int64_t e, ents_report* report) const {
+  return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
+                        static_cast<long long>(e), static_cast<long long>(segment(e)),
+                        static_cast<long long>(mesh.segments - 1));
+}
+
+std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_report* report) const {
+  SegmentNodes nodes;
+  if (in->mesh) {
+    const std::int64_t s = segment(e);
+    const bool known = s >= 0 && s < mesh.segments;
+    if (const Status outcome = known ? gather(*plan, mesh, s, nodes) : Status::bad_value; outcome != Status::ok) {
+      if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
+      return known ? explain_segment(*plan, mesh, outcome, s, report) : refuse_segment(e, report);
+    }
+  }
+  const ElementInput element = {at(in->slave, in->slave_stride, e),
+                                in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
+                                in->mesh ? nodes.surface_coordinates
+                                        : at(in->surface_coordinates, in->surface_coordinates_stride, e),
+                                at(in->start, in->start_stride, e),
+                                at(in->area, in->area_stride, e),
+                                at(in->state_begin, in->state_begin_stride, e),
+                                at(in->multiplier, in->multiplier_stride, e)};
+  const ElementOutput results = {out->wanted | also.wanted,
+                                 at(out->xi, out->xi_stride, e),
+                                 at(out->gap, out->gap_stride, e),
+                                 at(out->normal_gap, out->normal_gap_stride, e),
+                                 at(out->normal, out->normal_stride, e),
+                                 at(out->point, out->point_stride, e),
+                                 at(out->gap_gradient, out->gap_gradient_stride, e),
+                                 at(out->gap_hessian, out->gap_hessian_stride, e),
+                                 at(out->xi_gradient, out->xi_gradient_stride, e),
+                                 at(out->xi_hessian, out->xi_hessian_stride, e),
+                                 at(out->energy, out->energy_stride, e),
+                                 at(out->pressure, out->pressure_stride, e),
+                                 also.residual ? also.residual : at(out->residual, out->residual_stride, e),
+                                 also.tangent ? also.tangent : at(out->tangent, out->tangent_stride, e),
+                                 at(out->state_end, out->state_end_stride, e),
+                                 also.tangent ? plan->dofs : leading_dimension(*plan, *out),
+                                 also.flags ? also.flags : at(out->flags, out->flags_stride, e),
+                                 at(out->iterations, out->iterations_stride, e),
+                                 at(out->traction, out->traction_stride, e),
+                                 at(out->slip, out->slip_stride, e),
+                                 at(out->age, out->age_stride, e)};
+  const std::int32_t outcome = static_cast<std::int32_t>(plan->element(*plan, element, results));
+  if (out->status) *at(out->status, out->status_stride, e) = outcome;
+  return outcome;
+}
+
+std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {
+  return ents::explain(*plan, status, e, *in, report);
+}
+
 } // namespace ents
+
 
 extern "C" {
 
@@ -301,7 +293,11 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
                       const ents_output* output, ents_report* report) {
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
-    return ents::evaluate(model, first, count, input, output, report);
+    ents::ElementCall call;
+    if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
+      return status;
+    ents::report_ok(report);
+    return call.for_each(first, count, report, [&](std::int64_t e) { return call.evaluate(e, {}, report); });
   });
 }
 

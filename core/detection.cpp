@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/detection.hpp"
+#include "core/behind_edge.hpp"
+#include "core/segment_tree.hpp"
 #include "core/target.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace ents {
 
 namespace {
-
-constexpr std::int64_t leaf_segments = 4;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// tree: [tag, segments, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
-constexpr double tag = 1701737588.0; // says that it is a tree, and how it is laid out
-constexpr std::int64_t header = 2;
-
-struct Tree {
-  std::int64_t segments;
-  int depth = 0;
-  int d;
-  Tree(const Plan& plan, std::int64_t count) : segments(count), d(plan.dimension) {
-    while ((leaf_segments << depth) < segments) ++depth;
-  }
-  std::int64_t leaves() const { return std::int64_t{1} << depth; }
-  std::int64_t size() const { return header + segments + 2 * leaves() * 2 * d; }
-  template <class Double> Double* order(Double* tree) const { return tree + header; }
-  template <class Double> Double* box(Double* tree, std::int64_t node) const {
-    return tree + header + segments + node * 2 * d;
-  }
-  // Node k of a level of 2^l covers order[first(k, l)] .. order[first(k + 1, l) - 1].
-  std::int64_t first(std::int64_t k, int level) const { return (k * segments) >> level; }
-};
 
 Status segment_box(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, double* low,
                    double* high) {
@@ -47,14 +24,7 @@ Status segment_box(const Plan& plan, const MasterMesh& mesh, std::int64_t segmen
 double least_rank(const Plan& plan, const double* slave, const double (&ray)[3], const double* box) {
   const int d = plan.dimension;
   const double *low = box, *high = box + d;
-  if (plan.projection == ProjectionKind::normal) {
-    double sum = 0.0;
-    for (int k = 0; k < d; ++k) {
-      const double off = std::max({low[k] - slave[k], slave[k] - high[k], 0.0});
-      sum += off * off;
-    }
-    return std::sqrt(sum);
-  }
+  if (plan.projection == ProjectionKind::normal) return distance_to_box(d, slave, box);
   // rho = x_s - g e: the range of g in which the line is in the box
   double least = -infinity, most = infinity;
   for (int k = 0; k < d; ++k) {
@@ -102,6 +72,15 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
 
 } // namespace
 
+double distance_to_box(int d, const double* point, const double* box) {
+  double sum = 0.0;
+  for (int k = 0; k < d; ++k) {
+    const double off = std::max({box[k] - point[k], point[k] - box[d + k], 0.0});
+    sum += off * off;
+  }
+  return std::sqrt(sum);
+}
+
 Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, SegmentNodes& out) {
   const std::int64_t* nodes = mesh.connectivity + segment * plan.nodes;
   double size = 0.0;
@@ -126,7 +105,7 @@ std::int64_t tree_size(const Plan& plan, std::int64_t segments) {
 }
 
 bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
-  return tree[0] == tag + plan.dimension && tree[1] == static_cast<double>(mesh.segments);
+  return tree[0] == tree_tag + plan.dimension && tree[1] == static_cast<double>(mesh.segments);
 }
 
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
@@ -194,14 +173,14 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
         join(t.box(tree, child), t.box(tree, child) + d);
     }
   }
-  tree[0] = tag + d;
+  tree[0] = tree_tag + d;
   return Status::ok;
 }
 
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out) {
   SegmentNodes nodes;
-  out.searched = false;
+  out.searched = out.behind_edge = false;
   if (out.segment >= 0) {
     if (const Status status = gather(plan, mesh, out.segment, nodes); status != Status::ok) return status;
     const double start[2] = {out.at.xi[0], out.at.xi[1]};
@@ -223,53 +202,33 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   }
   const double(&ray)[3] = target.ray;
 
-  const Tree t(plan, mesh.segments);
-  struct Visit {
-    std::int64_t node;
-    double rank;
-  };
-  Visit waiting[64];
-  int count = 0;
   const auto limit = [&] { return out.segment < 0 ? reach : std::min(reach, out.at.rank + out.at.tie); };
-  const auto wait = [&](std::int64_t node) {
-    const double rank = least_rank(plan, slave, ray, t.box(tree, node));
-    if (rank <= limit()) waiting[count++] = {node, rank};
-  };
-  wait(1);
-  while (count > 0) {
-    const Visit visit = waiting[--count];
-    if (!(visit.rank <= limit())) continue;
-    if (visit.node < t.leaves()) {
-      const int before = count;
-      wait(2 * visit.node);
-      wait(2 * visit.node + 1);
-      if (count == before + 2 && waiting[count - 2].rank < waiting[count - 1].rank)
-        std::swap(waiting[count - 2], waiting[count - 1]);
-      continue;
-    }
-    const std::int64_t leaf = visit.node - t.leaves();
-    for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
-      const std::int64_t segment = static_cast<std::int64_t>(t.order(tree)[i]);
-      if (const Status status = gather(plan, mesh, segment, nodes); status != Status::ok) {
-        out.segment = segment;
-        return status;
-      }
-      double box[6];
-      plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
-      if (!(least_rank(plan, slave, ray, box) <= limit())) continue;
-      SegmentProjection candidate;
-      if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, limit(), candidate))
-        consider(plan.dimension, segment, candidate, out);
-      else
-        doubtful = doubtful || candidate.ambiguous;
-    }
-  }
+  const Status status = visit_segments(
+      Tree(plan, mesh.segments), tree, [&](const double* box) { return least_rank(plan, slave, ray, box); }, limit,
+      [&](std::int64_t segment) {
+        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) {
+          out.segment = segment;
+          return gathered;
+        }
+        double box[6];
+        plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
+        if (!(least_rank(plan, slave, ray, box) <= limit())) return Status::ok;
+        SegmentProjection candidate;
+        if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, limit(), candidate))
+          consider(plan.dimension, segment, candidate, out);
+        else
+          doubtful = doubtful || candidate.ambiguous;
+        return Status::ok;
+      });
+  if (status != Status::ok) return status;
   if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)
     out.segment = -1; // lit far behind the slave
   if (out.segment >= 0)
     out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
   else
     out.at.ambiguous = doubtful;
+  out.behind_edge = out.segment < 0 && plan.projection == ProjectionKind::normal &&
+                    is_behind_edge(plan, mesh, tree, slave, reach);
   return Status::ok;
 }
 

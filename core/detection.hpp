@@ -43,6 +43,7 @@ struct Detection {
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;
   bool searched;
+  bool behind_edge; // no segment: the slave is behind an edge that two segments share, ahead of neither
 };
 
 // The projection of a slave among all segments.

@@ -86,7 +86,10 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
       Target t{};
       t.kind = ProjectionKind::normal;
-      if (search<B, H>(g, t, plan, to).found != Found::yes) return Status::no_projection;
+      const bool found = search<B, H>(g, t, plan, to).found == Found::yes;
+      if (!found && which == 1) return Status::no_projection;
+      // Where the next projection starts is no history: a slave that went far may start from the middle.
+      if (!found) domain_centre<B>(to.xi);
       for (int a = 0; a < T; ++a) xi[a] = to.xi[a];
     }
     for (int a = 0; a < T; ++a) end[points[which] + a] = xi[a];

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/basis.hpp"
+#include "core/facet.hpp"
 
 namespace ents {
 
@@ -42,9 +42,6 @@ template <class B> int quadrature(Point (&points)[9]) {
 template <class B> bool add_facet(const std::int64_t* nodes, const double* positions, double thickness, double* areas) {
   using namespace ENTS_ISA;
   constexpr int D = B::dim, T = D - 1, M = B::nodes;
-  Vec<double, D> y[M];
-  for (int i = 0; i < M; ++i)
-    for (int c = 0; c < D; ++c) y[i][c] = positions[D * nodes[i] + c] - positions[D * nodes[0] + c];
   Point points[9];
   const int n = quadrature<B>(points);
   double area = 0.0, share[M] = {}, square[M] = {}, squares = 0.0;
@@ -52,19 +49,7 @@ template <class B> bool add_facet(const std::int64_t* nodes, const double* posit
     double xi[T];
     for (int a = 0; a < T; ++a) xi[a] = points[q].xi[a];
     Shape<double, T, M> N;
-    B::template shape<1>(xi, N);
-    Vec<double, D> a[T];
-    for (int k = 0; k < T; ++k) {
-      a[k] = Vec<double, D>::zero();
-      for (int i = 0; i < M; ++i) add_scaled(a[k], N.d1[k][i], y[i]);
-    }
-    const Vec<double, D> m = normal_of_tangents(a);
-    double w = points[q].weight * square_root(dot(m, m));
-    if constexpr (D == 2) {
-      double radius = 0.0;
-      for (int i = 0; i < M; ++i) radius += N.n[i] * positions[D * nodes[i]];
-      w *= thickness > 0.0 ? thickness : 6.283185307179586 * radius;
-    }
+    const double w = points[q].weight * facet_density<B>(nodes, positions, thickness, xi, N);
     area += w;
     for (int i = 0; i < M; ++i) {
       share[i] += w * N.n[i];
@@ -92,16 +77,7 @@ Status add_tributary_areas(Basis facet_basis, std::int64_t count, const std::int
                            const double* positions, double thickness, double* areas, std::int64_t& facet) {
   using namespace ENTS_ISA;
   const auto add = [&]<class B>(B*) { return add_facets<B>(count, connectivity, positions, thickness, areas, facet); };
-  switch (facet_basis) {
-    case Basis::line2: return add(static_cast<Line2*>(nullptr));
-    case Basis::line3: return add(static_cast<Line3*>(nullptr));
-    case Basis::tri3: return add(static_cast<Tri3*>(nullptr));
-    case Basis::tri6: return add(static_cast<Tri6*>(nullptr));
-    case Basis::quad4: return add(static_cast<Quad4*>(nullptr));
-    case Basis::quad8: return add(static_cast<Quad8*>(nullptr));
-    case Basis::quad9: return add(static_cast<Quad9*>(nullptr));
-    default: return Status::bad_value;  // smoothed bases have no facet of their own
-  }
+  return with_facet(facet_basis, Status::bad_value, add);
 }
 
 }  // namespace ents

@@ -154,21 +154,22 @@ void Contact::search(const Configuration& at, bool only_lost) {
 
   const std::vector<int> before = segment_;
   std::fill(segment_.begin(), segment_.end(), -1);
-  std::vector<double> best_excess(slaves_.size(), INFINITY), best_gap = best_excess, own_excess = best_excess,
-                      own_gap = best_excess;
+  constexpr double same = 1e-9;
+  std::vector<double> best_excess(slaves_.size(), INFINITY), best_gap = best_excess, own_gap = best_excess;
   for (std::size_t c = 0; c < owner.size(); ++c) {
     if (status[c] != ENTS_OK) continue;
     const std::size_t k = owner[c];
     const double excess = master_.excess(xi.data() + c * parameters_), distance = std::abs(gap[c]);
-    if (candidate[c] == before[k]) own_excess[k] = excess, own_gap[k] = distance;
+    if (candidate[c] == before[k] &&
+        (only_lost ? master_.excess_over_margin(xi.data() + c * parameters_) : excess) <= same)
+      own_gap[k] = distance;
     if (excess > best_excess[k] || (excess == best_excess[k] && distance >= best_gap[k])) continue;
     best_excess[k] = excess, best_gap[k] = distance;
     segment_[k] = candidate[c];
   }
   // A node on the common border of two segments stays where it is.
-  constexpr double same = 1e-9;
   for (std::size_t k = 0; k < slaves_.size(); ++k)
-    if (own_excess[k] <= same && (only_lost || own_gap[k] <= best_gap[k] * (1 + same))) segment_[k] = before[k];
+    if (only_lost ? own_gap[k] < INFINITY : own_gap[k] <= best_gap[k] * (1 + same)) segment_[k] = before[k];
 }
 
 void Contact::list_active() {

@@ -66,7 +66,7 @@ public:
 
   /// Choose a segment for every slave node: of those near by, the one that is least outside, then the
   /// closest, then the first. The history of a node that moved on to another segment moves with it.
-  /// @param only_lost  a node that projects inside its segment stays there
+  /// @param only_lost  a node that projects inside its segment or its margin stays there
   /// @param report     of a history that could not be moved: its status is positive, cut the step
   /// @return the choice is not that of the last `stencil`: the pattern of a deformable master's equations is another one
   bool choose(const Configuration& at, bool only_lost, ents_report& report);

@@ -10,7 +10,7 @@
 namespace host {
 namespace {
 
-constexpr double margin = 0.05;
+constexpr double margin = 0.25;
 
 std::string where(const Scene& scene) { return scene.contact->model_where; }
 
@@ -35,11 +35,11 @@ bool has_triangles(const Json& model) {
 
 } // namespace
 
-double Master::excess(const double* xi) const {
+double Master::excess(const double* xi, double end) const {
   const int parameters = model->layout().parameters;
   if (triangles) return std::max({0., -xi[0], -xi[1], xi[0] + xi[1] - 1});
   double result = 0;
-  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - border);
+  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - end);
   return result;
 }
 

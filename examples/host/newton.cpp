@@ -222,8 +222,8 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
   const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
-    // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs: beside a
-    // kink of a plain mesh they could otherwise change sides for ever.
+    // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs or its
+    // margin: beside a kink of a plain mesh they could otherwise change sides for ever.
     if (outcome.augmentations.empty() && !choose(next, iteration > scene_->solver.segment_choices, outcome.reason,
                                                  outcome.step_factor))
       return fail(outcome.reason, outcome.step_factor);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One call of the caller's elements: arguments checked once, then one kernel call per element.
+#pragma once
+
+#include "abi/mesh.hpp"
+
+namespace ents {
+
+template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
+  return data ? data + stride * element : nullptr;
+}
+
+struct ElementCall {
+  const Plan* plan;
+  const ents_input* in;
+  const ents_output* out;
+  MasterMesh mesh; // if the input has one
+
+  // What an assembly wants of an element, beside what the caller does; each or null.
+  struct Wanted {
+    std::int32_t wanted;
+    double *residual, *tangent; // [dofs], [dofs][dofs]
+    std::int32_t* flags;
+  };
+
+  std::int32_t open(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
+                    const ents_output* output, ents_report* report);
+
+  std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
+  std::int32_t refuse_segment(std::int64_t e, ents_report* report) const;
+
+  // Status of the element, not yet explained in the report unless its segment is at fault.
+  std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
+
+  // Name the entry that a kernel refused.
+  std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;
+
+  // The first negative status ends it; else the first recoverable one is the result.
+  template <class Element>
+  std::int32_t for_each(std::int64_t first, std::int64_t count, ents_report* report,
+                        Element&& element) const {
+    std::int32_t result = ENTS_OK;
+    for (std::int64_t e = first; e < first + count; ++e) {
+      const std::int32_t outcome = element(e);
+      if (outcome < 0) return report && report->status == outcome ? outcome : explain(outcome, e, report);
+      if (outcome > 0 && result == ENTS_OK) result = explain(outcome, e, report);
+    }
+    return result;
+  }
+
+private:
+  ents_input input_copy; // of an older caller's
+  ents_output output_copy;
+};
+
+} // namespace ents
