@@ -160,7 +160,8 @@ private:
       const Mat tangent = Mat(press_.spring().asDiagonal()) + contact.tangent;
       // relative to the forces, or to those of a hundredth of a segment
       const double scale = std::max({spring.norm(), contact.force.norm(), 0.01});
-      if (residual.norm() <= 1e-10 * scale) return judge(begin, next, contact, tangent);
+      // positions of order 1 have a rounding of 1e-16, which the penalty turns into a force
+      if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty) return judge(begin, next, contact, tangent);
       Vec step = -tangent.partialPivLu().solve(residual);
       if (!step.allFinite()) return Obstacle{End::diverged};
       if (rules_.move && step.norm() > longest_move_) step *= longest_move_ / step.norm();
@@ -203,7 +204,8 @@ private:
     detection.segment = &next.segment, detection.xi = next.xi, detection.gap = &gap, detection.flags = &flags;
     require(library_.detect(model_->get(), &mesh_, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0, 1,
                             &detection, &report_));
-    if (next.segment < 0) return rules_.behind && is_behind(next.x) ? std::optional(Obstacle{End::behind}) : std::nullopt;
+    if (next.segment < 0)
+      return rules_.behind && (flags & ENTS_FLAG_BEHIND_EDGE) ? std::optional(Obstacle{End::behind}) : std::nullopt;
     if (gap >= 0) return std::nullopt;
     if (rules_.flags && (flags & ENTS_FLAG_AMBIGUOUS)) return Obstacle{End::ambiguous};
     return evaluate(next, contact);
@@ -244,24 +246,6 @@ private:
         contact.tangent(row, static_cast<Eigen::Index>(j)) = own ? press_.penalty * gradient[i] * gradient[j] : tangent[j * d + i];
     }
     return std::nullopt;
-  }
-
-  /// On the inner side of the closest of the sampled points of rho_e?
-  bool is_behind(const Vec& x) const {
-    const auto d = static_cast<std::size_t>(press_.dimension);
-    double least = INFINITY, side = 0;
-    for (std::size_t i = 0; i < points_.point.size(); i += d) {
-      double square = 0, along = 0;
-      for (std::size_t k = 0; k < d; ++k) {
-        const double off = x[static_cast<Eigen::Index>(k)] - points_.point[i + k];
-        square += off * off;
-        along += off * points_.normal[i + k];
-      }
-      // at a corner of two segments either of them may be behind
-      if (square < least * (1 - 1e-12)) least = square, side = along;
-      else if (square <= least * (1 + 1e-12)) side = std::min(side, along);
-    }
-    return side < 0;
   }
 
   const EntsLibrary& library_;
