@@ -44,7 +44,8 @@ public:
 
   Outcome run() {
     const double each = press_.dimension == 3 ? 16 : 32; // samples of a wave
-    const int per_segment = press_.height.is_null() ? 1 : static_cast<int>(std::ceil(each / press_.wavelength));
+    const int per_segment =
+        press_.height.is_null() ? 1 : static_cast<int>(std::ceil(each / press_.wavelength));
     model_ = std::make_unique<EntsModel>(library_, model_text(press_, 0), "", "chart");
     points_ = sample_master(*model_, press_, per_segment);
     if (rules_.check || rules_.reach) {
@@ -66,10 +67,14 @@ public:
 private:
   bool admissible(const MasterCheck& check) {
     End& end = outcome_.end;
-    if (check.degenerate || check.fold >= 1) end = End::fold;
-    else if (press_.local && check.edge_height > 1e-9) end = End::edge; // of segments of length 1: rounding
-    else if (check.crossing) end = End::crossing;
-    else if (check.shadow <= 0) end = End::self_shadow;
+    if (check.degenerate || check.fold >= 1)
+      end = End::fold;
+    else if (press_.local && check.edge_height > 1e-9)
+      end = End::edge; // of segments of length 1: rounding
+    else if (check.crossing)
+      end = End::crossing;
+    else if (check.shadow <= 0)
+      end = End::self_shadow;
     return end == End::solved;
   }
 
@@ -79,7 +84,8 @@ private:
     if (press_.height.is_null()) return quarter;
     const auto d = static_cast<std::size_t>(press_.dimension);
     const auto stride = static_cast<std::size_t>(std::lround(quarter * per_segment));
-    const std::size_t row = static_cast<std::size_t>(per_segment) + 1, rows = points_.point.size() / (d * row);
+    const std::size_t row = static_cast<std::size_t>(per_segment) + 1,
+                      rows = points_.point.size() / (d * row);
     double least = quarter;
     for (std::size_t j = 0; j < rows; ++j)
       for (std::size_t i = 0; i + stride < row; ++i) {
@@ -97,7 +103,8 @@ private:
     double least = INFINITY;
     for (std::int64_t s = 0; s < press_.row.segments(); ++s) {
       const std::vector<double> nodes = segment_nodes(press_, s);
-      const auto d = static_cast<std::size_t>(press_.dimension), m = nodes.size() / d, first = m == 4 && d == 2 ? d : 0;
+      const auto d = static_cast<std::size_t>(press_.dimension), m = nodes.size() / d,
+                 first = m == 4 && d == 2 ? d : 0;
       double square = 0;
       for (std::size_t k = 0; k < d; ++k) square += std::pow(nodes[first + d + k] - nodes[first + k], 2);
       least = std::min(least, std::sqrt(square));
@@ -161,7 +168,8 @@ private:
       // relative to the forces, or to those of a hundredth of a segment
       const double scale = std::max({spring.norm(), contact.force.norm(), 0.01});
       // positions of order 1 have a rounding of 1e-16, which the penalty turns into a force
-      if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty) return judge(begin, next, contact, tangent);
+      if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty)
+        return judge(begin, next, contact, tangent);
       Vec step = -tangent.partialPivLu().solve(residual);
       if (!step.allFinite()) return Obstacle{End::diverged};
       if (rules_.move && step.norm() > longest_move_) step *= longest_move_ / step.norm();
@@ -172,7 +180,8 @@ private:
   }
 
   /// May a converged increment be believed?
-  std::optional<Obstacle> judge(const State& begin, const State& next, const Contact& contact, const Mat& tangent) const {
+  std::optional<Obstacle> judge(const State& begin, const State& next, const Contact& contact,
+                                const Mat& tangent) const {
     if (rules_.move && (next.x - begin.x).norm() > longest_move_) return Obstacle{End::jump};
     if (rules_.flags && contact.closed && press_.method.tangent != TangentKind::first_variation) {
       const Mat symmetric = 0.5 * (tangent + tangent.transpose());
@@ -182,7 +191,8 @@ private:
     return std::nullopt;
   }
 
-  /// Detection and contact at next.x. The branch is that of the begin of the increment, whatever the iterates did.
+  /// Detection and contact at next.x. The branch is that of the begin of the increment, whatever the iterates
+  /// did.
   std::optional<Obstacle> touch(const State& begin, State& next, Contact& contact) {
     const auto d = press_.dimension;
     contact.force = Vec::Zero(d), contact.tangent = Mat::Zero(d, d);
@@ -202,10 +212,11 @@ private:
     detection.slave = next.x.data();
     detection.reach = 10; // the whole row
     detection.segment = &next.segment, detection.xi = next.xi, detection.gap = &gap, detection.flags = &flags;
-    require(library_.detect(model_->get(), &mesh_, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0, 1,
-                            &detection, &report_));
+    require(library_.detect(model_->get(), &mesh_, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0,
+                            1, &detection, &report_));
     if (next.segment < 0)
-      return rules_.behind && (flags & ENTS_FLAG_BEHIND_EDGE) ? std::optional(Obstacle{End::behind}) : std::nullopt;
+      return rules_.behind && (flags & ENTS_FLAG_BEHIND_EDGE) ? std::optional(Obstacle{End::behind})
+                                                              : std::nullopt;
     if (gap >= 0) return std::nullopt;
     if (rules_.flags && (flags & ENTS_FLAG_AMBIGUOUS)) return Obstacle{End::ambiguous};
     return evaluate(next, contact);
@@ -223,8 +234,10 @@ private:
     std::int32_t flags = 0;
     auto output = ents_struct<ents_output>();
     const bool own = press_.method.tangent == TangentKind::first_variation;
-    output.wanted = ENTS_XI | ENTS_GAP | ENTS_FLAGS | (own ? ENTS_GAP_GRADIENT | ENTS_NORMAL : ENTS_RESIDUAL | ENTS_TANGENT);
-    output.xi = xi, output.gap = &gap, output.flags = &flags, output.gap_gradient = gradient, output.normal = normal;
+    output.wanted = ENTS_XI | ENTS_GAP | ENTS_FLAGS |
+                    (own ? ENTS_GAP_GRADIENT | ENTS_NORMAL : ENTS_RESIDUAL | ENTS_TANGENT);
+    output.xi = xi, output.gap = &gap, output.flags = &flags, output.gap_gradient = gradient,
+    output.normal = normal;
     output.residual = residual, output.tangent = tangent;
     const std::int32_t status = library_.evaluate(model_->get(), 0, 1, &input, &output, &report_);
     if (status < 0) require(status);
@@ -236,14 +249,16 @@ private:
       if (rules_.flags && press_.method.projection == ProjectionKind::shadow && normal[d - 1] <= 1e-6)
         return Obstacle{End::status, ENTS_GRAZING_RAY};
     }
-    contact.closed = next.closed = gap < 0 && (own ? !(flags & ENTS_FLAG_OUTSIDE) : (flags & ENTS_FLAG_CONTACT) != 0);
+    contact.closed = next.closed =
+        gap < 0 && (own ? !(flags & ENTS_FLAG_OUTSIDE) : (flags & ENTS_FLAG_CONTACT) != 0);
     std::copy(xi, xi + d - 1, next.xi);
     if (!contact.closed) return std::nullopt;
     for (std::size_t i = 0; i < d; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       contact.force[row] = own ? press_.penalty * gap * gradient[i] : residual[i];
       for (std::size_t j = 0; j < d; ++j)
-        contact.tangent(row, static_cast<Eigen::Index>(j)) = own ? press_.penalty * gradient[i] * gradient[j] : tangent[j * d + i];
+        contact.tangent(row, static_cast<Eigen::Index>(j)) =
+            own ? press_.penalty * gradient[i] * gradient[j] : tangent[j * d + i];
     }
     return std::nullopt;
   }
@@ -255,7 +270,7 @@ private:
   MasterPoints points_;
   ents_master_mesh mesh_{};
   std::vector<double> tree_;
-  double limit_ = INFINITY;     ///< of penetration
+  double limit_ = INFINITY;        ///< of penetration
   double longest_move_ = INFINITY; ///< in an increment
   ents_report report_ = ents_struct<ents_report>();
   Outcome outcome_;
@@ -265,17 +280,28 @@ private:
 
 const char* word(End end) {
   switch (end) {
-  case End::solved: return "solved";
-  case End::fold: return "rho_e folds (check: |h| kappa >= 1)";
-  case End::edge: return "torn (check: h at the edges)";
-  case End::self_shadow: return "self-shadow (check: n_e . e)";
-  case End::crossing: return "rho_e crosses itself (host)";
-  case End::status: return "status";
-  case End::ambiguous: return "ambiguous (flag of ents_detect or ents_evaluate)";
-  case End::behind: return "behind a corner (host)";
-  case End::jump: return "jumps (host: moves too far)";
-  case End::unstable: return "unstable (host: tangent not positive)";
-  case End::diverged: break;
+  case End::solved:
+    return "solved";
+  case End::fold:
+    return "rho_e folds (check: |h| kappa >= 1)";
+  case End::edge:
+    return "torn (check: h at the edges)";
+  case End::self_shadow:
+    return "self-shadow (check: n_e . e)";
+  case End::crossing:
+    return "rho_e crosses itself (host)";
+  case End::status:
+    return "status";
+  case End::ambiguous:
+    return "ambiguous (flag of ents_detect or ents_evaluate)";
+  case End::behind:
+    return "behind a corner (host)";
+  case End::jump:
+    return "jumps (host: moves too far)";
+  case End::unstable:
+    return "unstable (host: tangent not positive)";
+  case End::diverged:
+    break;
   }
   return "diverged";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host that wants no wrong answer: Newton's method with ents_detect and ents_evaluate, and the rules that keep it on the
-// branch it is on. What the rules are worth is seen by leaving them out.
+// A host that wants no wrong answer: Newton's method with ents_detect and ents_evaluate, and the rules that
+// keep it on the branch it is on. What the rules are worth is seen by leaving them out.
 #pragma once
 
 #include <string>
@@ -18,22 +18,23 @@ struct Rules {
   bool move = true;   ///< a node moves at most a quarter of the shortest wave in an increment
   bool anew = true;   ///< a node that is open is searched anew; only a closed one is followed
   bool behind = true; ///< no segment found: is the node really outside?
-  bool flags = true;  ///< ENTS_FLAG_AMBIGUOUS, ENTS_FLAG_FAR_SIDE of a closed node, a tangent that is not positive: cut
+  bool flags =
+      true; ///< ENTS_FLAG_AMBIGUOUS, ENTS_FLAG_FAR_SIDE of a closed node, a tangent that is not positive: cut
 };
 inline constexpr Rules careless{false, false, false, false, false, false};
 
 enum class End {
   solved,
-  fold,             ///< ents_model_check: |h| kappa >= 1
-  edge,             ///< ents_model_check: h does not vanish at the edges
-  self_shadow,      ///< ents_model_check: n_e . e <= 0
-  crossing,         ///< rho_e crosses itself (the host looks at its polygon)
-  status,           ///< a recoverable status that no cut removes
-  ambiguous,        ///< ENTS_FLAG_AMBIGUOUS or ENTS_FLAG_FAR_SIDE on a closed node
-  behind,           ///< behind a corner between two segments
-  jump,             ///< moves too far, however small the increment
-  unstable,         ///< converged where the tangent is not positive definite
-  diverged,         ///< Newton's iteration, in spite of all cuts
+  fold,        ///< ents_model_check: |h| kappa >= 1
+  edge,        ///< ents_model_check: h does not vanish at the edges
+  self_shadow, ///< ents_model_check: n_e . e <= 0
+  crossing,    ///< rho_e crosses itself (the host looks at its polygon)
+  status,      ///< a recoverable status that no cut removes
+  ambiguous,   ///< ENTS_FLAG_AMBIGUOUS or ENTS_FLAG_FAR_SIDE on a closed node
+  behind,      ///< behind a corner between two segments
+  jump,        ///< moves too far, however small the increment
+  unstable,    ///< converged where the tangent is not positive definite
+  diverged,    ///< Newton's iteration, in spite of all cuts
 };
 const char* word(End end);
 bool is_flag(End end);

@@ -8,8 +8,8 @@
 #include "chart/map_picture.hpp"
 #include "chart/wrong_heights.hpp"
 #include "commands.hpp"
-#include "stopwatch.hpp"
 #include "output/table.hpp"
+#include "stopwatch.hpp"
 
 namespace host {
 namespace {
@@ -54,17 +54,26 @@ std::int64_t count(const Map& map, bool careful, Fate fate) {
 }
 
 constexpr const char* introduction =
-    "<p>One slave node on a spring is pressed into a wavy rigid master and drawn over two borders of its segments. Every point of a map is "
-    "such a problem, solved once by each method: surface (explicit plain facets; local enrichment, h = 0 at the segments' ends; C1 and C2 "
-    "smoothing) x projection x tangent. The first-variation tangent K = &lambda;' &delta;g &delta;g<sup>T</sup> is made by the host from "
+    "<p>One slave node on a spring is pressed into a wavy rigid master and drawn over two borders of its "
+    "segments. Every point of a map is "
+    "such a problem, solved once by each method: surface (explicit plain facets; local enrichment, h = 0 at "
+    "the segments' ends; C1 and C2 "
+    "smoothing) x projection x tangent. The first-variation tangent K = &lambda;' &delta;g "
+    "&delta;g<sup>T</sup> is made by the host from "
     "ENTS_GAP_GRADIENT. Increments that fail are halved, up to six times.</p>"
-    "<p><b>Solved</b> means solved and right at every increment. The judge has a geometry of its own, written from the definitions, and walks "
-    "512 small steps downhill in energy along the path of equilibria: where continuity puts the node, the host has to find it, within 1e-5 of a "
-    "segment (at the ends of plain segments: within what the host lets them reach beyond). What the host delivers without a status, a flag or a "
+    "<p><b>Solved</b> means solved and right at every increment. The judge has a geometry of its own, "
+    "written from the definitions, and walks "
+    "512 small steps downhill in energy along the path of equilibria: where continuity puts the node, the "
+    "host has to find it, within 1e-5 of a "
+    "segment (at the ends of plain segments: within what the host lets them reach beyond). What the host "
+    "delivers without a status, a flag or a "
     "failed iteration and lies elsewhere is <b>silently wrong</b>.</p>"
-    "<p>The host is a careful one. It asks ents_model_check first; takes its reach as penetration_limit; believes an increment only if the "
-    "node has moved by at most a quarter of the shortest wave (as long as that is on the enriched surface) and one segment, and if the tangent is "
-    "positive definite; follows a closed node, but searches an open one anew; asks, where no segment is found, whether the node is behind a "
+    "<p>The host is a careful one. It asks ents_model_check first; takes its reach as penetration_limit; "
+    "believes an increment only if the "
+    "node has moved by at most a quarter of the shortest wave (as long as that is on the enriched surface) "
+    "and one segment, and if the tangent is "
+    "positive definite; follows a closed node, but searches an open one anew; asks, where no segment is "
+    "found, whether the node is behind a "
     "corner. The lines &quot;no rules&quot; in the tables are the same host without all this.</p>";
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
@@ -83,15 +92,23 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   const std::vector<WrongHeight> heights = wrong_heights(library);
 
   Table table;
-  table.column("map").column("host").column("solved").column("flagged").column("diverged").column("silently wrong").column("unjudged");
+  table.column("map")
+      .column("host")
+      .column("solved")
+      .column("flagged")
+      .column("diverged")
+      .column("silently wrong")
+      .column("unjudged");
   Json json{{"version", library.version()}, {"stability", Json::array()}};
   std::string stability = introduction + legend();
   std::int64_t wrong = 0;
   for (Map& map : maps) {
     fill(map, library, true);
     for (const bool careful : {true, false})
-      table.row({careful ? map.title : "", std::string(careful ? "careful" : "no rules"), count(map, careful, Fate::solved), count(map, careful, Fate::flagged),
-                 count(map, careful, Fate::diverged), count(map, careful, Fate::wrong), count(map, careful, Fate::unjudged)});
+      table.row({careful ? map.title : "", std::string(careful ? "careful" : "no rules"),
+                 count(map, careful, Fate::solved), count(map, careful, Fate::flagged),
+                 count(map, careful, Fate::diverged), count(map, careful, Fate::wrong),
+                 count(map, careful, Fate::unjudged)});
     wrong += count(map, true, Fate::wrong) + count(map, true, Fate::unjudged);
     json["stability"].push_back(map_json(map));
     stability += map_section(map);
@@ -101,14 +118,21 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   json["wrong_heights"] = Json::array();
   for (const WrongHeight& row : heights) {
     covered = covered && row.flagged;
-    json["wrong_heights"].push_back({{"panel", row.panel}, {"what", row.what}, {"example", row.example}, {"asked_first", row.check}, {"on_the_way", row.running}, {"flagged", row.flagged}});
+    json["wrong_heights"].push_back({{"panel", row.panel},
+                                     {"what", row.what},
+                                     {"example", row.example},
+                                     {"asked_first", row.check},
+                                     {"on_the_way", row.running},
+                                     {"flagged", row.flagged}});
   }
 
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
     write_text(options.out / "chart.json", json.dump() + "\n");
     write_text(options.out / "chart.html",
-               page({{"stability", "Stability maps", stability}, {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}}, library.version()));
+               page({{"stability", "Stability maps", stability},
+                     {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}},
+                    library.version()));
     if (options.pictures)
       for (const Map& map : maps)
         if (const pictures::Outcome outcome = draw(map, options.out); !outcome.problem.empty()) {
@@ -128,7 +152,8 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
                 options.out.empty() ? "" : (", " + (options.out / "chart.html").string()).c_str());
   }
   if (wrong > 0 || !covered) {
-    std::fprintf(stderr, "ents-host: chart: there are results that are wrong and not flagged; chart.json (--out) says where\n");
+    std::fprintf(stderr, "ents-host: chart: there are results that are wrong and not flagged; chart.json "
+                         "(--out) says where\n");
     return 1;
   }
   return 0;

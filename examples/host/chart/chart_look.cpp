@@ -17,23 +17,37 @@ unsigned iterations_color(int iterations) {
 
 Look look_of(const Cell& cell) {
   switch (cell.fate) {
-  case Fate::solved: return {iterations_color(cell.outcome.iterations), 0};
-  case Fate::wrong: return {0xd00000, 'W'};
-  case Fate::unjudged: return {0xc77dff, '?'};
-  case Fate::diverged: return {0x8d8d8d, 0};
-  case Fate::flagged: break;
+  case Fate::solved:
+    return {iterations_color(cell.outcome.iterations), 0};
+  case Fate::wrong:
+    return {0xd00000, 'W'};
+  case Fate::unjudged:
+    return {0xc77dff, '?'};
+  case Fate::diverged:
+    return {0x8d8d8d, 0};
+  case Fate::flagged:
+    break;
   }
   constexpr unsigned before = 0xffe08a, during = 0xf4a93b; // flagged by the check, or on the way
   switch (cell.outcome.end) {
-  case End::fold: return {before, 'F'};
-  case End::edge: return {before, 'E'};
-  case End::self_shadow: return {before, 'S'};
-  case End::crossing: return {before, 'X'};
-  case End::ambiguous: return {during, 'A'};
-  case End::behind: return {during, 'B'};
-  case End::jump: return {during, 'J'};
-  case End::unstable: return {during, 'U'};
-  default: return {during, static_cast<char>('0' + cell.outcome.status % 10)};
+  case End::fold:
+    return {before, 'F'};
+  case End::edge:
+    return {before, 'E'};
+  case End::self_shadow:
+    return {before, 'S'};
+  case End::crossing:
+    return {before, 'X'};
+  case End::ambiguous:
+    return {during, 'A'};
+  case End::behind:
+    return {during, 'B'};
+  case End::jump:
+    return {during, 'J'};
+  case End::unstable:
+    return {during, 'U'};
+  default:
+    return {during, static_cast<char>('0' + cell.outcome.status % 10)};
   }
 }
 

@@ -32,8 +32,8 @@ Vec downhill(const Mat& hessian, const Vec& gradient, double least) {
   return step;
 }
 
-/// An equilibrium in a kink: over its point, where the lateral forces of the two sides have opposite signs. With the shadow
-/// projection the gap there is the height over the point.
+/// An equilibrium in a kink: over its point, where the lateral forces of the two sides have opposite signs.
+/// With the shadow projection the gap there is the height over the point.
 bool settle_in_kink(const Press& press, const Vec& anchor, double longest, Vec& x, Pair& pair) {
   if (pair.piece < 0 || pair.gap >= 0) return false;
   const Kink kink = press.truth->kink(pair);
@@ -70,7 +70,8 @@ bool settle(const Press& press, const Vec& anchor, Vec& x, Pair& pair) {
       const double after = energy(press, anchor, trial, at);
       const bool lower = after < before + 1e-4 * gradient.dot(step);
       // where the energy no longer changes by more than rounding, its gradient still does
-      const bool same = std::abs(after - before) < 1e-13 * before && energy_gradient(press, anchor, trial, at).norm() < 0.9 * residual;
+      const bool same = std::abs(after - before) < 1e-13 * before &&
+                        energy_gradient(press, anchor, trial, at).norm() < 0.9 * residual;
       if (lower || same) x = trial, pair = at, accepted = true;
     }
     if (!accepted) return residual < 1e-9 * size;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge: where must the node be? The path of equilibria that continuity demands, in many small steps on the judge's own
-// geometry. Each step goes downhill in energy, by moves that are short against the waves, so that no valley is skipped.
+// The judge: where must the node be? The path of equilibria that continuity demands, in many small steps on
+// the judge's own geometry. Each step goes downhill in energy, by moves that are short against the waves, so
+// that no valley is skipped.
 #pragma once
 
 #include <vector>
@@ -10,9 +11,9 @@
 namespace host::chart {
 
 struct Truth {
-  bool complete = false;      ///< an equilibrium was found at every step
-  std::vector<Vec> position;  ///< [steps + 1]
-  std::vector<Pair> pair;     ///< [steps + 1]
+  bool complete = false;     ///< an equilibrium was found at every step
+  std::vector<Vec> position; ///< [steps + 1]
+  std::vector<Pair> pair;    ///< [steps + 1]
 };
 
 /// Steps of the judge's path; nominal increments divide it.

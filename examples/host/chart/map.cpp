@@ -10,7 +10,8 @@
 namespace host::chart {
 namespace {
 
-/// All panels of one point. The judge walks once per surface and projection, and only if somebody delivered anything.
+/// All panels of one point. The judge walks once per surface and projection, and only if somebody delivered
+/// anything.
 void fill_point(Map& map, std::size_t point, const EntsLibrary& library) {
   const double x = map.x.values[point % map.x.values.size()], y = map.y.values[point / map.x.values.size()];
   for (const SurfaceKind surface : map.surfaces)
@@ -33,18 +34,25 @@ void fill_point(Map& map, std::size_t point, const EntsLibrary& library) {
 
 const char* word(Fate fate) {
   switch (fate) {
-  case Fate::solved: return "solved";
-  case Fate::flagged: return "flagged";
-  case Fate::diverged: return "diverged";
-  case Fate::wrong: return "silently wrong";
-  case Fate::unjudged: break;
+  case Fate::solved:
+    return "solved";
+  case Fate::flagged:
+    return "flagged";
+  case Fate::diverged:
+    return "diverged";
+  case Fate::wrong:
+    return "silently wrong";
+  case Fate::unjudged:
+    break;
   }
   return "unjudged";
 }
 
 Cell judged(const Outcome& outcome, const Press& press, const Truth& truth) {
   Cell cell;
-  cell.fate = outcome.end == End::solved ? Fate::solved : is_flag(outcome.end) ? Fate::flagged : Fate::diverged;
+  cell.fate = outcome.end == End::solved ? Fate::solved
+              : is_flag(outcome.end)     ? Fate::flagged
+                                         : Fate::diverged;
   for (const Level& level : outcome.levels) {
     const auto step = static_cast<std::size_t>(level.increment * judge_steps / press.increments);
     if (step >= truth.position.size()) {
@@ -70,7 +78,8 @@ void fill(Map& map, const EntsLibrary& library, bool with_careless) {
       for (const TangentKind tangent : tangent_kinds)
         map.panels.push_back({{surface, projection, tangent}, true, std::vector<Cell>(points)});
       if (with_careless)
-        map.panels.push_back({{surface, projection, TangentKind::consistent}, false, std::vector<Cell>(points)});
+        map.panels.push_back(
+            {{surface, projection, TangentKind::consistent}, false, std::vector<Cell>(points)});
     }
   std::atomic<std::size_t> next{0};
   std::mutex mutex;

@@ -42,7 +42,8 @@ Map amplitude_over_waves(bool quick) {
   Map map;
   map.name = "amplitude";
   map.title = "Amplitude and wave number";
-  map.text = "A sine of the given amplitude on a slightly hollow row of segments (curvature 0.1), 16 increments.";
+  map.text =
+      "A sine of the given amplitude on a slightly hollow row of segments (curvature 0.1), 16 increments.";
   map.x = {"waves in a segment", quick ? std::vector<double>{0.5, 2, 4} : spaced(0.5, 5, 10, false)};
   map.y = {"amplitude / segment", spaced(0.002, 0.3, quick ? 4 : 14, true)};
   map.problem = [](double waves, double amplitude, const Method& method) {
@@ -56,7 +57,8 @@ Map height_over_curvature(bool quick) {
   Map map;
   map.name = "curvature";
   map.title = "Height and curvature of the segments";
-  map.text = "The surface runs at the height |h| above a hollow (curvature > 0) or a hill (< 0), with a fine wave on it. The local "
+  map.text = "The surface runs at the height |h| above a hollow (curvature > 0) or a hill (< 0), with a fine "
+             "wave on it. The local "
              "enrichment must come back to zero at every end of a segment: one bump of that height on each.";
   map.x = {"curvature x segment", spaced(-0.6, 0.6, quick ? 3 : 13, false)};
   map.y = {"|h| / segment", quick ? spaced(0.05, 2.5, 3, true) : spaced(0.02, 3, 13, true)};
@@ -80,14 +82,16 @@ Map penetration_over_step(bool quick) {
   Map map;
   map.name = "penetration";
   map.title = "Penetration and load step";
-  map.text = "Penetration on the crests of a sine (amplitude 0.05, one wave in a segment) over the radius of curvature there, by a softer "
+  map.text = "Penetration on the crests of a sine (amplitude 0.05, one wave in a segment) over the radius of "
+             "curvature there, by a softer "
              "and softer penalty under the same force.";
   map.x = {"penetration / curvature radius", spaced(0.01, 3, quick ? 4 : 13, true)};
   map.y = {"increments", powers_of_two(64, quick ? 8 : 2)};
   map.problem = [](double ratio, double increments, const Method& method) {
     const double amplitude = 0.05, depth = 0.1, radius = crest_radius(amplitude, 1);
     PressOptions options{wavy(method.surface, amplitude, 1), method};
-    // force on a crest = stiffness (depth + amplitude - p) = penalty p; depth grows with p so that the force stays
+    // force on a crest = stiffness (depth + amplitude - p) = penalty p; depth grows with p so that the force
+    // stays
     const double force = amplitude + depth, penetration = ratio * radius;
     options.depth = depth + penetration;
     options.penalty = force / penetration;

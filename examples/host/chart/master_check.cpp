@@ -42,7 +42,8 @@ std::string model_text(const Press& press, double penetration_limit) {
   }
   model["contact"] = {{"normal", {{"type", "penalty"}, {"stiffness", press.penalty}}}};
   if (press.method.tangent == TangentKind::small_gap) model["tangent"] = "small_gap";
-  if (std::isfinite(penetration_limit) && penetration_limit > 0) model["penetration_limit"] = penetration_limit;
+  if (std::isfinite(penetration_limit) && penetration_limit > 0)
+    model["penetration_limit"] = penetration_limit;
   if (press.border > 0) model["border"] = press.border;
   return model.dump();
 }
@@ -76,7 +77,8 @@ MasterPoints sample_master(const EntsModel& model, const Press& press, int per_s
       if (d == 3) xi.push_back(2. * j / per_segment - 1);
     }
   for (std::int64_t s = 0; s < press.row.segments(); ++s) {
-    const SurfaceSample sample = sample_surface(model, segment_nodes(press, s), segment_coordinates(press, s), xi);
+    const SurfaceSample sample =
+        sample_surface(model, segment_nodes(press, s), segment_coordinates(press, s), xi);
     out.point.insert(out.point.end(), sample.point.begin(), sample.point.end());
     out.normal.insert(out.normal.end(), sample.normal.begin(), sample.normal.end());
   }

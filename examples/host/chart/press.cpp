@@ -46,7 +46,8 @@ Press make_press(const PressOptions& options) {
   press.from = -0.83, press.to = 1.27;
   // B-splines run beside their control points, by (1 - cos curvature) / (3 curvature) on an arc
   const bool beside = profile.surface == SurfaceKind::c2 || profile.surface == SurfaceKind::plain;
-  const double base = beside && profile.curvature != 0 ? (1 - std::cos(profile.curvature)) / (3 * profile.curvature) : 0;
+  const double base =
+      beside && profile.curvature != 0 ? (1 - std::cos(profile.curvature)) / (3 * profile.curvature) : 0;
   press.above = base + profile.height.highest() + 0.02;
   press.below = base + profile.height.constant - options.depth;
   press.truth = std::make_shared<TrueCurve>(profile, options.method.projection, 0.5 * press.border);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The model problem of the stability maps: one slave node on a spring, pressed into a wavy rigid master and drawn over
-// two borders of its segments. Its energy
+// The model problem of the stability maps: one slave node on a spring, pressed into a wavy rigid master and
+// drawn over two borders of its segments. Its energy
 //   1/2 (x - anchor(t)) . K (x - anchor(t)) + penalty / 2 <-g(x)>^2
 // has 2 (3D: 3) unknowns, so that every equilibrium can be found without the library.
 #pragma once
@@ -16,13 +16,13 @@ namespace host::chart {
 struct Press {
   // the master, for the library
   SegmentRow row;
-  Json height;          ///< null: plain
-  bool local = false;   ///< the height must vanish at the segments' ends
-  double border = 0;    ///< natural coordinates, 0: the library's own
+  Json height;        ///< null: plain
+  bool local = false; ///< the height must vanish at the segments' ends
+  double border = 0;  ///< natural coordinates, 0: the library's own
   Method method;
   int dimension = 2;
   // the node
-  double lateral = 4;    ///< stiffness of the spring along the row; 1 upwards
+  double lateral = 4; ///< stiffness of the spring along the row; 1 upwards
   double penalty = 100;
   int increments = 16;   ///< nominal
   double wavelength = 1; ///< shortest of the surface: what the host knows of it
@@ -41,7 +41,7 @@ struct Press {
 struct PressOptions {
   Profile profile;
   Method method;
-  double depth = 0.05;   ///< of the anchor below the middle of the waves
+  double depth = 0.05; ///< of the anchor below the middle of the waves
   double penalty = 100;
   int increments = 16;
 };

@@ -45,8 +45,8 @@ double Height::value(double s) const {
 double Height::slope(double s) const {
   double slope = 0;
   for (const Wave& w : sum)
-    slope += 2 * std::numbers::pi * w.waves * w.amplitude *
-             std::cos(2 * std::numbers::pi * w.waves * s + w.phase);
+    slope +=
+        2 * std::numbers::pi * w.waves * w.amplitude * std::cos(2 * std::numbers::pi * w.waves * s + w.phase);
   return slope;
 }
 

@@ -58,8 +58,8 @@ struct Profile {
   double curvature = 0; ///< of the arc; > 0: the slave is on the side of its centre
   int segments = 4;     ///< even
   Height height;
-  double wavelength = 1;     ///< the shortest of the height, in segments
-  int facets_per_wave = 16;  ///< plain
+  double wavelength = 1;    ///< the shortest of the height, in segments
+  int facets_per_wave = 16; ///< plain
 };
 
 /// The arc's point at arc length s, moved by `level` along its normal.
@@ -75,9 +75,7 @@ struct SegmentRow {
   std::vector<double> positions;           ///< [nodes][2]
   std::vector<std::int64_t> connectivity;  ///< [segments][nodes_per_segment]
   std::vector<double> surface_coordinates; ///< [segments][nodes_per_segment]; empty: no height
-  std::int64_t segments() const {
-    return static_cast<std::int64_t>(connectivity.size()) / nodes_per_segment;
-  }
+  std::int64_t segments() const { return static_cast<std::int64_t>(connectivity.size()) / nodes_per_segment; }
 };
 SegmentRow make_row(const Profile& profile);
 

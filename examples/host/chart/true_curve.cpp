@@ -12,13 +12,14 @@ using Eigen::Vector2d;
 
 Vector2d turned(const Vector2d& v) { return {-v[1], v[0]}; }
 
-/// Values, first and second derivatives at v of the four functions of a uniform cubic segment between its second
-/// and third point.
+/// Values, first and second derivatives at v of the four functions of a uniform cubic segment between its
+/// second and third point.
 using Functions = std::array<std::array<double, 4>, 3>;
 
 Functions b_spline(double v) {
   const double w = 1 - v;
-  return {{{w * w * w / 6, (3 * v * v * v - 6 * v * v + 4) / 6, (3 * w * w * w - 6 * w * w + 4) / 6, v * v * v / 6},
+  return {{{w * w * w / 6, (3 * v * v * v - 6 * v * v + 4) / 6, (3 * w * w * w - 6 * w * w + 4) / 6,
+            v * v * v / 6},
            {-w * w / 2, (3 * v * v - 4 * v) / 2, (4 * w - 3 * w * w) / 2, v * v / 2},
            {w, 3 * v - 2, 3 * w - 2, v}}};
 }
@@ -26,10 +27,11 @@ Functions b_spline(double v) {
 /// Hermite's segment with the slopes (p_{i+1} - p_{i-1}) / 2.
 Functions catmull_rom(double v) {
   const double v2 = v * v, v3 = v2 * v;
-  const std::array<std::array<double, 4>, 3> hermite{{// p1, p2, slope at p1, slope at p2
-                                                      {2 * v3 - 3 * v2 + 1, -2 * v3 + 3 * v2, v3 - 2 * v2 + v, v3 - v2},
-                                                      {6 * v2 - 6 * v, -6 * v2 + 6 * v, 3 * v2 - 4 * v + 1, 3 * v2 - 2 * v},
-                                                      {12 * v - 6, -12 * v + 6, 6 * v - 4, 6 * v - 2}}};
+  const std::array<std::array<double, 4>, 3> hermite{
+      {// p1, p2, slope at p1, slope at p2
+       {2 * v3 - 3 * v2 + 1, -2 * v3 + 3 * v2, v3 - 2 * v2 + v, v3 - v2},
+       {6 * v2 - 6 * v, -6 * v2 + 6 * v, 3 * v2 - 4 * v + 1, 3 * v2 - 2 * v},
+       {12 * v - 6, -12 * v + 6, 6 * v - 4, 6 * v - 2}}};
   Functions out{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& f = hermite[k];
@@ -57,8 +59,7 @@ TrueCurve::TrueCurve(const Profile& profile, ProjectionKind projection, double b
     stride_ = 0.02 * profile.wavelength;
   }
   for (int k = 0; k < pieces_; ++k)
-    for (int i = 0; i <= samples_; ++i)
-      sampled_.push_back(at(k, static_cast<double>(i) / samples_).point);
+    for (int i = 0; i <= samples_; ++i) sampled_.push_back(at(k, static_cast<double>(i) / samples_).point);
   for (std::size_t i = 0; i + 1 < sampled_.size(); ++i)
     spacing_ = std::max(spacing_, (sampled_[i + 1] - sampled_[i]).norm());
 }
@@ -125,10 +126,14 @@ bool TrueCurve::descend(const Vector2d& slave, int piece, double& v, double bord
 bool TrueCurve::cross(const Vector2d& slave, int piece, double& v, double border) const {
   double best = INFINITY, found = v;
   for (int i = border > 0 ? -1 : 0; i < samples_ + (border > 0 ? 1 : 0); ++i) {
-    const auto place = [&](int j) { return j < 0 ? -border : j > samples_ ? 1 + border : static_cast<double>(j) / samples_; };
+    const auto place = [&](int j) {
+      return j < 0 ? -border : j > samples_ ? 1 + border : static_cast<double>(j) / samples_;
+    };
     const auto off = [&](int j) {
       const bool inside = j >= 0 && j <= samples_;
-      return (inside ? sampled_[static_cast<std::size_t>(piece * (samples_ + 1) + j)] : at(piece, place(j)).point)[0] - slave[0];
+      return (inside ? sampled_[static_cast<std::size_t>(piece * (samples_ + 1) + j)]
+                     : at(piece, place(j)).point)[0] -
+             slave[0];
     };
     double low = place(i), high = place(i + 1);
     const double left = off(i);
@@ -238,9 +243,11 @@ bool TrueCurve::valley(int piece, int end) const {
 Pair TrueCurve::follow(const Vec& slave, const Pair& before) const {
   const Vector2d x = slave.head<2>();
   double v = before.v[0];
-  const bool found = projection_ == ProjectionKind::shadow ? cross(x, before.piece, v, border_)
-                                                           : !before.corner && descend(x, before.piece, v, border_);
-  if (!found || (v < 0 && valley(before.piece, 0)) || (v > 1 && valley(before.piece, 1))) return closest(slave);
+  const bool found = projection_ == ProjectionKind::shadow
+                         ? cross(x, before.piece, v, border_)
+                         : !before.corner && descend(x, before.piece, v, border_);
+  if (!found || (v < 0 && valley(before.piece, 0)) || (v > 1 && valley(before.piece, 1)))
+    return closest(slave);
   return pair(x, before.piece, v);
 }
 

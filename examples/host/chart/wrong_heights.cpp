@@ -47,12 +47,14 @@ Sentences asked_first(const EntsModel& model, const Example& example) {
   const Press press = as_press(example);
   const MasterCheck check = check_master(model, press, sample_master(model, press, 64));
   Sentences out;
-  if (check.degenerate || check.fold >= 1) out.push_back("folds: |h| kappa = " + format_number(check.fold, 3));
+  if (check.degenerate || check.fold >= 1)
+    out.push_back("folds: |h| kappa = " + format_number(check.fold, 3));
   if (check.edge_height > 1e-9) out.push_back("edge_height " + format_number(check.edge_height, 3) + " > 0");
   if (check.shadow <= 0) out.push_back("shadow " + format_number(check.shadow, 3) + " <= 0");
   if (check.crossing) out.push_back("rho_e crosses itself (host's polygon)");
   if (check.reach < example.penetration)
-    out.push_back("reach " + format_number(check.reach, 3) + " < penetration " + format_number(example.penetration, 3));
+    out.push_back("reach " + format_number(check.reach, 3) + " < penetration " +
+                  format_number(example.penetration, 3));
   return out;
 }
 
@@ -106,20 +108,34 @@ std::vector<WrongHeight> wrong_heights(const EntsLibrary& library) {
     Example setup;
   };
   const std::vector<Panel> panels{
-      {"a", "several normal projections within one segment", "sine, amplitude 0.3, two waves on a segment of length 2; a node deep under a crest",
+      {"a",
+       "several normal projections within one segment",
+       "sine, amplitude 0.3, two waves on a segment of length 2; a node deep under a crest",
        {flat, {0, 1}, sine(0.3), nullptr, 0.2, {0.25, -0.2}}},
-      {"b", "the master shades itself (shadow projection)", "the same sine, rays at 35 degrees; a node behind a crest",
+      {"b",
+       "the master shades itself (shadow projection)",
+       "the same sine, rays at 35 degrees; a node behind a crest",
        {flat, {0, 1}, sine(0.3), {{"type", "shadow_direction"}, {"direction", {1, 0.7}}}, 0, {0.4, -0.05}}},
-      {"c", "the surface is torn between segments", "constant height 0.2 on two segments that meet at an angle; a node between them",
+      {"c",
+       "the surface is torn between segments",
+       "constant height 0.2 on two segments that meet at an angle; a node between them",
        {{-1, 0.3, 0, 0, 1, 0.3}, {0, 1, 1, 2}, {{"type", "constant"}, {"value", 0.2}}, nullptr, 0, {0, 0.1}}},
-      {"d", "neighbours cross each other", "a bump of height 0.6 on each of two segments at a right angle; a node where they overlap",
-       {{-1, 1, 0, 0, 1, 1}, {0, 1, 1, 2}, {{"type", "polynomial"}, {"coefficients", {0.6, 0, -0.6}}}, nullptr, 0, {0, 0.4}}},
+      {"d",
+       "neighbours cross each other",
+       "a bump of height 0.6 on each of two segments at a right angle; a node where they overlap",
+       {{-1, 1, 0, 0, 1, 1},
+        {0, 1, 1, 2},
+        {{"type", "polynomial"}, {"coefficients", {0.6, 0, -0.6}}},
+        nullptr,
+        0,
+        {0, 0.4}}},
   };
   std::vector<WrongHeight> rows;
   for (const Panel& panel : panels) {
     const EntsModel model(library, example_model(panel.setup), "", "chart");
     const Sentences first = asked_first(model, panel.setup), later = on_the_way(model, panel.setup);
-    rows.push_back({panel.name, panel.what, panel.example, joined(first), joined(later), !first.empty() || !later.empty()});
+    rows.push_back({panel.name, panel.what, panel.example, joined(first), joined(later),
+                    !first.empty() || !later.empty()});
   }
   return rows;
 }
