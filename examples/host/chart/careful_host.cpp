@@ -22,6 +22,7 @@ struct State {
   std::int64_t segment = -1;
   double xi[2] = {0, 0};
   bool closed = false;
+  bool soft = false; ///< the contact takes away stiffness: an instability may be near
 };
 
 /// The contact at a trial position.
@@ -59,6 +60,11 @@ public:
     const double size = segment_size();
     longest_move_ = std::min(quarter_wave(per_segment), size);
     if (!std::isfinite(limit_)) limit_ = size; // what the element assumes if nothing is said
+    if (press_.method.tangent == TangentKind::small_gap) {
+      Press exact = press_;
+      exact.method.tangent = TangentKind::consistent;
+      exact_ = std::make_unique<EntsModel>(library_, model_text(exact, limit_), "", "chart");
+    }
     describe_mesh();
     walk();
     return outcome_;
@@ -139,7 +145,10 @@ private:
     int at = 0, length = whole;
     while (at < end) {
       State next = state;
-      const std::optional<Obstacle> obstacle = attempt(static_cast<double>(at + length) / end, state, next);
+      const double from = static_cast<double>(at) / end, to = static_cast<double>(at + length) / end;
+      std::optional<Obstacle> obstacle = attempt(to, state, next);
+      if (!obstacle && rules_.stable && (state.soft || next.soft) && !halves_agree(from, to, state, next))
+        obstacle = Obstacle{End::unstable};
       if (obstacle) {
         if (length == 1) {
           outcome_.end = obstacle->end, outcome_.status = obstacle->status;
@@ -169,7 +178,7 @@ private:
       const double scale = std::max({spring.norm(), contact.force.norm(), 0.01});
       // positions of order 1 have a rounding of 1e-16, which the penalty turns into a force
       if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty)
-        return judge(begin, next, contact, tangent);
+        return judge(begin, next);
       Vec step = -tangent.partialPivLu().solve(residual);
       if (!step.allFinite()) return Obstacle{End::diverged};
       if (rules_.move && step.norm() > longest_move_) step *= longest_move_ / step.norm();
@@ -179,16 +188,41 @@ private:
     return Obstacle{End::diverged};
   }
 
-  /// May a converged increment be believed?
-  std::optional<Obstacle> judge(const State& begin, const State& next, const Contact& contact,
-                                const Mat& tangent) const {
+  /// May a converged increment be believed? Whatever tangent Newton's method took, stability is a matter of the
+  /// exact one.
+  std::optional<Obstacle> judge(const State& begin, State& next) {
     if (rules_.move && (next.x - begin.x).norm() > longest_move_) return Obstacle{End::jump};
-    if (rules_.flags && contact.closed && press_.method.tangent != TangentKind::first_variation) {
-      const Mat symmetric = 0.5 * (tangent + tangent.transpose());
-      const Eigen::SelfAdjointEigenSolver<Mat> spectrum(symmetric, Eigen::EigenvaluesOnly);
-      if (!(spectrum.eigenvalues()[0] > 0)) return Obstacle{End::unstable};
-    }
+    next.soft = false;
+    if (!rules_.stable || !next.closed) return std::nullopt;
+    const Mat body = press_.spring().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Mat> spectrum(Mat(body + exact_tangent(next)));
+    const double least = spectrum.eigenvalues()[0];
+    if (!(least > 0)) return Obstacle{End::unstable};
+    const Vec mode = spectrum.eigenvectors().col(0);
+    next.soft = least < 0.75 * mode.dot(body * mode);
     return std::nullopt;
+  }
+
+  /// Near an instability there are two ways to go, and a long step may take the wrong one: the two halves of the
+  /// increment must end where the whole one does.
+  bool halves_agree(double from, double to, const State& begin, const State& whole) {
+    State first = begin, second;
+    if (attempt(0.5 * (from + to), begin, first)) return false;
+    second = first;
+    return !attempt(to, first, second) && (second.x - whole.x).norm() < 1e-6; // of a segment; ways part by much more
+  }
+
+  Mat exact_tangent(const State& state) const {
+    auto input = ents_struct<ents_input>();
+    input.slave = state.x.data(), input.mesh = &mesh_, input.segment = &state.segment, input.start = state.xi;
+    auto output = ents_struct<ents_output>();
+    const auto d = press_.dimension;
+    double tangent[9];
+    output.wanted = ENTS_TANGENT, output.tangent = tangent;
+    auto report = ents_struct<ents_report>();
+    const EntsModel& model = exact_ ? *exact_ : *model_;
+    if (library_.evaluate(model.get(), 0, 1, &input, &output, &report) != ENTS_OK) return Mat::Constant(d, d, NAN);
+    return Eigen::Map<const Eigen::MatrixXd>(tangent, d, d);
   }
 
   /// Detection and contact at next.x. The branch is that of the begin of the increment, whatever the iterates
@@ -266,7 +300,7 @@ private:
   const EntsLibrary& library_;
   const Press& press_;
   Rules rules_;
-  std::unique_ptr<EntsModel> model_;
+  std::unique_ptr<EntsModel> model_, exact_; ///< exact_: with the consistent tangent, if model_ has another one
   MasterPoints points_;
   ents_master_mesh mesh_{};
   std::vector<double> tree_;
@@ -299,7 +333,7 @@ const char* word(End end) {
   case End::jump:
     return "jumps (host: moves too far)";
   case End::unstable:
-    return "unstable (host: tangent not positive)";
+    return "unstable (host: tangent not positive, or halves of a step end elsewhere)";
   case End::diverged:
     break;
   }

@@ -15,13 +15,13 @@ namespace host::chart {
 struct Rules {
   bool check = true;  ///< ask ents_model_check first
   bool reach = true;  ///< penetration_limit from its reach: farther inside a projection is not unique
-  bool move = true;   ///< a node moves at most a quarter of the shortest wave in an increment
+  bool move = true;   ///< a node moves at most a quarter of the shortest wave and one segment
   bool anew = true;   ///< a node that is open is searched anew; only a closed one is followed
   bool behind = true; ///< no segment found: is the node really outside?
-  bool flags =
-      true; ///< ENTS_FLAG_AMBIGUOUS, ENTS_FLAG_FAR_SIDE of a closed node, a tangent that is not positive: cut
+  bool flags = true;  ///< ENTS_FLAG_AMBIGUOUS, ENTS_FLAG_FAR_SIDE of a closed node: cut
+  bool stable = true; ///< the exact tangent is positive; where contact softens it, half steps end where whole ones do
 };
-inline constexpr Rules careless{false, false, false, false, false, false};
+inline constexpr Rules careless{false, false, false, false, false, false, false};
 
 enum class End {
   solved,
@@ -33,7 +33,7 @@ enum class End {
   ambiguous,   ///< ENTS_FLAG_AMBIGUOUS or ENTS_FLAG_FAR_SIDE on a closed node
   behind,      ///< behind a corner between two segments
   jump,        ///< moves too far, however small the increment
-  unstable,    ///< converged where the tangent is not positive definite
+  unstable,    ///< the tangent is not positive definite, or a step and its halves end apart
   diverged,    ///< Newton's iteration, in spite of all cuts
 };
 const char* word(End end);
