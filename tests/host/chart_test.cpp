@@ -12,6 +12,7 @@
 #include "chart/map.hpp"
 #include "chart/master_check.hpp"
 #include "chart/true_curve.hpp"
+#include "chart/true_sheet.hpp"
 #include "program.hpp"
 #include "support.hpp"
 
@@ -142,6 +143,20 @@ TEST(StabilityMaps, NothingIsSilentlyWrong) {
   }
   EXPECT_GT(careless_wrong, 0);
   EXPECT_GT(solved, 0);
+}
+
+// In space: two bases carry one surface; both find the judge's way, with all tangents.
+TEST(StabilityMaps, InSpaceBasesAgree) {
+  for (const SurfaceKind surface : {SurfaceKind::local, SurfaceKind::c2})
+    for (const ProjectionKind projection : projection_kinds)
+      for (const TangentKind tangent : tangent_kinds) {
+        const Press press = make_press_in_space(0.02, 1, {surface, projection, tangent});
+        const Outcome outcome = solve(library(), press);
+        EXPECT_EQ(outcome.levels.size(), 16u)
+            << word(surface) << ", " << word(projection) << ", " << word(tangent);
+        EXPECT_EQ(judged(outcome, press, true_path(press)).fate, Fate::solved)
+            << word(surface) << ", " << word(projection) << ", " << word(tangent);
+      }
 }
 
 // A segment whose height exceeds its radius of curvature is refused before the first increment.

@@ -109,8 +109,10 @@ private:
     double least = INFINITY;
     for (std::int64_t s = 0; s < press_.row.segments(); ++s) {
       const std::vector<double> nodes = segment_nodes(press_, s);
-      const auto d = static_cast<std::size_t>(press_.dimension), m = nodes.size() / d,
-                 first = m == 4 && d == 2 ? d : 0;
+      const auto d = static_cast<std::size_t>(press_.dimension), m = nodes.size() / d;
+      const std::size_t first = d * (m == 16            ? 5
+                                     : m == 4 && d == 2 ? 1
+                                                        : 0); // of the segment's own two nodes
       double square = 0;
       for (std::size_t k = 0; k < d; ++k) square += std::pow(nodes[first + d + k] - nodes[first + k], 2);
       least = std::min(least, std::sqrt(square));
@@ -177,8 +179,7 @@ private:
       // relative to the forces, or to those of a hundredth of a segment
       const double scale = std::max({spring.norm(), contact.force.norm(), 0.01});
       // positions of order 1 have a rounding of 1e-16, which the penalty turns into a force
-      if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty)
-        return judge(begin, next);
+      if (residual.norm() <= 1e-10 * scale + 1e-15 * press_.penalty) return judge(begin, next);
       Vec step = -tangent.partialPivLu().solve(residual);
       if (!step.allFinite()) return Obstacle{End::diverged};
       if (rules_.move && step.norm() > longest_move_) step *= longest_move_ / step.norm();
@@ -188,8 +189,8 @@ private:
     return Obstacle{End::diverged};
   }
 
-  /// May a converged increment be believed? Whatever tangent Newton's method took, stability is a matter of the
-  /// exact one.
+  /// May a converged increment be believed? Whatever tangent Newton's method took, stability is a matter of
+  /// the exact one.
   std::optional<Obstacle> judge(const State& begin, State& next) {
     if (rules_.move && (next.x - begin.x).norm() > longest_move_) return Obstacle{End::jump};
     next.soft = false;
@@ -203,13 +204,14 @@ private:
     return std::nullopt;
   }
 
-  /// Near an instability there are two ways to go, and a long step may take the wrong one: the two halves of the
-  /// increment must end where the whole one does.
+  /// Near an instability there are two ways to go, and a long step may take the wrong one: the two halves of
+  /// the increment must end where the whole one does.
   bool halves_agree(double from, double to, const State& begin, const State& whole) {
     State first = begin, second;
     if (attempt(0.5 * (from + to), begin, first)) return false;
     second = first;
-    return !attempt(to, first, second) && (second.x - whole.x).norm() < 1e-6; // of a segment; ways part by much more
+    return !attempt(to, first, second) &&
+           (second.x - whole.x).norm() < 1e-6; // of a segment; ways part by much more
   }
 
   Mat exact_tangent(const State& state) const {
@@ -221,7 +223,8 @@ private:
     output.wanted = ENTS_TANGENT, output.tangent = tangent;
     auto report = ents_struct<ents_report>();
     const EntsModel& model = exact_ ? *exact_ : *model_;
-    if (library_.evaluate(model.get(), 0, 1, &input, &output, &report) != ENTS_OK) return Mat::Constant(d, d, NAN);
+    if (library_.evaluate(model.get(), 0, 1, &input, &output, &report) != ENTS_OK)
+      return Mat::Constant(d, d, NAN);
     return Eigen::Map<const Eigen::MatrixXd>(tangent, d, d);
   }
 
@@ -300,7 +303,8 @@ private:
   const EntsLibrary& library_;
   const Press& press_;
   Rules rules_;
-  std::unique_ptr<EntsModel> model_, exact_; ///< exact_: with the consistent tangent, if model_ has another one
+  std::unique_ptr<EntsModel> model_,
+      exact_; ///< exact_: with the consistent tangent, if model_ has another one
   MasterPoints points_;
   ents_master_mesh mesh_{};
   std::vector<double> tree_;

@@ -19,7 +19,8 @@ struct Rules {
   bool anew = true;   ///< a node that is open is searched anew; only a closed one is followed
   bool behind = true; ///< no segment found: is the node really outside?
   bool flags = true;  ///< ENTS_FLAG_AMBIGUOUS, ENTS_FLAG_FAR_SIDE of a closed node: cut
-  bool stable = true; ///< the exact tangent is positive; where contact softens it, half steps end where whole ones do
+  bool stable =
+      true; ///< the exact tangent is positive; where contact softens it, half steps end where whole ones do
 };
 inline constexpr Rules careless{false, false, false, false, false, false, false};
 

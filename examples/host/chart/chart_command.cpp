@@ -69,10 +69,13 @@ constexpr const char* introduction =
     "delivers without a status, a flag or a "
     "failed iteration and lies elsewhere is <b>silently wrong</b>.</p>"
     "<p>The host is a careful one. It asks ents_model_check first; takes its reach as penetration_limit; "
-    "believes an increment only if the node has moved by at most a quarter of the shortest wave (as long as that is "
-    "on the enriched surface) and one segment, if the exact tangent is positive definite, and, where contact takes more than a "
+    "believes an increment only if the node has moved by at most a quarter of the shortest wave (as long as "
+    "that is "
+    "on the enriched surface) and one segment, if the exact tangent is positive definite, and, where contact "
+    "takes more than a "
     "quarter of the stiffness away, if two half increments end at the same place; follows a closed node, but "
-    "searches an open one anew; takes ENTS_FLAG_BEHIND_EDGE and ENTS_FLAG_AMBIGUOUS for no answer. The lines &quot;no rules&quot; in the tables are the same host without all this.</p>";
+    "searches an open one anew; takes ENTS_FLAG_BEHIND_EDGE and ENTS_FLAG_AMBIGUOUS for no answer. The lines "
+    "&quot;no rules&quot; in the tables are the same host without all this.</p>";
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(file, std::ios::binary);

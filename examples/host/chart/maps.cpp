@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "chart/map.hpp"
+#include "chart/true_sheet.hpp"
 
 namespace host::chart {
 namespace {
@@ -118,11 +119,27 @@ Map stiffness_over_step(bool quick) {
   return map;
 }
 
+Map space(bool quick) {
+  Map map;
+  map.name = "space";
+  map.title = "Amplitude and wave number, in space";
+  map.text = "A product of two sines on a flat row of quad4 segments (local enrichment). The node goes "
+             "across the row at an angle, over "
+             "three borders of segments. 16 increments.";
+  map.x = {"waves in a segment", quick ? std::vector<double>{0.5, 2} : spaced(0.5, 4, 8, false)};
+  map.y = {"amplitude / segment", spaced(0.004, 0.2, quick ? 2 : 8, true)};
+  map.surfaces = {SurfaceKind::local};
+  map.problem = [](double waves, double amplitude, const Method& method) {
+    return make_press_in_space(amplitude, waves, method);
+  };
+  return map;
+}
+
 } // namespace
 
 std::vector<Map> stability_maps(bool quick) {
   return {amplitude_over_waves(quick), height_over_curvature(quick), penetration_over_step(quick),
-          stiffness_over_step(quick)};
+          stiffness_over_step(quick), space(quick)};
 }
 
 } // namespace host::chart

@@ -17,7 +17,7 @@ Vec Press::anchor(double t) const {
   if (dimension == 2)
     x << p.x, p.y;
   else
-    x << p.x, across, p.y;
+    x << p.x, slant * p.x, p.y;
   return x;
 }
 

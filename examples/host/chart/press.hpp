@@ -28,7 +28,7 @@ struct Press {
   double wavelength = 1; ///< shortest of the surface: what the host knows of it
   // where the spring's anchor goes, t = 0 .. 1: down, then along
   double curvature = 0, above = 0.1, below = 0, from = 0, to = 1;
-  double across = 0; ///< 3D: second coordinate
+  double slant = 0; ///< 3D: of the way, second coordinate over the first
 
   Vec anchor(double t) const;
   /// Stiffness of the spring by direction.
