@@ -54,4 +54,12 @@ struct CheckOptions {
 };
 int check_command(const CommonOptions& common, const CheckOptions& options);
 
+struct ChartOptions {
+  std::filesystem::path out; ///< empty: only the terminal is told
+  bool quick = false;        ///< a few points of each map
+  bool pictures = true;
+};
+/// Where each method works, by maps over pairs of parameters.
+int chart_command(const CommonOptions& common, const ChartOptions& options);
+
 } // namespace host

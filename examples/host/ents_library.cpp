@@ -60,6 +60,9 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(model_create_from_file, "ents_model_create_from_file");
     find(model_destroy, "ents_model_destroy");
     find(model_layout, "ents_model_layout");
+    find(tree_size, "ents_tree_size");
+    find(tree_build, "ents_tree_build");
+    find(detect, "ents_detect");
     find(evaluate, "ents_evaluate");
     find(state_init, "ents_state_init");
     find(state_augment, "ents_state_augment");

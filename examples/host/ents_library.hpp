@@ -34,6 +34,9 @@ public:
   decltype(&ents_model_create_from_file) model_create_from_file = nullptr;
   decltype(&ents_model_destroy) model_destroy = nullptr;
   decltype(&ents_model_layout) model_layout = nullptr;
+  decltype(&ents_tree_size) tree_size = nullptr;
+  decltype(&ents_tree_build) tree_build = nullptr;
+  decltype(&ents_detect) detect = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
   decltype(&ents_state_init) state_init = nullptr;
   decltype(&ents_state_augment) state_augment = nullptr;

@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
              "  ents-host run examples/westergaard/scene.json --compare\n"
              "  ents-host variants examples/hertz2d/scene.json\n"
              "  ents-host verify tests/mechanics/golden/*.json\n"
-             "  ents-host check model.json --mesh master.inp\n\n"
+             "  ents-host check model.json --mesh master.inp\n"
+             "  ents-host chart --out out/chart\n\n"
              "ents-host SUBCOMMAND --help says more of each.");
   app.require_subcommand(1);
   CommonOptions common;
@@ -115,13 +116,23 @@ int main(int argc, char** argv) {
                     "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
                     "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
 
+  ChartOptions chart;
+  CLI::App* chart_app = app.add_subcommand("chart", "Where does each method work? Stability maps: solved, flagged, diverged, silently wrong");
+  chart_app->add_option("--out", chart.out, "folder for chart.html (one page, no network), chart.json and the pictures")->type_name("DIR");
+  chart_app->add_flag("--quick", chart.quick, "a few points of each map");
+  chart_app->add_flag_callback("--no-pictures", [&] { chart.pictures = false; }, "leave the pictures out; the page has its own");
+  add_common(*chart_app);
+  chart_app->footer("Exit code 1 if any result is wrong and nothing has said so.\n\n"
+                    "Example:\n"
+                    "  ents-host chart --out out/chart && xdg-open out/chart/chart.html");
+
   try {
     app.parse(argc, argv);
     run.compare = compare->count() > 0;
     std::erase(run.compare_divisions, 0); // what CLI11 makes of --compare without a list
   } catch (const CLI::ParseError& error) {
     if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write run, variants, verify or check, or --help\n", argv[1]);
+      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write run, variants, verify, check or chart, or --help\n", argv[1]);
       return 2;
     }
     return app.exit(error) == 0 ? 0 : 2; // 0: --help
@@ -130,6 +141,7 @@ int main(int argc, char** argv) {
     if (run_app->parsed()) return run_command(common, run);
     if (variants_app->parsed()) return variants_command(common, variants);
     if (verify_app->parsed()) return verify_command(common, verify);
+    if (chart_app->parsed()) return chart_command(common, chart);
     return check_command(common, check);
   } catch (const InputError& error) {
     std::fprintf(stderr, "ents-host: %s\n", error.what());
