@@ -21,7 +21,8 @@ template <class B> struct BasisTest : testing::Test {
   static constexpr int T = B::dim - 1, K = symmetric_size<T>, M = B::nodes;
   static constexpr bool smoothed = std::is_same_v<B, CatmullRom4> || std::is_same_v<B, BSpline4> ||
                                    std::is_same_v<B, CatmullRom16> || std::is_same_v<B, BSpline16>;
-  static constexpr bool interpolating = !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16>;
+  static constexpr bool bezier = std::is_same_v<B, Bezier15>;
+  static constexpr bool interpolating = !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16> && !bezier;
 
   // All over the segment, its border included, and a little beyond
   static std::vector<std::array<double, T>> points() {
@@ -58,6 +59,7 @@ template <class B> struct BasisTest : testing::Test {
   static std::array<double, 2> node(int i) {
     if constexpr (std::is_same_v<B, Line2>) return {2.0 * i - 1.0, 0.0};
     else if constexpr (std::is_same_v<B, Line3>) return {i == 0 ? -1.0 : (i == 1 ? 1.0 : 0.0), 0.0};
+    else if constexpr (bezier) return {Bezier15::power[i][1] / 4.0, Bezier15::power[i][2] / 4.0};
     else if constexpr (smoothed) return {2.0 * (i % 4) - 3.0, T == 2 ? 2.0 * (i / 4) - 3.0 : 0.0};
     else if constexpr (B::simplex) {
       constexpr double p[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
@@ -69,7 +71,7 @@ template <class B> struct BasisTest : testing::Test {
   }
 };
 
-using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9, CatmullRom16, BSpline16>;
+using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9, CatmullRom16, BSpline16, Bezier15>;
 TYPED_TEST_SUITE(BasisTest, Bases);
 
 TYPED_TEST(BasisTest, SumsToOne) {
@@ -109,6 +111,12 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
     if constexpr (linear) continue;
     // an approximating spline adds spacing^2 / 3 to a square: 4 / 3
     const double shift = this->interpolating ? 0.0 : 4.0 / 3.0;
+    if constexpr (TestFixture::bezier) {
+      // a Bernstein polynomial of degree 4 shortens a square: 3/4 of it and 1/4 of the coordinate
+      EXPECT_NEAR(sum_xx, 0.75 * x * x + 0.25 * x, rounding);
+      EXPECT_NEAR(sum_xy, 0.75 * x * y, rounding);
+      continue;
+    }
     EXPECT_NEAR(sum_xx, x * x + shift, 10 * rounding);
     if (this->T == 2) EXPECT_NEAR(sum_xy, x * y, 10 * rounding);
     if (this->T == 2) EXPECT_NEAR(sum_yy, y * y + shift, 10 * rounding);
@@ -116,6 +124,15 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
 }
 
 TYPED_TEST(BasisTest, IsOneAtItsOwnNodeAndZeroAtTheOthers) {
+  if (this->bezier) { // in its corners only
+    for (int j = 0; j < 3; ++j) {
+      std::array<double, TestFixture::T> xi{};
+      for (std::size_t a = 0; a < xi.size(); ++a) xi[a] = this->node(j)[a];
+      const auto s = this->template shape<0>(xi);
+      for (int i = 0; i < TypeParam::nodes; ++i) EXPECT_NEAR(s.n[i], i == j ? 1.0 : 0.0, rounding);
+    }
+    return;
+  }
   if (!this->interpolating) {
     // the B-spline's weights at a node of the grid: 1/6 4/6 1/6
     std::array<double, TestFixture::T> xi{};
