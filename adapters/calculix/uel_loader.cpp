@@ -57,9 +57,9 @@ CCX_API void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ip
   int nnode = static_cast<unsigned char>(lakonl[7]), ndofel = 3 * nnode, nrhs = 1, nsvars = *nstate_,
       mcrd = 3, jtype = 1, kstep = *istep, kinc = *iinc, jelem = *nelem, none = 0, one = 1,
       lflags[7] = {1, 1, 1, 0, 0, 0, 0};
-  int nprops = static_cast<int>(constants[0]);
-  if (nprops < 0 || nprops > 1000 || nprops != constants[0])
+  if (!(constants[0] >= 0 && constants[0] <= 1000) || constants[0] != std::floor(constants[0]))
     stop("*USER SECTION: the first constant is the number of PROPS");
+  int nprops = static_cast<int>(constants[0]);
   if (ndofel > leading_dimension) stop("more than 20 nodes");
   const int* nodes = kon + ipkon[*nelem - 1];
   double coords[leading_dimension], u[leading_dimension], du[leading_dimension],
