@@ -66,30 +66,34 @@ std::int32_t smooth(const Surface& s, Smoothed& out, ents_report* report) {
   const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
   const bool lines = is(s.facet, "line2") && (is(s.basis, "catmull_rom4") || is(s.basis, "bspline4"));
   const bool regular = is(s.basis, "catmull_rom16");
-  if (!lines && !(is(s.facet, "quad4") && (regular || is(s.basis, "bspline16"))))
-    return report_status(report, ENTS_BAD_VALUE, -1,
-                         "arguments 'facet' and 'basis': line2 becomes catmull_rom4 or bspline4, quad4 "
-                         "becomes catmull_rom16 or "
-                         "bspline16; there is nothing else");
+  const bool triangles = is(s.facet, "tri3") && is(s.basis, "bezier15");
+  if (!lines && !triangles && !(is(s.facet, "quad4") && (regular || is(s.basis, "bspline16"))))
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "arguments 'facet' and 'basis': line2 becomes catmull_rom4 or bspline4, tri3 becomes bezier15, quad4 "
+        "becomes catmull_rom16 or bspline16; there is nothing else");
   if (s.ends != ENTS_ENDS_STRAIGHT && s.ends != ENTS_ENDS_REPEATED)
     return report_message(
         report, ENTS_BAD_VALUE, -1,
         "argument 'ends' is %d; it must be ENTS_ENDS_STRAIGHT (0) or ENTS_ENDS_REPEATED (1)", s.ends);
+  if (triangles && s.ends != ENTS_ENDS_STRAIGHT)
+    return report_status(report, ENTS_BAD_VALUE, -1, "argument 'ends': tri3 takes ENTS_ENDS_STRAIGHT only");
   constexpr std::int64_t most = std::int64_t{1} << 40;
   if (s.facets < 0 || s.nodes < 0 || s.facets > most || s.nodes > most)
     return report_message(report, ENTS_BAD_COUNT, -1, "facets = %lld, nodes = %lld: both must be 0 .. 2^40",
                           static_cast<long long>(s.facets), static_cast<long long>(s.nodes));
   if (s.facets > 0 && !s.connectivity)
     return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'connectivity' is null");
-  const std::int64_t m = lines ? 2 : 4;
+  const std::int64_t m = lines ? 2 : (triangles ? 3 : 4);
   for (std::int64_t i = 0; i < s.facets * m; ++i)
     if (s.connectivity[i] < 0 || s.connectivity[i] >= s.nodes)
       return report_message(report, ENTS_BAD_VALUE, i / m,
                             "connectivity[%lld] = %lld is not a node (0 .. %lld)", static_cast<long long>(i),
                             static_cast<long long>(s.connectivity[i]), static_cast<long long>(s.nodes - 1));
   const Ends ends = s.ends == ENTS_ENDS_STRAIGHT ? Ends::straight : Ends::repeated;
-  const Refusal refusal = lines ? smooth_lines(ends, s.facets, s.connectivity, s.nodes, out)
-                                : smooth_quads(ends, regular, s.facets, s.connectivity, s.nodes, out);
+  const Refusal refusal = lines       ? smooth_lines(ends, s.facets, s.connectivity, s.nodes, out)
+                          : triangles ? smooth_triangles(s.facets, s.connectivity, s.nodes, out)
+                                      : smooth_quads(ends, regular, s.facets, s.connectivity, s.nodes, out);
   return refusal.reason == Refusal::none ? ENTS_OK : explain(refusal, m, report);
 }
 

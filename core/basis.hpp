@@ -210,6 +210,53 @@ struct Tri6 {  // corners, mid-sides 12 23 31
   }
 };
 
+// Quartic Bezier triangle: the control points b_ijk of sum 24 / (i! j! k!) z^i x^j y^k b_ijk, z = 1 - x - y. Corners, then the three on
+// each edge 12 23 31 in its direction, then the inner ones, each next to its corner. It has every regular patch of Loop's
+// subdivision surface.
+struct Bezier15 {
+  static constexpr int dim = 3, nodes = 15;
+  static constexpr bool simplex = true;
+  static constexpr bool second[3] = {true, true, true};
+  static constexpr bool third[4] = {true, true, true, true};
+  static constexpr int power[nodes][3] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 1, 0}, {2, 2, 0}, {1, 3, 0}, {0, 3, 1}, {0, 2, 2},
+                                          {0, 1, 3}, {1, 0, 3}, {2, 0, 2}, {3, 0, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
+
+  // Derivatives of Bernstein polynomials are differences of those of lower degree: by x, lower j less lower i.
+  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+    const S of[3] = {1.0 - xi[0] - xi[1], xi[0], xi[1]};
+    S p[3][5];
+    for (int v = 0; v < 3; ++v) {
+      p[v][0] = S(1.0);
+      for (int e = 1; e < 5; ++e) p[v][e] = p[v][e - 1] * of[v];
+    }
+    constexpr double factorial[5] = {1.0, 1.0, 2.0, 6.0, 24.0};
+    for (int n = 0; n < nodes; ++n) {
+      // 4! times Bernstein's polynomial of lower degree, over that degree's factorial
+      const auto b = [&](int less_i, int less_j, int less_k) ENTS_LAMBDA_INLINE {
+        const int i = power[n][0] - less_i, j = power[n][1] - less_j, k = power[n][2] - less_k;
+        if (i < 0 || j < 0 || k < 0) return S(0.0);
+        return 24.0 / (factorial[i] * factorial[j] * factorial[k]) * (p[0][i] * (p[1][j] * p[2][k]));
+      };
+      s.n[n] = b(0, 0, 0);
+      if constexpr (Order > 0) {
+        s.d1[0][n] = b(0, 1, 0) - b(1, 0, 0);
+        s.d1[1][n] = b(0, 0, 1) - b(1, 0, 0);
+      }
+      if constexpr (Order > 1) {
+        s.d2[0][n] = b(0, 2, 0) - 2.0 * b(1, 1, 0) + b(2, 0, 0);
+        s.d2[1][n] = b(0, 1, 1) - b(1, 1, 0) - b(1, 0, 1) + b(2, 0, 0);
+        s.d2[2][n] = b(0, 0, 2) - 2.0 * b(1, 0, 1) + b(2, 0, 0);
+      }
+      if constexpr (Order > 2) {
+        s.d3[0][n] = b(0, 3, 0) - 3.0 * b(1, 2, 0) + 3.0 * b(2, 1, 0) - b(3, 0, 0);
+        s.d3[1][n] = b(0, 2, 1) - b(1, 2, 0) - 2.0 * b(1, 1, 1) + 2.0 * b(2, 1, 0) + b(2, 0, 1) - b(3, 0, 0);
+        s.d3[2][n] = b(0, 1, 2) - b(1, 0, 2) - 2.0 * b(1, 1, 1) + 2.0 * b(2, 0, 1) + b(2, 1, 0) - b(3, 0, 0);
+        s.d3[3][n] = b(0, 0, 3) - 3.0 * b(1, 0, 2) + 3.0 * b(2, 0, 1) - b(3, 0, 0);
+      }
+    }
+  }
+};
+
 template <class B> ENTS_INLINE void domain_centre(double (&xi)[B::dim - 1]) {
   for (double& x : xi) x = B::simplex ? 1.0 / 3.0 : 0.0;
 }

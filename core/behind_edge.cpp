@@ -69,7 +69,7 @@ public:
   }
 
 private:
-  bool triangle() const { return plan_.nodes == 3 || plan_.nodes == 6; }
+  bool triangle() const { return plan_.nodes == 3 || plan_.nodes == 6 || plan_.nodes == 15; }
 
   // u in [0, 1] along an edge
   bool evaluate(int edge, double u, BorderPoint& out) const {

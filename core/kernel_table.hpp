@@ -29,6 +29,7 @@ ENTS_KERNELS(quad8)
 ENTS_KERNELS(quad9)
 ENTS_KERNELS(catmull_rom16)
 ENTS_KERNELS(bspline16)
+ENTS_KERNELS(bezier15)
 #undef ENTS_KERNELS
 }  // namespace portable
 

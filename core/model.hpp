@@ -22,7 +22,8 @@ enum class Basis : std::int32_t {
   quad8,
   quad9,
   catmull_rom16,
-  bspline16
+  bspline16,
+  bezier15
 };
 
 struct BasisEntry {
@@ -44,6 +45,7 @@ inline constexpr BasisEntry basis_table[] = {
     {Basis::quad9, "quad9", 9, 2},
     {Basis::catmull_rom16, "catmull_rom16", 16, 2},
     {Basis::bspline16, "bspline16", 16, 2},
+    {Basis::bezier15, "bezier15", 15, 2},
 };
 
 constexpr const BasisEntry& basis_entry(Basis basis) { return basis_table[static_cast<std::int32_t>(basis)]; }

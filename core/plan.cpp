@@ -19,9 +19,10 @@ const KernelSet& kernels_of(Basis basis) {
     case Basis::quad8: return portable::quad8_kernels();
     case Basis::quad9: return portable::quad9_kernels();
     case Basis::catmull_rom16: return portable::catmull_rom16_kernels();
-    case Basis::bspline16: break;
+    case Basis::bspline16: return portable::bspline16_kernels();
+    case Basis::bezier15: break;
   }
-  return portable::bspline16_kernels();
+  return portable::bezier15_kernels();
 }
 
 }  // namespace

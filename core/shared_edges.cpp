@@ -15,7 +15,8 @@ Corners corners_of(Basis basis) {
     case Basis::catmull_rom4:
     case Basis::bspline4: return {2, {1, 2}, {{-1, 0}, {1, 0}}};
     case Basis::tri3:
-    case Basis::tri6: return {3, {0, 1, 2}, {{0, 0}, {1, 0}, {0, 1}}};
+    case Basis::tri6:
+    case Basis::bezier15: return {3, {0, 1, 2}, {{0, 0}, {1, 0}, {0, 1}}};
     case Basis::catmull_rom16:
     case Basis::bspline16: return {4, {5, 6, 10, 9}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
     default: return {4, {0, 1, 2, 3}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};

@@ -10,9 +10,7 @@
 //   plane, so that neighbours have one normal there, and what inner points continuity across an edge asks
 //   for. A bicubic patch has one such point where two edges ask: it gets the mean. The jump of the normal
 //   that remains along these edges is a quarter of what the points of 2008 leave.
-#include <cmath>
-
-#include "core/quad_mesh.hpp"
+#include "core/patch_weights.hpp"
 
 namespace ents {
 
@@ -37,15 +35,9 @@ struct Grid {
   }
 };
 
-// Bezier points over nodes, dense over the nodes that occur.
-class Patch {
+class Patch : public PatchWeights {
 public:
-  explicit Patch(const QuadMesh& mesh) : mesh_(mesh), column_(static_cast<std::size_t>(mesh.nodes()), -1) {}
-
-  void clear() {
-    for (const std::int64_t node : nodes_) column_[static_cast<std::size_t>(node)] = -1;
-    nodes_.clear(), bezier_.clear();
-  }
+  using PatchWeights::PatchWeights;
 
   // The corner, the points beside it on its two edges, and, of a regular corner, the inner one. 2008: an
   // inner point is (n x + 2 e_i + 2 e_(i+1) + f_i) / (n + 5), one on an edge is the mean of the two inner
@@ -80,11 +72,12 @@ public:
       const std::size_t other = rings[(corner + (forward ? 1 : 3)) % 4].size();
       const double c = cosine(2, ring.size()), end = other == 4 ? 0.0 : cosine(2, other);
       const double near = other == 4 ? c : 2.0 * c, far = other == 4 ? 0.5 * c : 0.0;
-      for (double* w = bezier_.data(); w != bezier_.data() + bezier_.size(); w += 16)
+      for_each_node([&](double* w) {
         w[point] +=
             0.5 *
             (w[b[1]] +
              (near * (w[b[2]] - w[b[1]]) + far * (w[b[3]] - w[b[2]]) - end * (w[b[1]] - w[b[0]])) / 3.0);
+      });
     }
   }
 
@@ -93,25 +86,16 @@ public:
   void add_points(Smoothed& out) const {
     static constexpr int inverse[4][4] = {{6, -7, 2, 0}, {0, 2, -1, 0}, {0, -1, 2, 0}, {0, 2, -7, 6}};
     for (std::size_t j = 0; j < 4; ++j)
-      for (std::size_t i = 0; i < 4; ++i) {
-        Terms terms;
-        for (std::size_t c = 0; c < nodes_.size(); ++c) {
+      for (std::size_t i = 0; i < 4; ++i)
+        out.segment_points.push_back(out.add_point(combine([&](const double* w) {
           double sum = 0.0;
           for (std::size_t b = 0; b < 4; ++b)
-            for (std::size_t a = 0; a < 4; ++a)
-              sum += inverse[i][a] * inverse[j][b] * bezier_[16 * c + 4 * b + a];
-          terms.push_back({nodes_[c], sum});
-        }
-        collect(terms);
-        out.segment_points.push_back(out.add_point(terms));
-      }
+            for (std::size_t a = 0; a < 4; ++a) sum += inverse[i][a] * inverse[j][b] * w[4 * b + a];
+          return sum;
+        })));
   }
 
 private:
-  static double cosine(std::size_t k, std::size_t n) { // of k pi / n
-    return std::cos(3.141592653589793 * static_cast<double>(k) / static_cast<double>(n));
-  }
-
   void add_limit(std::size_t point, std::int64_t node, const Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i)
       add_inner(point, node, ring, i, 1.0 / static_cast<double>(ring.size()));
@@ -146,32 +130,13 @@ private:
     add(point, ring.edge[(i + 1) % ring.size()], weight * 2.0);
     add(point, ring.face[i], weight);
   }
-
-  void add(std::size_t point, std::int64_t node, double weight) {
-    if (node >= mesh_.nodes()) {
-      for (const Term& t : mesh_.laid_around()[static_cast<std::size_t>(node - mesh_.nodes())])
-        add(point, t.node, weight * t.weight);
-      return;
-    }
-    std::int64_t& column = column_[static_cast<std::size_t>(node)];
-    if (column < 0) {
-      column = static_cast<std::int64_t>(nodes_.size());
-      nodes_.push_back(node);
-      bezier_.resize(bezier_.size() + 16, 0.0);
-    }
-    bezier_[16 * static_cast<std::size_t>(column) + point] += weight;
-  }
-
-  const QuadMesh& mesh_;
-  std::vector<std::int64_t> nodes_, column_; // column_[node]: its place in nodes_, or -1
-  std::vector<double> bezier_;               // [nodes][16]
 };
 
 } // namespace
 
 Refusal smooth_quads(Ends ends, bool regular, std::int64_t facets, const std::int64_t* connectivity,
                      std::int64_t nodes, Smoothed& out) {
-  QuadMesh mesh;
+  FacetMesh mesh(4);
   if (const Refusal refusal = mesh.build(ends, facets, connectivity, nodes); refusal.reason != Refusal::none)
     return refusal;
   out.add_nodes(nodes);
@@ -182,11 +147,9 @@ Refusal smooth_quads(Ends ends, bool regular, std::int64_t facets, const std::in
     bool four = true;
     for (int corner = 0; corner < 4; ++corner) {
       Ring& ring = rings[corner];
-      mesh.ring(f, corner, ring);
-      const std::int64_t node = mesh.node(f, corner), valence = static_cast<std::int64_t>(ring.size());
-      if (mesh.incident(node) != valence) return {Refusal::touching, f, -1, node};
-      if (valence == 2) return {Refusal::folded, f, -1, node};
-      if (regular && valence != 4) return {Refusal::irregular, f, -1, node};
+      if (const Refusal refusal = mesh.ring(f, corner, ring); refusal.reason != Refusal::none) return refusal;
+      const std::size_t valence = ring.size();
+      if (regular && valence != 4) return {Refusal::irregular, f, -1, mesh.node(f, corner)};
       four = four && valence == 4;
     }
     if (four) {

@@ -62,4 +62,8 @@ Refusal smooth_lines(Ends ends, std::int64_t facets, const std::int64_t* connect
 Refusal smooth_quads(Ends ends, bool regular, std::int64_t facets, const std::int64_t* connectivity,
                      std::int64_t nodes, Smoothed& out);
 
+// tri3 -> bezier15, with straight ends.
+Refusal smooth_triangles(std::int64_t facets, const std::int64_t* connectivity, std::int64_t nodes,
+                         Smoothed& out);
+
 } // namespace ents

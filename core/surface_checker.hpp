@@ -34,7 +34,9 @@ struct SurfaceChecker {
   double size; // of the box around the nodes
   SurfaceAdmissibility& result;
 
-  bool simplex() const { return model.basis == Basis::tri3 || model.basis == Basis::tri6; }
+  bool simplex() const {
+    return model.basis == Basis::tri3 || model.basis == Basis::tri6 || model.basis == Basis::bezier15;
+  }
   // Over several segments: its nodes are not the corners of the segment.
   bool smoothed() const {
     return model.basis == Basis::catmull_rom4 || model.basis == Basis::bspline4 ||

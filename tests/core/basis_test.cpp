@@ -21,7 +21,11 @@ template <class B> struct BasisTest : testing::Test {
   static constexpr int T = B::dim - 1, K = symmetric_size<T>, M = B::nodes;
   static constexpr bool smoothed = std::is_same_v<B, CatmullRom4> || std::is_same_v<B, BSpline4> ||
                                    std::is_same_v<B, CatmullRom16> || std::is_same_v<B, BSpline16>;
-  static constexpr bool interpolating = !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16>;
+  static constexpr bool bezier = std::is_same_v<B, Bezier15>;
+  static constexpr bool interpolating = !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16> && !bezier;
+
+  // The points lie up to z = -1.9 for triangles: quartics of up to 150 there
+  static constexpr double rounded = bezier ? 20.0 * rounding : rounding;
 
   // All over the segment, its border included, and a little beyond
   static std::vector<std::array<double, T>> points() {
@@ -58,6 +62,7 @@ template <class B> struct BasisTest : testing::Test {
   static std::array<double, 2> node(int i) {
     if constexpr (std::is_same_v<B, Line2>) return {2.0 * i - 1.0, 0.0};
     else if constexpr (std::is_same_v<B, Line3>) return {i == 0 ? -1.0 : (i == 1 ? 1.0 : 0.0), 0.0};
+    else if constexpr (bezier) return {Bezier15::power[i][1] / 4.0, Bezier15::power[i][2] / 4.0};
     else if constexpr (smoothed) return {2.0 * (i % 4) - 3.0, T == 2 ? 2.0 * (i / 4) - 3.0 : 0.0};
     else if constexpr (B::simplex) {
       constexpr double p[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
@@ -69,7 +74,7 @@ template <class B> struct BasisTest : testing::Test {
   }
 };
 
-using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9, CatmullRom16, BSpline16>;
+using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9, CatmullRom16, BSpline16, Bezier15>;
 TYPED_TEST_SUITE(BasisTest, Bases);
 
 TYPED_TEST(BasisTest, SumsToOne) {
@@ -82,10 +87,10 @@ TYPED_TEST(BasisTest, SumsToOne) {
       for (int k = 0; k < this->K; ++k) sum_2[k] += s.d2[k][i]; // zero where the basis does not write
       for (int k = 0; k < (this->T == 1 ? 1 : 4); ++k) sum_3[k] += s.d3[k][i];
     }
-    EXPECT_NEAR(sum, 1.0, rounding);
-    for (const double x : sum_1) EXPECT_NEAR(x, 0.0, rounding);
-    for (const double x : sum_2) EXPECT_NEAR(x, 0.0, rounding);
-    for (const double x : sum_3) EXPECT_NEAR(x, 0.0, rounding);
+    EXPECT_NEAR(sum, 1.0, TestFixture::rounded);
+    for (const double x : sum_1) EXPECT_NEAR(x, 0.0, TestFixture::rounded);
+    for (const double x : sum_2) EXPECT_NEAR(x, 0.0, TestFixture::rounded);
+    for (const double x : sum_3) EXPECT_NEAR(x, 0.0, TestFixture::rounded);
   }
 }
 
@@ -109,6 +114,12 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
     if constexpr (linear) continue;
     // an approximating spline adds spacing^2 / 3 to a square: 4 / 3
     const double shift = this->interpolating ? 0.0 : 4.0 / 3.0;
+    if constexpr (TestFixture::bezier) {
+      // a Bernstein polynomial of degree 4 shortens a square: 3/4 of it and 1/4 of the coordinate
+      EXPECT_NEAR(sum_xx, 0.75 * x * x + 0.25 * x, rounding);
+      EXPECT_NEAR(sum_xy, 0.75 * x * y, rounding);
+      continue;
+    }
     EXPECT_NEAR(sum_xx, x * x + shift, 10 * rounding);
     if (this->T == 2) EXPECT_NEAR(sum_xy, x * y, 10 * rounding);
     if (this->T == 2) EXPECT_NEAR(sum_yy, y * y + shift, 10 * rounding);
@@ -116,6 +127,15 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
 }
 
 TYPED_TEST(BasisTest, IsOneAtItsOwnNodeAndZeroAtTheOthers) {
+  if (this->bezier) { // in its corners only
+    for (int j = 0; j < 3; ++j) {
+      std::array<double, TestFixture::T> xi{};
+      for (std::size_t a = 0; a < xi.size(); ++a) xi[a] = this->node(j)[a];
+      const auto s = this->template shape<0>(xi);
+      for (int i = 0; i < TypeParam::nodes; ++i) EXPECT_NEAR(s.n[i], i == j ? 1.0 : 0.0, rounding);
+    }
+    return;
+  }
   if (!this->interpolating) {
     // the B-spline's weights at a node of the grid: 1/6 4/6 1/6
     std::array<double, TestFixture::T> xi{};
@@ -146,18 +166,18 @@ TYPED_TEST(BasisTest, DerivativesFollowFromEachOther) {
     for (int a = 0; a < T; ++a) {
       const auto d = this->template along<2>(xi, a);
       for (int i = 0; i < B::nodes; ++i) {
-        EXPECT_NEAR(d.n[i].v, s.n[i], rounding);
-        EXPECT_NEAR(d.n[i].d, s.d1[a][i], rounding);
+        EXPECT_NEAR(d.n[i].v, s.n[i], TestFixture::rounded);
+        EXPECT_NEAR(d.n[i].d, s.d1[a][i], TestFixture::rounded);
         for (int b = 0; b < T; ++b) {
           const int k = symmetric_index(a, b);
           largest_2[k] = std::max(largest_2[k], std::fabs(d.d1[b][i].d));
-          if (B::second[k]) EXPECT_NEAR(d.d1[b][i].d, s.d2[k][i], rounding) << a << b;
+          if (B::second[k]) EXPECT_NEAR(d.d1[b][i].d, s.d2[k][i], TestFixture::rounded) << a << b;
         }
         for (int k = 0; k < TestFixture::K; ++k) {
           const int abc = k + a; // 11 12 22 and 1 2
           if (!B::second[k]) continue;
           largest_3[abc] = std::max(largest_3[abc], std::fabs(d.d2[k][i].d));
-          if (B::third[abc]) EXPECT_NEAR(d.d2[k][i].d, s.d3[abc][i], rounding) << k << " along " << a;
+          if (B::third[abc]) EXPECT_NEAR(d.d2[k][i].d, s.d3[abc][i], TestFixture::rounded) << k << " along " << a;
         }
       }
     }

@@ -60,6 +60,13 @@ template <class S> S shape(const Basis& basis, int node, S x, S y) {
   if (basis.dimension == 2) return on_line(basis.family, xn, x);
   if (basis.simplex) {
     const S l[3] = {1.0 - x - y, x, y}; // area coordinates
+    if (basis.family == Family::bernstein) {
+      const int j = static_cast<int>(4.0 * xn), k = static_cast<int>(4.0 * yn), powers[3] = {4 - j - k, j, k};
+      S value = 24.0;
+      for (int a = 0; a < 3; ++a)
+        for (int e = 1; e <= powers[a]; ++e) value *= l[a] / static_cast<double>(e);
+      return value;
+    }
     if (basis.family == Family::linear) return l[node];
     if (node < 3) return l[node] * (2.0 * l[node] - 1.0);
     return 4.0 * l[node - 3] * l[(node - 2) % 3];
@@ -101,6 +108,13 @@ const std::vector<Basis>& bases() {
 }
 
 const Basis& basis_named(const std::string& name) {
+  static const Basis bezier{"bezier15",
+                            Family::bernstein,
+                            3,
+                            true,
+                            {{0, 0}, {1, 0}, {0, 1}, {0.25, 0}, {0.5, 0}, {0.75, 0}, {0.75, 0.25}, {0.5, 0.5}, {0.25, 0.75},
+                             {0, 0.75}, {0, 0.5}, {0, 0.25}, {0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5}}};
+  if (name == bezier.name) return bezier;
   for (const Basis& basis : bases())
     if (basis.name == name) return basis;
   throw std::invalid_argument(name);

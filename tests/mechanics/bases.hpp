@@ -9,7 +9,7 @@
 
 namespace mechanics {
 
-enum class Family { linear, quadratic, serendipity, catmull_rom, bspline };
+enum class Family { linear, quadratic, serendipity, catmull_rom, bspline, bernstein };
 
 struct Basis {
   std::string name;
@@ -24,6 +24,7 @@ struct Basis {
 };
 
 const std::vector<Basis>& bases();
+// One of bases(), or bezier15, the patches of smoothed triangles: their nodes are no positions of a mesh.
 const Basis& basis_named(const std::string& name);
 std::vector<std::string> basis_names();
 

@@ -17,15 +17,17 @@ struct Case {
 };
 
 const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {{"open_chain", "catmull_rom4", chain(6, false), ENTS_ENDS_STRAIGHT},
-                                        {"closed_chain", "bspline4", chain(8, true), ENTS_ENDS_STRAIGHT},
-                                        {"squares", "catmull_rom16", squares(3), ENTS_ENDS_STRAIGHT},
-                                        {"squares_repeated", "bspline16", squares(3), ENTS_ENDS_REPEATED},
-                                        {"star_of_five", "bspline16", star(5, 2), ENTS_ENDS_STRAIGHT},
-                                        {"star_of_three", "bspline16", star(3, 2), ENTS_ENDS_STRAIGHT},
-                                        {"concave_border", "bspline16",
-                                         squares(3, [](int i, int j) { return i < 2 || j < 2; }),
-                                         ENTS_ENDS_STRAIGHT}};
+  static const std::vector<Case> all = {
+      {"open_chain", "catmull_rom4", chain(6, false), ENTS_ENDS_STRAIGHT},
+      {"closed_chain", "bspline4", chain(8, true), ENTS_ENDS_STRAIGHT},
+      {"squares", "catmull_rom16", squares(3), ENTS_ENDS_STRAIGHT},
+      {"squares_repeated", "bspline16", squares(3), ENTS_ENDS_REPEATED},
+      {"star_of_five", "bspline16", star(5, 2), ENTS_ENDS_STRAIGHT},
+      {"triangles", "bezier15", halved(squares(3)), ENTS_ENDS_STRAIGHT},
+      {"triangles_of_seven", "bezier15", triangle_star(7, 2), ENTS_ENDS_STRAIGHT},
+      {"star_of_three", "bspline16", star(3, 2), ENTS_ENDS_STRAIGHT},
+      {"concave_border", "bspline16", squares(3, [](int i, int j) { return i < 2 || j < 2; }),
+       ENTS_ENDS_STRAIGHT}};
   return all;
 }
 
@@ -55,7 +57,8 @@ protected:
     Random random(14);
     for (std::int64_t f = 0; f < mesh_.facets(); ++f) {
       std::vector<double> xi;
-      for (std::size_t k = 0; k + 1 < d_; ++k) xi.push_back(random.uniform(-0.7, 0.7));
+      for (std::size_t k = 0; k + 1 < d_; ++k)
+        xi.push_back(mesh_.corners() == 3 ? random.uniform(0.15, 0.4) : random.uniform(-0.7, 0.7));
       const SurfacePoints at = smoothed_.evaluate(model_, f, xi);
       for (std::size_t k = 0; k < d_; ++k) unknowns_.push_back(at.point[k] - 0.02 * at.normal[k]);
       segment_.push_back(f);

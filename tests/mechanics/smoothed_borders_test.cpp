@@ -25,11 +25,12 @@ struct Edge {
 
 // Edges of two facets each. Facets and nodes are regular as a mesh of squares is.
 std::vector<Edge> edges_of(const HostMesh& mesh) {
+  const int m = mesh.corners();
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::pair<std::int64_t, int>>> found;
   std::map<std::int64_t, int> incident;
   for (std::int64_t f = 0; f < mesh.facets(); ++f)
-    for (int k = 0; k < 4; ++k) {
-      const std::int64_t a = mesh.corner(f, k), b = mesh.corner(f, (k + 1) % 4);
+    for (int k = 0; k < m; ++k) {
+      const std::int64_t a = mesh.corner(f, k), b = mesh.corner(f, (k + 1) % m);
       found[std::minmax(a, b)].push_back({f, k});
       ++incident[a];
     }
@@ -37,14 +38,16 @@ std::vector<Edge> edges_of(const HostMesh& mesh) {
   for (const auto& [ends, facets] : found)
     if (facets.size() == 1) border[ends.first] = border[ends.second] = true;
   const auto is_regular = [&](std::int64_t node) {
-    return border.count(node) != 0 ? incident[node] <= 2 : incident[node] == 4;
+    const bool at_border = border.count(node) != 0; // its facets are those of a regular mesh, laid around it
+    return m == 3 ? (at_border ? incident[node] <= 3 : incident[node] == 6)
+                  : (at_border ? incident[node] <= 2 : incident[node] == 4);
   };
   std::vector<Edge> edges;
   for (const auto& [ends, facets] : found) {
     if (facets.size() < 2) continue;
     Edge edge{{facets[0].first, facets[1].first}, {facets[0].second, facets[1].second}, regular};
     for (const std::int64_t f : edge.facet)
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < m; ++k)
         if (!is_regular(mesh.corner(f, k))) edge.kind = beside;
     if (!is_regular(ends.first) || !is_regular(ends.second)) edge.kind = extraordinary;
     edges.push_back(edge);
@@ -53,7 +56,13 @@ std::vector<Edge> edges_of(const HostMesh& mesh) {
 }
 
 // Natural coordinates on the edge that starts in a corner.
-std::vector<double> on_edge(int corner, double u) {
+std::vector<double> on_edge(const HostMesh& mesh, int corner, double u) {
+  if (mesh.corners() == 3) {
+    const double t = 0.5 * (1.0 + u);
+    return corner == 0   ? std::vector{t, 0.0}
+           : corner == 1 ? std::vector{1.0 - t, t}
+                         : std::vector{0.0, 1.0 - t};
+  }
   switch (corner) {
   case 0:
     return {u, -1.0};
@@ -77,10 +86,11 @@ Jumps jumps_of(const HostMesh& mesh, const std::string& basis, bool textured) {
   if (textured)
     text["height"] = {{"type", "sine"}, {"amplitude", 0.02}, {"wave_vector", {1.0, 0.7}}, {"phase", 0.3}};
   const Model model(text.dump());
-  SmoothedSurface smoothed =
-      basis == "quad4" ? SmoothedSurface("bspline16", mesh) : SmoothedSurface(basis, mesh);
-  if (basis == "quad4")
-    smoothed.surface.basis = &basis_named("quad4"), smoothed.surface.connectivity = mesh.connectivity,
+  SmoothedSurface smoothed = basis == mesh.facet
+                                 ? SmoothedSurface(basis == "quad4" ? "bspline16" : "bezier15", mesh)
+                                 : SmoothedSurface(basis, mesh);
+  if (basis == mesh.facet)
+    smoothed.surface.basis = &basis_named(basis), smoothed.surface.connectivity = mesh.connectivity,
     smoothed.surface.positions = mesh.positions;
   if (textured) smoothed.carry_texture();
   Jumps jumps;
@@ -88,8 +98,8 @@ Jumps jumps_of(const HostMesh& mesh, const std::string& basis, bool textured) {
     ++jumps.edges[edge.kind];
     for (int i = 0; i <= 20; ++i) {
       const double u = 0.1 * i - 1.0;
-      const SurfacePoints a = smoothed.evaluate(model, edge.facet[0], on_edge(edge.corner[0], u)),
-                          b = smoothed.evaluate(model, edge.facet[1], on_edge(edge.corner[1], -u));
+      const SurfacePoints a = smoothed.evaluate(model, edge.facet[0], on_edge(mesh, edge.corner[0], u)),
+                          b = smoothed.evaluate(model, edge.facet[1], on_edge(mesh, edge.corner[1], -u));
       const auto see = [&](double& worst, const std::vector<double>& x, const std::vector<double>& y) {
         worst = std::max(worst, norm(vec3(x.data(), 3) - vec3(y.data(), 3)));
       };
@@ -140,26 +150,48 @@ TEST(SmoothedBorders, MeetInPointsNormalsCurvatures) {
 
 // A bowl meshed finer and finer round a node of n facets: the kink at its edges against the angles between
 // plain facets.
-TEST(SmoothedBorders, TheKinkAtAnExtraordinaryNode) {
-  std::cout << "facets in the node, edge length | jump of n_e: plain quad4 | bspline16: extraordinary edges, "
-               "beside, regular | with a "
-               "texture of 0.02: the same three\n";
-  for (const int n : {3, 4, 5, 6, 8, 0}) { // 0: a sphere with eight nodes of three facets
+void show_kinks(const char* facet, const char* basis, int regular_valence) {
+  std::cout << "facets in the node, edge length | jump of n_e: plain " << facet << " | " << basis
+            << ": extraordinary edges, beside, regular | with a texture of 0.02: the same three\n";
+  for (const int n : {3, 4, 5, 6, 7, 8, 0}) { // 0: a sphere with eight nodes of three facets
     double before = 0.0, finest = 0.0, finest_plain = 0.0;
     for (const int k : {2, 4, 8, 16}) {
-      const HostMesh mesh = n == 0 ? sphere(k) : bowl(star(n, k));
-      const Jumps local = jumps_of(mesh, "quad4", false), smooth = jumps_of(mesh, "bspline16", false),
-                  textured = jumps_of(mesh, "bspline16", true);
+      const bool triangles = regular_valence == 6;
+      const HostMesh mesh = n == 0 ? (triangles ? halved(sphere(k)) : sphere(k))
+                                   : bowl(triangles ? triangle_star(n, k) : star(n, k));
+      const Jumps local = jumps_of(mesh, facet, false), smooth = jumps_of(mesh, basis, false),
+                  textured = jumps_of(mesh, basis, true);
       const double plain =
           std::max({local.normal[regular], local.normal[beside], local.normal[extraordinary]});
       std::printf("%d  1/%-2d | %.1e | %.1e %.1e %.1e | %.1e %.1e %.1e\n", n, k, plain,
                   smooth.normal[extraordinary], smooth.normal[beside], smooth.normal[regular],
                   textured.normal[extraordinary], textured.normal[beside], textured.normal[regular]);
+      EXPECT_LE(textured.normal[regular], 1e-10); // C2
       before = finest, finest = smooth.normal[extraordinary], finest_plain = plain;
     }
-    if (n == 4) continue;
+    if (n == regular_valence) continue;
     EXPECT_LT(finest, 0.6 * before) << n; // it falls at least with the edge length
     EXPECT_LT(finest, 0.1 * finest_plain) << n;
+  }
+}
+
+TEST(SmoothedBorders, TheKinkAtAnExtraordinaryNode) { show_kinks("quad4", "bspline16", 4); }
+TEST(SmoothedBorders, TheKinkAtAnExtraordinaryNodeOfTriangles) { show_kinks("tri3", "bezier15", 6); }
+
+TEST(SmoothedBorders, OfTrianglesMeetInPointsNormalsCurvatures) {
+  Random random(12);
+  // sums of 40 terms of coordinates up to 6, over edges of 0.2 at least
+  constexpr double rounding = 40.0 * 1.1e-16 * 6.0;
+  for (HostMesh mesh :
+       {halved(sphere(2)), halved(sphere(4)), triangle_star(3, 3), triangle_star(5, 3), triangle_star(8, 2),
+        halved(squares(4)), halved(squares(4, [](int i, int j) { return i < 2 || j < 2; })),
+        triangle_star(6, 4)}) {
+    mesh.shake(random, 0.04);
+    const Jumps plain = jumps_of(mesh, "bezier15", false), textured = jumps_of(mesh, "bezier15", true);
+    for (const Kind kind : {regular, beside, extraordinary}) EXPECT_LE(plain.point[kind], rounding);
+    for (const Kind kind : {regular, beside}) EXPECT_LE(plain.normal[kind], rounding / 0.05);
+    EXPECT_LE(plain.at_nodes, rounding / 0.05);
+    EXPECT_LE(textured.normal[regular], 1e-10);
   }
 }
 

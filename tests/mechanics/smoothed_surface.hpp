@@ -18,7 +18,7 @@ struct HostMesh {
   std::vector<double> positions;
 
   int dimension() const { return facet == "line2" ? 2 : 3; }
-  int corners() const { return facet == "line2" ? 2 : 4; }
+  int corners() const { return facet == "line2" ? 2 : (facet == "tri3" ? 3 : 4); }
   std::int64_t facets() const { return static_cast<std::int64_t>(connectivity.size()) / corners(); }
   std::int64_t nodes() const { return static_cast<std::int64_t>(positions.size()) / dimension(); }
   std::int64_t corner(std::int64_t facet_, int k) const {
@@ -80,6 +80,40 @@ inline HostMesh star(int n, int k) {
       for (int a = 0; a < k; ++a)
         for (const auto& [i, j] : {std::array{0, 0}, {1, 0}, {1, 1}, {0, 1}})
           mesh.connectivity.push_back(node(s, a + i, b + j));
+  return mesh;
+}
+
+// The same of triangles: each sector is a triangle of k^2 facets.
+inline HostMesh triangle_star(int n, int k) {
+  HostMesh mesh{"tri3", {}, {}};
+  Nodes nodes(mesh);
+  const auto ray = [&](int s) {
+    const double angle = 2.0 * 3.141592653589793 * s / n;
+    return Vec3{std::cos(angle), std::sin(angle), 0.0};
+  };
+  const auto node = [&](int s, int a, int b) {
+    const Vec3 x = (1.0 * a / k) * ray(s) + (1.0 * b / k) * ray(s + 1);
+    if (a == 0 && b == 0) return nodes.at(0, 0, 0, x);
+    if (a == 0) return nodes.at((s + 1) % n, b, 0, x);
+    return nodes.at(s, a, b, x);
+  };
+  for (int s = 0; s < n; ++s)
+    for (int b = 0; b < k; ++b)
+      for (int a = 0; a + b < k; ++a) {
+        mesh.connectivity.insert(mesh.connectivity.end(),
+                                 {node(s, a, b), node(s, a + 1, b), node(s, a, b + 1)});
+        if (a + b + 1 < k)
+          mesh.connectivity.insert(mesh.connectivity.end(),
+                                   {node(s, a + 1, b), node(s, a + 1, b + 1), node(s, a, b + 1)});
+      }
+  return mesh;
+}
+
+// Every quadrilateral as two triangles, cut between its first and third corner.
+inline HostMesh halved(const HostMesh& quads) {
+  HostMesh mesh{"tri3", {}, quads.positions};
+  for (std::int64_t f = 0; f < quads.facets(); ++f)
+    for (const int k : {0, 1, 2, 0, 2, 3}) mesh.connectivity.push_back(quads.corner(f, k));
   return mesh;
 }
 
