@@ -266,7 +266,7 @@ std::int32_t Assembly::add(std::int64_t e) {
   const std::int64_t segment = call_.segment(e);
   if (segment < -1) return call_.refuse_segment(e, report_);
   if (segment == -1) {
-    if (call_.out->wanted != 0) return call_.refuse_segment(e, report_);
+    call_.write_open(e);
     if (plan_.multipliers == 0) return ENTS_OK;
     open_element(e, residual, tangent);
   } else {
@@ -284,6 +284,36 @@ std::int32_t Assembly::add(std::int64_t e) {
   return status;
 }
 
+std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
+                      const ents_input* input, const ents_output* output, const ents_system* system,
+                      ents_report* report) {
+  const FloatingPointGuard guard;
+  ents_output none{};
+  none.struct_size = sizeof none;
+  ElementCall call;
+  std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
+  if (status != ENTS_OK) return status;
+  Assembly assembly(call, report);
+  if ((status = assembly.open(system, first, count)) != ENTS_OK) return status;
+  report_ok(report);
+  return call.for_each(first, count, report, [&](std::int64_t e) { return assembly.add(e); });
+}
+
+// The elements that a detection has found; results per element only.
+std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::int64_t count,
+                            const ents_input* input, const ents_output* output, ents_report* report) {
+  const FloatingPointGuard guard;
+  ElementCall call;
+  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
+    return status;
+  report_ok(report);
+  return call.for_each(first, count, report, [&](std::int64_t e) -> std::int32_t {
+    if (call.segment(e) >= 0) return call.evaluate(e, {}, report);
+    call.write_open(e);
+    return ENTS_OK;
+  });
+}
+
 } // namespace
 
 } // namespace ents
@@ -292,17 +322,45 @@ extern "C" {
 
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
+  return ents::at_the_door(
+      report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
+}
+
+int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
+                     int64_t first, int64_t count, const ents_detection* detection, const ents_input* input,
+                     const ents_output* output, const ents_system* system, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    const ents::FloatingPointGuard guard;
-    ents_output none{};
-    none.struct_size = sizeof none;
-    ents::ElementCall call;
-    std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
-    if (status != ENTS_OK) return status;
-    ents::Assembly assembly(call, report);
-    if ((status = assembly.open(system, first, count)) != ENTS_OK) return status;
-    ents::report_ok(report);
-    return call.for_each(first, count, report, [&](std::int64_t e) { return assembly.add(e); });
+    ents_input copy{};
+    std::int32_t status = ENTS_OK;
+    const ents_input* known = ents::known_struct(input, copy, "input", status, report);
+    if (!known) return status;
+    if (known->slave || known->master || known->mesh || known->segment || known->start ||
+        known->surface_coordinates)
+      return ents::report_status(
+          report, ENTS_BAD_VALUE, -1,
+          "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
+          "takes them from the detection");
+    if ((status = ents_detect(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK)
+      return status;
+    if (model->model.law.has_friction() && known->state_begin)
+      return ents::report_status(
+          report, ENTS_BAD_VALUE, -1,
+          "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
+    if (!detection->flags)
+      return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "detection.flags is null; ents_iterate tells lost slaves by them");
+    for (std::int64_t i = first; i < first + count; ++i)
+        if ((detection->flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0)
+          return ents::report_message(report, ENTS_NO_PROJECTION, i,
+                                      "slave %lld is behind an edge between segments and ahead of none",
+                                      static_cast<long long>(i));
+    ents_input in = *known;
+    in.struct_size = sizeof in;
+    in.mesh = mesh;
+    in.slave = detection->slave, in.slave_stride = model->plan.dimension;
+    in.segment = detection->segment, in.segment_stride = 1;
+    in.start = detection->xi, in.start_stride = model->plan.parameters;
+    if (system) return ents::assemble(model, first, count, &in, output, system, report);
+    return ents::evaluate_found(model, first, count, &in, output, report);
   });
 }
 

@@ -30,6 +30,9 @@ struct ElementCall {
   std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
   std::int32_t refuse_segment(std::int64_t e, ents_report* report) const;
 
+  // What an element without a segment gives: zeros, a fresh state, ENTS_FLAG_OUTSIDE.
+  void write_open(std::int64_t e) const;
+
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
 

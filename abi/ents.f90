@@ -514,6 +514,21 @@ module ents
       integer(c_int32_t) :: status
     end function ents_assemble
 
+    ! ents_detect and ents_assemble in one call. output: c_loc of an ents_output or c_null_ptr; system: of an ents_system or c_null_ptr.
+    function ents_iterate(model, mesh, tree, size, first, count, detection, input, output, system, report) result(status) &
+      bind(c, name="ents_iterate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_input, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(in) :: tree(*)
+      integer(c_int64_t), value :: size, first, count
+      type(ents_detection), intent(in), target :: detection
+      type(ents_input), intent(in), target :: input
+      type(c_ptr), value :: output, system
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_iterate
+
     ! Uzawa: the multipliers of the end states into the begin states; solve the increment again.
     function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
       bind(c, name="ents_state_augment")

@@ -455,14 +455,22 @@ typedef struct ents_system {
 
 /* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
  * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
- * them; an element with segment -1 is open (and output.wanted must be 0, for there is nothing to tell). What is open adds
- * nothing, but for the equations "multiplier = 0".
+ * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero.
+ * What is open adds nothing, but for the equations "multiplier = 0".
  * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
  *   output  results per element as of ents_evaluate, or null
  * Errors: those of ents_evaluate; BAD_PATTERN names the row and column that the pattern lacks. After an error or a
  * recoverable status the system holds a part of the sum: start again from zero. */
 ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t count, const ents_input *input,
                                const ents_output *output, const ents_system *system, ents_report *report);
+
+/* All of an iteration in one call: ents_detect, then ents_assemble of the elements found (system null: results per element only,
+ * residual and tangent among them if wanted). `input` gives areas, states and multipliers; its slave, master, mesh, segment
+ * and start must be null: they come from the detection. A slave that is lost (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. With friction use the two
+ * calls: a state has to follow its slave to another segment in between (ents_state_transfer). */
+ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
+                              int64_t count, const ents_detection *detection, const ents_input *input, const ents_output *output,
+                              const ents_system *system, ents_report *report);
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents_evaluate: arguments checked once, then one kernel call per element.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -283,6 +284,19 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   const std::int32_t outcome = static_cast<std::int32_t>(done);
   if (out->status) *at(out->status, out->status_stride, e) = outcome;
   return outcome;
+}
+
+void ElementCall::write_open(std::int64_t e) const {
+  for (std::uint32_t bits = static_cast<std::uint32_t>(out->wanted); bits != 0; bits &= bits - 1) {
+    const int bit = std::countr_zero(bits);
+    const Array a = output_array(*model, *out, bit);
+    if (bit >= std::countr_zero(std::uint32_t{ENTS_FLAGS}) && (1 << bit) <= ENTS_ITERATIONS)
+      *at(static_cast<std::int32_t*>(const_cast<void*>(a.data)), a.stride, e) = (1 << bit) == ENTS_FLAGS ? ENTS_FLAG_OUTSIDE : 0;
+    else
+      std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
+  }
+  if ((out->wanted & ENTS_STATE) != 0) at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
+  if (out->status) *at(out->status, out->status_stride, e) = ENTS_OK;
 }
 
 std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {

@@ -271,11 +271,10 @@ protected:
     return out;
   }
 
-  template <class Index>
-  std::int32_t assemble(Matrix<Index>& matrix, std::vector<double>& residual,
-                        std::vector<std::int64_t>* places, ents_report& report) {
-    const ents_master_mesh mesh = surface_.mesh();
-    const ents_input in = input(mesh);
+  // Calls f with the host's equations.
+  template <class Index, class F>
+  auto with_system(Matrix<Index>& matrix, std::vector<double>& residual, std::vector<std::int64_t>* places,
+                   F&& f) {
     const ents_combination slave = slave_.get(), control = control_.get();
     ents_system system{};
     system.struct_size = sizeof system;
@@ -297,7 +296,16 @@ protected:
       if (places->empty()) places->assign(static_cast<std::size_t>(count * size), 0);
       system.places = places->data(), system.places_size = size;
     }
-    return ents_assemble(model_.handle(), 0, count, &in, nullptr, &system, &report);
+    return f(system);
+  }
+  template <class Index>
+  std::int32_t assemble(Matrix<Index>& matrix, std::vector<double>& residual,
+                        std::vector<std::int64_t>* places, ents_report& report) {
+    const ents_master_mesh mesh = surface_.mesh();
+    const ents_input in = input(mesh);
+    return with_system(matrix, residual, places, [&](const ents_system& system) {
+      return ents_assemble(model_.handle(), 0, count, &in, nullptr, &system, &report);
+    });
   }
 
   template <class Index> void expect_sums(std::vector<std::int64_t>* places) {
@@ -346,6 +354,53 @@ TEST_P(Assembly, IsTheSumOfTheElements) {
     nodes_[i] = 8.0 - nodes_[i];
   detect();
   expect_sums<std::int64_t>(&places); // and finds others where the slaves are on other segments.
+}
+
+TEST_P(Assembly, IterateIsDetectionAndAssembly) {
+  std::vector<double> residual, tangent;
+  expect(residual, tangent);
+  Matrix<std::int32_t> one = pattern<std::int32_t>(true), two = one;
+  std::vector<double> sum(residual.size(), 0.0), in_one(residual.size(), 0.0);
+  ents_report report = new_report();
+  ASSERT_EQ(assemble(one, sum, nullptr, report), ENTS_OK) << report.message;
+
+  std::int64_t size = 0;
+  ents_tree_size(model_.handle(), surface_.segments(), &size, nullptr);
+  std::vector<double> tree(static_cast<std::size_t>(size)), xi(found_.xi.size()),
+      gap(static_cast<std::size_t>(count), -7.0);
+  const ents_master_mesh mesh = surface_.mesh();
+  ASSERT_EQ(ents_tree_build(model_.handle(), &mesh, tree.data(), size, &report), ENTS_OK);
+  std::vector<std::int64_t> segment(static_cast<std::size_t>(count), -1);
+  std::vector<std::int32_t> flags(segment.size()), outcome(segment.size());
+  ents_detection detection{};
+  detection.struct_size = sizeof detection;
+  detection.slave = points_.data(), detection.reach = 0.5;
+  detection.segment = segment.data(), detection.xi = xi.data(), detection.flags = flags.data();
+  ents_input in = input(mesh);
+  in.slave = nullptr, in.mesh = nullptr, in.segment = nullptr, in.start = nullptr;
+  ents_output out{};
+  out.struct_size = sizeof out;
+  out.wanted = ENTS_GAP | ENTS_FLAGS;
+  out.gap = gap.data(), out.gap_stride = 1, out.flags = outcome.data(), out.flags_stride = 1;
+  const auto iterate = [&](const ents_system* system) {
+    std::fill(segment.begin(), segment.end(), -1);
+    return ents_iterate(model_.handle(), &mesh, tree.data(), size, 0, count, &detection, &in, &out, system,
+                        &report);
+  };
+  with_system(two, in_one, nullptr,
+              [&](const ents_system& system) { ASSERT_EQ(iterate(&system), ENTS_OK) << report.message; });
+  EXPECT_EQ(segment, found_.segment);
+  EXPECT_EQ(in_one, sum);
+  EXPECT_EQ(one.values, two.values);
+  for (std::size_t i = 0; i < segment.size(); ++i) {
+    EXPECT_EQ(segment[i] < 0, (outcome[i] & ENTS_FLAG_OUTSIDE) != 0);
+    EXPECT_NEAR(gap[i], segment[i] < 0 ? 0.0 : found_.gap[i], 1e-13);
+  }
+  std::fill(gap.begin(), gap.end(), -7.0);
+  ASSERT_EQ(iterate(nullptr), ENTS_OK) << report.message; // results per element alone
+  EXPECT_EQ(std::count(gap.begin(), gap.end(), -7.0), 0);
+  in.mesh = &mesh;
+  EXPECT_EQ(iterate(nullptr), ENTS_BAD_VALUE);
 }
 
 TEST_P(Assembly, NamesTheEntryThatThePatternLacks) {
