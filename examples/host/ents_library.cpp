@@ -71,6 +71,7 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(smooth_size, "ents_smooth_size");
     find(smooth, "ents_smooth");
     find(surface_evaluate, "ents_surface_evaluate");
+    find(model_check, "ents_model_check");
     find(surface_check, "ents_surface_check");
   } catch (...) {
     dlclose(handle_);

@@ -45,6 +45,7 @@ public:
   decltype(&ents_smooth_size) smooth_size = nullptr;
   decltype(&ents_smooth) smooth = nullptr;
   decltype(&ents_surface_evaluate) surface_evaluate = nullptr;
+  decltype(&ents_model_check) model_check = nullptr;
   decltype(&ents_surface_check) surface_check = nullptr;
 
 private:

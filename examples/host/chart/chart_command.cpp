@@ -122,7 +122,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
     json["wrong_heights"].push_back({{"panel", row.panel},
                                      {"what", row.what},
                                      {"example", row.example},
-                                     {"asked_first", row.check},
+                                     {"surface_check", row.check},
                                      {"on_the_way", row.running},
                                      {"flagged", row.flagged}});
   }
@@ -146,7 +146,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   } else {
     std::printf("%s", table.text().c_str());
     Table wrong_table;
-    wrong_table.column("Fig. 4").column("wrong because").column("asked first").column("on the way");
+    wrong_table.column("Fig. 4").column("wrong because").column("ents_surface_check").column("on the way");
     for (const WrongHeight& row : heights) wrong_table.row({row.panel, row.what, row.check, row.running});
     std::printf("\n%s", wrong_table.text().c_str());
     std::printf("\nchart: %lld silently wrong, %.1f s%s\n", static_cast<long long>(wrong), watch.seconds(),

@@ -176,7 +176,7 @@ std::string map_section(const Map& map) {
 
 std::string wrong_heights_section(const std::vector<WrongHeight>& rows) {
   std::string html = "<div class=\"wide\"><table><tr><th>Fig. 4</th><th>wrong "
-                     "because</th><th>example</th><th>asked first</th><th>on the way</th></tr>";
+                     "because</th><th>example</th><th>ents_surface_check says</th><th>on the way</th></tr>";
   for (const WrongHeight& row : rows)
     html += "<tr><td>" + row.panel + "</td><td>" + escaped(row.what) + "</td><td>" + escaped(row.example) +
             "</td><td>" + escaped(row.check) + "</td><td>" + escaped(row.running) + "</td></tr>";

@@ -3,7 +3,8 @@
 
 #include <array>
 
-#include "chart/master_check.hpp"
+#include "error.hpp"
+#include "json_reader.hpp"
 #include "output/table.hpp"
 
 namespace host::chart {
@@ -28,14 +29,6 @@ struct Example {
   std::array<double, 2> slave;
 };
 
-Press as_press(const Example& example) {
-  Press press;
-  press.row = {"line2", 2, example.positions, example.connectivity, {}};
-  press.height = example.height;
-  press.local = true;
-  return press;
-}
-
 std::string example_model(const Example& example) {
   Json model{{"segment", "line2"}, {"master", "rigid"}, {"height", example.height}};
   if (!example.projection.is_null()) model["projection"] = example.projection;
@@ -43,18 +36,25 @@ std::string example_model(const Example& example) {
   return model.dump();
 }
 
+/// The whole surface, asked once: what ents_surface_check finds violated.
 Sentences asked_first(const EntsModel& model, const Example& example) {
-  const Press press = as_press(example);
-  const MasterCheck check = check_master(model, press, sample_master(model, press, 64));
+  const EntsLibrary& library = model.library();
+  auto report = ents_struct<ents_report>();
+  auto mesh = ents_struct<ents_master_mesh>();
+  mesh.segments = static_cast<std::int64_t>(example.connectivity.size() / 2);
+  mesh.connectivity = example.connectivity.data();
+  mesh.nodes = static_cast<std::int64_t>(example.positions.size() / 2);
+  mesh.positions = example.positions.data();
+  auto result = ents_struct<ents_surface_admissibility>();
+  result.reach = example.penetration;
+  const std::int32_t status = library.surface_check(model.get(), &mesh, &result, &report);
+  if (status != ENTS_OK) throw JobError("chart: " + describe(library, status, report));
+  const std::array<const char*, 10> names{"continuity", "fold",       "edge",   "jump",      "kink",
+                                          "wedge",      "projection", "shadow", "occlusion", "crossing"};
   Sentences out;
-  if (check.degenerate || check.fold >= 1)
-    out.push_back("folds: |h| kappa = " + format_number(check.fold, 3));
-  if (check.edge_height > 1e-9) out.push_back("edge_height " + format_number(check.edge_height, 3) + " > 0");
-  if (check.shadow <= 0) out.push_back("shadow " + format_number(check.shadow, 3) + " <= 0");
-  if (check.crossing) out.push_back("rho_e crosses itself (host's polygon)");
-  if (check.reach < example.penetration)
-    out.push_back("reach " + format_number(check.reach, 3) + " < penetration " +
-                  format_number(example.penetration, 3));
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (result.violated >> k & 1)
+      out.push_back(names[k] + std::string(" ") + format_number(result.value[k], 3));
   return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four wrong choices of h in Fig. 4 of the paper, and what says so: ents_model_check, a status, a flag.
+// The four wrong choices of h in Fig. 4 of the paper, and what says so: ents_surface_check, a status, a flag.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct WrongHeight {
   std::string panel;   ///< "a" .. "d"
   std::string what;    ///< as the paper has it
   std::string example; ///< segments and height
-  std::string check;   ///< what asking first says
+  std::string check;   ///< conditions of ents_surface_check that are violated, with their values
   std::string running; ///< what the evaluation or the detection says of a slave node there
   bool flagged = false;
 };
