@@ -407,7 +407,7 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *   tri3  -> bezier15       near the nodes; any mesh. Quartic patches: Loop's subdivision surface (1987), C2, where six facets meet in
  *                           every corner; else as above, with a kink of 2 to 7 % for nodes of 3 to 8 facets. Straight ends only: the
  *                           nodes of facets at a border are reflected in it, which makes regular borders the splines of
- *                           their nodes; x is at x / 2 + (sum of its six neighbours) / 12
+ *                           their nodes; x is at x / 2 + (sum of its six neighbours) / 12. Searches on bezier15 are slow (README)
  * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
  * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
  * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.

@@ -84,8 +84,6 @@ inline const std::vector<Basis>& bases() {
         {"quad9", 3, false, quad9},
         {"catmull_rom16", 3, false, patch},
         {"bspline16", 3, false, patch},
-        {"bezier15", 3, true, {{0, 0}, {1, 0}, {0, 1}, {0.25, 0}, {0.5, 0}, {0.75, 0}, {0.75, 0.25}, {0.5, 0.5}, {0.25, 0.75},
-                               {0, 0.75}, {0, 0.5}, {0, 0.25}, {0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5}}},
     };
   }();
   return all;
