@@ -60,6 +60,7 @@ protected:
          {"master", "deformable"},
          {"penetration_limit", 0.1},
          {"border", 0.01}},
+        {{"segment", "line2"}, {"patch", {{0, 1}, {1, 2}}}},
         {{"segment", "tri3"},
          {"height", {{"type", "constant"}, {"value", 1}}},
          {"surface_coordinates", {{0, 0}, {1, 0}, {0, 1}}},
@@ -186,6 +187,9 @@ bool depends_on_more(const std::string& message) {
            "there is no such file",
            "is not a regular file",
            "no array called",
+           "the patch's nodes that this segment has", // as many as the segment has
+           "twice",
+           "has no segment with node", // numbered without gaps
        })
     if (message.find(part) != std::string::npos) return true;
   return false;
