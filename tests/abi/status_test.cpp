@@ -35,6 +35,7 @@ const Pinned pinned[] = {
     {ENTS_BAD_COUNT, -10},
     {ENTS_BAD_HANDLE, -11},
     {ENTS_BAD_STATE, -12},
+    {ENTS_BAD_PATTERN, -13},
     {ENTS_NO_MEMORY, -100},
     {ENTS_INTERNAL, -101},
 };

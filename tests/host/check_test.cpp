@@ -17,7 +17,7 @@ std::string quoted(const std::filesystem::path& file) { return std::string("'").
 
 class Check : public testing::Test {
 protected:
-  Check() : folder_(std::filesystem::temp_directory_path() / ("ents_check_" + std::to_string(std::rand()))) {
+  Check() : folder_(std::filesystem::temp_directory_path() / (std::string("ents_check_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(folder_);
   }
   ~Check() override { std::filesystem::remove_all(folder_); }
