@@ -71,7 +71,8 @@ Input = _struct("ents_input", "i:reserved " + " ".join(f"p:{name} l:{name}_strid
 Output = _struct("ents_output", "i:wanted p:status l:status_stride " + " ".join(
     f"p:{name} l:{name}_stride" + (" l:tangent_leading_dimension" if name == "tangent" else "") for name, _ in _STRIDED))
 Surface = _struct("ents_surface", "i:reserved p:master p:surface_coordinates p:xi p:point p:normal p:height p:base_point p:base_normal")
-STRUCTS = (Report, Data, Layout, MasterMesh, Detection, Input, Output, Surface)
+Combination = _struct("ents_combination", "i:reserved l:points p:begin p:nodes p:weights")
+STRUCTS = (Report, Data, Layout, MasterMesh, Detection, Input, Output, Surface, Combination)
 
 
 def _new(struct, **fields):
@@ -124,6 +125,28 @@ class Library:
         self.call("tributary_areas", facet.encode(), len(connectivity), connectivity, len(positions), positions,
                   ctypes.c_double(thickness), areas)
         return areas
+
+    def smooth(self, facet, basis, connectivity, nodes, ends=ENDS_STRAIGHT):
+        """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
+        and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
+        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
+        head = (facet.encode(), basis.encode(), ctypes.c_int32(ends), len(connectivity), connectivity, int(nodes))
+        points, terms = ctypes.c_int64(), ctypes.c_int64()
+        self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms))
+        digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
+        segments = np.zeros((len(connectivity), int(digits)), np.int64)
+        begin, of, weights = np.zeros(points.value + 1, np.int64), np.zeros(terms.value, np.int64), np.zeros(terms.value)
+        self.call("smooth", *head, points, terms, segments, begin, of, weights)
+        return segments, (begin, of, weights)
+
+    def combine(self, combination, values):
+        """What `smooth` gave, applied to values [nodes][1 .. 3] (positions, surface coordinates)."""
+        begin, of, weights = combination
+        values = _array("values", values, (None, None))
+        points = np.zeros((len(begin) - 1, values.shape[1]))
+        self.call("combine", _new(Combination, points=len(points), begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data),
+                  ctypes.c_int32(values.shape[1]), len(values), values, points)
+        return points
 
 
 _default = None

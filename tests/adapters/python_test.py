@@ -49,9 +49,10 @@ class Header(unittest.TestCase):
         mine.update(("ENTS_" + name, value.value) for name, value in ents.Status.__members__.items())
         mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
         mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
-        # Smoothing and checks of whole surfaces are not in the module.
+        mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
+        # Checks of whole surfaces are not in the module.
         theirs = {name: value[0] for name, value in self.numbers.items()
-                  if name.startswith("ENTS_") and "%" not in name and not name.startswith(("ENTS_ENDS_", "ENTS_CHECK_"))}
+                  if name.startswith("ENTS_") and "%" not in name and not name.startswith("ENTS_CHECK_")}
         self.assertEqual(mine, theirs)
 
     def test_library_agrees(self):
@@ -150,19 +151,25 @@ class Numbers(unittest.TestCase):
 class Surfaces(unittest.TestCase):
     def test_blocks_are_the_derivative_of_the_residual(self):
         """On a polyline of three segments, in equations that are not in the order of the nodes; one dof is prescribed."""
-        model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})
+        model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}, "friction": {
+            "type": "coulomb", "coefficient": 0.3, "stiffness": 90}}})
         x = np.array([[0.0, 0.0], [1, 0.1], [2, 0.05], [3, 0], [0.4, -0.05], [1.6, -0.02], [2.5, 0.6]])
         equations = np.array([5, 0, 3, 8, 1, 9, 2, 4, 6, 7, -1, 10, 11, 12]).reshape(-1, 2)
         tree = ents.Tree(model, [[0, 1], [1, 2], [2, 3]], x[:4])
         area = np.array([0.5, 0.7, 0.9])
+        before = tree.detect(x[4:], reach=0.3)["segment"]
+        state = model.state_init(3)
+        state[:2] = model.evaluate(x[4:6], None, "state_end", tree=tree, segment=before[:2], area=area[:2], state=state[:2])["state_end"]
+        x[4:6] += [[0.1, -0.02], [-0.001, -0.02]]
 
         def both(x):
             tree.move(x[:4])
             found = tree.detect(x[4:], reach=0.3)
-            return found, *model.blocks(x[4:], tree, found["segment"], equations[4:], equations[:4], 13, area=area, want="gap")
+            return found, *model.blocks(x[4:], tree, found["segment"], equations[4:], equations[:4], 13, area=area, state=state, want="gap flags")
         found, residual, (v, (i, j)), result = both(x)
         self.assertEqual(found["segment"].tolist(), [0, 1, -1])
         self.assertEqual(result["closed"].tolist(), [0, 1])
+        self.assertTrue(result["flags"][0] & ents.Flag.SLIP and result["flags"][1] & ents.Flag.STICK)
         np.testing.assert_allclose(result["gap"], found["gap"][:2], rtol=1e-14)  # one projection starts from the other's answer
         dense = np.zeros((13, 13))
         np.add.at(dense, (i, j), v)
@@ -173,6 +180,15 @@ class Surfaces(unittest.TestCase):
                 # h^2 and rounding over h: both below 1e-9 of K
                 np.testing.assert_allclose(dense[:, equations[node, c]], (ends[0] - ends[1]) / (2 * h), atol=1e-6 * np.abs(dense).max())
         self.assertGreater(np.abs(residual).max(), 0)
+
+    def test_smoothed_line(self):
+        """Equidistant nodes on a line: equidistant control points, and a curve through the nodes."""
+        x = np.column_stack([np.arange(4.0), np.zeros(4)])
+        segments, combination = ents.library().smooth("line2", "bspline4", [[0, 1], [1, 2], [2, 3]], 4)
+        points = ents.library().combine(combination, x)
+        np.testing.assert_array_equal(points[segments][:, :, 0], [[-1, 0, 1, 2], [0, 1, 2, 3], [1, 2, 3, 4]])
+        tree = ents.Tree(ents.Model({"segment": "bspline4"}), segments, points)
+        np.testing.assert_allclose(tree.detect([[1.25, 0.1]], 1)["xi"], [[-0.5]], atol=1e-14)
 
     def test_tributary_areas(self):
         areas = ents.library().tributary_areas("line2", [[0, 1], [1, 2]], [[0, 0], [1, 0], [3, 0]], thickness=2)
