@@ -288,7 +288,7 @@ class Model:
         parts = [_array("slave_equations", slave_equations, (len(slave), lay.dimension), np.int64)[closed]]
         if lay.dofs - lay.multipliers > lay.dimension:
             of_nodes = _array("master_equations", master_equations, (tree.mesh.nodes, lay.dimension), np.int64)
-            parts.append(of_nodes[tree.connectivity[segment[closed]]].reshape(len(closed), -1))
+            parts.append(of_nodes[tree.connectivity[segment[closed]]].reshape(len(closed), lay.nodes * lay.dimension))
         if lay.multipliers:
             parts.append(_array("multiplier_equations", multiplier_equations, (len(slave), lay.multipliers), np.int64)[closed])
         equations = np.concatenate(parts, axis=1)

@@ -180,6 +180,8 @@ class Surfaces(unittest.TestCase):
                 # h^2 and rounding over h: both below 1e-9 of K
                 np.testing.assert_allclose(dense[:, equations[node, c]], (ends[0] - ends[1]) / (2 * h), atol=1e-6 * np.abs(dense).max())
         self.assertGreater(np.abs(residual).max(), 0)
+        residual, (v, _), _ = model.blocks(x[4:], tree, [-1, -1, -1], equations[4:], equations[:4], 13, area=area, state=state)
+        self.assertEqual((np.abs(residual).max(), len(v)), (0, 0))
 
     def test_smoothed_line(self):
         """Equidistant nodes on a line: equidistant control points, and a curve through the nodes."""
