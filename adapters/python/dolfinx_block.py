@@ -15,6 +15,7 @@ import argparse
 import json
 import pathlib
 import sys
+import traceback
 
 try:
     import dolfinx
@@ -166,7 +167,14 @@ class Host:
         mine[own] = self.u.x.array.reshape(-1, 2)[self.local[nodes[own]]]
         everywhere = np.empty_like(mine)
         self.comm.Allreduce(mine, everywhere, MPI.SUM)
-        return self.dofs[nodes].ravel(), *self.contact.evaluate(everywhere)
+        try:
+            return self.dofs[nodes].ravel(), *self.contact.evaluate(everywhere)
+        except BaseException:
+            if self.comm.size > 1:  # the other processes would wait for this one
+                traceback.print_exc()
+                sys.stderr.flush()
+                self.comm.Abort(1)
+            raise
 
     def forces(self, b):
         """Bulk and contact, without the conditions."""

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact comes from ents.py.
 
-usage: getfem_block.py [SCENE] [--compare RESULT] [--refine N]
+usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
 
 SCENE      a scene of ents-host with two blocks, "neo_hooke" materials and "line2", "catmull_rom4" or "bspline4" segments; default: block.json beside this script
+--variant  one of the scene's variants
 --compare  result.json that `ents-host run SCENE --out DIR` left in DIR: the forces have to be the same
 --refine   N times as many elements in each direction (not with --compare)
 
@@ -149,15 +150,29 @@ def solve(scene, refine=1, report=print):
     return np.array(forces), iterations
 
 
+def merged(value, patch):
+    """A JSON merge patch (RFC 7386), which is what a variant is."""
+    if not isinstance(patch, dict):
+        return patch
+    changed = {key: merged(value.get(key) if isinstance(value, dict) else None, new) for key, new in patch.items() if new is not None}
+    return {**{key: old for key, old in (value if isinstance(value, dict) else {}).items() if key not in patch}, **changed}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="?", default=pathlib.Path(__file__).with_name("block.json"), type=pathlib.Path)
+    parser.add_argument("--variant")
     parser.add_argument("--compare", type=pathlib.Path)
     parser.add_argument("--refine", type=int, default=1)
     arguments = parser.parse_args()
     if arguments.compare and arguments.refine != 1:
         parser.error("--compare is for the scene's own meshes: leave out --refine")
-    forces, iterations = solve(json.loads(arguments.scene.read_text()), arguments.refine)
+    scene = json.loads(arguments.scene.read_text())
+    if arguments.variant is not None:
+        if arguments.variant not in scene.get("variants", {}):
+            parser.error(f"--variant {arguments.variant}: {arguments.scene} has {', '.join(scene.get('variants', {})) or 'none'}")
+        scene = merged(scene, scene["variants"][arguments.variant])
+    forces, iterations = solve(scene, arguments.refine)
     if arguments.compare:
         steps = json.loads(arguments.compare.read_text())["steps"]
         theirs = np.array([step["contact_force"] for step in steps])
