@@ -250,18 +250,26 @@ class Model:
         shapes = {"xi": (d - 1,), "normal": (d,), "point": (d,), "traction": (d,), "gap_gradient": (own,), "gap_hessian": (own, own),
                   "xi_gradient": (d - 1, own), "xi_hessian": (d - 1, own, own), "residual": (dofs,), "tangent": (dofs, dofs),
                   "state_end": (lay.state_size,)}
-        result = {"status": np.zeros(n, np.int32)} if out is None else out
-        block_out = _new(Output, wanted=sum(QUANTITIES[name] for name in set(names)), status=result["status"].ctypes.data, status_stride=1)
-        for name, kind in _STRIDED:
-            if name not in names:
-                continue
-            shape = shapes.get(name, ())
+        result = {} if out is None else out
+
+        def target(name, shape, dtype):
+            """Address of the quantity's array, a new one or that of `out`. The library's matrices are column-major: seen from Python, transposed."""
+            turned = name in ("tangent", "gap_hessian", "xi_hessian")
             if out is None:
-                array = np.zeros((n, *shape), np.int32 if kind == "i" else np.float64)
-                # The library's matrices are column-major: seen from Python, transposed.
-                result[name] = np.swapaxes(array, -1, -2) if name in ("tangent", "gap_hessian", "xi_hessian") else array
-            setattr(block_out, name, result[name].ctypes.data)
-            setattr(block_out, name + "_stride", int(np.prod(shape)))
+                array = np.zeros((n, *shape), dtype)
+                result[name] = np.swapaxes(array, -1, -2) if turned else array
+            array = result.get(name)
+            memory = np.swapaxes(array, -1, -2) if turned and np.ndim(array) > 1 else array
+            if not isinstance(array, np.ndarray) or array.shape != (n, *shape) or array.dtype != dtype or not memory.flags.c_contiguous:
+                raise Error(Status.BAD_COUNT, f"out: {name} is not that of a result for {n} elements and the same `want`")
+            return array.ctypes.data
+
+        block_out = _new(Output, wanted=sum(QUANTITIES[name] for name in set(names)), status=target("status", (), np.int32), status_stride=1)
+        for name, kind in _STRIDED:
+            if name in names:
+                shape = shapes.get(name, ())
+                setattr(block_out, name, target(name, shape, np.int32 if kind == "i" else np.float64))
+                setattr(block_out, name + "_stride", int(np.prod(shape)))
         report = self._call("evaluate", first, n - first if count is None else count, block, block_out)
         if out is None:
             result.update(step_factor=report.step_factor, message=report.message.decode())

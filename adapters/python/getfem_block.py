@@ -4,7 +4,8 @@
 
 usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
 
-SCENE      a scene of ents-host with two blocks, "neo_hooke" materials and "line2", "catmull_rom4" or "bspline4" segments; default: block.json beside this script
+SCENE      a scene of ents-host with two blocks, "neo_hooke" materials and "line2", "catmull_rom4" or "bspline4" segments; default: block.json
+           beside this script
 --variant  one of the scene's variants
 --compare  result.json that `ents-host run SCENE --out DIR` left in DIR: the forces have to be the same
 --refine   N times as many elements in each direction (not with --compare)

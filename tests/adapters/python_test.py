@@ -134,8 +134,9 @@ class Numbers(unittest.TestCase):
         slave = rng.uniform([-0.9, -0.9, -0.1], [0.9, 0.9, 0.05], (n, 3))
         want = "gap residual tangent flags"
         whole = model.evaluate(slave, QUAD, want)
-        shared = {name: np.copy(a) * 0 if name not in ("tangent", "step_factor", "message") else a for name, a in model.evaluate(slave, QUAD, want).items()}
-        shared["tangent"][:] = 0
+        shared = model.evaluate(slave, QUAD, want)
+        for name in want.split():
+            shared[name].fill(0)
         parts = [threading.Thread(target=model.evaluate, args=(slave, QUAD, want), kwargs={"first": f, "count": 50, "out": shared})
                  for f in range(0, n, 50)]
         for part in parts:
@@ -214,6 +215,11 @@ class Errors(unittest.TestCase):
         self.caught(ents.Status.BAD_MASK, ["residuum"], lambda: model.evaluate([[0, 0, 0]], QUAD, "residuum"))
         self.caught(ents.Status.BAD_COUNT, ["slave"], lambda: model.evaluate([[0, 0]], QUAD))
         self.caught(ents.Status.BAD_COUNT, ["master"], lambda: model.evaluate([[0, 0, 0]], QUAD[:3]))
+        two = model.evaluate([[0, 0, 0]] * 2, QUAD, "gap tangent")
+        for wrong in ({"out": two}, {"out": {**two, "tangent": np.zeros((3, 15, 15))}}, {"out": {}}):
+            self.caught(ents.Status.BAD_COUNT, ["out"], lambda: model.evaluate([[0, 0, 0]] * 3, QUAD, "gap tangent", **wrong))
+        self.caught(ents.Status.BAD_COUNT, ["out: tangent"], lambda: model.evaluate(
+            [[0, 0, 0]] * 2, QUAD, "gap tangent", out={**two, "tangent": np.zeros((2, 15, 15))}))  # its memory is the other way round
         self.caught(ents.Status.NON_FINITE, ["slave"], lambda: model.evaluate([[0, np.nan, 0]], QUAD))
 
     def test_recoverable_statuses_are_results(self):
