@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact comes from ents.py.
+
+usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
+
+SCENE      a scene of ents-host with two blocks, "neo_hooke" materials and "line2", "catmull_rom4" or "bspline4" segments; default: block.json
+           beside this script
+--variant  one of the scene's variants
+--compare  result.json that `ents-host run SCENE --out DIR` left in DIR: the forces have to be the same
+--refine   N times as many elements in each direction (not with --compare)
+
+exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 GetFEM, NumPy or SciPy is missing (Debian: python3-getfem++ python3-scipy)"""
+import argparse
+import json
+import pathlib
+import sys
+
+try:
+    import getfem as gf
+    import numpy as np
+    import scipy.sparse as sparse
+    from scipy.sparse.linalg import spsolve
+except ModuleNotFoundError as error:
+    print(f"getfem_block.py: {error}; Debian has it in python3-getfem++, python3-numpy, python3-scipy, for /usr/bin/python3")
+    sys.exit(3)
+import ents
+
+ITERATIONS = 25
+# Both programs stop when |r| <= 1e-12 |reactions|; what is left is a load on the 132 free dofs, which by statics the two supports share: it moves a
+# force on a support by sqrt(132) * 1e-12 = 1.2e-11 at most, in each program.
+SAME_FORCE = 2.4e-11
+
+
+class Block:
+    """A structured block of `part`: its GetFEM mesh, and how its nodes are found among the dofs."""
+
+    def __init__(self, part, refine):
+        axes = []
+        for axis in (part["x"], part["y"]):
+            piece, = axis["pieces"]
+            axes.append(np.linspace(axis["from"], piece["to"], piece["divisions"] * refine + 1))
+        self.name, self.material = part["name"], part["material"]
+        self.mesh = gf.Mesh("cartesian", *axes)
+        self.fem = gf.MeshFem(self.mesh, 2)
+        self.fem.set_classical_fem(1)
+        self.integration = gf.MeshIm(self.mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(2,3)"))  # 2 x 2 points
+        self.nodes = self.fem.basic_dof_nodes()[:, ::2].T  # [node][2]; dofs of a node: 2 node, 2 node + 1
+        self.first = None  # of its dofs among the model's
+
+    def side(self, which):
+        """Nodes of "x_min" ... "y_max", along the side."""
+        axis = "xy".index(which[0])
+        at = self.nodes[:, axis].min() if which.endswith("min") else self.nodes[:, axis].max()
+        on = np.flatnonzero(np.abs(self.nodes[:, axis] - at) < 1e-9)
+        return on[np.argsort(self.nodes[on, 1 - axis])]
+
+    def dofs(self, nodes):
+        return self.first + 2 * np.asarray(nodes)[:, None] + [0, 1]
+
+
+def solve(scene, refine=1, report=print):
+    """Forces [step][2] on the support of the lower block, and iterations [step]."""
+    blocks = {part["name"]: Block(part, refine) for part in scene["parts"]}
+    gf.util_trace_level(0)
+    md = gf.Model("real")
+    for b in blocks.values():
+        material = scene["materials"][b.material]
+        young, nu = material["young"], material["poisson"]
+        u = "u_" + b.name
+        md.add_fem_variable(u, b.fem)
+        md.add_initialized_data("mu_" + b.name, [young / (2 * (1 + nu))])
+        md.add_initialized_data("la_" + b.name, [young * nu / ((1 + nu) * (1 - 2 * nu))])
+        f = f"(Id(2)+Grad_{u})"
+        # Bonet and Wood's neo-Hooke: P = mu (F - F^-T) + lambda ln J F^-T
+        md.add_nonlinear_term(b.integration, f"(mu_{b.name}*({f}-Inv({f})')+la_{b.name}*log(Det({f}))*Inv({f})'):Grad_Test_{u}")
+    for b in blocks.values():
+        b.first = int(md.interval_of_variable("u_" + b.name)[0])
+    size = int(sum(md.interval_of_variable("u_" + name)[1] for name in blocks))
+
+    contact = scene["contact"]
+    slave_block, slave_side = contact["slave"].split(".")
+    master_block, master_side = contact["master"]["faces"].split(".")
+    slaves, masters = blocks[slave_block].side(slave_side), blocks[master_block].side(master_side)
+    slave_dofs, master_dofs = blocks[slave_block].dofs(slaves), blocks[master_block].dofs(masters)
+    slave_start, master_start = blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]
+    # Left to right: the normal of segments is their tangent turned by +90 degrees, out of the lower block.
+    segments = np.column_stack([np.arange(len(masters) - 1), np.arange(1, len(masters))])
+    model = ents.Model(contact["model"])
+    points = sparse.identity(len(masters), format="csr")  # control points of the segments, from nodes
+    if contact["model"]["segment"] != "line2":  # ents-host repeats the nodes at the ends
+        segments, (begin, of, weights) = model.library.smooth("line2", contact["model"]["segment"], segments, len(masters), ents.ENDS_REPEATED)
+        points = sparse.csr_matrix((weights, of, begin), (len(begin) - 1, len(masters)))
+    surface = None
+    if "surface_coordinates" in contact["master"]:
+        surface = (points @ master_start)[segments][:, :, :1]  # s is the reference x
+    tree = ents.Tree(model, segments, points @ master_start, surface)
+    # The elements' equations: all of the model, then the control points', which `spread` puts on the nodes'.
+    point_dofs = size + np.arange(2 * points.shape[0]).reshape(-1, 2)
+    of_nodes = sparse.csr_matrix((np.ones(master_dofs.size), (np.arange(master_dofs.size), master_dofs.ravel())), (master_dofs.size, size))
+    spread = sparse.vstack([sparse.identity(size), sparse.kron(points, sparse.identity(2)) @ of_nodes]).T.tocsr()
+    facets = np.column_stack([np.arange(len(slaves) - 1), np.arange(1, len(slaves))])
+    areas = model.library.tributary_areas("line2", facets, slave_start)
+
+    prescribed = np.zeros(size)
+    fixed = np.zeros(size, bool)
+    for support in scene["supports"]:
+        name, side = support["nodes"].split(".")
+        for axis in "xy":
+            if axis in support:
+                at = blocks[name].dofs(blocks[name].side(side))[:, "xy".index(axis)]
+                fixed[at], prescribed[at] = True, support[axis]
+    free = np.flatnonzero(~fixed)
+    bottom = blocks[master_block].dofs(blocks[master_block].side("y_min"))
+
+    steps = scene["steps"]["values"][0]["count"]
+    u = np.zeros(size)
+    forces, iterations = [], []
+    segment = np.full(len(slaves), -1, np.int64)
+    xi = np.zeros((len(slaves), 1))
+    for step in range(1, steps + 1):
+        increment = prescribed * step / steps - np.where(fixed, u, 0)
+        for iteration in range(ITERATIONS + 1):
+            md.to_variables(u)
+            md.assembly("build_all")
+            k = md.tangent_matrix()
+            k = sparse.csc_matrix((k.csc_val(), k.csc_ind()[1], k.csc_ind()[0]), (size, size))
+            residual = -md.rhs()
+            slave, master = slave_start + u[slave_dofs], master_start + u[master_dofs]
+            tree.move(points @ master)
+            found = tree.detect(slave, 0.25, segment, xi)
+            segment, xi = found["segment"], found["xi"]
+            r, (values, places), result = model.blocks(slave, tree, segment, slave_dofs, point_dofs, spread.shape[1], area=areas, start=xi)
+            if result["status"].any():
+                raise SystemExit(f"step {step}: {result['message']}")
+            residual = residual + spread @ r
+            k = k + spread @ sparse.coo_matrix((values, places), (len(r), len(r))) @ spread.T
+            scale = max(np.linalg.norm(residual[fixed]), np.linalg.norm(spread @ r))
+            error = np.linalg.norm(residual[free]) / scale if scale else 1
+            if not increment.any() and error <= 1e-12:
+                break
+            if iteration == ITERATIONS:
+                raise SystemExit(f"step {step}: no convergence in {ITERATIONS} iterations, |r| = {error:.1e}")
+            du = increment.copy()
+            du[free] = spsolve(k[free][:, free], -residual[free] - k[free] @ increment)
+            u += du
+            increment = np.zeros(size)
+        forces.append(residual[bottom].sum(axis=0))
+        iterations.append(iteration)
+        report(f"step {step}/{steps}  iterations {iteration:2d}  |r| {error:.0e}  force on the support {forces[-1][0]:+.12f} {forces[-1][1]:+.12f}")
+    return np.array(forces), iterations
+
+
+def merged(value, patch):
+    """A JSON merge patch (RFC 7386), which is what a variant is."""
+    if not isinstance(patch, dict):
+        return patch
+    changed = {key: merged(value.get(key) if isinstance(value, dict) else None, new) for key, new in patch.items() if new is not None}
+    return {**{key: old for key, old in (value if isinstance(value, dict) else {}).items() if key not in patch}, **changed}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", nargs="?", default=pathlib.Path(__file__).with_name("block.json"), type=pathlib.Path)
+    parser.add_argument("--variant")
+    parser.add_argument("--compare", type=pathlib.Path)
+    parser.add_argument("--refine", type=int, default=1)
+    arguments = parser.parse_args()
+    if arguments.compare and arguments.refine != 1:
+        parser.error("--compare is for the scene's own meshes: leave out --refine")
+    scene = json.loads(arguments.scene.read_text())
+    if arguments.variant is not None:
+        if arguments.variant not in scene.get("variants", {}):
+            parser.error(f"--variant {arguments.variant}: {arguments.scene} has {', '.join(scene.get('variants', {})) or 'none'}")
+        scene = merged(scene, scene["variants"][arguments.variant])
+    forces, iterations = solve(scene, arguments.refine)
+    if arguments.compare:
+        steps = json.loads(arguments.compare.read_text())["steps"]
+        theirs = np.array([step["contact_force"] for step in steps])
+        # The force on the slave: by balance, on the support as well, up to the sign.
+        difference = min(np.abs(forces - sign * theirs).max() for sign in (1, -1)) / np.abs(theirs).max()
+        print(f"largest difference from {arguments.compare}: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; "
+              f"iterations {sum(iterations)}, there {sum(step['iterations'] for step in steps)}")
+        if not difference <= SAME_FORCE:
+            raise SystemExit("the forces differ")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,234 @@
+"""python_test.py ents.py-FOLDER LAYOUT-PROGRAM FIRST-PROGRAM: the Python module against ents.h, as the C compiler sees it, and against the library.
+
+LAYOUT-PROGRAM prints constants, sizes and offsets of ents.h (abi/header_layout.sh), FIRST-PROGRAM is clients/first.c. The library is the one of
+the environment's ENTS_LIBRARY. Exit status 3: no NumPy here, nothing was tested.
+"""
+import ctypes
+import subprocess
+import sys
+import threading
+import unittest
+
+sys.dont_write_bytecode = True
+try:
+    import numpy as np
+except ModuleNotFoundError:
+    print("python_test.py: this Python has no NumPy (Debian: python3-numpy)")
+    sys.exit(3)
+folder, layout_program, first_program = sys.argv[1:4]
+sys.path.insert(0, folder)
+import ents  # noqa: E402
+
+QUAD = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], float)
+FIRST = {"segment": "quad4", "height": {"type": "sine", "amplitude": 0.05, "wave_vector": [0.5, 0.25]},
+         "contact": {"normal": {"type": "penalty", "stiffness": 1000}}}
+FRICTION = {"segment": "line2", "height": {"type": "sine", "amplitude": 0.04, "wave_vector": [1.5]},
+            "contact": {"normal": {"type": "penalty", "stiffness": 1000},
+                        "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 900}}}
+LINE = np.array([[-1.0, 0.1], [1.1, -0.2]])
+
+
+def printed(program):
+    return subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+class Header(unittest.TestCase):
+    def setUp(self):
+        self.numbers = {words[0]: tuple(map(int, words[1:])) for words in map(str.split, printed(layout_program))}
+
+    def test_structs(self):
+        for struct in ents.STRUCTS:
+            name = struct.__name__
+            fields = {key.split("%")[1]: value for key, value in self.numbers.items() if key.startswith(name + "%")}
+            mine = {field: (getattr(struct, field).offset, getattr(struct, field).size) for field, _ in struct._fields_}
+            self.assertEqual(mine, fields, name)
+            self.assertEqual(ctypes.sizeof(struct), self.numbers[name][0], name)
+
+    def test_constants(self):
+        mine = {"ENTS_CONTRACT_MAJOR": ents.CONTRACT_MAJOR, "ENTS_CONTRACT_MINOR": ents.CONTRACT_MINOR}
+        mine.update(("ENTS_" + name, value.value) for name, value in ents.Status.__members__.items())
+        mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
+        mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
+        mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
+        # Checks of whole surfaces are not in the module.
+        theirs = {name: value[0] for name, value in self.numbers.items()
+                  if name.startswith("ENTS_") and "%" not in name and not name.startswith("ENTS_CHECK_")}
+        self.assertEqual(mine, theirs)
+
+    def test_library_agrees(self):
+        """A struct that says it is one longer has to be refused: the library reads struct_size where Python puts it."""
+        model = ents.Model(FIRST)
+        for struct, call in ((ents.Layout, lambda x: model._call("model_layout", x)),
+                             (ents.Input, lambda x: model._call("evaluate", 0, 0, x, ents._new(ents.Output))),
+                             (ents.Output, lambda x: model._call("evaluate", 0, 0, ents._new(ents.Input), x))):
+            with self.assertRaises(ents.Error) as caught:
+                call(struct(struct_size=3))
+            self.assertEqual(caught.exception.status, ents.Status.STRUCT_SIZE)
+            self.assertIn("struct_size", str(caught.exception))
+
+
+class Numbers(unittest.TestCase):
+    def test_first_call_is_that_of_c(self):
+        r = ents.Model(FIRST).evaluate([[-0.4, 0.3, -0.1]], QUAD, "gap residual tangent")
+        mine = ["%24.16E%24.16E%24.16E" % (r["gap"][0], r["residual"][0, i], r["tangent"][0, i, 2]) for i in range(15)]
+        self.assertEqual(mine, printed(first_program))
+
+    def differences(self, model, slave, master, h, **inputs):
+        """Central differences of all outputs that have a derivative among the others, one dof at a time."""
+        names = "residual xi gap energy gap_gradient xi_gradient"
+        x = np.vstack([slave, master]).ravel()
+        columns = []
+        for k in range(len(x)):
+            ends = []
+            for sign in (1, -1):
+                y = x.copy()
+                y[k] += sign * h
+                y = y.reshape(-1, slave.shape[1])
+                ends.append(model.evaluate(y[:1], y[1:], names, **inputs))
+            columns.append({name: (ends[0][name][0] - ends[1][name][0]) / (2 * h) for name in names.split()})
+        return {name: np.stack([c[name] for c in columns], axis=-1) for name in names.split()}
+
+    def compare(self, model, slave, master, **inputs):
+        h = 1e-5
+        want = "residual tangent gap_gradient gap_hessian xi_gradient xi_hessian"
+        r = model.evaluate(slave, master, want, **inputs)
+        self.assertEqual(r["status"][0], 0)
+        d = self.differences(model, slave, master, h, **inputs)
+        for analytic, of in (("residual", "energy"), ("tangent", "residual"), ("gap_gradient", "gap"), ("gap_hessian", "gap_gradient"),
+                             ("xi_gradient", "xi"), ("xi_hessian", "xi_gradient")):
+            if analytic == "residual" and model.layout.friction:
+                continue  # friction has no energy
+            scale = np.abs(r[analytic][0]).max()
+            # Central differences: h^2/6 times the third derivative, about (wave number)^2 of the first (5^2 at most): 4e-10, and the
+            # projection's rounding over h: 1e-14 / 1e-5. Wrong indices are errors of order one.
+            np.testing.assert_allclose(r[analytic][0], d[of], rtol=0, atol=1e-7 * scale, err_msg=analytic)
+
+    def test_finite_differences_3d(self):
+        warped = QUAD + [[0, 0, 0.1], [0.05, 0, 0], [0, -0.1, 0.02], [0, 0, -0.05]]
+        self.compare(ents.Model(FIRST), np.array([[-0.4, 0.3, -0.1]]), warped)
+
+    def test_finite_differences_friction(self):
+        model = ents.Model(FRICTION)
+        begin = model.evaluate([[0.10, -0.06]], LINE, "state_end", state=model.state_init(1))["state_end"]
+        r = model.evaluate([[0.13, -0.08]], LINE, "flags tangent", state=begin)
+        self.assertTrue(r["flags"][0] & ents.Flag.SLIP)
+        k = r["tangent"][0]
+        self.assertGreater(np.abs(k - k.T).max(), 1e-3 * np.abs(k).max())  # else a transposed tangent would go unseen
+        self.compare(model, np.array([[0.13, -0.08]]), LINE, state=begin)
+
+    def test_data_from_memory_and_rigid_master(self):
+        s = np.linspace(0, 2 * np.pi, 65)[:-1]
+        text = {"segment": "line2", "master": "rigid", "height": {"type": "map", "data": "wave", "boundary": "periodic", "size": [2]},
+                "contact": {"normal": {"type": "penalty", "stiffness": 10}}}
+        model = ents.Model(text, data={"wave": 0.1 * np.sin(s)})
+        self.assertEqual(model.layout.dofs, 2)
+        at = model.surface([[-1.0, 0], [1, 0]], [[-0.5], [0.0], [0.5]])
+        # s = -0.5, 0, 0.5 of a period of 2 that begins at s = 0: the samples are met, the spline goes through them to rounding.
+        np.testing.assert_allclose(at["height"], [-0.1, 0, 0.1], atol=1e-15)
+        np.testing.assert_allclose(at["point"], [[-0.5, -0.1], [0, 0], [0.5, 0.1]], atol=1e-15)
+
+    def test_threads_and_batches_give_the_same_bits(self):
+        model = ents.Model(FIRST)
+        rng = np.random.default_rng(1)
+        n = 400
+        slave = rng.uniform([-0.9, -0.9, -0.1], [0.9, 0.9, 0.05], (n, 3))
+        want = "gap residual tangent flags"
+        whole = model.evaluate(slave, QUAD, want)
+        shared = model.evaluate(slave, QUAD, want)
+        for name in want.split():
+            shared[name].fill(0)
+        parts = [threading.Thread(target=model.evaluate, args=(slave, QUAD, want), kwargs={"first": f, "count": 50, "out": shared})
+                 for f in range(0, n, 50)]
+        for part in parts:
+            part.start()
+        for part in parts:
+            part.join()
+        for name in want.split():
+            self.assertEqual(whole[name].tobytes(), shared[name].tobytes(), name)
+        each = np.array([model.evaluate(slave[i:i + 1], QUAD[None], "gap")["gap"][0] for i in range(n)])
+        self.assertEqual(each.tobytes(), whole["gap"].tobytes())
+
+
+class Surfaces(unittest.TestCase):
+    def test_blocks_are_the_derivative_of_the_residual(self):
+        """On a polyline of three segments, in equations that are not in the order of the nodes; one dof is prescribed."""
+        model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}, "friction": {
+            "type": "coulomb", "coefficient": 0.3, "stiffness": 90}}})
+        x = np.array([[0.0, 0.0], [1, 0.1], [2, 0.05], [3, 0], [0.4, -0.05], [1.6, -0.02], [2.5, 0.6]])
+        equations = np.array([5, 0, 3, 8, 1, 9, 2, 4, 6, 7, -1, 10, 11, 12]).reshape(-1, 2)
+        tree = ents.Tree(model, [[0, 1], [1, 2], [2, 3]], x[:4])
+        area = np.array([0.5, 0.7, 0.9])
+        before = tree.detect(x[4:], reach=0.3)["segment"]
+        state = model.state_init(3)
+        state[:2] = model.evaluate(x[4:6], None, "state_end", tree=tree, segment=before[:2], area=area[:2], state=state[:2])["state_end"]
+        x[4:6] += [[0.1, -0.02], [-0.001, -0.02]]
+
+        def both(x):
+            tree.move(x[:4])
+            found = tree.detect(x[4:], reach=0.3)
+            return found, *model.blocks(x[4:], tree, found["segment"], equations[4:], equations[:4], 13, area=area, state=state, want="gap flags")
+        found, residual, (v, (i, j)), result = both(x)
+        self.assertEqual(found["segment"].tolist(), [0, 1, -1])
+        self.assertEqual(result["closed"].tolist(), [0, 1])
+        self.assertTrue(result["flags"][0] & ents.Flag.SLIP and result["flags"][1] & ents.Flag.STICK)
+        np.testing.assert_allclose(result["gap"], found["gap"][:2], rtol=1e-14)  # one projection starts from the other's answer
+        dense = np.zeros((13, 13))
+        np.add.at(dense, (i, j), v)
+        h = 1e-6
+        for node, c in np.ndindex(x.shape):
+            if equations[node, c] >= 0:
+                ends = [both(x + sign * h * np.eye(14)[2 * node + c].reshape(7, 2))[1] for sign in (1, -1)]
+                # h^2 and rounding over h: both below 1e-9 of K
+                np.testing.assert_allclose(dense[:, equations[node, c]], (ends[0] - ends[1]) / (2 * h), atol=1e-6 * np.abs(dense).max())
+        self.assertGreater(np.abs(residual).max(), 0)
+        residual, (v, _), _ = model.blocks(x[4:], tree, [-1, -1, -1], equations[4:], equations[:4], 13, area=area, state=state)
+        self.assertEqual((np.abs(residual).max(), len(v)), (0, 0))
+
+    def test_smoothed_line(self):
+        """Equidistant nodes on a line: equidistant control points, and a curve through the nodes."""
+        x = np.column_stack([np.arange(4.0), np.zeros(4)])
+        segments, combination = ents.library().smooth("line2", "bspline4", [[0, 1], [1, 2], [2, 3]], 4)
+        points = ents.library().combine(combination, x)
+        np.testing.assert_array_equal(points[segments][:, :, 0], [[-1, 0, 1, 2], [0, 1, 2, 3], [1, 2, 3, 4]])
+        tree = ents.Tree(ents.Model({"segment": "bspline4"}), segments, points)
+        np.testing.assert_allclose(tree.detect([[1.25, 0.1]], 1)["xi"], [[-0.5]], atol=1e-14)
+
+    def test_tributary_areas(self):
+        areas = ents.library().tributary_areas("line2", [[0, 1], [1, 2]], [[0, 0], [1, 0], [3, 0]], thickness=2)
+        np.testing.assert_allclose(areas, [1, 3, 2], rtol=1e-15)
+
+
+class Errors(unittest.TestCase):
+    def caught(self, status, words, call):
+        with self.assertRaises(ents.Error) as caught:
+            call()
+        self.assertEqual(caught.exception.status, status)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+
+    def test_mistakes(self):
+        model = ents.Model(FIRST)
+        self.caught(ents.Status.UNKNOWN_KEY, ["segmnt"], lambda: ents.Model({"segmnt": "line2"}))
+        self.caught(ents.Status.JSON_SYNTAX, [], lambda: ents.Model("{"))
+        self.caught(ents.Status.FILE, ["no_such_file.json"], lambda: ents.Model("no_such_file.json"))
+        self.caught(ents.Status.FILE, ["no_such_library.so", "ENTS_LIBRARY"], lambda: ents.Library("./no_such_library.so"))
+        self.caught(ents.Status.BAD_MASK, ["residuum"], lambda: model.evaluate([[0, 0, 0]], QUAD, "residuum"))
+        self.caught(ents.Status.BAD_COUNT, ["slave"], lambda: model.evaluate([[0, 0]], QUAD))
+        self.caught(ents.Status.BAD_COUNT, ["master"], lambda: model.evaluate([[0, 0, 0]], QUAD[:3]))
+        two = model.evaluate([[0, 0, 0]] * 2, QUAD, "gap tangent")
+        for wrong in ({"out": two}, {"out": {**two, "tangent": np.zeros((3, 15, 15))}}, {"out": {}}):
+            self.caught(ents.Status.BAD_COUNT, ["out"], lambda: model.evaluate([[0, 0, 0]] * 3, QUAD, "gap tangent", **wrong))
+        self.caught(ents.Status.BAD_COUNT, ["out: tangent"], lambda: model.evaluate(
+            [[0, 0, 0]] * 2, QUAD, "gap tangent", out={**two, "tangent": np.zeros((2, 15, 15))}))  # its memory is the other way round
+        self.caught(ents.Status.NON_FINITE, ["slave"], lambda: model.evaluate([[0, np.nan, 0]], QUAD))
+
+    def test_recoverable_statuses_are_results(self):
+        model = ents.Model({**FIRST, "contact": {"normal": {"type": "penalty", "stiffness": 1000}}, "penetration_limit": 0.01})
+        r = model.evaluate([[0, 0, 0.5], [0.1, 0, -0.5]], QUAD)
+        self.assertEqual(r["status"].tolist(), [0, ents.Status.DEEP_PENETRATION])
+        self.assertTrue(0 < r["step_factor"] < 1)
+        self.assertTrue(r["message"])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
