@@ -93,7 +93,7 @@ class Folder {
 public:
   Folder()
       : path_(std::filesystem::temp_directory_path() /
-              ("ents_out_of_memory_" + std::to_string(std::rand()))) {
+              (std::string("ents_out_of_memory_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }

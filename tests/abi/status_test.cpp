@@ -70,7 +70,7 @@ TEST(Status, EveryValueHasATextOfItsOwn) {
   }
   const std::string unknown = ents_status_text(12345);
   EXPECT_FALSE(texts.contains(unknown));
-  for (const int32_t value : {99, 8, -13, -102, INT_MAX, INT_MIN})
+  for (const int32_t value : {99, 8, -14, -102, INT_MAX, INT_MIN})
     EXPECT_EQ(ents_status_text(value), unknown) << value;
 }
 
