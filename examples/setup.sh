@@ -33,10 +33,10 @@ cd "$(dirname "$0")/.."
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
-# Compilers and build tools; libraries; pictures.
+# Compilers and build tools; libraries; pictures, and what the test of the Python module needs.
 packages='g++ gfortran cmake ninja-build pkg-config
   libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
-  gnuplot-nox'
+  gnuplot-nox python3-numpy'
 
 missing() {
   for package in $packages; do
