@@ -14,14 +14,13 @@ namespace host {
 
 struct Master {
   std::unique_ptr<EntsModel> model; ///< the library's model of one segment
-  std::unique_ptr<EntsModel>
-      base; ///< the same without its height, null if it has none: where a projection starts
+  std::unique_ptr<EntsModel> base;  ///< the same without its height, null if it has none: where a projection starts
   bool rigid = true;
   std::size_t segments = 0;
   std::vector<double> positions; ///< rigid: [segments][m][d], before the master moves
   std::vector<int> nodes;        ///< deformable: [segments][m] nodes of the mesh
-  std::vector<double>
-      surface_coordinates;       ///< deformable: [segments][m][d-1], or empty: the model's own, else s = xi
+  /// deformable: [segments][m][d-1], or empty: the model's own, else s = xi
+  std::vector<double> surface_coordinates;
   std::vector<double> direction; ///< rigid: unit vector of its motion
   bool triangles = false;        ///< natural coordinates: unit triangle, else [-1, 1] per direction
   double border = 1;             ///< natural coordinate at which a segment ends and its margin begins
