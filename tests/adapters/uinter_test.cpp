@@ -162,7 +162,7 @@ TEST_F(Uinter, StiffnessIsTheSlopeOfTheTraction) {
 }
 
 TEST_F(Uinter, BothArgumentListsAgree) {
-  void* library = dlopen("libents_abaqus_uinter44.so", RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(ENTS_UINTER_44_LIBRARY, RTLD_NOW | RTLD_LOCAL);
   ASSERT_NE(library, nullptr) << dlerror();
   Call now(3), old(3);
   for (Call* c : {&now, &old}) {
