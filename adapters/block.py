@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What hosts that read no scenes need of block.json, and whether they found the same.
+
+usage: block.py model SCENE [VARIANT] > ents.json
+       block.py compare OUTPUT RESULT
+
+model    the contact model of a scene of ents-host
+compare  OUTPUT is what a host printed: lines with "iterations N" and "force on the support FX FY", one a step; RESULT is result.json of
+         ents-host for the same scene
+
+exit status: 0 done; 1 other forces; 2 wrong command line"""
+import json
+import pathlib
+import re
+import sys
+
+# Both programs stop when |r| <= 1e-12 |reactions|; what is left is a load on the 132 free dofs, which by statics the two supports share: it
+# moves a force on a support by sqrt(132) * 1e-12 = 1.2e-11 at most, in each program.
+SAME_FORCE = 2.4e-11
+
+
+def merged(value, patch):
+    """A JSON merge patch (RFC 7386), which is what a variant is."""
+    if not isinstance(patch, dict):
+        return patch
+    changed = {key: merged(value.get(key) if isinstance(value, dict) else None, new) for key, new in patch.items() if new is not None}
+    return {**{key: old for key, old in (value if isinstance(value, dict) else {}).items() if key not in patch}, **changed}
+
+
+def variant_of(file, name):
+    scene = json.loads(pathlib.Path(file).read_text())
+    if name is None:
+        return scene
+    if name not in scene.get("variants", {}):
+        sys.exit(f"{file}: no variant {name}; there are {', '.join(scene.get('variants', {})) or 'none'}")
+    return merged(scene, scene["variants"][name])
+
+
+def printed(file):
+    """Forces [step][2] and iterations [step] in a host's output."""
+    number = r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?"
+    found = re.findall(rf"iterations +([0-9]+).*force on the support +({number}) +({number})", pathlib.Path(file).read_text())
+    return [(float(x), float(y)) for _, x, y in found], [int(n) for n, _, _ in found]
+
+
+def main():
+    if len(sys.argv) in (3, 4) and sys.argv[1] == "model":
+        print(json.dumps(variant_of(sys.argv[2], sys.argv[3] if len(sys.argv) == 4 else None)["contact"]["model"], indent=1))
+        return
+    if len(sys.argv) != 4 or sys.argv[1] != "compare":
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    forces, iterations = printed(sys.argv[2])
+    steps = json.loads(pathlib.Path(sys.argv[3]).read_text())["steps"]
+    if len(forces) != len(steps) or not steps:
+        sys.exit(f"{len(forces)} steps in {sys.argv[2]}, {len(steps)} in ents-host")
+    # ents-host tells the force on the slave; by balance that on the support is its negative.
+    difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
+    difference /= max(abs(b) for step in steps for b in step["contact_force"])
+    print(f"largest difference from ents-host: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
+          f"there {sum(step['iterations'] for step in steps)}")
+    if not difference <= SAME_FORCE:
+        sys.exit("the forces differ")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact of two borders of a 2D mesh through ents.h: detection, elements, history. Nothing of FreeFEM is in
+// here.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <ents.h>
+
+namespace freefem {
+
+/// Edges of a border. All of them run with the body to their right: segments have their normal to the left,
+/// out of it.
+struct Border {
+  std::vector<int> vertices;       ///< vertex of the mesh that each node of the border is
+  std::vector<double> start;       ///< [nodes][2] positions, [L]
+  std::vector<std::int64_t> edges; ///< [edges][2] nodes
+};
+
+struct Options {
+  int coordinate = -1;  ///< 0, 1: surface coordinate s of the height is the first x or y of the master's
+                        ///< nodes; -1: as the model says, or xi
+  double reach = 0;     ///< [L] nodes farther away are open; 0: the master's longest edge
+  double thickness = 1; ///< [L]
+  bool straight_ends = false; ///< smoothed surfaces: ENTS_ENDS_STRAIGHT instead of ENTS_ENDS_REPEATED
+};
+
+struct Forces {
+  std::vector<long> row, column; ///< of the entries of K; the same place may come again
+  std::vector<double> value;     ///< [F/L]
+  double step_factor = 1;        ///< below 1: nothing was added; cut the step by this factor
+  std::string message;           ///< why
+};
+
+/// All methods throw std::runtime_error with the library's message. dof = 2 vertex + component.
+class BorderContact {
+public:
+  /// @param model  JSON text, or the name of a file with it
+  /// @param dofs   of the whole mesh
+  BorderContact(const std::string& model, Border slave, Border master, long dofs, const Options& options);
+  ~BorderContact();
+  BorderContact(const BorderContact&) = delete;
+  BorderContact& operator=(const BorderContact&) = delete;
+
+  long dofs() const { return dofs_; }
+
+  /// @param u  [dofs] displacements, [L]
+  /// @param r  [dofs] R is added, [F]
+  Forces evaluate(const double* u, double* r);
+
+  /// What the last `evaluate` found is the begin of the next increment.
+  void accept();
+
+private:
+  struct Term {
+    long dof;
+    double weight;
+  };
+  std::vector<double> positions(const Border& border, const double* u) const;
+  std::vector<double> points(const double* u) const;
+  std::int32_t transfer(std::size_t slave, double* state, ents_report& report) const;
+  void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
+
+  ents_model* model_ = nullptr;
+  ents_layout layout_{};
+  Border slave_, master_;
+  long dofs_;
+  double reach_;
+  std::vector<double> areas_;
+  // The master surface: segments over control points, which are combinations of its nodes (plain facets: the
+  // nodes themselves).
+  std::vector<std::int64_t> segments_, begin_, of_;
+  std::vector<double> weights_, coordinates_, points_;
+  ents_master_mesh mesh_{};
+  std::vector<double> tree_;
+  // History: at the begin of the increment, and as of the last evaluation.
+  std::vector<std::int64_t> segment_, segment_begin_;
+  std::vector<double> xi_, state_begin_, state_end_, points_begin_;
+};
+
+} // namespace freefem
