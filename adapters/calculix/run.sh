@@ -122,7 +122,14 @@ for name in sphere texture friction; do for element in U1E U1A; do
   python3 "$here/example/compare.py" "$work/$name" || status=1
 done; done
 
-# 6. A mistake in the deck reaches the user as ccx's own errors do.
+# 6. ccx's own contact on a flat master, same penalty.
+step "U1E and ccx's own node-to-surface contact"
+rm -rf "${work:?}/native"
+python3 "$here/example/native.py" write "$work/native"
+for folder in "$work"/native/*; do (cd "$folder" && OMP_NUM_THREADS=2 "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $folder"; done
+python3 "$here/example/native.py" compare "$work/native" || status=1
+
+# 7. A mistake in the deck reaches the user as ccx's own errors do.
 step "a mistake"
 cd "$work/sphere"
 code=0
