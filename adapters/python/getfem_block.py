@@ -59,21 +59,25 @@ class Block:
         return self.first + 2 * np.asarray(nodes)[:, None] + [0, 1]
 
 
+def add_bulk(md, b, material):
+    """The block's displacements, "u_" and its name, and their internal forces."""
+    young, nu = material["young"], material["poisson"]
+    u = "u_" + b.name
+    md.add_fem_variable(u, b.fem)
+    md.add_initialized_data("mu_" + b.name, [young / (2 * (1 + nu))])
+    md.add_initialized_data("la_" + b.name, [young * nu / ((1 + nu) * (1 - 2 * nu))])
+    f = f"(Id(2)+Grad_{u})"
+    # Bonet and Wood's neo-Hooke: P = mu (F - F^-T) + lambda ln J F^-T
+    md.add_nonlinear_term(b.integration, f"(mu_{b.name}*({f}-Inv({f})')+la_{b.name}*log(Det({f}))*Inv({f})'):Grad_Test_{u}")
+
+
 def solve(scene, refine=1, report=print):
     """Forces [step][2] on the support of the lower block, and iterations [step]."""
     blocks = {part["name"]: Block(part, refine) for part in scene["parts"]}
     gf.util_trace_level(0)
     md = gf.Model("real")
     for b in blocks.values():
-        material = scene["materials"][b.material]
-        young, nu = material["young"], material["poisson"]
-        u = "u_" + b.name
-        md.add_fem_variable(u, b.fem)
-        md.add_initialized_data("mu_" + b.name, [young / (2 * (1 + nu))])
-        md.add_initialized_data("la_" + b.name, [young * nu / ((1 + nu) * (1 - 2 * nu))])
-        f = f"(Id(2)+Grad_{u})"
-        # Bonet and Wood's neo-Hooke: P = mu (F - F^-T) + lambda ln J F^-T
-        md.add_nonlinear_term(b.integration, f"(mu_{b.name}*({f}-Inv({f})')+la_{b.name}*log(Det({f}))*Inv({f})'):Grad_Test_{u}")
+        add_bulk(md, b, scene["materials"][b.material])
     for b in blocks.values():
         b.first = int(md.interval_of_variable("u_" + b.name)[0])
     size = int(sum(md.interval_of_variable("u_" + name)[1] for name in blocks))
@@ -113,7 +117,7 @@ def solve(scene, refine=1, report=print):
     free = np.flatnonzero(~fixed)
     bottom = blocks[master_block].dofs(blocks[master_block].side("y_min"))
 
-    steps = scene["steps"]["values"][0]["count"]
+    steps, tolerance = scene["steps"]["values"][0]["count"], scene.get("solver", {}).get("tolerance", 1e-12)
     u = np.zeros(size)
     forces, iterations = [], []
     segment = np.full(len(slaves), -1, np.int64)
@@ -137,13 +141,15 @@ def solve(scene, refine=1, report=print):
             k = k + spread @ sparse.coo_matrix((values, places), (len(r), len(r))) @ spread.T
             scale = max(np.linalg.norm(residual[fixed]), np.linalg.norm(spread @ r))
             error = np.linalg.norm(residual[free]) / scale if scale else 1
-            if not increment.any() and error <= 1e-12:
+            if not increment.any() and error <= tolerance:
                 break
             if iteration == ITERATIONS:
                 raise SystemExit(f"step {step}: no convergence in {ITERATIONS} iterations, |r| = {error:.1e}")
             du = increment.copy()
             du[free] = spsolve(k[free][:, free], -residual[free] - k[free] @ increment)
             u += du
+            if not np.isfinite(u).all():
+                raise SystemExit(f"step {step}: the displacements are not finite after {iteration + 1} iterations; smaller steps?")
             increment = np.zeros(size)
         forces.append(residual[bottom].sum(axis=0))
         iterations.append(iteration)
