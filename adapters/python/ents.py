@@ -47,7 +47,8 @@ class Error(RuntimeError):
 
 
 # ---- structs of ents.h: kind and name of every field, in order ----------------------------------------------------------------
-_KINDS = {"i": ctypes.c_int32, "l": ctypes.c_int64, "d": ctypes.c_double, "p": ctypes.c_void_p, "m": ctypes.c_char * 512}
+_KINDS = {"i": ctypes.c_int32, "l": ctypes.c_int64, "d": ctypes.c_double, "p": ctypes.c_void_p, "m": ctypes.c_char * 512,
+          "l16": ctypes.c_int64 * 16, "d16": ctypes.c_double * 16, "d16x2": ctypes.c_double * 2 * 16, "d16x3": ctypes.c_double * 3 * 16}
 
 
 def _struct(name, fields):
@@ -72,7 +73,12 @@ Output = _struct("ents_output", "i:wanted p:status l:status_stride " + " ".join(
     f"p:{name} l:{name}_stride" + (" l:tangent_leading_dimension" if name == "tangent" else "") for name, _ in _STRIDED))
 Surface = _struct("ents_surface", "i:reserved p:master p:surface_coordinates p:xi p:point p:normal p:height p:base_point p:base_normal")
 Combination = _struct("ents_combination", "i:reserved l:points p:begin p:nodes p:weights")
-STRUCTS = (Report, Data, Layout, MasterMesh, Detection, Input, Output, Surface, Combination)
+SystemOfHost = _struct("ents_system", "i:index_size p:slave p:master l:slave_nodes p:slave_equations l:master_nodes p:master_equations "
+                       "p:multiplier_equations l:rows p:residual p:row_begin p:columns p:values p:places l:places_size")
+SurfaceCheck = _struct("ents_surface_admissibility", "i:samples d:reach d:kink p:violations l:judged l:violated d16:value d16:bound d16:missing "
+                       "l16:segment d16x2:xi d16x3:point l16:other d16x2:other_xi d:height_min d:height_max")
+STRUCTS = (Report, Data, Layout, MasterMesh, Detection, Input, Output, Surface, Combination, SystemOfHost, SurfaceCheck)
+CONDITIONS = "continuity fold edge jump kink wedge projection shadow occlusion crossing".split()  # places in the arrays of SurfaceCheck
 
 
 def _new(struct, **fields):
@@ -89,6 +95,11 @@ def _array(name, value, shape, dtype=np.float64):
     if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape)):
         raise Error(Status.BAD_COUNT, f"{name}: the shape is {array.shape}, wanted is {tuple('n' if s is None else s for s in shape)}")
     return array
+
+
+def _combination(combination):
+    begin, of, weights = combination
+    return _new(Combination, points=len(begin) - 1, begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data)
 
 
 # ---- the library --------------------------------------------------------------------------------------------------------------
@@ -126,6 +137,19 @@ class Library:
                   ctypes.c_double(thickness), areas)
         return areas
 
+    def sampling_points(self, facet, per_direction, connectivity, positions, thickness=1.0):
+        """Points inside slave facets, that see a texture between the nodes: combinations of the nodes (begin [points + 1], nodes, weights), as of
+        `smooth`, and their areas [points]. Lines have `per_direction` points, triangles and quadrilaterals its square."""
+        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
+        line = facet.startswith("line")
+        positions = _array("positions", positions, (None, 2 if line else 3))
+        points = len(connectivity) * (per_direction if line else per_direction ** 2)
+        begin, areas = np.zeros(points + 1, np.int64), np.zeros(points)
+        of, weights = np.zeros(points * connectivity.shape[1], np.int64), np.zeros(points * connectivity.shape[1])
+        self.call("sampling_points", facet.encode(), ctypes.c_int32(per_direction), len(connectivity), connectivity, len(positions), positions,
+                  ctypes.c_double(thickness), begin, of, weights, areas)
+        return (begin, of, weights), areas
+
     def smooth(self, facet, basis, connectivity, nodes, ends=ENDS_STRAIGHT):
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
         and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
@@ -141,11 +165,10 @@ class Library:
 
     def combine(self, combination, values):
         """What `smooth` gave, applied to values [nodes][1 .. 3] (positions, surface coordinates)."""
-        begin, of, weights = combination
+        begin = combination[0]
         values = _array("values", values, (None, None))
         points = np.zeros((len(begin) - 1, values.shape[1]))
-        self.call("combine", _new(Combination, points=len(points), begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data),
-                  ctypes.c_int32(values.shape[1]), len(values), values, points)
+        self.call("combine", _combination(combination), ctypes.c_int32(values.shape[1]), len(values), values, points)
         return points
 
 
@@ -213,6 +236,17 @@ class Model:
             raise Error(Status.BAD_VALUE, "state_begin: give the array that state_init made, it is changed in its place")
         self._call("state_augment", len(end), state_begin, size, end, size)
 
+    def state_transfer(self, old_master, new_master, state, old_surface_coordinates=None, new_surface_coordinates=None):
+        """A slave moves on to another segment: its `state` [state_size] as seen from there. Masters [m][d] at the begin of the increment, surface
+        coordinates [m][d-1]. Returns (status, moved): status 0, or recoverable (cut the step)."""
+        lay = self.layout
+        segments = [_array(name, value, (lay.nodes, lay.dimension)) for name, value in (("old_master", old_master), ("new_master", new_master))]
+        coordinates = [None if value is None else _array(name, value, (lay.nodes, lay.dimension - 1)) for name, value in (
+            ("old_surface_coordinates", old_surface_coordinates), ("new_surface_coordinates", new_surface_coordinates))]
+        state, moved = _array("state", state, (lay.state_size,)), np.zeros(lay.state_size)
+        report = self._call("state_transfer", *(x for pair in zip(segments, coordinates) for x in pair), state, moved)
+        return report.status, moved
+
     def evaluate(self, slave, master=None, want="residual tangent", *, tree=None, segment=None, surface_coordinates=None, start=None,
                  area=None, state=None, multiplier=None, first=0, count=None, out=None):
         """Contact elements, one slave node and one segment each.
@@ -226,16 +260,38 @@ class Model:
 
         Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message".
         """
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
+                                   state_begin=state, multiplier=multiplier)
+        result, block_out = self._output(len(slave), want, out)
+        report = self._call("evaluate", first, len(slave) - first if count is None else count, block, block_out)
+        if out is None:
+            result.update(step_factor=report.step_factor, message=report.message.decode())
+        return result
+
+    def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None):
+        """Residual and tangent are added to `system` (System), by the library. slave [n][d]: positions of the slave points; tree and segment [n]
+        as detect gives them (-1: open); the rest as for evaluate. Returns what evaluate does, for all n elements. After an error or a
+        recoverable status the system holds a part of the sum."""
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier)
+        result, block_out = self._output(len(slave), want, None)
+        report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, len(slave)))
+        result.update(step_factor=report.step_factor, message=report.message.decode())
+        return result
+
+    def _input(self, slave, tree, segment, **inputs):
+        """ents_input, and the arrays that it points to."""
         lay = self.layout
-        d, m, dofs, own = lay.dimension, lay.nodes, lay.dofs, lay.dofs - lay.multipliers
-        slave = _array("slave", slave, (None, d))
-        n = len(slave)
+        d, m, n = lay.dimension, lay.nodes, len(slave)
         given = {"slave": slave}
         block = _new(Input, slave=slave.ctypes.data, slave_stride=d)
-        for name, value, shape in (("master", master, (m, d)), ("surface_coordinates", surface_coordinates, (m, d - 1)), ("start", start, (d - 1,)),
-                                   ("area", area, ()), ("state_begin", state, (lay.state_size,)), ("multiplier", multiplier, (lay.multipliers,))):
+        shapes = {"master": (m, d), "surface_coordinates": (m, d - 1), "start": (d - 1,), "area": (), "state_begin": (lay.state_size,),
+                  "multiplier": (lay.multipliers,)}
+        for name, value in inputs.items():
             if value is None:
                 continue
+            shape = shapes[name]
             shared = np.ndim(value) == len(shape)
             given[name] = _array(name, value, shape if shared else (n, *shape)) if np.ndim(value) else np.full(1, value, np.float64)
             setattr(block, name, given[name].ctypes.data)
@@ -243,6 +299,12 @@ class Model:
         if tree is not None:
             given["segment"] = _array("segment", segment, (n,), np.int64)
             block.mesh, block.segment, block.segment_stride = ctypes.addressof(tree.mesh), given["segment"].ctypes.data, 1
+        return given, block
+
+    def _output(self, n, want, out):
+        """ents_output, and the arrays that it points to: new ones, or those of `out`."""
+        lay = self.layout
+        d, dofs, own = lay.dimension, lay.dofs, lay.dofs - lay.multipliers
         names = want.split() if isinstance(want, str) else list(want)
         unknown = [name for name in names if name not in QUANTITIES]
         if unknown:
@@ -270,10 +332,7 @@ class Model:
                 shape = shapes.get(name, ())
                 setattr(block_out, name, target(name, shape, np.int32 if kind == "i" else np.float64))
                 setattr(block_out, name + "_stride", int(np.prod(shape)))
-        report = self._call("evaluate", first, n - first if count is None else count, block, block_out)
-        if out is None:
-            result.update(step_factor=report.step_factor, message=report.message.decode())
-        return result
+        return result, block_out
 
     def blocks(self, slave, tree, segment, slave_equations, master_equations, rows, multiplier_equations=None, want="", **inputs):
         """Residual and tangent in the equations of the host.
@@ -357,4 +416,93 @@ class Tree:
                "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
         self.model._call("detect", self.mesh, self._tree, len(self._tree), 0, n, _new(
             Detection, slave=slave.ctypes.data, reach=reach, **{name: array.ctypes.data for name, array in out.items()}))
+        return out
+
+    def state_transfer(self, state, old, new, positions=None):
+        """States [n][state_size] of the begin of the increment, there on the segments `old` [n], as their slaves see them from the segments `new` [n].
+        -1 on either side: no history. positions [nodes][d]: those at the begin of the increment (default: the present ones).
+        Returns (status, states); status is the first that is not 0 (recoverable: cut the step)."""
+        model = self.model
+        state = _array("state", state, (None, model.layout.state_size))
+        old, new = (_array(name, value, (len(state),), np.int64) for name, value in (("old", old), ("new", new)))
+        positions = self.positions if positions is None else _array("positions", positions, self.positions.shape)
+        moved = np.where(((old >= 0) & (new >= 0))[:, None], state, model.state_init(len(state)))
+        first = 0
+        for k in np.flatnonzero((old >= 0) & (new >= 0) & (old != new)):
+            s = (None, None) if self.surface_coordinates is None else self.surface_coordinates[[old[k], new[k]]]
+            status, one = model.state_transfer(positions[self.connectivity[old[k]]], positions[self.connectivity[new[k]]], state[k], *s)
+            if status == 0:
+                moved[k] = one
+            first = first or status
+        return first, moved
+
+    def check(self, reach=0.0, kink=0.0, samples=0):
+        """Is the enrichment admissible on this surface? (ents_surface_check; reach [L] and kink [rad] are bounds that only the caller knows.)
+        Returns dict: "admissible"; for each of CONDITIONS a dict with "judged", "violated", "value", "bound", "missing", and where: "segment", "xi", "point",
+        "other", "other_xi"; "violations" [segments]: bits 1 << place in CONDITIONS; "height_min", "height_max", "samples"."""
+        d = self.model.layout.dimension
+        violations = np.zeros(len(self.connectivity), np.int64)
+        c = _new(SurfaceCheck, samples=samples, reach=reach, kink=kink, violations=violations.ctypes.data)
+        report = self.model._call("surface_check", self.mesh, c)
+        if report.status:
+            raise Error(Status(report.status), report.message.decode(), report.element)
+        result = {"admissible": c.violated == 0, "violations": violations, "height_min": c.height_min, "height_max": c.height_max, "samples": c.samples}
+        for i, name in enumerate(CONDITIONS):
+            result[name] = {"judged": bool(c.judged >> i & 1), "violated": bool(c.violated >> i & 1), "value": c.value[i], "bound": c.bound[i],
+                            "missing": c.missing[i], "segment": c.segment[i], "xi": list(c.xi[i])[:d - 1], "point": list(c.point[i])[:d],
+                            "other": c.other[i], "other_xi": list(c.other_xi[i])[:d - 1]}
+        return result
+
+
+class System:
+    """The equations of a host, which Model.assemble adds to.
+
+    slave_equations  [nodes][d] row of each dof, -1: prescribed, left out; master_equations the same of the master's nodes (None: a rigid master)
+    matrix           compressed rows with sorted columns that has a place for every entry: scipy.sparse.csr_matrix, or what has its indptr,
+                     indices and data; None: no tangent is wanted
+    rows             number of rows, if there is no matrix
+    slave, master    combinations (begin, nodes, weights) if slave points or master nodes are not the host's nodes: sampling_points, smooth
+    multiplier_equations [n][multipliers]
+
+    .residual [rows] and .matrix.data are added to: set them to zero before each assembly.
+    """
+
+    def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None):
+        self.slave_equations = _array("slave_equations", slave_equations, (None, None), np.int64)
+        self.master_equations = None if master_equations is None else _array("master_equations", master_equations, (None, None), np.int64)
+        self.multiplier_equations = None if multiplier_equations is None else _array("multiplier_equations", multiplier_equations, (None, None), np.int64)
+        self.matrix = matrix
+        if matrix is None and rows is None:
+            raise Error(Status.NULL_ARGUMENT, "rows: say how many there are, or give a matrix")
+        self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else rows)
+        self._combinations = [None if points is None else (_combination(points), points) for points in (slave, master)]
+        self._places = None
+
+    def _struct(self, model, elements):
+        lay = model.layout
+        slave, master = (None if points is None else ctypes.addressof(points[0]) for points in self._combinations)
+        out = _new(SystemOfHost, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
+                   rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
+        if self.slave_equations.shape[1] != lay.dimension:
+            raise Error(Status.BAD_COUNT, f"slave_equations: wanted are {lay.dimension} of each node")
+        if self.master_equations is not None:
+            if self.master_equations.shape[1] != lay.dimension:
+                raise Error(Status.BAD_COUNT, f"master_equations: wanted are {lay.dimension} of each node")
+            out.master_nodes, out.master_equations = len(self.master_equations), self.master_equations.ctypes.data
+        if lay.multipliers and self.multiplier_equations is not None:
+            _array("multiplier_equations", self.multiplier_equations, (elements, lay.multipliers), np.int64)
+            out.multiplier_equations = self.multiplier_equations.ctypes.data
+        if self.matrix is None:
+            return out
+        begin, columns, values = self.matrix.indptr, self.matrix.indices, self.matrix.data
+        if begin.dtype != columns.dtype or begin.dtype not in (np.int32, np.int64) or values.dtype != np.float64 or len(columns) != len(values):
+            raise Error(Status.BAD_VALUE, "matrix: wanted are indptr and indices of one integer type and data of float64")
+        if not all(array.flags.c_contiguous for array in (begin, columns, values)):
+            raise Error(Status.BAD_VALUE, "matrix: indptr, indices and data must be contiguous")
+        if slave is None and master is None:  # remembers where the entries of each element are
+            size = lay.dimension * (lay.nodes + 1) ** 2 + 1
+            if self._places is None or len(self._places) != elements:
+                self._places = np.zeros((elements, size), np.int64)
+            out.places, out.places_size = self._places.ctypes.data, size
+        out.index_size, out.row_begin, out.columns, out.values = begin.itemsize, begin.ctypes.data, columns.ctypes.data, values.ctypes.data
         return out

@@ -50,9 +50,8 @@ class Header(unittest.TestCase):
         mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
         mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
         mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
-        # Checks of whole surfaces are not in the module.
-        theirs = {name: value[0] for name, value in self.numbers.items()
-                  if name.startswith("ENTS_") and "%" not in name and not name.startswith("ENTS_CHECK_")}
+        mine.update(("ENTS_CHECK_" + name.upper(), place) for place, name in enumerate(ents.CONDITIONS))
+        theirs = {name: value[0] for name, value in self.numbers.items() if name.startswith("ENTS_") and "%" not in name}
         self.assertEqual(mine, theirs)
 
     def test_library_agrees(self):
@@ -183,6 +182,109 @@ class Surfaces(unittest.TestCase):
         self.assertGreater(np.abs(residual).max(), 0)
         residual, (v, _), _ = model.blocks(x[4:], tree, [-1, -1, -1], equations[4:], equations[:4], 13, area=area, state=state)
         self.assertEqual((np.abs(residual).max(), len(v)), (0, 0))
+
+    class Rows:
+        """A matrix in compressed rows, as scipy.sparse.csr_matrix has it, with a place for everything."""
+
+        def __init__(self, n, index):
+            self.indptr, self.indices = np.arange(0, n * n + 1, n, dtype=index), np.tile(np.arange(n, dtype=index), n)
+            self.data = np.zeros(n * n)
+
+        def dense(self):
+            return self.data.reshape(len(self.indptr) - 1, -1)
+
+    def test_assembly(self):
+        """The library's sums are those of `blocks`, of all and open elements, in two integer types, twice into the same places."""
+        model = ents.Model(FRICTION)
+        x = np.array([[0.0, 0.0], [1, 0.1], [2, 0.05], [3, 0], [0.4, -0.05], [1.6, -0.02], [2.5, 0.6]])
+        equations = np.array([5, 0, 3, 8, 1, 9, 2, 4, 6, 7, -1, 10, 11, 12]).reshape(-1, 2)
+        tree = ents.Tree(model, [[0, 1], [1, 2], [2, 3]], x[:4])
+        area, state = np.array([0.5, 0.7, 0.9]), model.state_init(3)
+        segment = tree.detect(x[4:], reach=0.3)["segment"]
+        state[:2] = model.evaluate(x[4:6], None, "state_end", tree=tree, segment=segment[:2], area=area[:2], state=state[:2])["state_end"]
+        x[4:6] += [[0.05, -0.02], [-0.001, -0.02]]
+        r, (v, (i, j)), result = model.blocks(x[4:], tree, segment, equations[4:], equations[:4], 13, area=area, state=state, want="state_end gap")
+        k = np.zeros((13, 13))
+        np.add.at(k, (i, j), v)
+        self.assertGreater(np.abs(k - k.T).max(), 1e-3 * np.abs(k).max())
+        for index in (np.int32, np.int64):
+            matrix = self.Rows(13, index)
+            system = ents.System(equations[4:], equations[:4], matrix)
+            for repeat in (1, 2):
+                whole = model.assemble(system, x[4:], tree, segment, "state_end gap", area=area, state=state)
+                # sums of three numbers in another order
+                np.testing.assert_allclose(system.residual, repeat * r, atol=1e-14 * np.abs(r).max())
+                np.testing.assert_allclose(matrix.dense(), repeat * k, atol=1e-14 * np.abs(k).max())
+            np.testing.assert_array_equal(whole["state_end"][:2], result["state_end"])
+            np.testing.assert_array_equal(whole["gap"][:2], result["gap"])
+        alone = ents.System(equations[4:], equations[:4], rows=13)
+        model.assemble(alone, x[4:], tree, segment, area=area, state=state)
+        np.testing.assert_allclose(alone.residual, r, atol=1e-14 * np.abs(r).max())
+        matrix.data[:] = 0
+        matrix.indices[:] = np.sort(np.tile((np.arange(13) + 1) % 12, 13).reshape(13, 13), axis=1).ravel()  # row 1 has no column 12
+        with self.assertRaises(ents.Error) as caught:
+            model.assemble(ents.System(equations[4:] + 2 * (equations[4:] == 10), equations[:4], matrix), x[4:], tree, segment, area=area, state=state)
+        self.assertEqual(caught.exception.status, ents.Status.BAD_PATTERN)
+
+    def test_assembly_of_points_and_smoothed_surfaces(self):
+        """Points inside slave facets on a smoothed master: forces in balance, and the tangent is the derivative of the residual."""
+        model = ents.Model({"segment": "bspline4", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [0.3]},
+                            "contact": {"normal": {"type": "penalty", "stiffness": 100}}})
+        master = np.array([[0.0, 0], [1, 0.1], [2, 0.05], [3, 0]])
+        slave = np.array([[0.7, -0.1], [1.5, 0.0], [2.6, -0.06]])
+        x = np.vstack([master, slave])
+        segments, smoothed = model.library.smooth("line2", "bspline4", [[0, 1], [1, 2], [2, 3]], 4)
+        inside, areas = model.library.sampling_points("line2", 3, [[0, 1], [1, 2]], slave)
+        self.assertEqual(len(areas), 6)
+        np.testing.assert_allclose(areas.sum(), np.linalg.norm(np.diff(slave, axis=0), axis=1).sum(), rtol=1e-14)
+        equations = np.arange(14).reshape(-1, 2)
+        tree = ents.Tree(model, segments, model.library.combine(smoothed, master))
+
+        def both(x):
+            tree.move(model.library.combine(smoothed, x[:4]))
+            points = model.library.combine(inside, x[4:])
+            matrix = self.Rows(14, np.int32)
+            system = ents.System(equations[4:], equations[:4], matrix, slave=inside, master=smoothed)
+            result = model.assemble(system, points, tree, tree.detect(points, reach=0.5)["segment"], "flags", area=areas)
+            return system.residual, matrix.dense(), result
+        r, k, result = both(x)
+        self.assertTrue((result["flags"] & ents.Flag.CONTACT).all())
+        np.testing.assert_allclose(r.reshape(-1, 2).sum(axis=0), 0, atol=1e-14 * np.abs(r).sum())
+        h = 1e-6
+        for dof in range(14):
+            ends = [both(x + sign * h * np.eye(14)[dof].reshape(7, 2))[0] for sign in (1, -1)]
+            np.testing.assert_allclose(k[:, dof], (ends[0] - ends[1]) / (2 * h), atol=1e-6 * np.abs(k).max())
+
+    def test_state_transfer(self):
+        """The anchor of friction goes with the place on the surface: the same slip as seen from the segment behind the node between two."""
+        model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}, "friction": {
+            "type": "coulomb", "coefficient": 0.9, "stiffness": 10}}})
+        tree = ents.Tree(model, [[0, 1], [1, 2]], [[0.0, 0], [1, 0], [3, 0]])
+        begin = model.evaluate([[0.9, -0.1]], None, "state_end", tree=tree, segment=[0], state=model.state_init(1))["state_end"]
+        status, moved = tree.state_transfer(np.vstack([begin] * 3), [0, 0, -1], [1, 0, 1])
+        self.assertEqual(status, 0)
+        np.testing.assert_array_equal(moved[1], begin[0])
+        np.testing.assert_array_equal(moved[2], model.state_init(1)[0])
+        r = model.evaluate([[1.1, -0.1]], None, "traction flags", tree=tree, segment=[1], state=moved[:1])
+        self.assertTrue(r["flags"][0] & ents.Flag.STICK)
+        # stiffness times the way from 0.9 to 1.1
+        np.testing.assert_allclose(np.abs(r["traction"][0]), [2, 0], atol=1e-13)
+
+    def test_check(self):
+        """A height on plain facets: admissible where they lie in one plane, with a jump where they meet at an angle."""
+        model = ents.Model({"segment": "line2", "height": {"type": "polynomial", "coefficients": [0.1]}})
+        segments = [[0, 1], [1, 2]]
+        s = np.array([[[0.0], [1]], [[1], [2]]])
+        flat = ents.Tree(model, segments, [[0.0, 0], [1, 0], [2, 0]], s).check()
+        self.assertTrue(flat["admissible"] and not flat["violations"].any())
+        self.assertEqual((flat["height_min"], flat["height_max"]), (0.1, 0.1))
+        bent = ents.Tree(model, segments, [[0.0, 0], [1, 0], [1, -1]], s).check()
+        self.assertFalse(bent["admissible"])
+        self.assertTrue(bent["jump"]["judged"] and bent["jump"]["violated"])
+        # ends 0.1 along two normals at right angles
+        np.testing.assert_allclose(bent["jump"]["value"], 0.1 * np.sqrt(2), rtol=1e-12)
+        self.assertEqual({bent["jump"]["segment"], bent["jump"]["other"]}, {0, 1})
+        self.assertTrue((bent["violations"] >> ents.CONDITIONS.index("jump") & 1).all())
 
     def test_smoothed_line(self):
         """Equidistant nodes on a line: equidistant control points, and a curve through the nodes."""
