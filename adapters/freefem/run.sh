@@ -46,16 +46,16 @@ for variant in textured flat friction; do
   [ $variant != textured ] || name='' option=''
   [ $variant != friction ] || shift=0.2
   # shellcheck disable=SC2086 # none or one word
-  python3 "$here/../block.py" model "$here/../block.json" $name >$variant.json
+  python3 "$here/../python/block.py" model "$here/../block.json" $name >$variant.json
   # shellcheck disable=SC2086 # none or two words
   "$build/bin/ents-host" run "$here/../block.json" $option --out host_$variant >host.log 2>&1 || failed host.log "ents-host failed"
   solve -model $variant.json -shift $shift >$variant.log 2>&1 || failed $variant.log "FreeFEM failed"
   grep '^step' $variant.log
-  python3 "$here/../block.py" compare $variant.log host_$variant/result.json
+  python3 "$here/../python/block.py" compare $variant.log host_$variant/result.json
 done
 
 # 2. Four times finer (n = 32), slave nodes often change their segments: a smoothed surface converges all the same. Plain facets are shown, not judged.
-python3 "$here/../block.py" model "$here/../block.json" flat_facets >flat_facets.json
+python3 "$here/../python/block.py" model "$here/../block.json" flat_facets >flat_facets.json
 for variant in textured flat flat_facets; do
   echo "== n = 32, $variant"
   code=0

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What hosts that read no scenes need of block.json, and whether they found the same.
+"""The block problem: what its hosts share. A module of getfem_block.py and dolfinx_block.py, and a program for hosts that read no scenes:
 
 usage: block.py model SCENE [VARIANT] > ents.json
        block.py compare OUTPUT RESULT
@@ -37,6 +37,20 @@ def variant_of(file, name):
     return merged(scene, scene["variants"][name])
 
 
+def compare(forces, iterations, result, report=print):
+    """forces [step][2] on the support, iterations [step] against result.json of ents-host; SystemExit if they differ."""
+    steps = json.loads(pathlib.Path(result).read_text())["steps"]
+    if len(forces) != len(steps) or not steps:
+        sys.exit(f"{len(forces)} steps here, {len(steps)} in {result}")
+    # ents-host tells the force on the slave; by balance that on the support is its negative.
+    difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
+    difference /= max(abs(b) for step in steps for b in step["contact_force"])
+    report(f"largest difference from ents-host: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
+           f"there {sum(step['iterations'] for step in steps)}")
+    if not difference <= SAME_FORCE:
+        sys.exit("the forces differ")
+
+
 def printed(file):
     """Forces [step][2] and iterations [step] in a host's output."""
     number = r"[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?"
@@ -52,16 +66,7 @@ def main():
         print(__doc__, file=sys.stderr)
         sys.exit(2)
     forces, iterations = printed(sys.argv[2])
-    steps = json.loads(pathlib.Path(sys.argv[3]).read_text())["steps"]
-    if len(forces) != len(steps) or not steps:
-        sys.exit(f"{len(forces)} steps in {sys.argv[2]}, {len(steps)} in ents-host")
-    # ents-host tells the force on the slave; by balance that on the support is its negative.
-    difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
-    difference /= max(abs(b) for step in steps for b in step["contact_force"])
-    print(f"largest difference from ents-host: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
-          f"there {sum(step['iterations'] for step in steps)}")
-    if not difference <= SAME_FORCE:
-        sys.exit("the forces differ")
+    compare(forces, iterations, sys.argv[3])
 
 
 if __name__ == "__main__":
