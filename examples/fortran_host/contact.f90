@@ -1,0 +1,221 @@
+! SPDX-License-Identifier: BSD-3-Clause
+! Contact of two rows of nodes through the module ents: a smoothed master surface, detection, assembly, and the history that
+! friction needs.
+module contact
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_char, c_null_ptr, c_ptr
+  use ents
+  implicit none
+  private
+  public :: start_contact, add_contact, accept_contact
+
+  integer, parameter :: real64 = c_double, int64 = c_int64_t
+  real(real64), parameter :: reach = 0.25d0 ! slave nodes farther away are open
+  character(*), parameter :: line2 = "line2" // c_null_char, basis = "bspline4" // c_null_char
+
+  ! What the library is shown lives here: it keeps nothing but the model.
+  type(c_ptr) :: model
+  type(ents_report) :: report
+  type(ents_layout) :: sizes
+  type(ents_combination), target :: smoothed ! control points of the master, from its nodes
+  type(ents_master_mesh), target :: mesh
+  type(ents_system) :: system
+  integer, allocatable :: slaves(:), masters(:)
+  integer(int64) :: slave_count, state_size
+  integer(int64), allocatable, target :: segments(:, :), begin(:), of(:), rows(:), columns(:), segment(:), segment_begin(:)
+  integer(int64), allocatable, target :: slave_equations(:, :), master_equations(:, :)
+  real(real64), allocatable, target :: weights(:), points(:, :), coordinates(:, :), tree(:), areas(:), xi(:), slave_now(:, :)
+  real(real64), allocatable, target :: state_begin(:, :), state_in(:, :), state_end(:, :), points_begin(:, :)
+
+contains
+
+  ! slave_nodes, master_nodes: from left to right, so that the master's normal points up. x: (2, nodes), undeformed.
+  subroutine start_contact(text, slave_nodes, master_nodes, x)
+    character(*), intent(in) :: text ! the model, JSON
+    integer, intent(in) :: slave_nodes(:), master_nodes(:)
+    real(real64), intent(in) :: x(:, :)
+    slaves = slave_nodes
+    masters = master_nodes
+    slave_count = size(slaves)
+    call ents_init(report)
+    call check(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, report))
+    call check(ents_model_create(text, len(text, int64), c_null_ptr, c_null_ptr, 0_int64, model, report))
+    call ents_init(sizes)
+    call check(ents_model_layout(model, sizes, report))
+    if (index(text, '"bspline4"') == 0) error stop "the model's segment has to be bspline4"
+    state_size = sizes%state_size
+    call smooth_master(x)
+    call start_history(x)
+    call describe_equations(size(x))
+  end subroutine start_contact
+
+  ! One spline segment a facet; the nodes at the ends count twice.
+  subroutine smooth_master(x)
+    real(real64), intent(in) :: x(:, :)
+    integer(int64) :: facets(2, size(masters) - 1)
+    integer(int64) :: count, terms, length
+    integer :: i, j
+    facets = chain(size(masters))
+    call check(ents_smooth_size(line2, basis, ENTS_ENDS_REPEATED, size(facets, 2, int64), facets, &
+      size(masters, kind=int64), count, terms, report))
+    allocate (segments(4, size(facets, 2)), begin(count + 1), of(terms), weights(terms), points(2, count))
+    call check(ents_smooth(line2, basis, ENTS_ENDS_REPEATED, size(facets, 2, int64), facets, size(masters, kind=int64), &
+      count, terms, segments, begin, of, weights, report))
+    call ents_init(smoothed)
+    smoothed%points = count
+    smoothed%begin = c_loc(begin)
+    smoothed%nodes = c_loc(of)
+    smoothed%weights = c_loc(weights)
+    call check(ents_combine(smoothed, 2, size(masters, kind=int64), x(:, masters), points, report))
+    allocate (coordinates(4, size(segments, 2))) ! s is the undeformed x
+    do j = 1, size(segments, 2)
+      coordinates(:, j) = [(points(1, segments(i, j) + 1), i=1, 4)]
+    end do
+    call ents_init(mesh)
+    mesh%segments = size(segments, 2, int64)
+    mesh%connectivity = c_loc(segments)
+    mesh%nodes = count
+    mesh%positions = c_loc(points)
+    mesh%surface_coordinates = c_loc(coordinates)
+    length = 0
+    call check(ents_tree_size(model, mesh%segments, length, report))
+    allocate (tree(length))
+    call check(ents_tree_build(model, mesh, tree, length, report))
+  end subroutine smooth_master
+
+  subroutine start_history(x)
+    real(real64), intent(in) :: x(:, :)
+    integer(int64) :: facets(2, size(slaves) - 1)
+    allocate (areas(slave_count), xi(slave_count), segment(slave_count), state_begin(state_size, slave_count))
+    slave_now = x(:, slaves)
+    facets = chain(size(slaves))
+    call check(ents_tributary_areas(line2, size(facets, 2, int64), facets, slave_count, slave_now, 1d0, areas, report))
+    call check(ents_state_init(model, slave_count, state_begin, state_size, report))
+    state_in = state_begin
+    state_end = state_begin
+    segment = -1
+    xi = 0
+    segment_begin = segment
+    points_begin = points
+  end subroutine start_history
+
+  ! The host's equations are its dofs, all of them, and its matrix is full: compressed rows with every column.
+  subroutine describe_equations(dofs)
+    integer, intent(in) :: dofs
+    integer :: i, n
+    slave_equations = equations(slaves)
+    master_equations = equations(masters)
+    rows = [(int(n, int64)*dofs, n=0, dofs)]
+    columns = [((int(i, int64), i=0, dofs - 1), n=1, dofs)]
+    call ents_init(system)
+    system%index_size = 8
+    system%master = c_loc(smoothed)
+    system%slave_nodes = slave_count
+    system%slave_equations = c_loc(slave_equations)
+    system%master_nodes = size(masters, kind=int64)
+    system%master_equations = c_loc(master_equations)
+    system%rows = dofs
+    system%row_begin = c_loc(rows)
+    system%columns = c_loc(columns)
+  end subroutine describe_equations
+
+  ! R is added to r, K to the transposed matrix k(column, row). False: the step is too large, k and r are not to be used.
+  logical function add_contact(now, r, k) result(ok)
+    real(real64), intent(in) :: now(:, :) ! (2, nodes)
+    real(real64), intent(inout), target :: r(:), k(:, :)
+    type(ents_detection) :: detection
+    type(ents_input) :: input
+    type(ents_output), target :: output
+    integer(c_int32_t), target :: flags(size(slaves))
+    slave_now = now(:, slaves)
+    call check(ents_combine(smoothed, 2, size(masters, kind=int64), now(:, masters), points, report))
+    call check(ents_tree_refit(model, mesh, tree, size(tree, kind=int64), report))
+    call ents_init(detection)
+    detection%slave = c_loc(slave_now)
+    detection%reach = reach
+    detection%segment = c_loc(segment)
+    detection%xi = c_loc(xi)
+    detection%flags = c_loc(flags)
+    call check(ents_detect(model, mesh, tree, size(tree, kind=int64), 0_int64, slave_count, detection, report))
+    ok = all(iand(flags, ENTS_FLAG_BEHIND_EDGE) == 0)
+    if (ok) ok = history_moved()
+    if (.not. ok) return
+
+    call ents_init(input)
+    input%slave = c_loc(slave_now)
+    input%slave_stride = 2
+    input%start = c_loc(xi)
+    input%start_stride = 1
+    input%area = c_loc(areas)
+    input%area_stride = 1
+    input%state_begin = c_loc(state_in)
+    input%state_begin_stride = state_size
+    input%mesh = c_loc(mesh)
+    input%segment = c_loc(segment)
+    input%segment_stride = 1
+    call ents_init(output)
+    output%wanted = ENTS_STATE
+    output%state_end = c_loc(state_end)
+    output%state_end_stride = state_size
+    system%residual = c_loc(r)
+    system%values = c_loc(k)
+    ok = ents_assemble(model, 0_int64, slave_count, input, c_loc(output), system, report) == ENTS_OK
+    call check(report%status)
+  end function add_contact
+
+  ! States of the begin of the increment, as the present segments see them. False: one of them cannot.
+  logical function history_moved() result(ok)
+    real(real64) :: from(2, 4), to(2, 4), moved(state_size)
+    integer(int64) :: e, old, new
+    ok = .true.
+    do e = 1, slave_count
+      old = segment_begin(e) + 1
+      new = segment(e) + 1
+      if (old == new .and. old > 0) then
+        state_in(:, e) = state_begin(:, e)
+      else if (old > 0 .and. new > 0) then
+        from = points_begin(:, segments(:, old) + 1)
+        to = points_begin(:, segments(:, new) + 1)
+        call check(ents_state_transfer(model, from, c_loc(coordinates(1, old)), to, c_loc(coordinates(1, new)), &
+          state_begin(:, e), moved, report))
+        ok = ok .and. report%status == ENTS_OK
+        if (ok) state_in(:, e) = moved
+      else ! no history
+        call check(ents_state_init(model, 1_int64, moved, state_size, report))
+        state_in(:, e) = moved
+      end if
+    end do
+  end function history_moved
+
+  ! What add_contact found last is the begin of the next increment.
+  subroutine accept_contact()
+    segment_begin = segment
+    state_begin = state_end
+    points_begin = points
+  end subroutine accept_contact
+
+  ! Mistakes end the program with the library's message.
+  subroutine check(status)
+    integer(c_int32_t), intent(in) :: status
+    if (status >= 0) return
+    print '(a)', "ents: " // ents_string(report%message)
+    error stop
+  end subroutine check
+
+  ! Facets of n nodes in a row, counted from 0.
+  function chain(n) result(facets)
+    integer, intent(in) :: n
+    integer(int64) :: facets(2, n - 1)
+    integer :: i
+    facets(1, :) = [(int(i, int64), i=0, n - 2)]
+    facets(2, :) = facets(1, :) + 1
+  end function chain
+
+  ! Rows of the nodes' dofs, counted from 0.
+  function equations(nodes) result(numbers)
+    integer, intent(in) :: nodes(:)
+    integer(int64) :: numbers(2, size(nodes))
+    numbers(1, :) = 2*(nodes - 1)
+    numbers(2, :) = numbers(1, :) + 1
+  end function equations
+
+end module contact
