@@ -4,8 +4,10 @@
 
 usage: block.py model SCENE [VARIANT] > ents.json
        block.py compare OUTPUT RESULT
+       block.py row NAME OUTPUT RESULT [BOUND]
 
 model    the contact model of a scene of ents-host
+row      the same as a row of a table; other hosts print fewer digits: BOUND, relative to the largest force
 compare  OUTPUT is what a host printed: lines with "iterations N" and "force on the support FX FY", one a step; RESULT is result.json of
          ents-host for the same scene
 
@@ -37,14 +39,19 @@ def variant_of(file, name):
     return merged(scene, scene["variants"][name])
 
 
+def largest_difference(forces, steps):
+    """Forces [step][2] on the support against the steps of ents-host, relative to the largest force."""
+    if len(forces) != len(steps) or not steps:
+        sys.exit(f"{len(forces)} steps here, {len(steps)} in ents-host")
+    # ents-host tells the force on the slave; by balance that on the support is its negative.
+    difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
+    return difference / max(abs(b) for step in steps for b in step["contact_force"])
+
+
 def compare(forces, iterations, result, report=print):
     """forces [step][2] on the support, iterations [step] against result.json of ents-host; SystemExit if they differ."""
     steps = json.loads(pathlib.Path(result).read_text())["steps"]
-    if len(forces) != len(steps) or not steps:
-        sys.exit(f"{len(forces)} steps here, {len(steps)} in {result}")
-    # ents-host tells the force on the slave; by balance that on the support is its negative.
-    difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
-    difference /= max(abs(b) for step in steps for b in step["contact_force"])
+    difference = largest_difference(forces, steps)
     report(f"largest difference from ents-host: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
            f"there {sum(step['iterations'] for step in steps)}")
     if not difference <= SAME_FORCE:
@@ -61,6 +68,16 @@ def printed(file):
 def main():
     if len(sys.argv) in (3, 4) and sys.argv[1] == "model":
         print(json.dumps(variant_of(sys.argv[2], sys.argv[3] if len(sys.argv) == 4 else None)["contact"]["model"], indent=1))
+        return
+    if len(sys.argv) in (5, 6) and sys.argv[1] == "row":
+        name, output, result = sys.argv[2:5]
+        bound = float(sys.argv[5]) if len(sys.argv) == 6 else SAME_FORCE
+        forces, iterations = printed(output)
+        difference = largest_difference(forces, json.loads(pathlib.Path(result).read_text())["steps"])
+        digits = 15 if bound == SAME_FORCE else 7
+        print(f"| {name} | {' '.join(f'{x:.{digits}g}' for x in forces[-1])} | {difference:.1e} | {' '.join(map(str, iterations))} |", flush=True)
+        if not difference <= bound:
+            sys.exit(f"{name}: the forces differ by more than {bound:.1e}")
         return
     if len(sys.argv) != 4 or sys.argv[1] != "compare":
         print(__doc__, file=sys.stderr)
