@@ -17,10 +17,27 @@ PATCHES = {
         "      if((lakonl(2:3).eq.'1E').or.(lakonl(2:3).eq.'1A')) then\n"
         "        call ents_ccx_stiffness(nelem,lakonl,s,sm,ff)\n"
         "      elseif(lakonl(2:2).eq.'1') then\n        call e_c3d_u1(")],
-    # force pass
+    # Force pass. Where forced displacements go on, ccx begins an increment with a linear one (iperturb(1) = -1): what is wanted then is the
+    # stiffness at vold, where the last increment ended, times v - vold. `ento` is zero: neither forces nor their mean are wanted at vold.
     "resultsmech_u.f": [(
+        "     &  calcul_cauchy,calcul_qa,nelem\n",
+        "     &  calcul_cauchy,calcul_qa,nelem,ento\n"), (
         "      if(lakon(nelem)(2:2).eq.'1') then\n",
-        "      if(lakon(nelem)(2:3).eq.'1E') then\n"
+        "      ento=0\n"
+        "      if((iperturb(1).eq.-1).and.((lakon(nelem)(2:3).eq.'1E').or.\n"
+        "     &     (lakon(nelem)(2:3).eq.'1A'))) then\n"
+        "         if(lakon(nelem)(2:3).eq.'1E') then\n"
+        "            call ents_ccx_force(nelem,kon,ipkon,lakon(nelem),co,vold,\n"
+        "     &           mi,ielprop,prop,fn,qa,nal,ento,ento,\n"
+        "     &           xstateini,xstate,nstate_)\n"
+        "         else\n"
+        "            call ents_ccx_uel_force(nelem,kon,ipkon,lakon(nelem),co,\n"
+        "     &           vold,vini,mi,ielprop,prop,fn,qa,nal,ento,ento,\n"
+        "     &           xstateini,xstate,nstate_,time,ttime,dtime,istep,iinc)\n"
+        "         endif\n"
+        "         call ents_ccx_linear_force(nelem,kon,ipkon,lakon(nelem),vold,\n"
+        "     &        v,mi,fn,calcul_fn)\n"
+        "      elseif(lakon(nelem)(2:3).eq.'1E') then\n"
         "         call ents_ccx_force(nelem,kon,ipkon,lakon(nelem),co,v,mi,\n"
         "     &        ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,\n"
         "     &        xstateini,xstate,nstate_)\n"
@@ -64,7 +81,10 @@ PATCHES = {
         # with friction an increment starts where the last one ended, as ccx does after other discontinuities: from a state extrapolated
         # along the sliding, nodes that stick start slipping, and Newton's iteration throws them to and fro
         ("    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],",
-         "    if(nasym==1) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],")],
+         "    if(nasym==1) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],"),
+        # ... and with a linear iteration, as ccx begins a step: else a surface that is moved runs into nodes that are still where they were, these slip under
+        # a pressure that is many times the real one, and are thrown to and fro
+        ("    if((iinc==1)&&(*ithermal<2)&&(*nmethod!=4)){\n", "    if(((iinc==1)||(nasym==1))&&(*ithermal<2)&&(*nmethod!=4)){\n")],
 }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stiffness_store.hpp"
 
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 
@@ -35,5 +36,25 @@ ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm,
       sm[i + ccx::leading_dimension * j] = 0;
       s[i + ccx::leading_dimension * j] = known ? kept[static_cast<std::size_t>(i + dofs * j)] : 0;
     }
+  }
+}
+
+/// Linear start of an increment, U1E and U1A: fn += K (v - vold), with the stiffness that the force pass at
+/// vold has just left.
+extern "C" __attribute__((visibility("default"))) void
+ents_ccx_linear_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
+                       const double* vold, const double* v, const int* mi, double* fn, const int* calcul_fn,
+                       std::size_t) {
+  const int dofs = 3 * static_cast<unsigned char>(lakonl[7]);
+  const int* nodes = kon + ipkon[*nelem - 1];
+  const std::vector<double>& kept = ccx::stiffness(*nelem);
+  if (*calcul_fn != 1 || kept.size() != static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs))
+    return;
+  const auto nodal = [&](int i) {
+    return static_cast<std::ptrdiff_t>(mi[1] + 1) * (nodes[i / 3] - 1) + 1 + i % 3;
+  };
+  for (int j = 0; j < dofs; ++j) {
+    const double moved = v[nodal(j)] - vold[nodal(j)];
+    for (int i = 0; i < dofs; ++i) fn[nodal(i)] += kept[static_cast<std::size_t>(i + dofs * j)] * moved;
   }
 }

@@ -23,7 +23,7 @@ WAVES = {"type": "product", "of": [{"type": "sine", "amplitude": 0.15, "wave_vec
 CASES = {  # height, friction, travel of the rigid surface
     "sphere": ({"type": "polynomial", "coefficients": [[0, 0, -0.25], [0], [-0.25]]}, None, [0, 0, -0.1]),
     "texture": (WAVES, None, [0.05, 0.02, -0.06]),
-    "friction": (WAVES, {"type": "coulomb", "coefficient": 0.3, "stiffness": 5e3}, [0.05, 0.02, -0.06]),
+    "friction": (WAVES, {"type": "coulomb", "coefficient": 0.3, "stiffness": 2e4}, [0.05, 0.02, -0.06]),
 }
 
 
