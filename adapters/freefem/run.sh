@@ -40,16 +40,20 @@ ff-c++ "$here/ents_freefem.cpp" "$here/border_contact.cpp" "-I$here" "-I$here/..
 
 # 1. The same forces as ents-host's, with and without friction.
 solve() { FreeFem++-nw -nw -v 0 "$here/block.edp" "$@"; }
-for variant in textured flat friction; do
+for variant in textured flat friction bumps_friction; do
   echo "== $variant"
-  name=$variant option="--variant $variant" shift=0
-  [ $variant != textured ] || name='' option=''
-  [ $variant != friction ] || shift=0.2
+  name=$variant option="--variant $variant" more=''
+  case $variant in
+    textured) name='' option='' ;;
+    friction) more='-shift 0.2' ;;
+    bumps_friction) more='-coordinate -1 -shift 0.5 -steps 8' ;; # slave nodes take their history to other facets
+  esac
   # shellcheck disable=SC2086 # none or one word
   python3 "$here/../python/block.py" model "$here/../block.json" $name >$variant.json
   # shellcheck disable=SC2086 # none or two words
   "$build/bin/ents-host" run "$here/../block.json" $option --out host_$variant >host.log 2>&1 || failed host.log "ents-host failed"
-  solve -model $variant.json -shift $shift >$variant.log 2>&1 || failed $variant.log "FreeFEM failed"
+  # shellcheck disable=SC2086 # words
+  solve -model $variant.json $more >$variant.log 2>&1 || failed $variant.log "FreeFEM failed"
   grep '^step' $variant.log
   python3 "$here/../python/block.py" compare $variant.log host_$variant/result.json
 done
