@@ -143,7 +143,7 @@ class Library:
         connectivity = _array("connectivity", connectivity, (None, None), np.int64)
         line = facet.startswith("line")
         positions = _array("positions", positions, (None, 2 if line else 3))
-        points = len(connectivity) * (per_direction if line else per_direction ** 2)
+        points = len(connectivity) * max(per_direction, 0) ** (1 if line else 2)
         begin, areas = np.zeros(points + 1, np.int64), np.zeros(points)
         of, weights = np.zeros(points * connectivity.shape[1], np.int64), np.zeros(points * connectivity.shape[1])
         self.call("sampling_points", facet.encode(), ctypes.c_int32(per_direction), len(connectivity), connectivity, len(positions), positions,

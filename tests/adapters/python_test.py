@@ -317,6 +317,11 @@ class Errors(unittest.TestCase):
         self.caught(ents.Status.BAD_MASK, ["residuum"], lambda: model.evaluate([[0, 0, 0]], QUAD, "residuum"))
         self.caught(ents.Status.BAD_COUNT, ["slave"], lambda: model.evaluate([[0, 0]], QUAD))
         self.caught(ents.Status.BAD_COUNT, ["master"], lambda: model.evaluate([[0, 0, 0]], QUAD[:3]))
+        self.caught(ents.Status.BAD_VALUE, ["per_direction"], lambda: model.library.sampling_points("line2", -1, [[0, 1]], [[0, 0], [1, 0]]))
+        self.caught(ents.Status.NULL_ARGUMENT, ["rows"], lambda: ents.System([[0, 1, 2]], None))
+        tree = ents.Tree(model, [[0, 1, 2, 3]], QUAD)
+        self.caught(ents.Status.BAD_COUNT, ["slave_equations"], lambda: model.assemble(
+            ents.System([[0, 1]], [[0, 1, 2]] * 4, rows=15), [[0, 0, 0]], tree, [0]))
         two = model.evaluate([[0, 0, 0]] * 2, QUAD, "gap tangent")
         for wrong in ({"out": two}, {"out": {**two, "tangent": np.zeros((3, 15, 15))}}, {"out": {}}):
             self.caught(ents.Status.BAD_COUNT, ["out"], lambda: model.evaluate([[0, 0, 0]] * 3, QUAD, "gap tangent", **wrong))
