@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -232,6 +233,31 @@ double evaluate_directly(const ents_model* handle, const WrittenModel& model, in
   return status > 0 ? report.step_factor : 1;
 }
 
+/// While adapters are called the models are in the working directory, and what they write on standard output
+/// goes to standard error: the former is this program's own.
+class JobSurroundings {
+public:
+  JobSurroundings() : folder_(fs::current_path()) {
+    if (!route.folder.empty()) fs::current_path(route.folder);
+    std::fflush(stdout);
+    output_ = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~JobSurroundings() {
+    std::fflush(stdout);
+    dup2(output_, STDOUT_FILENO);
+    close(output_);
+    std::error_code ignored;
+    fs::current_path(folder_, ignored);
+  }
+  JobSurroundings(const JobSurroundings&) = delete;
+  JobSurroundings& operator=(const JobSurroundings&) = delete;
+
+private:
+  fs::path folder_;
+  int output_;
+};
+
 int32_t evaluate_elements(const ents_model* handle, int64_t first, int64_t count, const ents_input* input,
                           const ents_output* output, ents_report* report) {
   const auto model = route.models.find(handle);
@@ -247,19 +273,14 @@ int32_t evaluate_elements(const ents_model* handle, int64_t first, int64_t count
     throw JobError(option() + "an element needs a smaller load step (" + report->message +
                    "), which elements of " + route.program->title +
                    " cannot ask for: give /steps/values more entries");
-  const fs::path here = fs::current_path();
-  if (!route.folder.empty()) fs::current_path(route.folder);
   double step_factor = 1;
   int64_t k = first;
-  try {
+  {
+    const JobSurroundings surroundings;
     for (; k < first + count && step_factor == 1; ++k)
       step_factor = route.program == &direct ? evaluate_directly(handle, model->second, k, *input, *output)
                                              : evaluate_one(model->second, k, *input, *output);
-  } catch (...) {
-    fs::current_path(here);
-    throw;
   }
-  fs::current_path(here);
   if (step_factor == 1) return status;
   if (status == ENTS_OK) { // the search of the adapter went another way than that of this program
     *report = ents_struct<ents_report>();

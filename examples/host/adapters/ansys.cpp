@@ -27,7 +27,7 @@ void call_userelem(void* library, UserElement& e) {
              &none, &none, &one, &keep_history, &one, &one, &one, &zero, &failed, &converged,
              e.tangent.data(), mass.data(), damping.data(), stress.data(), loads.data(), e.residual.data(),
              &zero, &zero, nullptr, &none, nullptr, &none, nullptr, &one, &energy);
-    if (failed) stopped(ansys, "keyEleErr; the reason is on standard output");
+    if (failed) stopped(ansys, "keyEleErr; the reason is on standard error");
   };
   call(0);
   if (!converged) e.step_factor = 0.5; // bisection

@@ -50,7 +50,7 @@ void call_elmt07(void* library, UserElement& e) {
   xl.resize(at(nst)), ul.resize(at(6 * nst));
   const auto request = [&](int isw) {
     elmt07(d.data(), ul.data(), xl.data(), nullptr, nullptr, s.data(), p.data(), &ndf, &ndf, &nst, &isw);
-    if (std::exchange(ended, false)) stopped(feap, "plstop; the reason is on standard output");
+    if (std::exchange(ended, false)) stopped(feap, "plstop; the reason is on standard error");
   };
   material_line = e.properties;
   request(1);

@@ -62,5 +62,5 @@ const Program lsdyna{.name = "lsdyna",
 } // namespace host::adapters
 
 ENTS_HOST_SERVICE void adios_(int*) {
-  host::adapters::stopped(host::adapters::lsdyna, "ADIOS; the reason is on standard output");
+  host::adapters::stopped(host::adapters::lsdyna, "ADIOS; the reason is on standard error");
 }

@@ -27,5 +27,5 @@ const Program marc{
 } // namespace host::adapters
 
 ENTS_HOST_SERVICE void quit_(int*) {
-  host::adapters::stopped(host::adapters::marc, "QUIT; the reason is on standard output");
+  host::adapters::stopped(host::adapters::marc, "QUIT; the reason is on standard error");
 }

@@ -54,7 +54,7 @@ template <class Symbol> Symbol* find(void* library, const char* name) {
 
 inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// What the adapter writes on standard output stays readable: a program that stops says why there.
+/// The adapter has called what ends a job in this program.
 [[noreturn]] inline void stopped(const Program& program, const std::string& why) {
   throw JobError(std::string("--adapter ") + program.name + ": the adapter has ended the job: " + why);
 }
