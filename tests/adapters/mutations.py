@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two indices swapped on purpose in each adapter, one at a time: does a test fail?
+"""Adapters broken on purpose, mostly by two indices swapped, one at a time: does a test fail?
 
     python3 tests/adapters/mutations.py BUILD        a minute or two; nothing of BUILD is changed
 
@@ -108,7 +108,9 @@ LIBRARIES = [
                        "e.residual(dof(column), node(layout.dofs - 1 - column))"),
                 Mutant("common: multipliers in another order", "common/element.cpp", "i - of_nodes; };", "layout.dofs - 1 - i; };"),
                 Mutant("common: master nodes in another order", "common/element.cpp", "*out = e.position(i, node);",
-                       "*out = e.position(i, node > 0 ? layout.nodes + 1 - node : 0);")]),
+                       "*out = e.position(i, node > 0 ? layout.nodes + 1 - node : 0);"),
+                Mutant("common: too little history passes", "common/element.cpp", "if (e.history_size < layout.state_size)", "if (false)"),
+                Mutant("a mistake is not told", "ansys/userelem/userelem.cpp", "result.outcome == Outcome::failed ? 1 : 0", "0")]),
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/model_cache.cpp",
                             "common/selfcheck.cpp"], [], HOSTS, "Uel.Selfcheck*", [
                                 Mutant("selfcheck of a wrong K", "common/element.cpp", "  scatter(e, layout, residual, tangent);",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every scene as it is shipped, through every adapter: a table. Some ten minutes.
+// Every scene as it is shipped, through every adapter: a table. Half an hour.
 //   adapters_scenes_table [SCENE ...]
 #include <cstdio>
 #include <exception>
