@@ -118,6 +118,22 @@ TEST_P(Mistakes, NoneIsNoMistake) {
   EXPECT_EQ(run(GetParam(), problem_.elements, pressed(problem_)).status, nothing_wrong);
 }
 
+TEST_P(Mistakes, AreasInTheTableAreNone) {
+  if (GetParam().name == "lsdyna") return; // it does not tell the element's number
+  const Problem p = problem("quad4_friction");
+  std::ofstream("ents_947.json") << std::ifstream("ents_14.json").rdbuf();
+  std::ofstream table("ents_947.txt");
+  for (const int first : {1, 100, 7000, 90001}) // numbers that the emulated hosts give
+    for (int k = 0; k < 9; ++k) table << first + k << " 0.4\n";
+  table.close();
+  Elements in_table = p.elements, in_deck = p.elements;
+  in_table.model = 947, in_table.area.assign(9, 0), in_deck.area.assign(9, 0.4);
+  const auto a = GetParam().make(in_table), b = GetParam().make(in_deck);
+  const std::vector<double> u = pressed(p), start(u.size());
+  a->begin(start), b->begin(start);
+  for (int k = 0; k < 9; ++k) EXPECT_EQ(a->evaluate(k, u).residual, b->evaluate(k, u).residual);
+}
+
 TEST_P(Mistakes, EndTheJobWithAdvice) {
   const auto model = [](int number) { return [number](Elements& e) { e.model = number; }; };
   const auto area = [](double value) {
