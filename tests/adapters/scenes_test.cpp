@@ -26,6 +26,13 @@ protected:
 
 class EveryScene : public Scenes, public testing::WithParamInterface<std::string> {};
 
+// Another start leaves other last bits in the projection, and motions differ by the like. Forces are penalty
+// stiffness times gap: 1e7 times the rounding of coordinates up to 10, 1e-15, over pressures of 10.
+constexpr double roundings_of_forces = 1e-9;
+// Of slope's block nothing holds the slope but springs, 4e-3 in all, and forces of 4 balance to 2e-11 of
+// them.
+constexpr double motion_of_slope = 2e-8;
+
 // `direct` calls the plain interface with projections that start where those of adapters do.
 TEST_P(EveryScene, HasTheSameBitsThroughEveryAdapter) {
   const std::string file = write_scene(GetParam(), Mesh::coarse, folder_);
@@ -46,8 +53,8 @@ TEST_P(EveryScene, HasTheSameBitsThroughEveryAdapter) {
     // Marc gets increments of history: begin + (end - begin) is not end. VUEL has no tangent: it is that of
     // the plain interface from another start of the projection. Bounds as below.
     if ((adapter == "marc" || adapter == "abaqus_explicit") && !c.bits) {
-      EXPECT_LE(c.motion, 1e-12);
-      EXPECT_LE(c.force, 1e-10);
+      EXPECT_LE(c.motion, GetParam() == "slope" ? motion_of_slope : 1e-12);
+      EXPECT_LE(c.force, roundings_of_forces);
     } else {
       EXPECT_TRUE(c.bits) << "motion " << c.motion << ", force " << c.force;
     }
@@ -55,18 +62,14 @@ TEST_P(EveryScene, HasTheSameBitsThroughEveryAdapter) {
   EXPECT_GE(solved, 6);
 }
 
-// Another start leaves other last bits in the projection, 1e-16 of the coordinates. Motions differ by that.
-// Forces are penalty stiffness times gap: the scenes' stiffnesses make 1e-10 of the pressure of it, which is
-// also what the scenes' equilibrium is solved to. Of slope's block nothing holds the slope but springs of
-// 1e-3: a force of 1e-12 moves it by 1e-9.
 TEST_P(EveryScene, HasTheSolutionOfThePlainInterface) {
   const std::string file = write_scene(GetParam(), Mesh::coarse, folder_);
   const SceneResult plain = run_scene(file, "plain"), direct = run_scene(file, "direct");
   ASSERT_EQ(plain.refusal, "");
   const Comparison c = compare(plain, direct);
   EXPECT_TRUE(c.iterations);
-  EXPECT_LE(c.motion, GetParam() == "slope" ? 1e-9 : 1e-12);
-  EXPECT_LE(c.force, 1e-10);
+  EXPECT_LE(c.motion, GetParam() == "slope" ? motion_of_slope : 1e-12);
+  EXPECT_LE(c.force, roundings_of_forces);
 }
 
 INSTANTIATE_TEST_SUITE_P(Adapters, EveryScene, testing::ValuesIn(scene_names()),
@@ -83,8 +86,8 @@ TEST_F(Scenes, ForcesDifferByStiffnessTimesRoundings) {
     std::ofstream(file) << scene;
     force[i] = compare(run_scene(file, "plain"), run_scene(file, "direct")).force;
   }
-  EXPECT_LE(force[0], 1e-10);
-  EXPECT_LE(force[1], 1e-12);
+  EXPECT_LE(force[0], roundings_of_forces);
+  EXPECT_LE(force[1], 1e-3 * roundings_of_forces);
 }
 
 // Hosts with symmetric matrices: Newton's iteration is slower and ends in the same place. Its last error is
