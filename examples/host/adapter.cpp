@@ -103,7 +103,12 @@ int32_t create_model(const char* text, int64_t length, const char* directory, co
   written.json = Json::parse(text, length < 0 ? text + std::char_traits<char>::length(text) : text + length);
   written.layout = ents_struct<ents_layout>();
   route.layout(*model, &written.layout, report);
-  check_limits(written.json, written.layout);
+  try {
+    check_limits(written.json, written.layout);
+  } catch (...) {
+    route.destroy(model, nullptr);
+    throw;
+  }
   if (route.program == &direct) written.base = without_height(written.json, directory);
   make_paths_absolute(written.json, directory == nullptr ? "." : directory);
   route.models.insert_or_assign(*model, std::move(written));
