@@ -5,6 +5,7 @@
       subroutine elmt07(d,ul,xl,ix,tl,s,p,ndf,ndm,nst,isw)
 
       use, intrinsic :: iso_c_binding
+      use, intrinsic :: iso_fortran_env, only : output_unit
       implicit none
 
       include 'cdata.h'
@@ -66,7 +67,10 @@
         end do
       endif
 
-      if(status.ne.0) write(*,'(1x,a)') trim(text)
+      if(status.ne.0) then
+        write(*,'(1x,a)') trim(text)
+        flush(output_unit)
+      endif
       if(status.eq.1) call plstop(.true.)
 
       end subroutine elmt07

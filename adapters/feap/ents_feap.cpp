@@ -42,7 +42,9 @@ FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* 
                              int length) {
   static constexpr Host any{"nodes of the elements: ", "", "MATErial, user 7, entry ",
                             [] { return std::string(); }, true};
-  Element e = describe(d, nodes, ndf, ndm);
+  // Areas from the table are the elements', of which there are none yet.
+  const double properties[3] = {d[0], d[1] == 0 ? 1 : d[1], d[2]};
+  Element e = describe(properties, nodes, ndf, ndm);
   e.host = &any;
   e.history_size = 64;
   const Result result = check(e);

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <utility>
 
-#include <dlfcn.h>
 #include <unistd.h>
 
+#include "adapters/program.hpp"
 #include "error.hpp"
 #include "json_reader.hpp"
 
@@ -18,118 +21,46 @@ namespace host {
 namespace {
 
 namespace fs = std::filesystem;
-using Doubles = std::vector<double>;
+constexpr int32_t adapters_tell = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE;
 
-/// One contact element as a user element of a host: slave, master nodes, one more for multipliers if there
-/// are any.
-struct UserElement {
-  int dimension = 0, nodes = 0, state_size = 0;
-  Doubles position, displacement; ///< [nodes][d]; here the whole motion is in the position
-  Doubles properties;             ///< model number, area, options, surface coordinates
-  Doubles state;                  ///< begin of the increment; returns the end
-  Doubles residual, tangent;      ///< out: [rows], column-major
-  double step_factor = 1;         ///< out, < 1: cut
+using adapters::Program;
+using adapters::UserElement;
 
-  int rows() const { return dimension * nodes; }
+/// No adapter: the plain interface, asked as an adapter asks it.
+const Program direct{.name = "direct", .file = nullptr, .title = "none", .coordinates = true};
+
+const Program* const programs[] = {&direct,           &adapters::abaqus,   &adapters::abaqus_explicit,
+                                   &adapters::ansys,  &adapters::calculix, &adapters::feap,
+                                   &adapters::lsdyna, &adapters::marc,     &adapters::opensees};
+
+/// A model of the scene, and the files that adapters read it from.
+struct WrittenModel {
+  Json json;
+  ents_layout layout{};
+  ents_model* base = nullptr; ///< for `direct`: without the height; null if there is none to leave out
+  /// Number of the file, by the surface coordinates that an element brings; none: empty.
+  std::map<std::vector<double>, int> numbers;
 };
 
-using Protocol = void (*)(void* library, UserElement& e);
-
-template <class Function> Function* find(void* library, const char* name) {
-  void* symbol = dlsym(library, name);
-  if (symbol == nullptr) throw JobError(std::string("the adapter has no function ") + name);
-  return reinterpret_cast<Function*>(symbol);
-}
-
-/// Abaqus/Standard: RHS = -R; SVARS in place.
-void abaqus(void* library, UserElement& e) {
-  using Uel =
-      void(double*, double*, double*, double*, int*, int*, int*, double*, int*, double*, int*, int*, double*,
-           double*, double*, double*, int*, double*, double*, int*, int*, int*, double*, int*, int*, double*,
-           double*, int*, int*, int*, double*, int*, double*, int*, int*, double*);
-  int ndofel = e.rows(), nrhs = 1, nsvars = e.state_size, nprops = static_cast<int>(e.properties.size()),
-      one = 1, none = 0, lflags[7] = {1, 1, 1, 0, 0, 0, 0};
-  double energy[8] = {}, time[2] = {}, dtime = 1, params[3] = {}, unused = 0, pnewdt = 1e36, period = 1;
-  Doubles still(e.residual.size());
-  find<Uel>(library, "uel_")(e.residual.data(), e.tangent.data(), e.state.data(), energy, &ndofel, &nrhs,
-                             &nsvars, e.properties.data(), &nprops, e.position.data(), &e.dimension, &e.nodes,
-                             e.displacement.data(), still.data(), still.data(), still.data(), &one, time,
-                             &dtime, &one, &one, &one, params, &none, &none, &unused, &unused, &none, lflags,
-                             &ndofel, &unused, &none, &pnewdt, &none, &none, &period);
-  e.step_factor = std::min(pnewdt, 1.0);
-  for (double& value : e.residual) value = -value;
-}
-
-/// CalculiX: forces and history in one pass, stiffness in the other.
-void calculix(void* library, UserElement& e) {
-  using Force = void(const int*, const int*, const int*, const char*, const double*, const double*,
-                     const int*, const int*, const double*, double*, double*, int*, const int*, const int*,
-                     const double*, double*, const int*, std::size_t);
-  using Stiffness = void(const int*, const char*, double*, double*, double*, std::size_t);
-  if (e.dimension != 3) throw JobError("--adapter calculix: user elements of CalculiX are three-dimensional");
-  if (e.properties.size() > 3)
-    throw JobError("--adapter calculix: surface coordinates have to be in the model or in ents_k.txt");
-  const int nelem = 1, first = 0, mi[3] = {1, 3, 1}, yes = 1;
-  std::string label = "U1E  \x01\x03";
-  label += static_cast<char>(e.nodes);
-  std::vector<int> kon;
-  for (int node = 1; node <= e.nodes; ++node) kon.push_back(node);
-  Doubles v(4 * kon.size()), fn(4 * kon.size()), state = e.state, s(3600), sm(3600), ff(60);
-  for (std::size_t i = 0; i < e.displacement.size(); ++i) v[4 * (i / 3) + 1 + i % 3] = e.displacement[i];
-  double qa[4] = {0, 0, -1, 0};
-  int nal = 0;
-  find<Force>(library, "ents_ccx_force_")(&nelem, kon.data(), &first, label.data(), e.position.data(),
-                                          v.data(), mi, &first, e.properties.data(), fn.data(), qa, &nal,
-                                          &yes, &yes, state.data(), e.state.data(), &e.state_size, 8);
-  find<Stiffness>(library, "ents_ccx_stiffness_")(&nelem, label.data(), s.data(), sm.data(), ff.data(), 8);
-  if (qa[2] > 0) e.step_factor = qa[2];
-  const std::size_t rows = e.residual.size();
-  for (std::size_t i = 0; i < rows; ++i) {
-    e.residual[i] = fn[4 * (i / 3) + 1 + i % 3];
-    for (std::size_t j = 0; j < rows; ++j) e.tangent[i + rows * j] = s[i + 60 * j];
-  }
-}
-
-/// MSC Marc: iflag 2; state variables come back as increments.
-void marc(void* library, UserElement& e) {
-  using Uselem = void(int*, double*, double*, int*, int*, double*, double*, int*, double*, double*, int*,
-                      int*, int*, int*, int*, int*, double*, int*, int*, int*, double*, double*, double*,
-                      double*, double*, double*, int*, double*, int*);
-  if (e.properties.size() > 3)
-    throw JobError("--adapter marc: surface coordinates have to be in the model or in ents_k.txt");
-  int one = 1, rows = e.rows(), iflag = 2, none = 0;
-  Doubles mass, loads, still(e.residual.size()), change(e.state.size());
-  find<Uselem>(library, "uselem_")(&one, e.tangent.data(), mass.data(), &e.nodes, &e.dimension, loads.data(),
-                                   e.residual.data(), &one, e.displacement.data(), still.data(), &none, &none,
-                                   &none, &e.state_size, &none, &none, e.position.data(), &e.dimension,
-                                   &iflag, &rows, e.state.data(), change.data(), nullptr, nullptr, nullptr,
-                                   e.properties.data(), nullptr, nullptr, &none);
-  for (std::size_t i = 0; i < change.size(); ++i) e.state[i] += change[i];
-}
-
-struct Entry {
-  const char *name, *file;
-  Protocol protocol;
-};
-const Entry entries[] = {{"abaqus", "libents_abaqus.so", abaqus},
-                         {"calculix", "libents_calculix.so", calculix},
-                         {"marc", "libents_marc.so", marc}};
-
-/// What the functions that stand in for the library's need. One program, one adapter.
+/// What the functions that stand in for the library's need. One process, one adapter.
 struct Route {
+  const Program* program = nullptr;
+  void* adapter = nullptr; ///< its shared library
   decltype(&ents_model_create) create = nullptr;
   decltype(&ents_model_layout) layout = nullptr;
+  decltype(&ents_model_destroy) destroy = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
-  void* library = nullptr;
-  Protocol protocol = nullptr;
   fs::path folder; ///< of ents_k.json; the working directory while the adapter is called
-  std::map<const ents_model*, int> numbers;
+  int last_number = 0;
+  std::map<const ents_model*, WrittenModel> models;
 
   ~Route() {
     std::error_code ignored;
     if (!folder.empty()) fs::remove_all(folder, ignored);
   }
 } route;
+
+std::string option() { return std::string("--adapter ") + route.program->name + ": "; }
 
 void make_paths_absolute(Json& value, const fs::path& directory) {
   if (value.is_object() && value.contains("file"))
@@ -138,31 +69,91 @@ void make_paths_absolute(Json& value, const fs::path& directory) {
     for (Json& part : value) make_paths_absolute(part, directory);
 }
 
+/// @throws InputError for what elements of this program cannot have
+void check_limits(const Json& model, const ents_layout& layout) {
+  const Program& program = *route.program;
+  const std::string who = std::string("user elements of ") + program.title;
+  const int nodes = 1 + layout.nodes + (layout.multipliers > 0 ? 1 : 0);
+  if (program.dimension != 0 && layout.dimension != program.dimension)
+    throw InputError(option() + "/dimension is " + std::to_string(layout.dimension) + ", " + who +
+                     " are in " + std::to_string(program.dimension) + "D only");
+  if (layout.multipliers > 0 && !program.multipliers)
+    throw InputError(option() + "/contact/model/contact/normal/type " +
+                     model["contact"]["normal"]["type"].dump() + ": " + who +
+                     " cannot have multipliers as unknowns; take \"penalty\" or \"augmented\"");
+  if (program.nodes != 0 && nodes > program.nodes)
+    throw InputError(option() + "/contact/model/segment " + model["segment"].dump() + ": an element has " +
+                     std::to_string(nodes) + " nodes, " + who + " have " + std::to_string(program.nodes) +
+                     " at most");
+}
+
+ents_model* without_height(Json model, const char* directory) {
+  if (!model.contains("height") || model["height"].is_null() || model.contains("patch")) return nullptr;
+  model["height"] = nullptr;
+  ents_model* base = nullptr;
+  route.create(model.dump().c_str(), -1, directory, nullptr, 0, &base, nullptr);
+  return base;
+}
+
 int32_t create_model(const char* text, int64_t length, const char* directory, const ents_data* data,
                      int64_t count, ents_model** model, ents_report* report) {
   const int32_t status = route.create(text, length, directory, data, count, model, report);
   if (status != ENTS_OK) return status;
-  Json json = Json::parse(text, length < 0 ? text + std::char_traits<char>::length(text) : text + length);
-  make_paths_absolute(json, directory == nullptr ? "." : directory);
-  const int number = static_cast<int>(route.numbers.size()) + 1;
-  std::ofstream(route.folder / ("ents_" + std::to_string(number) + ".json")) << json.dump();
-  route.numbers[*model] = number;
+  WrittenModel written;
+  written.json = Json::parse(text, length < 0 ? text + std::char_traits<char>::length(text) : text + length);
+  written.layout = ents_struct<ents_layout>();
+  route.layout(*model, &written.layout, report);
+  try {
+    check_limits(written.json, written.layout);
+  } catch (...) {
+    route.destroy(model, nullptr);
+    throw;
+  }
+  if (route.program == &direct) written.base = without_height(written.json, directory);
+  make_paths_absolute(written.json, directory == nullptr ? "." : directory);
+  route.models.insert_or_assign(*model, std::move(written));
   return status;
 }
 
-/// One element through the adapter; entries of `out` that were asked for.
-int32_t evaluate_one(int number, const ents_layout& layout, int64_t k, const ents_input& in,
-                     const ents_output& out, ents_report* report) {
-  const std::size_t d = static_cast<std::size_t>(layout.dimension),
-                    m = static_cast<std::size_t>(layout.nodes),
-                    of_nodes = static_cast<std::size_t>(layout.dofs - layout.multipliers),
-                    dofs = static_cast<std::size_t>(layout.dofs),
-                    coordinates = m * static_cast<std::size_t>(layout.parameters);
+int32_t destroy_model(ents_model** handle, ents_report* report) {
+  if (handle != nullptr) {
+    if (const auto model = route.models.find(*handle); model != route.models.end()) {
+      route.destroy(&model->second.base, nullptr);
+      route.models.erase(model);
+    }
+  }
+  return route.destroy(handle, report);
+}
+
+/// The file for an element with these surface coordinates [m][d-1], or none. Programs whose elements cannot
+/// carry them need a model for each segment.
+int model_number(WrittenModel& model, const std::vector<double>& coordinates) {
+  const auto [entry, is_new] = model.numbers.try_emplace(coordinates, 0);
+  if (!is_new) return entry->second;
+  Json json = model.json;
+  const auto parameters = static_cast<std::size_t>(model.layout.parameters);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (i == 0) json["surface_coordinates"] = Json::array();
+    if (i % parameters == 0) json["surface_coordinates"].push_back(Json::array());
+    json["surface_coordinates"].back().push_back(coordinates[i]);
+  }
+  entry->second = ++route.last_number;
+  std::ofstream(route.folder / ("ents_" + std::to_string(entry->second) + ".json")) << json.dump();
+  return entry->second;
+}
+
+/// Element k of the input as the program sees it.
+UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
+  const ents_layout& layout = model.layout;
+  const auto d = static_cast<std::size_t>(layout.dimension), m = static_cast<std::size_t>(layout.nodes),
+             multipliers = static_cast<std::size_t>(layout.multipliers),
+             coordinates = m * static_cast<std::size_t>(layout.parameters);
   UserElement e;
   e.dimension = layout.dimension;
-  e.nodes = 1 + layout.nodes + (layout.multipliers > 0 ? 1 : 0);
+  e.nodes = 1 + layout.nodes + (multipliers > 0 ? 1 : 0);
   e.state_size = layout.state_size;
-  const auto append = [&](Doubles& to, const double* array, int64_t stride, std::size_t size) {
+  e.place = static_cast<int>(k);
+  const auto append = [&](std::vector<double>& to, const double* array, int64_t stride, std::size_t size) {
     to.insert(to.end(), array + k * stride, array + k * stride + size);
   };
   append(e.position, in.slave, in.slave_stride, d);
@@ -170,81 +161,176 @@ int32_t evaluate_one(int number, const ents_layout& layout, int64_t k, const ent
   const std::size_t rows = static_cast<std::size_t>(e.rows());
   e.position.resize(rows);
   e.displacement.resize(rows);
-  for (std::size_t j = 0; j < dofs - of_nodes; ++j)
+  for (std::size_t j = 0; j < multipliers; ++j)
     e.displacement[(m + 1) * d + j] = in.multiplier[k * in.multiplier_stride + static_cast<int64_t>(j)];
-  e.properties = {static_cast<double>(number), in.area != nullptr ? in.area[k * in.area_stride] : 1.0, 0};
+  std::vector<double> s;
   if (in.surface_coordinates != nullptr)
-    append(e.properties, in.surface_coordinates, in.surface_coordinates_stride, coordinates);
+    append(s, in.surface_coordinates, in.surface_coordinates_stride, coordinates);
+  const int number = model_number(model, route.program->coordinates ? std::vector<double>{} : s);
+  e.properties = {static_cast<double>(number), in.area != nullptr ? in.area[k * in.area_stride] : 1.0, 0};
+  if (route.program->coordinates) e.properties.insert(e.properties.end(), s.begin(), s.end());
   if (in.state_begin != nullptr)
     append(e.state, in.state_begin, in.state_begin_stride, static_cast<std::size_t>(e.state_size));
   e.state.resize(static_cast<std::size_t>(e.state_size));
-  e.residual.resize(rows);
-  e.tangent.resize(rows * rows);
-  route.protocol(route.library, e);
-  if (!std::isfinite(e.residual[0]) || e.step_factor < 1) {
-    *report = ents_struct<ents_report>();
-    report->status = ENTS_NO_PROJECTION;
-    report->element = k;
-    report->step_factor = e.step_factor < 1 ? e.step_factor : 0.5;
-    return ENTS_NO_PROJECTION;
-  }
-  const auto row = [&](std::size_t i) { return i < of_nodes ? i : (m + 1) * d + i - of_nodes; };
+  constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+  e.residual.assign(rows, unset);
+  e.tangent.assign(rows * rows, unset);
+  return e;
+}
+
+/// Element k through the adapter: entries of `out` that were asked for.
+/// @return the step factor; < 1: the adapter wants a cut and nothing was written
+double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, const ents_output& out) {
+  const ents_layout& layout = model.layout;
+  UserElement e = user_element(model, k, in);
+  if (e.properties[1] == 0) return 1; // a node without area is in no deck: its forces are zero
+  route.program->call(route.adapter, e);
+  if (e.step_factor < 1) return e.step_factor;
+  const auto dofs = static_cast<std::size_t>(layout.dofs),
+             of_nodes = static_cast<std::size_t>(layout.dofs - layout.multipliers),
+             first_multiplier = static_cast<std::size_t>((layout.nodes + 1) * layout.dimension),
+             rows = static_cast<std::size_t>(e.rows());
+  const auto row = [&](std::size_t i) { return i < of_nodes ? i : first_multiplier + i - of_nodes; };
+  const auto leading = out.tangent_leading_dimension != 0 ? out.tangent_leading_dimension : layout.dofs;
   for (std::size_t j = 0; j < dofs; ++j) {
+    const double force = e.residual[row(j)];
+    if (!std::isfinite(force)) throw JobError(option() + "a force is not finite");
     if ((out.wanted & ENTS_RESIDUAL) != 0)
-      out.residual[k * out.residual_stride + static_cast<int64_t>(j)] = e.residual[row(j)];
-    for (std::size_t i = 0; (out.wanted & ENTS_TANGENT) != 0 && i < dofs; ++i)
-      out.tangent[k * out.tangent_stride + static_cast<int64_t>(i) +
-                  (out.tangent_leading_dimension ? out.tangent_leading_dimension : layout.dofs) *
-                      static_cast<int64_t>(j)] = e.tangent[row(i) + rows * row(j)];
+      out.residual[k * out.residual_stride + static_cast<int64_t>(j)] = force;
+    for (std::size_t i = 0; route.program->tangent && (out.wanted & ENTS_TANGENT) != 0 && i < dofs; ++i) {
+      const double stiffness = e.tangent[row(i) + rows * row(j)];
+      if (!std::isfinite(stiffness)) throw JobError(option() + "a stiffness is not finite");
+      out.tangent[k * out.tangent_stride + static_cast<int64_t>(i) + leading * static_cast<int64_t>(j)] =
+          stiffness;
+    }
   }
   if ((out.wanted & ENTS_STATE) != 0)
     std::copy(e.state.begin(), e.state.end(), out.state_end + k * out.state_end_stride);
-  return ENTS_OK;
+  return 1;
 }
 
-int32_t evaluate_elements(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
+/// Element k through the plain interface. What is left of an adapter is where it starts the projection: on
+/// the segment without its height, unless the history knows better. This program starts where the last
+/// iteration ended, which is quicker, and gives other last bits.
+/// @return as evaluate_one
+double evaluate_directly(const ents_model* handle, const WrittenModel& model, int64_t k, const ents_input& in,
+                         ents_output out) {
+  ents_input mine = in;
+  double start[2] = {};
+  mine.start = nullptr;
+  if (model.base != nullptr) {
+    std::vector<double> all(
+        static_cast<std::size_t>((k + 1) * model.layout.parameters)); // of which element k counts
+    ents_input plain = mine;
+    plain.state_begin = nullptr;
+    auto projection = ents_struct<ents_output>();
+    projection.wanted = ENTS_XI;
+    projection.xi = all.data(), projection.xi_stride = model.layout.parameters;
+    if (route.evaluate(model.base, k, 1, &plain, &projection, nullptr) == ENTS_OK) {
+      std::copy(all.end() - model.layout.parameters, all.end(), start);
+      mine.start = start, mine.start_stride = 0;
+    }
+  }
+  out.wanted &= adapters_tell;
+  auto report = ents_struct<ents_report>();
+  const int32_t status = route.evaluate(handle, k, 1, &mine, &out, &report);
+  if (status < 0) throw JobError(option() + report.message);
+  return status > 0 ? report.step_factor : 1;
+}
+
+/// While adapters are called the models are in the working directory, and what they write on standard output
+/// goes to standard error: the former is this program's own.
+class JobSurroundings {
+public:
+  JobSurroundings() : folder_(fs::current_path()) {
+    if (!route.folder.empty()) fs::current_path(route.folder);
+    std::fflush(stdout);
+    output_ = dup(STDOUT_FILENO);
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+  }
+  ~JobSurroundings() {
+    std::fflush(stdout);
+    dup2(output_, STDOUT_FILENO);
+    close(output_);
+    std::error_code ignored;
+    fs::current_path(folder_, ignored);
+  }
+  JobSurroundings(const JobSurroundings&) = delete;
+  JobSurroundings& operator=(const JobSurroundings&) = delete;
+
+private:
+  fs::path folder_;
+  int output_;
+};
+
+int32_t evaluate_elements(const ents_model* handle, int64_t first, int64_t count, const ents_input* input,
                           const ents_output* output, ents_report* report) {
-  constexpr int32_t adapters = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE;
-  const auto number = route.numbers.find(model);
-  if ((output->wanted & adapters) == 0 || number == route.numbers.end())
-    return route.evaluate(model, first, count, input, output, report);
+  const auto model = route.models.find(handle);
+  if ((output->wanted & adapters_tell) == 0 || model == route.models.end())
+    return route.evaluate(handle, first, count, input, output, report);
   if (input->master == nullptr)
-    throw JobError("--adapter: elements need the positions of their master nodes");
-  // What adapters do not tell: projections, flags. Forces are asked for, too: kinematics alone would look beyond the segment's border.
-  int32_t status = route.evaluate(model, first, count, input, output, report);
-  if (status != ENTS_OK) return status;
-  auto layout = ents_struct<ents_layout>();
-  route.layout(model, &layout, report);
-  const fs::path here = fs::current_path();
-  fs::current_path(route.folder);
-  for (int64_t k = first; k < first + count && status == ENTS_OK; ++k)
-    status = evaluate_one(number->second, layout, k, *input, *output, report);
-  fs::current_path(here);
-  return status;
+    throw JobError(option() + "elements need the positions of their master nodes");
+  // What adapters do not tell: projections, flags. Forces are asked for, too: kinematics alone would look
+  // beyond the segment's border.
+  const int32_t status = route.evaluate(handle, first, count, input, output, report);
+  if (status < 0) return status;
+  if (status > 0 && !route.program->cuts)
+    throw JobError(option() + "an element needs a smaller load step (" + report->message +
+                   "), which elements of " + route.program->title +
+                   " cannot ask for: give /steps/values more entries");
+  double step_factor = 1;
+  int64_t k = first;
+  {
+    const JobSurroundings surroundings;
+    for (; k < first + count && step_factor == 1; ++k)
+      step_factor = route.program == &direct ? evaluate_directly(handle, model->second, k, *input, *output)
+                                             : evaluate_one(model->second, k, *input, *output);
+  }
+  if (step_factor == 1) return status;
+  if (status == ENTS_OK) { // the search of the adapter went another way than that of this program
+    *report = ents_struct<ents_report>();
+    report->status = ENTS_NO_PROJECTION;
+    report->element = k - 1;
+  }
+  report->step_factor = step_factor;
+  return report->status;
 }
 
 } // namespace
 
 std::vector<std::string> adapter_names() {
   std::vector<std::string> names{"plain"};
-  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  for (const Program* program : programs) names.emplace_back(program->name);
   return names;
 }
 
 void install_adapter(EntsLibrary& library, const std::string& name) {
-  const auto* entry =
-      std::find_if(std::begin(entries), std::end(entries), [&](const Entry& e) { return e.name == name; });
-  if (entry == std::end(entries)) return; // plain
-  const std::string file = (fs::path(library.path()).parent_path() / entry->file).string();
-  route.library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (route.library == nullptr) throw JobError(std::string("--adapter ") + name + ": " + dlerror());
-  std::string folder = (fs::temp_directory_path() / "ents-XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) throw JobError("--adapter: no folder for models: " + folder);
-  route.folder = folder;
-  route.protocol = entry->protocol;
+  if (name == "plain") return;
+  if (name == "abaqus_uinter")
+    throw InputError("--adapter abaqus_uinter: UINTER is the law of a point of Abaqus's own contact, it sees "
+                     "no segments and no master "
+                     "nodes: there is nothing in a scene that it could be called for. "
+                     "adapters/abaqus/uinter/README.md says "
+                     "what tests it; the user element is --adapter abaqus");
+  const auto* entry = std::find_if(std::begin(programs), std::end(programs),
+                                   [&](const Program* p) { return p->name == name; });
+  if (entry == std::end(programs)) {
+    std::string all;
+    for (const std::string& known : adapter_names()) all += (all.empty() ? "" : ", ") + known;
+    throw InputError("--adapter " + name + ": there is no such adapter; write one of " + all);
+  }
+  route.program = *entry;
   route.create = std::exchange(library.model_create, create_model);
   route.evaluate = std::exchange(library.evaluate, evaluate_elements);
   route.layout = library.model_layout;
+  route.destroy = std::exchange(library.model_destroy, destroy_model);
+  if (route.program == &direct) return;
+  const std::string file = (fs::path(library.path()).parent_path() / route.program->file).string();
+  route.adapter = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (route.adapter == nullptr) throw JobError(option() + dlerror());
+  std::string folder = (fs::temp_directory_path() / "ents-XXXXXX").string();
+  if (mkdtemp(folder.data()) == nullptr) throw JobError("--adapter: no folder for models: " + folder);
+  route.folder = folder;
 }
 
 } // namespace host

@@ -39,8 +39,11 @@ int main(int argc, char** argv) {
                       "folder for result.json, the VTU series (open result.pvd in ParaView) and the pictures; without "
                       "it only the terminal is told")
       ->type_name("DIR");
-  run_app->add_option("--adapter", run.adapter, "how the contact reaches the library: directly, or through the adapter of another program")
-      ->check(CLI::IsMember(adapter_names()))
+  std::string names; // install_adapter checks the name
+  for (const std::string& name : adapter_names())
+    if (name != "plain") names += (names.empty() ? "" : ", ") + name;
+  run_app->add_option("--adapter", run.adapter, "how the contact reaches the library: directly (plain), or through the adapter of another program: " + names)
+      ->type_name("NAME")
       ->capture_default_str();
   run_app->add_option("--explicit", run.explicit_divisions,
                       "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")

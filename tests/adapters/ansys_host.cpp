@@ -25,19 +25,19 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class AnsysHost : public HostWithHistory {
 public:
-  explicit AnsysHost(const Elements& elements) : HostWithHistory(elements, 1) {}
+  explicit AnsysHost(const Elements& elements) : HostWithHistory(elements, 1), last_(elements.nodes.size()) {}
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     return call(element, displacement, 0);
   }
   void accept() override {
-    for (int k = 0; k < static_cast<int>(elements_.nodes.size()); ++k) call(k, last_, 1);
+    for (int k = 0; k < static_cast<int>(elements_.nodes.size()); ++k) call(k, last_[at(k)], 1);
     HostWithHistory::accept();
   }
 
 private:
   Answer call(int element, const std::vector<double>& displacement, int keyHisUpd) {
-    if (!keyHisUpd) last_ = displacement;
+    if (!keyHisUpd) last_[at(element)] = displacement;
     int number = 7000 + element, d = elements_.dimension, nNodes = static_cast<int>(nodes(element).size()),
         nUsrDof = nNodes * d, one = 1, none = 0, nReal = 2, nSaveVars = size_, keyEleErr = 99, keyEleCnv = 99;
     int keyMtx[10] = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0};
@@ -76,7 +76,7 @@ private:
     return answer;
   }
 
-  std::vector<double> last_;
+  std::vector<std::vector<double>> last_; ///< of each element
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 // room for more nodes than they use.
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
 
 #include "guarded.hpp"
 #include "other_hosts.hpp"
@@ -54,6 +55,8 @@ public:
   }
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
+    static std::mutex common_blocks; // FEAP has one thread
+    const std::lock_guard lock(common_blocks);
     cdata_.nen = static_cast<int>(nodes(element).size()) + 1;
     const int ndf = elements_.dimension, nst = ndf * cdata_.nen, rows = ndf * (cdata_.nen - 1);
     std::vector<double> xl = gather(element, elements_.reference), ul = gather(element, displacement);

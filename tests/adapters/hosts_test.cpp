@@ -30,8 +30,10 @@ TEST_P(EveryHost, SolvesAsThePlainInterface) {
   for (std::size_t i = 0; i < expected.displacement.size(); ++i)
     worst = std::max(worst, std::abs(solution.displacement[i] - expected.displacement[i]));
   // The same bits. Where the host adds positions up in another order, Newton's iterations end at another
-  // place within the tolerance: a residual of 1e-11 of all forces, about 100, against springs of 40 and more.
-  EXPECT_LE(worst, kind.same_bits ? 0.0 : 1e-11 * 100 / 40);
+  // place within the tolerance: a residual of 1e-11 of all forces, about 100, against springs of 40 and more;
+  // of multipliers, which are forces per area, against areas of 0.3 and more.
+  const double bound = 1e-11 * 100 / (p.elements.multipliers > 0 ? 0.3 : 40);
+  EXPECT_LE(worst, kind.same_bits ? 0.0 : bound);
 }
 
 TEST(Problems, FrictionMakesTheTangentUnsymmetricAndCutsHappen) {

@@ -25,8 +25,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// What the functions below are asked for.
-struct Domain {
+/// What the functions below are asked for, by each thread. (OpenSees has one.)
+thread_local struct Domain {
   std::vector<int> integers; ///< left on the command line
   std::vector<double> doubles;
   const std::vector<double>*reference = nullptr, *displacement = nullptr;

@@ -42,6 +42,11 @@ const Kind kinds[] = {
     {"quad4_multiplier", 16, 3,
      R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
          "contact": {"normal": {"type": "augmented_multiplier", "stiffness": 400}}})"},
+    // Three of them, each with its own place in the node.
+    {"quad4_friction_multiplier", 19, 3,
+     R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
+         "contact": {"normal": {"type": "augmented_multiplier", "stiffness": 400},
+                     "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 200}}})"},
     {"line2_cuts", 17, 2,
      R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]}, "penetration_limit": 0.06,
          "contact": {"normal": {"type": "penalty", "stiffness": 400},

@@ -1,68 +1,170 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes of the reference host through adapters: same solution, same iterations.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <map>
-#include <memory>
-#include <ostream>
-#include <string>
+// Scenes of the reference host, on coarse meshes, through every adapter: same bits, same iterations.
+// scenes_table.cpp does the same with the meshes as they are shipped.
+#include <filesystem>
+#include <fstream>
+#include <random>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "scene_comparison.hpp"
+
+namespace adapters {
 namespace {
 
-nlohmann::json run(const std::string& scene, const std::string& adapter) {
-  const std::string command = std::string(ENTS_HOST) + " run " + ENTS_EXAMPLES + "/" + scene +
-                              "/scene.json --json --adapter " + adapter;
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  std::string text;
-  std::array<char, 4096> part;
-  while (const std::size_t size = fread(part.data(), 1, part.size(), pipe.get()))
-    text.append(part.data(), size);
-  return nlohmann::json::parse(text);
-}
-
-struct Case {
-  const char *scene, *adapter;
-};
-void PrintTo(const Case& c, std::ostream* out) { *out << c.scene << " through " << c.adapter; }
-
-class Scenes : public testing::TestWithParam<Case> {};
-
-TEST_P(Scenes, SolvedAsWithoutAdapter) {
-  const auto [scene, adapter] = GetParam();
-  static std::map<std::string, nlohmann::json> solved; // once for all adapters
-  nlohmann::json& plain = solved[scene];
-  if (plain.is_null()) plain = run(scene, "plain")["steps"];
-  const nlohmann::json through = run(scene, adapter)["steps"];
-  ASSERT_EQ(plain.size(), through.size());
-  double force = 0, motion = 0;
-  const auto keep = [](double& worst, double a, double b) {
-    worst = std::max(worst, std::abs(a - b) / std::max(std::abs(a), 1e-300));
-  };
-  for (std::size_t k = 0; k < plain.size(); ++k) {
-    EXPECT_EQ(plain[k]["iterations"], through[k]["iterations"]) << "step " << k + 1;
-    for (const char* key : {"force", "mean_pressure", "peak_pressure"})
-      keep(force, plain[k][key], through[k][key]);
-    keep(motion, plain[k]["approach"], through[k]["approach"]);
+class Scenes : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("ents-scenes-" + std::to_string(std::random_device{}()));
+    std::filesystem::create_directory(folder_);
   }
-  // The last bits of a projection depend on where its iteration started, and the plain host starts where it
-  // last was. Forces balance to the scenes' tolerance, 1e-10; motions, after one more quadratic step than
-  // that takes, to the roundings.
-  EXPECT_LE(force, 1e-10);
-  EXPECT_LE(motion, 1e-12);
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+class EveryScene : public Scenes, public testing::WithParamInterface<std::string> {};
+
+// Another start leaves other last bits in the projection, and motions differ by the like. Forces are penalty
+// stiffness times gap: 1e7 times the rounding of coordinates up to 10, 1e-15, over pressures of 10.
+constexpr double roundings_of_forces = 1e-9;
+// Of slope's block nothing holds the slope but springs, 4e-3 in all, and forces of 4 balance to 2e-11 of
+// them.
+constexpr double motion_of_slope = 2e-8;
+
+// `direct` calls the plain interface with projections that start where those of adapters do.
+TEST_P(EveryScene, HasTheSameBitsThroughEveryAdapter) {
+  const std::string file = write_scene(GetParam(), Mesh::coarse, folder_);
+  const SceneResult direct = run_scene(file, "direct");
+  ASSERT_EQ(direct.refusal, "");
+  int solved = 0;
+  for (const std::string& adapter : scene_adapters()) {
+    SCOPED_TRACE(adapter);
+    const SceneResult through = run_scene(file, adapter);
+    if (!through.refusal.empty()) { // these have elements in 3D only
+      EXPECT_NE(through.refusal.find("/dimension is 2"), std::string::npos) << through.refusal;
+      EXPECT_TRUE(adapter == "calculix" || adapter == "lsdyna");
+      continue;
+    }
+    ++solved;
+    const Comparison c = compare(direct, through);
+    EXPECT_TRUE(c.iterations);
+    // Marc gets increments of history: begin + (end - begin) is not end. VUEL has no tangent: it is that of
+    // the plain interface from another start of the projection. Bounds as below.
+    if ((adapter == "marc" || adapter == "abaqus_explicit") && !c.bits) {
+      EXPECT_LE(c.motion, GetParam() == "slope" ? motion_of_slope : 1e-12);
+      EXPECT_LE(c.force, roundings_of_forces);
+    } else {
+      EXPECT_TRUE(c.bits) << "motion " << c.motion << ", force " << c.force;
+    }
+  }
+  EXPECT_GE(solved, 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Adapters, Scenes,
-                         testing::Values(Case{"hertz2d", "abaqus"}, Case{"hertz2d", "marc"},
-                                         Case{"wavy3d", "abaqus"}, Case{"wavy3d", "calculix"},
-                                         Case{"slope", "abaqus"}, Case{"slope", "marc"},
-                                         Case{"cattaneo_mindlin", "abaqus"}),
-                         [](const auto& test) {
-                           return std::string(test.param.scene) + "_" + test.param.adapter;
-                         });
+TEST_P(EveryScene, HasTheSolutionOfThePlainInterface) {
+  const std::string file = write_scene(GetParam(), Mesh::coarse, folder_);
+  const SceneResult plain = run_scene(file, "plain"), direct = run_scene(file, "direct");
+  ASSERT_EQ(plain.refusal, "");
+  const Comparison c = compare(plain, direct);
+  EXPECT_TRUE(c.iterations);
+  EXPECT_LE(c.motion, GetParam() == "slope" ? motion_of_slope : 1e-12);
+  EXPECT_LE(c.force, roundings_of_forces);
+}
+
+INSTANTIATE_TEST_SUITE_P(Adapters, EveryScene, testing::ValuesIn(scene_names()),
+                         [](const auto& test) { return test.param; });
+
+// What the stiffness makes of the last bits: a thousandth of it, a thousandth of the difference.
+TEST_F(Scenes, ForcesDifferByStiffnessTimesRoundings) {
+  const std::string file = write_scene("hertz2d", Mesh::coarse, folder_);
+  std::ifstream in(file);
+  auto scene = nlohmann::json::parse(in);
+  double force[2];
+  for (int i = 0; i < 2; ++i) {
+    scene["contact"]["model"]["contact"]["normal"]["stiffness"] = i == 0 ? 1e7 : 1e4;
+    std::ofstream(file) << scene;
+    force[i] = compare(run_scene(file, "plain"), run_scene(file, "direct")).force;
+  }
+  EXPECT_LE(force[0], roundings_of_forces);
+  EXPECT_LE(force[1], 1e-3 * roundings_of_forces);
+}
+
+// Hosts with symmetric matrices: Newton's iteration is slower and ends in the same place. Its last error is
+// not the square of the one before but a part of it: that of the forces is the scenes' tolerance, 1e-10, over
+// the part that is still missing, a tenth or more.
+TEST_F(Scenes, SymmetrisedTangentsConvergeToTheSameSolution) {
+  for (const char* name : {"cattaneo_soft", "wavy3d_friction"}) {
+    SCOPED_TRACE(name);
+    const SceneResult exact = run_scene(write_scene(name, Mesh::coarse, folder_), "direct");
+    const std::string file = write_scene(name, Mesh::coarse, folder_, true);
+    const SceneResult symmetrised = run_scene(file, "direct");
+    ASSERT_EQ(symmetrised.refusal, "");
+    const Comparison c = compare(exact, symmetrised);
+    EXPECT_LE(c.motion, 1e-12);
+    EXPECT_LE(c.force, 1e-9);
+    for (const char* adapter : {"abaqus", "calculix"}) {
+      const SceneResult through = run_scene(file, adapter);
+      if (through.refusal.empty()) {
+        EXPECT_TRUE(compare(symmetrised, through).bits) << adapter;
+      }
+    }
+  }
+}
+
+// An element may ask for a smaller increment. Programs that it can ask cut as the plain interface does; the
+// others end the job and say what to do.
+TEST_F(Scenes, CutsAreThoseOfThePlainInterfaceOrTheJobEnds) {
+  const std::string file = write_scene("hertz2d", Mesh::coarse, folder_);
+  std::ifstream in(file);
+  auto scene = nlohmann::json::parse(in);
+  scene["contact"]["model"]["penetration_limit"] = 1e-3;
+  scene["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e5;
+  scene["steps"]["values"] = {3.5};
+  std::ofstream(file) << scene;
+  const SceneResult plain = run_scene(file, "plain"), direct = run_scene(file, "direct");
+  ASSERT_EQ(plain.refusal, "");
+  ASSERT_GE(plain.steps[0]["cuts"].size(), 1u);
+  EXPECT_TRUE(compare(plain, direct).iterations);
+  for (const char* adapter : {"abaqus", "ansys", "opensees"}) {
+    const SceneResult through = run_scene(file, adapter);
+    ASSERT_EQ(through.refusal, "") << adapter;
+    EXPECT_TRUE(compare(direct, through).bits) << adapter;
+  }
+  for (const char* adapter : {"abaqus_explicit", "feap", "marc"}) {
+    const std::string refusal = run_scene(file, adapter).refusal;
+    EXPECT_NE(refusal.find("penetration_limit"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("/steps/values"), std::string::npos) << refusal;
+  }
+}
+
+TEST_F(Scenes, WhatAProgramLacksIsNamedByItsKey) {
+  const struct {
+    const char *scene, *adapter, *options, *expected;
+  } lacks[] = {
+      {"hertz2d", "calculix", "", "/dimension is 2"},
+      {"hertz2d", "lsdyna", "", "/dimension is 2"},
+      {"hertz2d", "abaqus_explicit", "--variant multiplier",
+       "/contact/model/contact/normal/type \"multiplier\""},
+      {"hertz2d", "abaqus_uinter", "", "law of a point"},
+      {"hertz2d", "abacus", "", "write one of plain, direct, abaqus"},
+  };
+  for (const auto& lack : lacks) {
+    const std::string refusal =
+        run_scene(write_scene(lack.scene, Mesh::coarse, folder_), lack.adapter, lack.options).refusal;
+    EXPECT_NE(refusal.find(lack.expected), std::string::npos) << lack.adapter << ": " << refusal;
+  }
+}
+
+// Multipliers as unknowns: an element's last node carries them, in all programs where it can.
+TEST_F(Scenes, MultipliersAreUnknownsOfTheirOwnNode) {
+  const std::string file = write_scene("hertz2d", Mesh::coarse, folder_),
+                    variant = "--variant augmented_multiplier --last-step 2";
+  const SceneResult direct = run_scene(file, "direct", variant);
+  ASSERT_EQ(direct.refusal, "");
+  for (const char* adapter : {"abaqus", "ansys", "feap", "marc", "opensees"})
+    EXPECT_TRUE(compare(direct, run_scene(file, adapter, variant)).bits) << adapter;
+}
 
 } // namespace
+} // namespace adapters

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Abaqus/Explicit, emulated: the element of interest somewhere in a block of others like it; arrays with the
 // block index first.
+#include <mutex>
+
 #include "guarded.hpp"
 #include "histories.hpp"
 #include "other_hosts.hpp"
@@ -20,18 +22,13 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class VuelHost : public HostWithHistory {
 public:
-  explicit VuelHost(const Elements& elements) : HostWithHistory(elements, 1), plain_(plain_host(elements)) {}
+  explicit VuelHost(const Elements& elements) : HostWithHistory(elements, 1) {}
 
-  void begin(const std::vector<double>& displacement) override {
-    HostWithHistory::begin(displacement);
-    plain_->begin(displacement);
-  }
   void accept() override {
     HostWithHistory::accept();
-    plain_->accept();
+    plain().accept();
   }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    const Answer plain = plain_->evaluate(element, displacement);
     const int blocks[] = {1, 7, 136};
     int block = blocks[element % 3], d = elements_.dimension, nnode = static_cast<int>(nodes(element).size()),
         ndofel = nnode * d, nsvars = size_, two = 2, none = 0, one = 1;
@@ -71,7 +68,7 @@ public:
     rhs.check_written("rhs", 0, rhs.size()), stable.check_written("dtimeStable", 0, stable.size());
     rhs.check_guards("rhs"), amass.check_guards("amass"), stable.check_guards("dtimeStable"),
         svars.check_guards("svars"), energy.check_guards("energy");
-    Answer answer = plain;
+    Answer answer = plain().evaluate(element, displacement);
     for (int i = 0; i < ndofel; ++i) {
       answer.residual[at(i)] = rhs[at(mine + block * i)];
       for (int b = 0; b < block; ++b)
@@ -83,6 +80,13 @@ public:
   }
 
 private:
+  /// Who knows the stiffness; made when the adapter has accepted the model.
+  EmulatedHost& plain() {
+    std::call_once(made_, [&] { plain_ = plain_host(elements_); });
+    return *plain_;
+  }
+
+  std::once_flag made_;
   std::unique_ptr<EmulatedHost> plain_;
 };
 
