@@ -107,6 +107,11 @@ table{border-collapse:collapse;font-size:.86em}td,th{padding:2px 9px;text-align:
 .key{display:flex;flex-wrap:wrap;gap:4px 16px;font-size:.86em;margin:.8em 0}
 .key span{display:inline-flex;align-items:center;gap:6px}.key i{width:15px;height:15px;font:normal 11px/15px Helvetica,Arial;text-align:center}
 nav a{margin-right:1em}
+.charts{display:grid;grid-template-columns:repeat(2,1fr);gap:2px 22px}
+svg.w text{font:13px Helvetica,Arial,sans-serif;fill:#222}svg.k{width:15px;height:15px}
+.g{stroke:#e4e4e4;fill:none}.t{stroke:#999;fill:none}.x{stroke:#444;fill:none}.one{stroke:#888;stroke-dasharray:5 4;fill:none}
+.f{stroke:#c9c9c9;stroke-width:7;fill:none;stroke-linejoin:round;stroke-linecap:round}.l{fill:none;stroke-width:1.4;opacity:.55}
+@media(max-width:760px){.charts{grid-template-columns:1fr}}
 @media(max-width:900px){.panels{grid-template-columns:repeat(3,1fr)}}
 @media(max-width:560px){.panels{grid-template-columns:repeat(2,1fr)}}
 )";

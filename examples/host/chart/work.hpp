@@ -35,7 +35,7 @@ struct Way {
 };
 
 /// A slave mesh: what changes in the scene file, by JSON pointers.
-struct Level {
+struct SlaveMesh {
   std::string name;
   std::vector<std::pair<std::string, Json>> settings;
 };
@@ -57,8 +57,9 @@ struct Problem {
   std::string period;    ///< "segments" of what: how a count of segments is to be read
   std::filesystem::path scene;
   std::vector<std::pair<std::string, Json>> settings; ///< changes of the scene for all runs
-  std::vector<Level> levels;                          ///< coarse to fine
+  std::vector<SlaveMesh> levels;                          ///< coarse to fine
   std::vector<Way> ways;
+  double after = -1; ///< steps up to this value of the control do not count
   bool exact = true; ///< false: the truth is the last way's
   /// Changes of the scene file that a way asks for, besides those of its level; may be empty.
   std::function<void(Json&, const Way&)> adapt;
@@ -83,7 +84,7 @@ struct Run {
 
   double seconds() const;         ///< median of cpu
   double contact_seconds() const; ///< median of contact_cpu
-  double noise() const;           ///< (largest - smallest) / median of cpu
+  double noise() const;           ///< half of (largest - smallest) over the median of cpu
   std::size_t dofs() const { return block_dofs + master_dofs; }
 };
 
@@ -93,7 +94,7 @@ struct Work {
 };
 
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.
-/// @param repetitions  of runs that take less than 2 s; longer ones are solved once
+/// @param repetitions  of runs that take less than 2 s (if more than one: two more below half a second); longer ones are solved once
 Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
              const std::function<void(const std::string&)>& progress);
 

@@ -45,7 +45,7 @@ double double_sine_pressure(const Scene& scene, const StepRecord& record, const 
 }
 
 /// All levels by enriched segments, sampling points, plain and smoothed meshes; the tangents on one level.
-std::vector<Way> all_ways(const std::vector<Level>& levels, const std::vector<int>& plain, const std::vector<int>& smooth,
+std::vector<Way> all_ways(const std::vector<SlaveMesh>& levels, const std::vector<int>& plain, const std::vector<int>& smooth,
                           bool sampling) {
   std::vector<Way> ways;
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -116,7 +116,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
   // Three orders below the smallest error of the charts, for every way.
   const std::pair<std::string, Json> tolerance{"/solver", {{"tolerance", 1e-6}}};
   const auto level = [](const std::string& name, std::vector<std::pair<std::string, Json>> settings) {
-    return Level{name, std::move(settings)};
+    return SlaveMesh{name, std::move(settings)};
   };
   {
     Problem p;
@@ -200,14 +200,15 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
   {
     Problem p;
     p.name = "texture", p.title = "Sliding with friction over a textured arch";
-    p.text = "Eight waves on an arch, 0.25 mm of sliding in 40 steps.";
+    p.text = "Eight waves on an arch, pressed down, then 0.25 mm of sliding in 24 steps.";
     p.quantity = "pressure and friction at the slave nodes, L2 over the surface and the way";
     p.period = "8 waves";
     p.scene = scenes / "texture" / "scene.json";
     p.settings = {{"/solver/tolerance", 1e-6}};
     p.levels = {level(quick ? "51 slave nodes" : "101 slave nodes", {{pieces_x, quick ? 50 : 100}})};
-    if (quick) p.settings.push_back({"/steps/values", {1, 1.05, 1.1}});
+    if (quick) p.settings.push_back({"/steps/values", {0.5, 1, 1.05, 1.1}});
     p.exact = false;
+    p.after = 1; // while it is pressed down, friction depends on the increments
     p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 256}, false);
     for (const int n : quick ? std::vector<int>{8} : std::vector<int>{4, 8, 16, 32}) {
       p.ways.push_back({Family::on_smoothed, n, 0});
