@@ -11,46 +11,46 @@
 namespace host::chart {
 namespace {
 
-double time_of(const Run& run) { return run.seconds(); }
-double segments_of(const Run& run) { return static_cast<double>(run.segments); }
+double time_of(const WorkRun& run) { return run.seconds(); }
+double segments_of(const WorkRun& run) { return static_cast<double>(run.segments); }
 
 /// Times whose ratio is closer to 1 are the same.
-double noise(const Run& a, const Run& b) { return std::max({a.noise(), b.noise(), 0.02}); }
+double noise(const WorkRun& a, const WorkRun& b) { return std::max({a.noise(), b.noise(), 0.02}); }
 
 std::string percent(double value) { return format_number(100 * value, 2) + " %"; }
 
-std::string count(const Run& run) {
+std::string count(const WorkRun& run) {
   return std::to_string(run.segments) + (run.segments == 1 ? " segment" : " segments");
 }
 
 } // namespace
 
-bool charted(const Run& run) {
+bool charted(const WorkRun& run) {
   return run.failure.empty() && run.error > 0 && std::isfinite(run.error) && run.way.tangent == "consistent";
 }
 
-std::vector<const Run*> pareto_front(const std::vector<Run>& runs, const std::function<double(const Run&)>& price) {
-  std::vector<const Run*> all, front;
-  for (const Run& run : runs)
+std::vector<const WorkRun*> pareto_front(const std::vector<WorkRun>& runs, const std::function<double(const WorkRun&)>& price) {
+  std::vector<const WorkRun*> all, front;
+  for (const WorkRun& run : runs)
     if (charted(run)) all.push_back(&run);
-  std::stable_sort(all.begin(), all.end(), [&](const Run* a, const Run* b) {
+  std::stable_sort(all.begin(), all.end(), [&](const WorkRun* a, const WorkRun* b) {
     return price(*a) != price(*b) ? price(*a) < price(*b) : a->error < b->error;
   });
   double least = std::numeric_limits<double>::infinity();
-  for (const Run* run : all)
+  for (const WorkRun* run : all)
     if (run->error < least) least = run->error, front.push_back(run);
   return front;
 }
 
-const Run* cheapest(const std::vector<Run>& runs, double error, const std::function<double(const Run&)>& price,
-                    const std::function<bool(const Run&)>& among) {
-  const Run* best = nullptr;
-  for (const Run& run : runs)
+const WorkRun* cheapest(const std::vector<WorkRun>& runs, double error, const std::function<double(const WorkRun&)>& price,
+                    const std::function<bool(const WorkRun&)>& among) {
+  const WorkRun* best = nullptr;
+  for (const WorkRun& run : runs)
     if (charted(run) && run.error <= error && among(run) && (best == nullptr || price(run) < price(*best))) best = &run;
   return best;
 }
 
-std::string name_of(const Problem& problem, const Run& run) {
+std::string name_of(const Problem& problem, const WorkRun& run) {
   std::string text = word(run.way.family);
   if (run.way.family == Family::enriched && run.segments > 1) text = "enriched, " + count(run);
   else if (run.segments > 1) text += " (" + std::to_string(run.segments) + ")";
@@ -60,16 +60,16 @@ std::string name_of(const Problem& problem, const Run& run) {
 std::vector<std::string> advice(const Work& work, const std::vector<double>& errors) {
   std::vector<std::string> result;
   for (const double error : errors) {
-    const Run* best = cheapest(work.runs, error, time_of, [](const Run&) { return true; });
+    const WorkRun* best = cheapest(work.runs, error, time_of, [](const WorkRun&) { return true; });
     if (best == nullptr) continue;
     std::string text = "For an error of " + percent(error) + " take " + name_of(work.problem, *best) + ": " +
                        format_number(best->seconds(), 2) + " s";
     if (best->segments > 1) text += ", " + count(*best);
     // The best of the others: enriched segments against segments without height, and the other way round.
-    const auto plain = [](const Run& run) { return run.way.family == Family::facets || run.way.family == Family::smoothed; };
+    const auto plain = [](const WorkRun& run) { return run.way.family == Family::facets || run.way.family == Family::smoothed; };
     const bool best_is_plain = plain(*best);
-    const Run* other =
-        cheapest(work.runs, error, time_of, [&](const Run& run) { return plain(run) != best_is_plain; });
+    const WorkRun* other =
+        cheapest(work.runs, error, time_of, [&](const WorkRun& run) { return plain(run) != best_is_plain; });
     if (other == nullptr) {
       text += best_is_plain ? "; no enriched surface here reaches it" : "; no surface without height here reaches it";
     } else {
@@ -86,13 +86,13 @@ std::vector<std::string> advice(const Work& work, const std::vector<double>& err
 
 EqualAccuracy equal_accuracy(const Work& work, double error) {
   EqualAccuracy result;
-  const auto of = [](Family family) { return [family](const Run& run) { return run.way.family == family; }; };
+  const auto of = [](Family family) { return [family](const WorkRun& run) { return run.way.family == family; }; };
   result.enriched = cheapest(work.runs, error, time_of, of(Family::enriched));
   result.fewest_facets = cheapest(work.runs, error, segments_of, of(Family::facets));
   result.cheapest_facets = cheapest(work.runs, error, time_of, of(Family::facets));
   result.fewest_smoothed = cheapest(work.runs, error, segments_of, of(Family::smoothed));
   result.cheapest_smoothed = cheapest(work.runs, error, time_of, of(Family::smoothed));
-  for (const Run& run : work.runs) {
+  for (const WorkRun& run : work.runs) {
     if (result.enriched == nullptr || !run.failure.empty()) continue;
     if (run.way.family == Family::facets && run.way.level == result.enriched->way.level && run.global <= error &&
         (result.global_facets == nullptr || run.segments < result.global_facets->segments))

@@ -37,13 +37,14 @@ struct Scale {
   double operator()(double value) const { return (std::log10(value) - low) / (high - low); }
 };
 
-std::string tic_text(int decade, bool percent) {
+/// digit * 10^decade
+std::string tic_text(int decade, int digit, bool percent) {
   if (percent) decade += 2;
   std::array<char, 24> number{};
   if (decade >= -3 && decade <= 4)
-    std::snprintf(number.data(), number.size(), "%.*f", std::max(0, -decade), std::pow(10., decade));
+    std::snprintf(number.data(), number.size(), "%.*f", std::max(0, -decade), digit * std::pow(10., decade));
   else
-    std::snprintf(number.data(), number.size(), "%.0e", std::pow(10., decade));
+    std::snprintf(number.data(), number.size(), "%.0e", digit * std::pow(10., decade));
   std::string text = number.data();
   if (percent) text += " %";
   return text;
@@ -65,22 +66,18 @@ std::string grid(const Scale& x, const Scale& y) {
         if (const double at = d + std::log10(k); at >= scale.low && at <= scale.high) draw(d, k, (at - scale.low) / (scale.high - scale.low));
   };
   const double base = top + inner_height;
+  // Less than two decades: 2 and 5 have numbers, too.
+  const auto numbered = [](const Scale& scale, int k) { return k == 1 || ((k == 2 || k == 5) && scale.high - scale.low < 2); };
   decades(x, [&](int d, int k, double at) {
     const double place = left + at * inner_width;
-    if (k == 1) {
-      out += line(place, top, place, base, "class=\"g\"") + text(place, base + 17, "middle", tic_text(d, false));
-    } else {
-      out += line(place, base, place, base - 4, "class=\"t\"");
-    }
+    out += k == 1 ? line(place, top, place, base, "class=\"g\"") : line(place, base, place, base - 4, "class=\"t\"");
+    if (numbered(x, k)) out += text(place, base + 17, "middle", tic_text(d, k, false));
   });
   decades(y, [&](int d, int k, double at) {
     const double place = base - at * inner_height;
-    if (k == 1) {
-      out += line(left, place, left + inner_width, place, d == -2 ? "class=\"one\"" : "class=\"g\"") +
-             text(left - 6, place + 4.5, "end", tic_text(d, true));
-    } else {
-      out += line(left, place, left + 4, place, "class=\"t\"");
-    }
+    out += k == 1 ? line(left, place, left + inner_width, place, d == -2 ? "class=\"one\"" : "class=\"g\"")
+                  : line(left, place, left + 4, place, "class=\"t\"");
+    if (numbered(y, k)) out += text(left - 6, place + 4.5, "end", tic_text(d, k, true));
   });
   return out + "<path d=\"M" + px(left) + " " + px(top) + "V" + px(base) + "H" + px(left + inner_width) + "\" class=\"x\"/>";
 }
@@ -92,7 +89,7 @@ constexpr const char* picture_style =
 
 } // namespace
 
-double price_of(const Run& run, Price price) {
+double price_of(const WorkRun& run, Price price) {
   switch (price) {
   case Price::time: return run.seconds();
   case Price::contact_time: return run.contact_seconds();
@@ -146,7 +143,7 @@ std::string marker(Family family, double x, double y, const std::string& title) 
 
 std::string work_panel(const Work& work, Price price, const std::string& heading) {
   double x_low = INFINITY, x_high = 0, y_low = INFINITY, y_high = 0;
-  for (const Run& run : work.runs) {
+  for (const WorkRun& run : work.runs) {
     if (!charted(run)) continue;
     const double x = price_of(run, price);
     x_low = std::min(x_low, x), x_high = std::max(x_high, x);
@@ -157,10 +154,10 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
                     text(13, top + inner_height / 2, "middle", "error", " transform=\"rotate(-90 13 " + px(top + inner_height / 2) + ")\"");
   if (!(x_high > 0)) return svg;
   const Scale x(x_low, x_high), y(y_low, y_high);
-  const auto at_x = [&](const Run& run) { return left + x(price_of(run, price)) * inner_width; };
-  const auto at_y = [&](const Run& run) { return top + (1 - y(run.error)) * inner_height; };
+  const auto at_x = [&](const WorkRun& run) { return left + x(price_of(run, price)) * inner_width; };
+  const auto at_y = [&](const WorkRun& run) { return top + (1 - y(run.error)) * inner_height; };
   svg += grid(x, y);
-  const auto polyline = [&](const std::vector<const Run*>& runs, bool stairs, const std::string& style) {
+  const auto polyline = [&](const std::vector<const WorkRun*>& runs, bool stairs, const std::string& style) {
     std::string path;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (stairs && i > 0) path.append("H").append(px(at_x(*runs[i])));
@@ -168,10 +165,10 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
     }
     return runs.size() < 2 ? std::string() : "<path d=\"" + path + "\" " + style + "/>";
   };
-  svg += polyline(pareto_front(work.runs, [price](const Run& run) { return price_of(run, price); }), true, "class=\"f\"");
+  svg += polyline(pareto_front(work.runs, [price](const WorkRun& run) { return price_of(run, price); }), true, "class=\"f\"");
   // A curve: one slave mesh and finer and finer masters; with one enriched segment, finer and finer slave meshes.
-  std::map<std::pair<Family, std::size_t>, std::vector<const Run*>> curves;
-  for (const Run& run : work.runs) {
+  std::map<std::pair<Family, std::size_t>, std::vector<const WorkRun*>> curves;
+  for (const WorkRun& run : work.runs) {
     if (!charted(run)) continue;
     const bool one = run.way.family == Family::enriched || run.way.family == Family::sampled;
     curves[{run.way.family, one ? static_cast<std::size_t>(run.way.divisions) : run.way.level}].push_back(&run);
@@ -179,7 +176,7 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
   for (const auto& [key, runs] : curves)
     svg += polyline(runs, false, std::string("class=\"l\" stroke=\"") + color_of(key.first) + "\"");
   for (const Family family : {Family::facets, Family::smoothed, Family::on_facets, Family::on_smoothed, Family::sampled, Family::enriched})
-    for (const Run& run : work.runs)
+    for (const WorkRun& run : work.runs)
       if (charted(run) && run.way.family == family)
         svg += marker(family, at_x(run), at_y(run),
                       name_of(work.problem, run) + ": error " + format_number(100 * run.error, 2) + " %, " +
@@ -189,7 +186,9 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
 }
 
 std::string work_svg(const Work& work, Price price) {
-  return "<svg class=\"w\" viewBox=\"0 0 " + std::to_string(panel_width) + " " + std::to_string(panel_height) +
+  constexpr int heading = 16; // the page says it above
+  return "<svg class=\"w\" viewBox=\"0 " + std::to_string(heading) + " " + std::to_string(panel_width) + " " +
+         std::to_string(panel_height - heading) +
          "\" role=\"img\" aria-label=\"" + escaped(work.problem.title + ": error over " + label_of(price)) + "\">" +
          work_panel(work, price, "") + "</svg>";
 }
@@ -204,7 +203,7 @@ std::string work_picture(const std::vector<const Work*>& works, const std::vecto
   for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed, Family::on_facets, Family::on_smoothed}) {
     bool any = false;
     for (const Work* work : works)
-      for (const Run& run : work->runs) any = any || (run.way.family == family && charted(run));
+      for (const WorkRun& run : work->runs) any = any || (run.way.family == family && charted(run));
     if (!any) continue;
     svg += marker(family, x + 6, 18, "") + text(x + 17, 22.5, "start", word(family));
     x += 48 + 6.6 * static_cast<double>(std::string(word(family)).size());

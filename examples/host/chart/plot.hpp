@@ -12,7 +12,7 @@ namespace host::chart {
 /// What the abscissa of a work-precision diagram is.
 enum class Price { time, contact_time, segments, dofs };
 inline constexpr Price prices[] = {Price::time, Price::contact_time, Price::segments, Price::dofs};
-double price_of(const Run& run, Price price);
+double price_of(const WorkRun& run, Price price);
 const char* label_of(Price price);
 
 /// Colour of a family's curves.

@@ -75,7 +75,7 @@ Solution solution_of(const Problem& problem, const Simulation& simulation, const
 }
 
 /// Solve once and add the price to the run.
-Solution solve_way(const Problem& problem, const EntsLibrary& library, Run& run) {
+Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& run) {
   const Scene scene = scene_of(problem, run.way);
   const Stopwatch wall;
   const CpuStopwatch cpu(CLOCK_PROCESS_CPUTIME_ID);
@@ -103,7 +103,7 @@ double relative_difference(const std::vector<double>& values, const std::vector<
   return std::sqrt(difference / norm);
 }
 
-std::string sentence(const Problem& problem, const Run& run) {
+std::string sentence(const Problem& problem, const WorkRun& run) {
   std::string text = problem.name + ", " + problem.levels[run.way.level].name + ", " + word(run.way.family);
   if (run.way.divisions > 1) text += " " + std::to_string(run.way.divisions);
   if (run.way.tangent != "consistent") text += ", " + run.way.tangent;
@@ -136,9 +136,9 @@ double relative_error(const Series& series, const std::vector<double>& truth) {
   return std::sqrt(difference / norm);
 }
 
-double Run::seconds() const { return median(cpu); }
-double Run::contact_seconds() const { return median(contact_cpu); }
-double Run::noise() const {
+double WorkRun::seconds() const { return median(cpu); }
+double WorkRun::contact_seconds() const { return median(contact_cpu); }
+double WorkRun::noise() const {
   if (cpu.empty()) return 0;
   const auto [low, high] = std::minmax_element(cpu.begin(), cpu.end());
   return 0.5 * (*high - *low) / median(cpu);
@@ -164,29 +164,29 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
   std::vector<double> truth;
   for (std::size_t i = 0; i < problem.ways.size(); ++i) work.runs.push_back({problem.ways[i], {}, 0, NAN, 0, 0, 0, 0, 0, 0, {}, {}, {}});
   const auto first_solution = [&](std::size_t i) {
-    Run& run = work.runs[i];
+    WorkRun& run = work.runs[i];
     try {
       solutions[i] = solve_way(problem, library, run);
     } catch (const JobError& error) {
       run.failure = error.what();
     }
   };
-  Run warm = work.runs.front(); // whoever comes first pays for cold memory: nobody's price
+  WorkRun warm = work.runs.front(); // whoever comes first pays for cold memory: nobody's price
   solve_way(problem, library, warm);
   if (!problem.exact) { // the truth comes first
     first_solution(work.runs.size() - 1);
     truth = solutions.back().series.value;
   }
   for (std::size_t i = 0; i < work.runs.size(); ++i) {
-    Run& run = work.runs[i];
+    WorkRun& run = work.runs[i];
     if (problem.exact || i + 1 < work.runs.size()) first_solution(i);
     if (run.failure.empty())
       run.error = relative_error(solutions[i].series, problem.exact ? solutions[i].series.truth : truth);
     progress(sentence(problem, run));
   }
-  for (Run& run : work.runs) { // the finest facets of the same level
-    const Run* finest = nullptr;
-    for (const Run& other : work.runs)
+  for (WorkRun& run : work.runs) { // the finest facets of the same level
+    const WorkRun* finest = nullptr;
+    for (const WorkRun& other : work.runs)
       if (other.way.family == Family::facets && other.way.level == run.way.level && other.failure.empty() &&
           (finest == nullptr || other.way.divisions > finest->way.divisions))
         finest = &other;
@@ -195,7 +195,7 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
                                      solutions[static_cast<std::size_t>(finest - work.runs.data())].global);
   }
   for (int repetition = 1; repetitions > 1 && repetition < repetitions + 2; ++repetition)
-    for (Run& run : work.runs)
+    for (WorkRun& run : work.runs)
       if (run.failure.empty() && run.cpu.front() < (repetition < repetitions ? short_run : very_short_run)) solve_way(problem, library, run);
   return work;
 }

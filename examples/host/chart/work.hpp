@@ -73,7 +73,7 @@ struct Problem {
 std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool quick);
 
 /// What a way needs, and what it is worth.
-struct Run {
+struct WorkRun {
   Way way;
   std::string failure; ///< of a run that could not be finished; it has no error and no price
   double error = 0;    ///< of the problem's quantity
@@ -90,7 +90,7 @@ struct Run {
 
 struct Work {
   Problem problem;
-  std::vector<Run> runs; ///< in the order of problem.ways
+  std::vector<WorkRun> runs; ///< in the order of problem.ways
 };
 
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.

@@ -23,11 +23,11 @@ constexpr const char* introduction =
     "contact is linear between two kinks, so that Newton's last step is exact; on curved ones it is quadratic, and with a tolerance of 1e-8 "
     "or less that costs one more iteration in some steps.</p>";
 
-std::string seconds(const Run* run) { return run == nullptr ? "-" : format_number(run->seconds(), 2); }
+std::string seconds(const WorkRun* run) { return run == nullptr ? "-" : format_number(run->seconds(), 2); }
 
-std::string milliseconds(const Run* run) { return run == nullptr ? "-" : format_number(1e3 * run->contact_seconds(), 2); }
+std::string milliseconds(const WorkRun* run) { return run == nullptr ? "-" : format_number(1e3 * run->contact_seconds(), 2); }
 
-std::string segments(const Run* run) { return run == nullptr ? "-" : std::to_string(run->segments); }
+std::string segments(const WorkRun* run) { return run == nullptr ? "-" : std::to_string(run->segments); }
 
 std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string html = "<tr>";
@@ -35,7 +35,7 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
   return html + "</tr>";
 }
 
-std::string share(const Run& run) { return format_number(100 * run.contact_seconds() / run.seconds(), 2) + " %"; }
+std::string share(const WorkRun& run) { return format_number(100 * run.contact_seconds() / run.seconds(), 2) + " %"; }
 
 std::string equal_accuracy_table(const std::vector<Work>& works) {
   std::string html = "<h3 id=\"equal\">Equal accuracy: an error of " + format_number(100 * equal_error, 2) +
@@ -73,9 +73,9 @@ std::string tangent_table(const std::vector<Work>& works) {
   bool any = false;
   for (const Work& work : works) {
     std::size_t level = work.problem.levels.size();
-    for (const Run& run : work.runs)
+    for (const WorkRun& run : work.runs)
       if (run.way.tangent != "consistent") level = run.way.level;
-    for (const Run& run : work.runs) {
+    for (const WorkRun& run : work.runs) {
       if (run.way.family != Family::enriched || run.way.level != level || !run.failure.empty()) continue;
       any = true;
       html += row({work.problem.name, work.problem.levels[level].name, run.way.tangent, std::to_string(run.iterations), std::to_string(run.cuts),
@@ -91,7 +91,7 @@ std::string legend_of(const Work& work) {
   std::string html = "<div class=\"key\">";
   for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed, Family::on_facets, Family::on_smoothed}) {
     bool any = false, one = true;
-    for (const Run& run : work.runs)
+    for (const WorkRun& run : work.runs)
       if (run.way.family == family && charted(run)) any = true, one = one && run.segments == 1;
     if (!any) continue;
     const std::string name = family == Family::enriched && !one ? "enriched, one or a few segments" : word(family);
@@ -100,7 +100,7 @@ std::string legend_of(const Work& work) {
   return html + "<span><svg class=\"k\" viewBox=\"0 0 14 14\"><path class=\"f\" d=\"M2 7H12\"/></svg>Pareto front</span></div>";
 }
 
-Json run_json(const Problem& problem, const Run& run) {
+Json run_json(const Problem& problem, const WorkRun& run) {
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   Json json{{"way", word(run.way.family)}, {"divisions", run.way.divisions}, {"slave_mesh", problem.levels[run.way.level].name},
             {"tangent", run.way.tangent}};
@@ -126,7 +126,7 @@ std::string work_section(const std::vector<Work>& works) {
     for (const Price price : prices) html += "<figure>" + work_svg(work, price) + "</figure>";
     html += "</div><ul>";
     for (const std::string& line : advice(work, advised_errors)) html += "<li>" + escaped(line) + "</li>";
-    for (const Run& run : work.runs)
+    for (const WorkRun& run : work.runs)
       if (!run.failure.empty()) html += "<li>Not solved: " + escaped(word(run.way.family)) + " " + std::to_string(run.way.divisions) + ", " +
                                         escaped(problem.levels[run.way.level].name) + ": " + escaped(run.failure) + "</li>";
     html += "</ul>";
@@ -139,10 +139,10 @@ Json work_json(const std::vector<Work>& works) {
   for (const Work& work : works) {
     const Problem& problem = work.problem;
     Json runs = Json::array(), front = Json::array();
-    for (const Run& run : work.runs) runs.push_back(run_json(problem, run));
-    for (const Run* run : pareto_front(work.runs, [](const Run& at) { return at.seconds(); })) front.push_back(run - work.runs.data());
+    for (const WorkRun& run : work.runs) runs.push_back(run_json(problem, run));
+    for (const WorkRun* run : pareto_front(work.runs, [](const WorkRun& at) { return at.seconds(); })) front.push_back(run - work.runs.data());
     const EqualAccuracy at = equal_accuracy(work, equal_error);
-    const auto index = [&](const Run* run) { return run == nullptr ? Json() : Json(run - work.runs.data()); };
+    const auto index = [&](const WorkRun* run) { return run == nullptr ? Json() : Json(run - work.runs.data()); };
     json.push_back({{"name", problem.name}, {"title", problem.title}, {"quantity", problem.quantity}, {"truth", problem.truth},
                     {"period", problem.period}, {"runs", runs}, {"front", front}, {"advice", advice(work, advised_errors)},
                     {"equal_accuracy", {{"error", equal_error}, {"enriched", index(at.enriched)}, {"fewest_plain", index(at.fewest_facets)},
