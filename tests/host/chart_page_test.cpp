@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of `ents-host chart` in a real browser, as wide as a desk and as a phone: are the charts, their axes and texts there, and does
-// nothing stick out?
+// The page of `ents-host chart` in a real browser, as wide as a desk and as a phone: are the charts, their
+// axes and texts there, and does nothing stick out?
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -21,7 +22,8 @@ std::string shell(const std::string& command) {
   if (pipe == nullptr) return {};
   std::string text;
   std::array<char, 4096> part{};
-  for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), pipe)) > 0;) text.append(part.data(), count);
+  for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    text.append(part.data(), count);
   return pclose(pipe) == 0 ? text : std::string();
 }
 
@@ -31,8 +33,8 @@ std::string browser() {
   return {};
 }
 
-/// What a reader sees is measured in the page itself, laid out in a frame of the given width (a browser's own window has a
-/// least width). Boxes are pixels on the screen.
+/// What a reader sees is measured in the page itself, laid out in a frame of the given width (a browser's own
+/// window has a least width). Boxes are pixels on the screen.
 constexpr const char* measure_script = R"(<script>addEventListener('load',()=>{
 const all=s=>[...document.querySelectorAll(s)],wide=document.documentElement.clientWidth,box=e=>e.getBoundingClientRect();
 const scrolls=e=>{for(;e;e=e.parentElement)if(getComputedStyle(e).overflowX==='auto')return true;return false};
@@ -44,16 +46,25 @@ const out=all('body *').filter(e=>!scrolls(e)&&box(e).width>0&&(box(e).right>wid
 parent.postMessage(JSON.stringify({wide,scroll:document.documentElement.scrollWidth,charts,maps:all('.panels svg').length,headings:all('h2').map(h=>h.textContent),
 advice:all('li').filter(l=>l.textContent.startsWith('For an error of')).length,out}),'*')})</script>)";
 
-/// One run of the command for all tests.
+struct Cleared {
+  fs::path path;
+  ~Cleared() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// One run of the command for all tests of a process.
 const fs::path& page_folder() {
-  static const fs::path folder = [] {
-    const fs::path path = fs::path(testing::TempDir()) / "ents_chart_page";
-    fs::remove_all(path);
-    const test::ProgramOutput output = test::ents_host("chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + path.string() + "\"");
+  static const Cleared folder = [] {
+    std::string name = (fs::path(testing::TempDir()) / "ents_chart_page_XXXXXX").string();
+    const fs::path path = mkdtemp(name.data());
+    const test::ProgramOutput output = test::ents_host(
+        "chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + path.string() + "\"");
     EXPECT_EQ(output.exit_code, 0) << output.text;
-    return path;
+    return Cleared{path};
   }();
-  return folder;
+  return folder.path;
 }
 
 std::string read(const fs::path& file) {
@@ -68,18 +79,25 @@ Json look_at(const std::string& program, int width) {
   std::string page = read(folder / "chart.html");
   page.insert(page.rfind("</body>"), measure_script);
   std::ofstream(folder / "measured.html") << page;
-  std::ofstream(folder / "frame.html") << "<!DOCTYPE html><body><iframe src=\"measured.html\" style=\"border:0;width:" << width
-                                       << "px;height:900px\"></iframe><script>addEventListener('message',e=>{document.body.textContent='RESULT'+e.data+'END'})"
-                                          "</script></body>";
+  std::ofstream(folder / "frame.html")
+      << "<!DOCTYPE html><body><iframe src=\"measured.html\" style=\"border:0;width:" << width
+      << "px;height:900px\"></"
+         "iframe><script>addEventListener('message',e=>{document.body.textContent='RESULT'+e.data+'END'})"
+         "</script></body>";
   // Without sandbox: it wants rights that containers do not give, and the page is our own.
-  const std::string dom = shell(program + " --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=20000 --user-data-dir=\"" +
-                                (folder / "profile").string() + "\" --window-size=1400,1000 --dump-dom \"file://" +
-                                (folder / "frame.html").string() + "\" 2>/dev/null");
+  const std::string dom =
+      shell(program +
+            " --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=20000 "
+            "--user-data-dir=\"" +
+            (folder / "profile").string() + "\" --window-size=1400,1000 --dump-dom \"file://" +
+            (folder / "frame.html").string() + "\" 2>/dev/null");
   const std::size_t from = dom.find("RESULT"), to = dom.rfind("END");
   if (from == std::string::npos || to == std::string::npos) return {};
   std::string text = dom.substr(from + 6, to - from - 6);
-  for (const auto& [escaped, plain] : {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", " "}, {"&amp;", "&"}})
-    for (std::size_t at; (at = text.find(escaped)) != std::string::npos;) text.replace(at, std::string(escaped).size(), plain);
+  for (const auto& [escaped, plain] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", " "}, {"&amp;", "&"}})
+    for (std::size_t at; (at = text.find(escaped)) != std::string::npos;)
+      text.replace(at, std::string(escaped).size(), plain);
   return Json::parse(text, nullptr, false);
 }
 
@@ -112,7 +130,8 @@ TEST_P(ChartPage, ShowsItsChartsInABrowser) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, ChartPage, testing::Values(1280, 390), [](const auto& width) { return "Pixels" + std::to_string(width.param); });
+INSTANTIATE_TEST_SUITE_P(Widths, ChartPage, testing::Values(1280, 390),
+                         [](const auto& width) { return "Pixels" + std::to_string(width.param); });
 
 // The command's picture of its own is there, too, and is well-formed to a reader of XML.
 TEST(ChartPicture, IsLeft) {

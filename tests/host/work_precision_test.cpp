@@ -15,7 +15,7 @@ namespace {
 
 using test::library;
 
-/// A run as if it had been solved.
+/// A run as if it had been solved; the noise is twice the spread of its repetitions.
 WorkRun made(Family family, int divisions, double error, double seconds, double spread = 0) {
   WorkRun run;
   run.way = {family, divisions, 0, "consistent"};
@@ -34,8 +34,9 @@ Work made(std::vector<WorkRun> runs) {
 }
 
 TEST(WorkPrecision, FrontHasNoRunThatAnotherBeats) {
-  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.02, 3), made(Family::enriched, 1, 0.01, 2),
-                          made(Family::smoothed, 16, 0.01, 4), made(Family::facets, 512, 0, 9)});
+  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.02, 3),
+                          made(Family::enriched, 1, 0.01, 2), made(Family::smoothed, 16, 0.01, 4),
+                          made(Family::facets, 512, 0, 9)});
   const auto front = pareto_front(work.runs, [](const WorkRun& run) { return run.seconds(); });
   ASSERT_EQ(front.size(), 2u); // the truth itself has no error and no place
   EXPECT_EQ(front[0], &work.runs[0]);
@@ -43,9 +44,11 @@ TEST(WorkPrecision, FrontHasNoRunThatAnotherBeats) {
 }
 
 TEST(WorkPrecision, AdviceFollowsTheRuns) {
-  Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3), made(Family::enriched, 1, 0.009, 2)});
+  Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3),
+                    made(Family::enriched, 1, 0.009, 2)});
   const std::string before = advice(work, {0.01}).at(0);
-  EXPECT_EQ(before, "For an error of 1.0 % take enriched, one segment, 8 slave nodes: 2.0 s; plain segments (64), 8 slave nodes, takes 1.5 times as long.");
+  EXPECT_EQ(before, "For an error of 1.0 % take enriched, one segment, 8 slave nodes: 2.0 s; plain segments "
+                    "(64), 8 slave nodes, takes 1.5 times as long.");
   std::swap(work.runs[1].cpu, work.runs[2].cpu);
   EXPECT_EQ(advice(work, {0.01}).at(0).substr(0, 41), "For an error of 1.0 % take plain segments");
   EXPECT_TRUE(advice(work, {0.001}).empty()); // nothing reaches it
@@ -53,17 +56,19 @@ TEST(WorkPrecision, AdviceFollowsTheRuns) {
 
 // Times that differ by less than their repetitions do are not told apart.
 TEST(WorkPrecision, NoiseIsNoAdvantage) {
-  const Work loud = made({made(Family::facets, 64, 0.009, 2.1, 0.2), made(Family::enriched, 1, 0.009, 2, 0.2)});
+  const Work loud =
+      made({made(Family::facets, 64, 0.009, 2.1, 0.2), made(Family::enriched, 1, 0.009, 2, 0.2)});
   EXPECT_NE(advice(loud, {0.01}).at(0).find("the same time within the noise"), std::string::npos);
-  const Work slow = made({made(Family::facets, 64, 0.009, 2, 0.2), made(Family::enriched, 1, 0.009, 2.1, 0.2)});
+  const Work slow =
+      made({made(Family::facets, 64, 0.009, 2, 0.2), made(Family::enriched, 1, 0.009, 2.1, 0.2)});
   EXPECT_EQ(equal_accuracy(slow, 0.01).faster, 0);
   const Work quiet = made({made(Family::facets, 64, 0.009, 2), made(Family::enriched, 1, 0.009, 2.1)});
   EXPECT_EQ(equal_accuracy(quiet, 0.01).faster, 1);
 }
 
 TEST(WorkPrecision, EqualAccuracyCountsWhatReachesIt) {
-  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3), made(Family::facets, 128, 0.005, 2.5),
-                          made(Family::enriched, 1, 0.009, 2)});
+  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3),
+                          made(Family::facets, 128, 0.005, 2.5), made(Family::enriched, 1, 0.009, 2)});
   const EqualAccuracy at = equal_accuracy(work, 0.01);
   EXPECT_EQ(at.fewest_facets, &work.runs[1]);
   EXPECT_EQ(at.cheapest_facets, &work.runs[2]);
@@ -89,11 +94,12 @@ std::vector<double> point(const Master& master, std::size_t segment, double xi) 
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(segment * m * width);
     return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(m * width));
   };
-  return sample_surface(*master.model, part(master.positions, 2), part(master.surface_coordinates, 1), {xi}).point;
+  return sample_surface(*master.model, part(master.positions, 2), part(master.surface_coordinates, 1), {xi})
+      .point;
 }
 
-// Catmull-Rom segments through equidistant points of a parabola are the parabola: height and base together are the one
-// enriched segment's surface, to rounding of numbers of order 1.
+// Catmull-Rom segments through equidistant points of a parabola are the parabola: height and base together
+// are the one enriched segment's surface, to rounding of numbers of order 1.
 TEST(WorkPrecision, SmoothedBaseCarriesTheSameSurface) {
   const std::vector<Problem> problems = work_problems(EXAMPLES, true);
   const Problem& texture = problem(problems, "texture");
@@ -104,14 +110,15 @@ TEST(WorkPrecision, SmoothedBaseCarriesTheSameSurface) {
   for (std::size_t k = 0; k < n; ++k)
     for (const double xi : {-1., -0.3, 0.4, 1.}) {
       const double whole = 2 * (static_cast<double>(k) + 0.5 * (1 + xi)) / n - 1;
-      const std::vector<double> expected = sample_surface(one, scene.contact->rigid, {}, {whole}).point, found = point(several, k, xi);
+      const std::vector<double> expected = sample_surface(one, scene.contact->rigid, {}, {whole}).point,
+                                found = point(several, k, xi);
       EXPECT_NEAR(found[0], expected[0], 1e-14);
       EXPECT_NEAR(found[1], expected[1], 1e-14);
     }
 }
 
-// Smoothed segments come closer with the third power of their length (Catmull-Rom's slopes are second order): 8 from one mesh to the
-// next, 7 allowed for the terms behind.
+// Smoothed segments come closer with the third power of their length (Catmull-Rom's slopes are second order):
+// 8 from one mesh to the next, 7 allowed for the terms behind.
 TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
   const std::vector<Problem> problems = work_problems(EXAMPLES, true);
   const Scene scene = scene_of(problem(problems, "westergaard"), {});
@@ -122,7 +129,8 @@ TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
     for (std::size_t k = 2; k + 2 < static_cast<std::size_t>(n); ++k)
       for (const double xi : {-0.7, -0.5, 0.3, 0.7}) {
         const std::vector<double> at = point(master, k, xi);
-        largest = std::max(largest, std::abs(at[1] - (0.0005 - 0.0005 * std::cos(2 * 3.141592653589793 * at[0]))));
+        largest =
+            std::max(largest, std::abs(at[1] - (0.0005 - 0.0005 * std::cos(2 * 3.141592653589793 * at[0]))));
       }
     worst.push_back(largest);
   }
@@ -130,8 +138,8 @@ TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
   EXPECT_GT(worst[1] / worst[2], 7);
 }
 
-// All ways of the quick chart are solved; on the same slave mesh finer plain segments are better, and none is better than
-// the enriched segment they come close to.
+// All ways of the quick chart are solved; on the same slave mesh finer plain segments are better, and none is
+// better than the enriched segment they come close to.
 TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
   for (const Problem& at : work_problems(EXAMPLES, true)) {
     const Work work = measure(at, library(), 1, [](const std::string&) {});

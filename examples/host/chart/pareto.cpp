@@ -29,7 +29,8 @@ bool charted(const WorkRun& run) {
   return run.failure.empty() && run.error > 0 && std::isfinite(run.error) && run.way.tangent == "consistent";
 }
 
-std::vector<const WorkRun*> pareto_front(const std::vector<WorkRun>& runs, const std::function<double(const WorkRun&)>& price) {
+std::vector<const WorkRun*> pareto_front(const std::vector<WorkRun>& runs,
+                                         const std::function<double(const WorkRun&)>& price) {
   std::vector<const WorkRun*> all, front;
   for (const WorkRun& run : runs)
     if (charted(run)) all.push_back(&run);
@@ -42,18 +43,22 @@ std::vector<const WorkRun*> pareto_front(const std::vector<WorkRun>& runs, const
   return front;
 }
 
-const WorkRun* cheapest(const std::vector<WorkRun>& runs, double error, const std::function<double(const WorkRun&)>& price,
-                    const std::function<bool(const WorkRun&)>& among) {
+const WorkRun* cheapest(const std::vector<WorkRun>& runs, double error,
+                        const std::function<double(const WorkRun&)>& price,
+                        const std::function<bool(const WorkRun&)>& among) {
   const WorkRun* best = nullptr;
   for (const WorkRun& run : runs)
-    if (charted(run) && run.error <= error && among(run) && (best == nullptr || price(run) < price(*best))) best = &run;
+    if (charted(run) && run.error <= error && among(run) && (best == nullptr || price(run) < price(*best)))
+      best = &run;
   return best;
 }
 
 std::string name_of(const Problem& problem, const WorkRun& run) {
   std::string text = word(run.way.family);
-  if (run.way.family == Family::enriched && run.segments > 1) text = "enriched, " + count(run);
-  else if (run.segments > 1) text += " (" + std::to_string(run.segments) + ")";
+  if (run.way.family == Family::enriched && run.segments > 1)
+    text = "enriched, " + count(run);
+  else if (run.segments > 1)
+    text += " (" + std::to_string(run.segments) + ")";
   return text + ", " + problem.levels[run.way.level].name;
 }
 
@@ -66,12 +71,16 @@ std::vector<std::string> advice(const Work& work, const std::vector<double>& err
                        format_number(best->seconds(), 2) + " s";
     if (best->segments > 1) text += ", " + count(*best);
     // The best of the others: enriched segments against segments without height, and the other way round.
-    const auto plain = [](const WorkRun& run) { return run.way.family == Family::facets || run.way.family == Family::smoothed; };
+    const auto plain = [](const WorkRun& run) {
+      return run.way.family == Family::facets || run.way.family == Family::smoothed;
+    };
     const bool best_is_plain = plain(*best);
     const WorkRun* other =
         cheapest(work.runs, error, time_of, [&](const WorkRun& run) { return plain(run) != best_is_plain; });
     if (other == nullptr) {
-      text += best_is_plain ? "; no enriched surface here reaches it" : "; no surface without height here reaches it";
+      text += best_is_plain ? "; no enriched surface here reaches it"
+                            : "; no surface without height here reaches it" +
+                                  std::string(work.problem.exact ? "" : ", the truth itself aside");
     } else {
       const double ratio = other->seconds() / best->seconds();
       text += "; " + name_of(work.problem, *other);
@@ -86,7 +95,9 @@ std::vector<std::string> advice(const Work& work, const std::vector<double>& err
 
 EqualAccuracy equal_accuracy(const Work& work, double error) {
   EqualAccuracy result;
-  const auto of = [](Family family) { return [family](const WorkRun& run) { return run.way.family == family; }; };
+  const auto of = [](Family family) {
+    return [family](const WorkRun& run) { return run.way.family == family; };
+  };
   result.enriched = cheapest(work.runs, error, time_of, of(Family::enriched));
   result.fewest_facets = cheapest(work.runs, error, segments_of, of(Family::facets));
   result.cheapest_facets = cheapest(work.runs, error, time_of, of(Family::facets));
@@ -94,7 +105,8 @@ EqualAccuracy equal_accuracy(const Work& work, double error) {
   result.cheapest_smoothed = cheapest(work.runs, error, time_of, of(Family::smoothed));
   for (const WorkRun& run : work.runs) {
     if (result.enriched == nullptr || !run.failure.empty()) continue;
-    if (run.way.family == Family::facets && run.way.level == result.enriched->way.level && run.global <= error &&
+    if (run.way.family == Family::facets && run.way.level == result.enriched->way.level &&
+        run.global <= error &&
         (result.global_facets == nullptr || run.segments < result.global_facets->segments))
       result.global_facets = &run;
     if (!charted(run) || run.error > error) continue;

@@ -14,8 +14,9 @@
 namespace host::chart {
 namespace {
 
-/// Runs that take longer are not repeated; shorter than the second number: two times more than the others [s].
-constexpr double short_run = 2, very_short_run = 0.5;
+/// Runs that take longer are not repeated; shorter than the second number: two times more than the others
+/// [s].
+constexpr double short_run = 1.5, very_short_run = 0.3;
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +32,7 @@ struct Solution {
 };
 
 struct NodalTraction {
-  double area = 0, pressure = 0;      ///< pressure times area
+  double area = 0, pressure = 0;    ///< pressure times area
   std::array<double, 3> traction{}; ///< friction times area
 };
 
@@ -42,7 +43,8 @@ Solution solution_of(const Problem& problem, const Simulation& simulation, const
   const auto d = static_cast<std::size_t>(scene.dimension);
   for (const StepRecord& record : records) {
     if (record.value <= problem.after) continue;
-    // Forces of sampling points go to the nodes of their faces: pressures are compared where displacements live.
+    // Forces of sampling points go to the nodes of their faces: pressures are compared where displacements
+    // live.
     std::map<int, NodalTraction> nodes;
     for (std::size_t k = 0; k < slaves.size(); ++k)
       for (std::size_t a = 0; a < slaves.nodes_per_point; ++a) {
@@ -79,7 +81,8 @@ Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& 
   const Scene scene = scene_of(problem, run.way);
   const Stopwatch wall;
   const CpuStopwatch cpu(CLOCK_PROCESS_CPUTIME_ID);
-  Simulation simulation(scene, &library, 0, scene.contact->rigid.empty() ? MasterMaker{} : master_of(run.way));
+  Simulation simulation(scene, &library, 0,
+                        scene.contact->rigid.empty() ? MasterMaker{} : master_of(run.way));
   const std::vector<StepRecord> records = solve(simulation, {});
   run.cpu.push_back(cpu.seconds());
   run.wall.push_back(wall.seconds());
@@ -92,7 +95,8 @@ Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& 
     run.iterations += record.iterations();
     run.cuts += static_cast<int>(record.cuts.size());
   }
-  return solution_of(problem, simulation, simulation.contact()->slaves(), simulation.contact()->areas(), records);
+  return solution_of(problem, simulation, simulation.contact()->slaves(), simulation.contact()->areas(),
+                     records);
 }
 
 double relative_difference(const std::vector<double>& values, const std::vector<double>& truth) {
@@ -108,20 +112,27 @@ std::string sentence(const Problem& problem, const WorkRun& run) {
   if (run.way.divisions > 1) text += " " + std::to_string(run.way.divisions);
   if (run.way.tangent != "consistent") text += ", " + run.way.tangent;
   if (!run.failure.empty()) return text + ": " + run.failure;
-  return text + ": error " + format_number(run.error, 3) + ", " + format_number(run.cpu.back(), 3) + " s, contact " +
-         format_number(run.contact_cpu.back(), 2) + " s, " + std::to_string(run.iterations) + " iterations";
+  return text + ": error " + format_number(run.error, 3) + ", " + format_number(run.cpu.back(), 3) +
+         " s, contact " + format_number(run.contact_cpu.back(), 2) + " s, " + std::to_string(run.iterations) +
+         " iterations";
 }
 
 } // namespace
 
 const char* word(Family family) {
   switch (family) {
-  case Family::enriched: return "enriched, one segment";
-  case Family::sampled: return "enriched, sampling points";
-  case Family::facets: return "plain segments";
-  case Family::smoothed: return "smoothed segments";
-  case Family::on_facets: return "enriched, on plain segments";
-  case Family::on_smoothed: return "enriched, on smoothed segments";
+  case Family::enriched:
+    return "enriched, one segment";
+  case Family::sampled:
+    return "enriched, sampling points";
+  case Family::facets:
+    return "plain segments";
+  case Family::smoothed:
+    return "smoothed segments";
+  case Family::on_facets:
+    return "enriched, on plain segments";
+  case Family::on_smoothed:
+    return "enriched, on smoothed segments";
   }
   return "";
 }
@@ -139,9 +150,11 @@ double relative_error(const Series& series, const std::vector<double>& truth) {
 double WorkRun::seconds() const { return median(cpu); }
 double WorkRun::contact_seconds() const { return median(contact_cpu); }
 double WorkRun::noise() const {
-  if (cpu.empty()) return 0;
-  const auto [low, high] = std::minmax_element(cpu.begin(), cpu.end());
-  return 0.5 * (*high - *low) / median(cpu);
+  constexpr double unknown = 0.1; // a single run says nothing of it
+  if (cpu.size() < 2) return unknown;
+  std::vector<double> away;
+  for (const double time : cpu) away.push_back(std::abs(time - seconds()));
+  return 2 * median(away) / seconds();
 }
 
 Scene scene_of(const Problem& problem, const Way& way) {
@@ -162,7 +175,8 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
   Work work{problem, {}};
   std::vector<Solution> solutions(problem.ways.size());
   std::vector<double> truth;
-  for (std::size_t i = 0; i < problem.ways.size(); ++i) work.runs.push_back({problem.ways[i], {}, 0, NAN, 0, 0, 0, 0, 0, 0, {}, {}, {}});
+  for (std::size_t i = 0; i < problem.ways.size(); ++i)
+    work.runs.push_back({problem.ways[i], {}, 0, NAN, 0, 0, 0, 0, 0, 0, {}, {}, {}});
   const auto first_solution = [&](std::size_t i) {
     WorkRun& run = work.runs[i];
     try {
@@ -196,7 +210,8 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
   }
   for (int repetition = 1; repetitions > 1 && repetition < repetitions + 2; ++repetition)
     for (WorkRun& run : work.runs)
-      if (run.failure.empty() && run.cpu.front() < (repetition < repetitions ? short_run : very_short_run)) solve_way(problem, library, run);
+      if (run.failure.empty() && run.cpu.front() < (repetition < repetitions ? short_run : very_short_run))
+        solve_way(problem, library, run);
   return work;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work-precision diagrams: what an error costs. A problem is a scene, solved in many ways; every run gives one error and its price.
+// Work-precision diagrams: what an error costs. A problem is a scene, solved in many ways; every run gives
+// one error and its price.
 #pragma once
 
 #include <filesystem>
@@ -27,7 +28,7 @@ const char* word(Family family);
 /// One way to solve a problem.
 struct Way {
   Family family = Family::enriched;
-  int divisions = 1; ///< segments of the master per direction
+  int divisions = 1;     ///< segments of the master per direction
   std::size_t level = 0; ///< of the slave mesh, see Problem::levels
   std::string tangent = "consistent";
 
@@ -52,18 +53,20 @@ double relative_error(const Series& series, const std::vector<double>& truth);
 
 struct Problem {
   std::string name, title, text;
-  std::string quantity;  ///< whose error it is
-  std::string truth;     ///< what it is held against
-  std::string period;    ///< "segments" of what: how a count of segments is to be read
+  std::string quantity; ///< whose error it is
+  std::string truth;    ///< what it is held against
+  std::string period;   ///< "segments" of what: how a count of segments is to be read
   std::filesystem::path scene;
   std::vector<std::pair<std::string, Json>> settings; ///< changes of the scene for all runs
-  std::vector<SlaveMesh> levels;                          ///< coarse to fine
+  std::vector<SlaveMesh> levels;                      ///< coarse to fine
   std::vector<Way> ways;
-  double after = -1; ///< steps up to this value of the control do not count
-  bool exact = true; ///< false: the truth is the last way's
+  double after = -1;   ///< steps up to this value of the control do not count
+  bool forces = false; ///< the motion is given: WorkRun::global is that of the forces
+  bool exact = true;   ///< false: the truth is the last way's
   /// Changes of the scene file that a way asks for, besides those of its level; may be empty.
   std::function<void(Json&, const Way&)> adapt;
-  /// Exact pressure at a place of the reference surface in a step, NaN in steps where nobody knows it; empty if not `exact`.
+  /// Exact pressure at a place of the reference surface in a step, NaN in steps where nobody knows it; empty
+  /// if not `exact`.
   std::function<double(const Scene&, const StepRecord&, const std::array<double, 3>&)> pressure;
 };
 
@@ -77,14 +80,15 @@ struct WorkRun {
   Way way;
   std::string failure; ///< of a run that could not be finished; it has no error and no price
   double error = 0;    ///< of the problem's quantity
-  double global = 0;   ///< of the approach (force given) or the forces (motion given) against the finest facets of the level; NaN: none
+  double global = 0; ///< of the approach (force given) or the forces (motion given) against the finest facets
+                     ///< of the level; NaN: none
   std::size_t slaves = 0, segments = 0, block_dofs = 0, master_dofs = 0;
   int iterations = 0, cuts = 0;
   std::vector<double> cpu, contact_cpu, wall; ///< [s], one for each repetition
 
   double seconds() const;         ///< median of cpu
   double contact_seconds() const; ///< median of contact_cpu
-  double noise() const;           ///< half of (largest - smallest) over the median of cpu
+  double noise() const; ///< of cpu, relative: twice the median distance from the median; a single run: 10 %
   std::size_t dofs() const { return block_dofs + master_dofs; }
 };
 
@@ -94,7 +98,8 @@ struct Work {
 };
 
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.
-/// @param repetitions  of runs that take less than 2 s (if more than one: two more below half a second); longer ones are solved once
+/// @param repetitions  of runs that take less than 1.5 s (if more than one: two more below 0.3 s); longer
+/// ones are solved once
 Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
              const std::function<void(const std::string&)>& progress);
 
@@ -104,8 +109,8 @@ Scene scene_of(const Problem& problem, const Way& way);
 /// The rigid master of a way; empty: the scene's own.
 MasterMaker master_of(const Way& way);
 
-/// A block under a sine surface as the text of a deck: n elements per wave, each row of elements twice as high as the one
-/// above it. Sets BASE, LEFT, RIGHT (nodes) and TOP (faces).
+/// A block under a sine surface as the text of a deck: n elements per wave, each row of elements twice as
+/// high as the one above it. Sets BASE, LEFT, RIGHT (nodes) and TOP (faces).
 std::string wavy_block_deck(int n, double amplitude, double wavelength, double depth);
 
 } // namespace host::chart

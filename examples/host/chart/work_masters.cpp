@@ -9,8 +9,8 @@
 namespace host::chart {
 namespace {
 
-/// Points of a rigid segment's surface at equal distances in xi, n + 1 per direction, and one more beyond either end
-/// by extrapolation, for splines that need it.
+/// Points of a rigid segment's surface at equal distances in xi, n + 1 per direction, and one more beyond
+/// either end by extrapolation, for splines that need it.
 struct PointGrid {
   std::size_t n = 0, d = 0;
   std::vector<double> values; ///< [rows][n + 3][components]
@@ -36,7 +36,9 @@ PointGrid sample_grid(const EntsLibrary& library, const Scene& scene, int divisi
   const std::size_t rows = grid.d == 2 ? 1 : grid.row();
   grid.values.resize(rows * grid.row() * grid.components);
   std::vector<double> xi;
-  const auto natural = [&](std::size_t i) { return 2 * static_cast<double>(i) / static_cast<double>(grid.n) - 1; };
+  const auto natural = [&](std::size_t i) {
+    return 2 * static_cast<double>(i) / static_cast<double>(grid.n) - 1;
+  };
   for (std::size_t j = 0; j <= (grid.d == 2 ? 0 : grid.n); ++j)
     for (std::size_t i = 0; i <= grid.n; ++i) {
       xi.push_back(natural(i));
@@ -68,7 +70,8 @@ PointGrid sample_grid(const EntsLibrary& library, const Scene& scene, int divisi
 }
 
 std::unique_ptr<EntsModel> model_of(const EntsLibrary& library, const Scene& scene, const Json& model) {
-  return std::make_unique<EntsModel>(library, model.dump(), scene.file.parent_path(), scene.contact->model_where);
+  return std::make_unique<EntsModel>(library, model.dump(), scene.file.parent_path(),
+                                     scene.contact->model_where);
 }
 
 /// Catmull-Rom segments through points of rho_e: C1, third order.
@@ -121,14 +124,16 @@ std::string wavy_block_deck(int n, double amplitude, double wavelength, double d
   GridLines heights{0};
   append_graded(heights, 1, 1 + static_cast<int>(std::lround(std::log2(n))), 0.5);
   const int columns = n + 1, rows = static_cast<int>(heights.size());
-  std::string nodes = "*NODE\n", elements = "*ELEMENT, TYPE=CPE4, ELSET=BODY\n", top = "*SURFACE, NAME=TOP\n", base, left, right;
+  std::string nodes = "*NODE\n", elements = "*ELEMENT, TYPE=CPE4, ELSET=BODY\n", top = "*SURFACE, NAME=TOP\n",
+              base, left, right;
   const auto number = [&](int i, int j) { return std::to_string(1 + i + columns * j); };
   std::array<char, 96> line{};
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const double x = wavelength * (static_cast<double>(i) / n - 0.5);
       const double surface = amplitude * std::cos(2 * std::numbers::pi * x / wavelength);
-      std::snprintf(line.data(), line.size(), ", %.17g, %.17g\n", x, -depth + (depth + surface) * heights[static_cast<std::size_t>(j)]);
+      std::snprintf(line.data(), line.size(), ", %.17g, %.17g\n", x,
+                    -depth + (depth + surface) * heights[static_cast<std::size_t>(j)]);
       nodes += number(i, j) + line.data();
       if (j == 0) base += number(i, j) + ",\n";
       if (i == 0) left += number(i, j) + ",\n";
@@ -137,11 +142,12 @@ std::string wavy_block_deck(int n, double amplitude, double wavelength, double d
   int element = 0;
   for (int j = 0; j + 1 < rows; ++j)
     for (int i = 0; i < n; ++i) {
-      elements += std::to_string(++element) + ", " + number(i, j) + ", " + number(i + 1, j) + ", " + number(i + 1, j + 1) + ", " +
-                  number(i, j + 1) + "\n";
+      elements += std::to_string(++element) + ", " + number(i, j) + ", " + number(i + 1, j) + ", " +
+                  number(i + 1, j + 1) + ", " + number(i, j + 1) + "\n";
       if (j + 2 == rows) top += std::to_string(element) + ", S3\n";
     }
-  return nodes + elements + "*NSET, NSET=BASE\n" + base + "*NSET, NSET=LEFT\n" + left + "*NSET, NSET=RIGHT\n" + right + top;
+  return nodes + elements + "*NSET, NSET=BASE\n" + base + "*NSET, NSET=LEFT\n" + left +
+         "*NSET, NSET=RIGHT\n" + right + top;
 }
 
 MasterMaker master_of(const Way& way) {
@@ -155,9 +161,11 @@ MasterMaker master_of(const Way& way) {
   case Family::smoothed:
     return [n](const EntsLibrary& library, const Scene& scene) { return smoothed_master(library, scene, n); };
   case Family::on_facets:
-    return [n](const EntsLibrary& library, const Scene& scene) { return base_master(library, scene, n, false); };
+    return
+        [n](const EntsLibrary& library, const Scene& scene) { return base_master(library, scene, n, false); };
   case Family::on_smoothed:
-    return [n](const EntsLibrary& library, const Scene& scene) { return base_master(library, scene, n, true); };
+    return
+        [n](const EntsLibrary& library, const Scene& scene) { return base_master(library, scene, n, true); };
   }
   return {};
 }
