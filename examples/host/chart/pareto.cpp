@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "output/table.hpp"
@@ -15,9 +16,13 @@ double time_of(const WorkRun& run) { return run.seconds(); }
 double segments_of(const WorkRun& run) { return static_cast<double>(run.segments); }
 
 /// Times whose ratio is closer to 1 are the same.
-double noise(const WorkRun& a, const WorkRun& b) { return std::max({a.noise(), b.noise(), 0.02}); }
+double noise(const WorkRun& a, const WorkRun& b) { return std::max({a.noise(), b.noise(), 0.05}); }
 
-std::string percent(double value) { return format_number(100 * value, 2) + " %"; }
+std::string percent(double value) {
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * value);
+  return text.data();
+}
 
 std::string count(const WorkRun& run) {
   return std::to_string(run.segments) + (run.segments == 1 ? " segment" : " segments");
@@ -62,33 +67,60 @@ std::string name_of(const Problem& problem, const WorkRun& run) {
   return text + ", " + problem.levels[run.way.level].name;
 }
 
+namespace {
+
+/// What to take for an error, and the best of the others: enriched segments against segments without height,
+/// and the other way round.
+struct Choice {
+  const WorkRun *best = nullptr, *other = nullptr;
+  bool operator==(const Choice&) const = default;
+};
+
+bool plain(const WorkRun& run) {
+  return run.way.family == Family::facets || run.way.family == Family::smoothed;
+}
+
+Choice choose(const Work& work, double error) {
+  Choice choice;
+  choice.best = cheapest(work.runs, error, time_of, [](const WorkRun&) { return true; });
+  if (choice.best != nullptr)
+    choice.other = cheapest(work.runs, error, time_of,
+                            [&](const WorkRun& run) { return plain(run) != plain(*choice.best); });
+  return choice;
+}
+
+std::string sentence(const Work& work, const std::string& errors, const Choice& choice) {
+  const WorkRun& best = *choice.best;
+  std::string text = "For an error of " + errors + " take " + name_of(work.problem, best) + ": " +
+                     format_number(best.seconds(), 2) + " s";
+  if (choice.other == nullptr)
+    return text +
+           (plain(best) ? "; no enriched surface here reaches it."
+                        : "; no surface without height here reaches it") +
+           (plain(best)          ? ""
+            : work.problem.exact ? "."
+                                 : ", the truth itself aside.");
+  const WorkRun& other = *choice.other;
+  const double ratio = other.seconds() / best.seconds();
+  text += "; " + name_of(work.problem, other);
+  if (ratio - 1 <= noise(best, other))
+    return text + ", takes the same time within the noise (" + format_number(other.seconds(), 2) + " s).";
+  return text + ", takes " + format_number(ratio, 2) + " times as long.";
+}
+
+} // namespace
+
 std::vector<std::string> advice(const Work& work, const std::vector<double>& errors) {
   std::vector<std::string> result;
-  for (const double error : errors) {
-    const WorkRun* best = cheapest(work.runs, error, time_of, [](const WorkRun&) { return true; });
-    if (best == nullptr) continue;
-    std::string text = "For an error of " + percent(error) + " take " + name_of(work.problem, *best) + ": " +
-                       format_number(best->seconds(), 2) + " s";
-    if (best->segments > 1) text += ", " + count(*best);
-    // The best of the others: enriched segments against segments without height, and the other way round.
-    const auto plain = [](const WorkRun& run) {
-      return run.way.family == Family::facets || run.way.family == Family::smoothed;
-    };
-    const bool best_is_plain = plain(*best);
-    const WorkRun* other =
-        cheapest(work.runs, error, time_of, [&](const WorkRun& run) { return plain(run) != best_is_plain; });
-    if (other == nullptr) {
-      text += best_is_plain ? "; no enriched surface here reaches it"
-                            : "; no surface without height here reaches it" +
-                                  std::string(work.problem.exact ? "" : ", the truth itself aside");
-    } else {
-      const double ratio = other->seconds() / best->seconds();
-      text += "; " + name_of(work.problem, *other);
-      text += ratio - 1 <= noise(*best, *other)
-                  ? ", takes the same time within the noise (" + format_number(other->seconds(), 2) + " s)"
-                  : ", takes " + format_number(ratio, 2) + " times as long";
-    }
-    result.push_back(text + ".");
+  for (std::size_t i = 0; i < errors.size();) {
+    const Choice choice = choose(work, errors[i]);
+    std::size_t last = i; // of those with the same answer
+    while (last + 1 < errors.size() && choose(work, errors[last + 1]) == choice) ++last;
+    if (choice.best != nullptr)
+      result.push_back(
+          sentence(work, last == i ? percent(errors[i]) : percent(errors[i]) + " to " + percent(errors[last]),
+                   choice));
+    i = last + 1;
   }
   return result;
 }

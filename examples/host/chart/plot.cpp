@@ -41,7 +41,7 @@ struct Scale {
 std::string tic_text(int decade, int digit, bool percent) {
   if (percent) decade += 2;
   std::array<char, 24> number{};
-  if (decade >= -3 && decade <= 4)
+  if (decade >= -4 && decade <= 4)
     std::snprintf(number.data(), number.size(), "%.*f", std::max(0, -decade), digit * std::pow(10., decade));
   else
     std::snprintf(number.data(), number.size(), "%.0e", digit * std::pow(10., decade));

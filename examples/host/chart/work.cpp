@@ -89,7 +89,9 @@ Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& 
   run.contact_cpu.push_back(simulation.timings().contact_cpu);
   const Sizes sizes = simulation.sizes();
   run.slaves = sizes.slaves, run.segments = sizes.master_segments;
-  run.block_dofs = sizes.dofs, run.master_dofs = sizes.master_dofs;
+  run.block_dofs = sizes.dofs;
+  run.master_dofs =
+      simulation.contact()->master().rigid ? sizes.master_dofs : 0; // a body has its dofs in the mesh
   run.iterations = run.cuts = 0;
   for (const StepRecord& record : records) {
     run.iterations += record.iterations();

@@ -59,7 +59,7 @@ bool coarsest(const Work& work, const WorkRun& run) {
 
 std::string equal_accuracy_table(const std::vector<Work>& works) {
   std::string html =
-      "<h3 id=\"equal\">Equal accuracy: an error of " + format_number(100 * equal_error, 2) +
+      "<h3 id=\"equal\">Equal accuracy: an error of " + std::to_string(std::lround(100 * equal_error)) +
       " %</h3><p>The cheapest enriched segment that is as good, and the plain and smoothed surfaces that "
       "are: "
       "those with the fewest segments, and those that take the least time. Times of the whole solve, then of "
