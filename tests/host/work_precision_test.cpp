@@ -76,6 +76,8 @@ TEST(WorkPrecision, EqualAccuracyCountsWhatReachesIt) {
   EXPECT_EQ(at.cheapest_facets, &work.runs[2]);
   EXPECT_EQ(at.enriched, &work.runs[3]);
   EXPECT_EQ(at.fewest_smoothed, nullptr);
+  const Work same = made({made(Family::enriched, 4, 0.009, 2), made(Family::enriched, 1, 0.009, 2.05)});
+  EXPECT_EQ(equal_accuracy(same, 0.01).enriched, &same.runs[1]); // the time is the same: fewer segments
   EXPECT_EQ(at.reaching, 2);
 }
 

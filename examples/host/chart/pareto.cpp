@@ -135,6 +135,11 @@ EqualAccuracy equal_accuracy(const Work& work, double error) {
   result.cheapest_facets = cheapest(work.runs, error, time_of, of(Family::facets));
   result.fewest_smoothed = cheapest(work.runs, error, segments_of, of(Family::smoothed));
   result.cheapest_smoothed = cheapest(work.runs, error, time_of, of(Family::smoothed));
+  if (const WorkRun* fastest = result.enriched; fastest != nullptr)
+    result.enriched = cheapest(work.runs, error, segments_of, [&](const WorkRun& run) {
+      return run.way.family == Family::enriched &&
+             run.seconds() <= fastest->seconds() * (1 + noise(run, *fastest));
+    });
   for (const WorkRun& run : work.runs) {
     if (result.enriched == nullptr || !run.failure.empty()) continue;
     if (run.way.family == Family::facets && run.way.level == result.enriched->way.level &&

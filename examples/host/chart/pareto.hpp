@@ -33,7 +33,8 @@ std::vector<std::string> advice(const Work& work, const std::vector<double>& err
 
 /// Enriched against plain and smoothed segments at one error; null: out of reach of the runs.
 struct EqualAccuracy {
-  const WorkRun* enriched = nullptr;        ///< cheapest in time
+  const WorkRun* enriched =
+      nullptr; ///< cheapest in time; the fewest segments of those that cost the same within the noise
   const WorkRun* fewest_facets = nullptr;   ///< least segments
   const WorkRun* cheapest_facets = nullptr; ///< least time
   const WorkRun* fewest_smoothed = nullptr;

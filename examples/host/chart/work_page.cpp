@@ -80,11 +80,16 @@ std::string equal_accuracy_table(const std::vector<Work>& works) {
     if (at.fewest_facets != nullptr)
       notes += std::to_string(at.fewest_facets->segments / at.enriched->segments) +
                " times fewer segments than plain ones (counted over " + escaped(work.problem.period) + "); ";
-    notes += "of " + std::to_string(at.reaching) + " runs with plain or smoothed segments that reach 1 %, " +
-             (at.faster == 0   ? std::string("none takes")
-              : at.faster == 1 ? "1 takes"
-                               : std::to_string(at.faster) + " take") +
-             " less time than the enriched one by more than the noise.";
+    if (at.reaching == 0)
+      notes += "no plain or smoothed surface here reaches 1 %" +
+               std::string(work.problem.exact ? "." : ", the truth itself aside.");
+    else
+      notes += "of " + std::to_string(at.reaching) +
+               " runs with plain or smoothed segments that reach 1 %, " +
+               (at.faster == 0   ? std::string("none takes")
+                : at.faster == 1 ? "1 takes"
+                                 : std::to_string(at.faster) + " take") +
+               " less time than the enriched one by more than the noise.";
     if (at.global_facets != nullptr)
       notes += " For 1 % of the " + std::string(work.problem.forces ? "forces" : "master's motion") +
                " instead, " + std::to_string(at.global_facets->segments) + " plain segments do (" +
