@@ -4,10 +4,11 @@ set -eu
 
 usage() {
   cat <<'HELP'
-usage: sh examples/setup.sh [--target NAME] [-DNAME=VALUE ...]
+usage: sh examples/setup.sh [--target NAME] [--with PACKAGE] [-DNAME=VALUE ...]
 
 Installs what is missing from Debian's packages (as root, or through sudo when it asks for no password), configures and builds the
-library, the reference host, the benchmark and the tests in build/; with --target, only that and what it needs. -D... goes to CMake:
+library, the reference host, the benchmark and the tests in build/; with --target, only that and what it needs; with --with, that
+package, too. -D... goes to CMake:
   -DENTS_WERROR=ON                       warnings are errors
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
 They stay in force in build/ until changed or until build/ is removed.
@@ -16,11 +17,15 @@ exit status: 0 built; 1 the build failed; 2 a package is missing and cannot be i
 HELP
 }
 
-target=all
-if [ "${1-}" = --target ] && [ $# -ge 2 ]; then
-  target=$2
+target=all with=
+while [ $# -ge 2 ]; do
+  case $1 in
+    --target) target=$2 ;;
+    --with) with="$with $2" ;;
+    *) break ;;
+  esac
   shift 2
-fi
+done
 for option; do
   case $option in
     -h | --help) usage; exit 0 ;;
@@ -36,7 +41,7 @@ trap 'rm -f "$log"' EXIT
 # Compilers and build tools; libraries; pictures, and what the test of the Python module needs.
 packages='g++ gfortran cmake ninja-build pkg-config
   libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
-  gnuplot-nox python3-numpy'
+  gnuplot-nox python3-numpy'$with
 
 missing() {
   for package in $packages; do

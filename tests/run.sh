@@ -18,6 +18,7 @@ HELP
     ;;
 esac
 
-sh "$root/examples/setup.sh" "$@"
+# A browser opens the page of charts.
+sh "$root/examples/setup.sh" --with chromium "$@"
 echo "== testing"
 ctest --test-dir "$root/build" --parallel "$(nproc)" --output-on-failure --no-tests=error || exit 1

@@ -56,10 +56,11 @@ int check_command(const CommonOptions& common, const CheckOptions& options);
 
 struct ChartOptions {
   std::filesystem::path out; ///< empty: only the terminal is told
-  bool quick = false;        ///< a few points of each map
+  std::filesystem::path scenes; ///< the folder examples; empty: found from the program's folder
+  bool quick = false;        ///< a few points of each map, a few runs of each scene
   bool pictures = true;
 };
-/// Where each method works, by maps over pairs of parameters.
+/// What an error costs, by work-precision diagrams, and where each method works, by maps over pairs of parameters.
 int chart_command(const CommonOptions& common, const ChartOptions& options);
 
 } // namespace host

@@ -120,9 +120,10 @@ int main(int argc, char** argv) {
                     "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
 
   ChartOptions chart;
-  CLI::App* chart_app = app.add_subcommand("chart", "Where does each method work? Stability maps: solved, flagged, diverged, silently wrong");
+  CLI::App* chart_app = app.add_subcommand("chart", "What does an error cost, and where does each method work? Work-precision diagrams and stability maps");
   chart_app->add_option("--out", chart.out, "folder for chart.html (one page, no network), chart.json and the pictures")->type_name("DIR");
-  chart_app->add_flag("--quick", chart.quick, "a few points of each map");
+  chart_app->add_flag("--quick", chart.quick, "a few runs of each scene and points of each map");
+  chart_app->add_option("--scenes", chart.scenes, "the folder examples of the sources [from the program's folder]")->type_name("DIR");
   chart_app->add_flag_callback("--no-pictures", [&] { chart.pictures = false; }, "leave the pictures out; the page has its own");
   add_common(*chart_app);
   chart_app->footer("Exit code 1 if any result is wrong and nothing has said so.\n\n"

@@ -2,6 +2,7 @@
 // The master side of a contact: its segments, where they are, and what the library is told about them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,5 +45,8 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
 /// each of the two may push such a node over to the other, for ever, so in the end it stays with one
 /// (Contact::choose).
 Master explicit_master(const EntsLibrary& library, const Scene& scene, int divisions);
+
+/// Another master for a scene than these two.
+using MasterMaker = std::function<Master(const EntsLibrary& library, const Scene& scene)>;
 
 } // namespace host

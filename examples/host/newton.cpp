@@ -35,10 +35,12 @@ std::vector<double> Simulation::loads(double load_factor) const {
 bool Simulation::choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor) {
   if (!contact_) return true;
   const Stopwatch watch;
+  const CpuStopwatch cpu;
   auto report = ents_struct<ents_report>();
   const bool changed = contact_->choose(at, only_lost, report);
   if (changed && !contact_->master().rigid) build_pattern();
   timings_.contact += watch.seconds();
+  timings_.contact_cpu += cpu.seconds();
   if (report.status == ENTS_OK) return true;
   reason = describe(contact_->master().model->library(), report.status, report);
   step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
@@ -100,12 +102,14 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
   }
   if (contact_) {
     const Stopwatch watch;
+    const CpuStopwatch cpu;
     auto report = ents_struct<ents_report>();
     RigidCoupling* coupling = contact_->master().rigid ? &result.coupling : nullptr;
     const std::int32_t status =
         contact_->assemble(at, result.residual, want_tangent ? system_.get() : nullptr, group, coupling,
                            squared_contact, report);
     timings_.contact += watch.seconds();
+    timings_.contact_cpu += cpu.seconds();
     if (status != ENTS_OK) {
       result.reason = describe(contact_->master().model->library(), status, report);
       result.step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;

@@ -71,11 +71,12 @@ std::vector<std::pair<int, int>> opposite_nodes(const Mesh& mesh, const Periodic
 
 } // namespace
 
-Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divisions) : scene_(&scene) {
+Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divisions, const MasterMaker& maker)
+    : scene_(&scene) {
   const Stopwatch watch;
   build_mesh();
   build_equations();
-  build_contact(library, divisions);
+  build_contact(library, divisions, maker);
   // Multipliers make a symmetric system indefinite: nothing for Cholesky.
   const bool symmetric = !contact_ || (contact_->symmetric_tangent() && contact_->multipliers() == 0);
   system_ = std::make_unique<SparseSystem>(equations(), symmetric);
@@ -156,15 +157,16 @@ void Simulation::build_equations() {
   if (dofs_->size() == 0) throw InputError(scene_->file.string() + ": /supports leave nothing to solve for");
 }
 
-void Simulation::build_contact(const EntsLibrary* library, int divisions) {
+void Simulation::build_contact(const EntsLibrary* library, int divisions, const MasterMaker& maker) {
   if (!scene_->contact) {
     if (divisions > 0) throw InputError(scene_->file.string() + ": a scene without contact has no explicit mesh");
     return;
   }
   if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
   const std::vector<Face>& slaves = find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
-  Master master = divisions > 0 ? explicit_master(*library, *scene_, divisions)
-                                : scene_master(*library, *scene_, mesh_);
+  Master master = maker           ? maker(*library, *scene_)
+                  : divisions > 0 ? explicit_master(*library, *scene_, divisions)
+                                  : scene_master(*library, *scene_, mesh_);
   const ElementSetup& setup = scene_->parts.front().setup;
   const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,
                                scene_->contact->equal_areas};

@@ -20,6 +20,7 @@ struct Timings {
   double setup = 0;    ///< mesh, equations, pattern, symbolic factorisation
   double bulk = 0;     ///< assembly of the bulk elements
   double contact = 0;  ///< search and contact elements
+  double contact_cpu = 0; ///< the same as time of the processor: what other programs do meanwhile does not count
   double solver = 0;   ///< numerical factorisation and solution
   double total = 0;
 };
@@ -56,8 +57,9 @@ class Simulation {
 public:
   /// @param library   may be null if the scene has no contact
   /// @param divisions of the explicit mesh that replaces the enriched segment; 0: the scene as it is
+  /// @param maker     of the master instead, if not empty
   /// @throws InputError, JobError
-  Simulation(const Scene& scene, const EntsLibrary* library, int divisions = 0);
+  Simulation(const Scene& scene, const EntsLibrary* library, int divisions = 0, const MasterMaker& maker = {});
 
   const Scene& scene() const { return *scene_; }
   const Mesh& mesh() const { return mesh_; }
@@ -100,7 +102,7 @@ private:
 
   void build_mesh();
   void build_equations();
-  void build_contact(const EntsLibrary* library, int divisions);
+  void build_contact(const EntsLibrary* library, int divisions, const MasterMaker& maker);
   void build_pattern();
   NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate);
   /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.

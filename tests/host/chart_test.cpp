@@ -174,7 +174,7 @@ TEST(StabilityMaps, AFoldIsSeenFirst) {
 TEST(Chart, LeavesPageAndData) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "ents_chart";
   const test::ProgramOutput output =
-      test::ents_host("chart --quick --no-pictures --out \"" + folder.string() + "\"");
+      test::ents_host("chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + folder.string() + "\"");
   EXPECT_EQ(output.exit_code, 0) << output.text;
   EXPECT_NE(output.text.find("chart: 0 silently wrong"), std::string::npos) << output.text;
   const Json data = parse_json_file(folder / "chart.json");

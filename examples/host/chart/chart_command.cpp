@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host chart: solve the maps, tell the terminal, leave chart.json, chart.html and the pictures.
+// ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json, chart.html and the pictures.
 #include <cstdio>
 #include <fstream>
 
 #include "chart/chart_page.hpp"
 #include "chart/map.hpp"
 #include "chart/map_picture.hpp"
+#include "chart/pareto.hpp"
+#include "chart/plot.hpp"
+#include "chart/work.hpp"
+#include "chart/work_page.hpp"
 #include "chart/wrong_heights.hpp"
 #include "commands.hpp"
 #include "output/table.hpp"
@@ -84,11 +88,38 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!stream) throw InputError("--out: " + file.string() + " cannot be written");
 }
 
+/// Where the scenes are: as the user says, or beside the build tree this program lies in, or here.
+std::filesystem::path scenes_folder(const std::filesystem::path& given) {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::vector<std::filesystem::path> tried{given};
+  if (given.empty()) tried = {program.parent_path() / ".." / ".." / "examples", "examples"};
+  for (const std::filesystem::path& folder : tried)
+    if (std::filesystem::exists(folder / "westergaard" / "scene.json", error)) return folder.lexically_normal();
+  throw InputError(given.empty() ? "the scenes (examples/westergaard and others) are not found; say with --scenes DIR where they are"
+                                 : "--scenes: " + given.string() + " has no westergaard/scene.json; the folder examples is meant");
+}
+
+std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& options) {
+  std::vector<Work> works;
+  const auto progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
+  for (const Problem& problem : work_problems(scenes_folder(options.scenes), options.quick))
+    works.push_back(measure(problem, library, options.quick ? 1 : 3, options.quick ? [](const std::string&) {} : progress));
+  return works;
+}
+
+const Work* named(const std::vector<Work>& works, const std::string& name) {
+  for (const Work& work : works)
+    if (work.problem.name == name) return &work;
+  return nullptr;
+}
+
 } // namespace
 
 int chart_command(const CommonOptions& common, const ChartOptions& options) {
   const Stopwatch watch;
   const EntsLibrary library(common.library);
+  const std::vector<Work> works = measure_all(library, options);
   std::vector<Map> maps = stability_maps(options.quick);
   const std::vector<WrongHeight> heights = wrong_heights(library);
 
@@ -100,7 +131,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
       .column("diverged")
       .column("silently wrong")
       .column("unjudged");
-  Json json{{"version", library.version()}, {"stability", Json::array()}};
+  Json json{{"version", library.version()}, {"work_precision", work_json(works)}, {"stability", Json::array()}};
   std::string stability = introduction + legend();
   std::int64_t wrong = 0;
   for (Map& map : maps) {
@@ -131,9 +162,12 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
     std::filesystem::create_directories(options.out);
     write_text(options.out / "chart.json", json.dump() + "\n");
     write_text(options.out / "chart.html",
-               page({{"stability", "Stability maps", stability},
+               page({{"work", "Speed against accuracy", work_section(works)},
+                     {"stability", "Stability maps", stability},
                      {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}},
                     library.version()));
+    write_text(options.out / "work_precision.svg",
+               work_picture({named(works, "wavy3d"), named(works, "elastic_master")}, {Price::segments, Price::time}));
     if (options.pictures)
       for (const Map& map : maps)
         if (const pictures::Outcome outcome = draw(map, options.out); !outcome.problem.empty()) {
@@ -144,7 +178,11 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   if (common.json) {
     std::printf("%s\n", json.dump().c_str());
   } else {
-    std::printf("%s", table.text().c_str());
+    for (const Work& work : works) {
+      std::printf("%s: %s\n", work.problem.name.c_str(), work.problem.quantity.c_str());
+      for (const std::string& line : advice(work, advised_errors)) std::printf("  %s\n", line.c_str());
+    }
+    std::printf("\n%s", table.text().c_str());
     Table wrong_table;
     wrong_table.column("Fig. 4").column("wrong because").column("ents_surface_check").column("on the way");
     for (const WrongHeight& row : heights) wrong_table.row({row.panel, row.what, row.check, row.running});

@@ -31,7 +31,12 @@ std::string panel_svg(const Map& map, const Panel& panel) {
   const std::size_t columns = map.x.values.size(), rows = map.y.values.size();
   const int width = static_cast<int>(columns) * cell_size, height = static_cast<int>(rows) * cell_size;
   const auto px = [](int value) { return std::to_string(value); };
-  std::string svg = "<svg viewBox=\"0 0 " + px(left + width + 6) + " " + px(top + height + bottom) +
+  // Names of axes may be longer than a map of few points.
+  const auto half = [](const std::string& text) { return 7 * static_cast<int>(text.size()) / 2; };
+  const int x_half = half(map.x.label), y_half = half(map.y.label), x_middle = left + width / 2, y_middle = top + height / 2;
+  const int x0 = std::min(0, x_middle - x_half), x1 = std::max(left + width + 6, x_middle + x_half);
+  const int y0 = std::min(0, y_middle - y_half), y1 = std::max(top + height + bottom, y_middle + y_half);
+  std::string svg = "<svg viewBox=\"" + px(x0) + " " + px(y0) + " " + px(x1 - x0) + " " + px(y1 - y0) +
                     "\" role=\"img\" aria-label=\"" +
                     escaped(map.title + ", " + word(panel.method.surface) + ", " +
                             word(panel.method.projection) + ", " + word(panel.method.tangent)) +
@@ -107,6 +112,11 @@ table{border-collapse:collapse;font-size:.86em}td,th{padding:2px 9px;text-align:
 .key{display:flex;flex-wrap:wrap;gap:4px 16px;font-size:.86em;margin:.8em 0}
 .key span{display:inline-flex;align-items:center;gap:6px}.key i{width:15px;height:15px;font:normal 11px/15px Helvetica,Arial;text-align:center}
 nav a{margin-right:1em}
+.charts{display:grid;grid-template-columns:repeat(2,1fr);gap:2px 22px}
+svg.w text{font:13px Helvetica,Arial,sans-serif;fill:#222}svg.k{width:15px;height:15px}
+.g{stroke:#e4e4e4;fill:none}.t{stroke:#999;fill:none}.x{stroke:#444;fill:none}.one{stroke:#888;stroke-dasharray:5 4;fill:none}
+.f{stroke:#c9c9c9;stroke-width:7;fill:none;stroke-linejoin:round;stroke-linecap:round}.l{fill:none;stroke-width:1.4;opacity:.55}
+@media(max-width:760px){.charts{grid-template-columns:1fr}}
 @media(max-width:900px){.panels{grid-template-columns:repeat(3,1fr)}}
 @media(max-width:560px){.panels{grid-template-columns:repeat(2,1fr)}}
 )";

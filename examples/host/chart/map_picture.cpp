@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chart/map_picture.hpp"
 
+#include <set>
+
 #include "chart/chart_page.hpp"
 #include "output/gnuplot.hpp"
 
@@ -14,7 +16,7 @@ using gnuplot::number;
 std::string tics(const char* axis, const Axis& values, bool labelled) {
   std::string out = std::string("set ") + axis + "tics (";
   const std::size_t last = values.values.size() - 1;
-  for (const std::size_t i : {std::size_t{0}, last / 2, last}) {
+  for (const std::size_t i : std::set{std::size_t{0}, last / 2, last}) { // a short axis has fewer
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", values.values[i]);
     out += (i > 0 ? ", " : "") + gnuplot::text(labelled ? text.data() : "") + " " +

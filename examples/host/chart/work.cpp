@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Running a problem of the work-precision diagrams in all its ways.
+#include "chart/work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+
+#include "output/table.hpp"
+#include "stopwatch.hpp"
+
+namespace host::chart {
+namespace {
+
+/// Runs that take longer are not repeated; shorter than the second number: two times more than the others
+/// [s].
+constexpr double short_run = 1.5, very_short_run = 0.3;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+/// What a run leaves behind to be compared.
+struct Solution {
+  Series series;
+  std::vector<double> global; ///< approach (force given) or forces (motion given) of every step
+};
+
+struct NodalTraction {
+  double area = 0, pressure = 0;    ///< pressure times area
+  std::array<double, 3> traction{}; ///< friction times area
+};
+
+Solution solution_of(const Problem& problem, const Simulation& simulation, const SlavePoints& slaves,
+                     const std::vector<double>& areas, const std::vector<StepRecord>& records) {
+  Solution solution;
+  const Scene& scene = simulation.scene();
+  const auto d = static_cast<std::size_t>(scene.dimension);
+  for (const StepRecord& record : records) {
+    if (record.value <= problem.after) continue;
+    // Forces of sampling points go to the nodes of their faces: pressures are compared where displacements
+    // live.
+    std::map<int, NodalTraction> nodes;
+    for (std::size_t k = 0; k < slaves.size(); ++k)
+      for (std::size_t a = 0; a < slaves.nodes_per_point; ++a) {
+        const std::size_t at = k * slaves.nodes_per_point + a;
+        NodalTraction& node = nodes[slaves.nodes[at]];
+        const double share = slaves.weights[at] * areas[k];
+        node.area += share;
+        node.pressure += share * record.fields.pressure[k];
+        for (std::size_t i = 0; i < d; ++i) node.traction[i] += share * record.fields.traction[k * d + i];
+      }
+    for (const auto& [number, node] : nodes) {
+      std::array<double, 3> place{};
+      std::copy_n(simulation.mesh().node(number).begin(), d, place.begin());
+      const double truth = problem.pressure ? problem.pressure(scene, record, place) : 0;
+      if (std::isnan(truth)) break; // nobody knows it in this step
+      solution.series.value.push_back(node.pressure / node.area);
+      solution.series.weight.push_back(node.area);
+      if (problem.exact) solution.series.truth.push_back(truth);
+      for (std::size_t i = 0; i < d && !problem.exact; ++i) { // friction, where there is some
+        solution.series.value.push_back(node.traction[i] / node.area);
+        solution.series.weight.push_back(node.area);
+      }
+    }
+    if (scene.control == Control::force || scene.control == Control::mean_pressure)
+      solution.global.push_back(record.approach);
+    else
+      solution.global.insert(solution.global.end(), record.contact_force.begin(), record.contact_force.end());
+  }
+  return solution;
+}
+
+/// Solve once and add the price to the run.
+Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& run) {
+  const Scene scene = scene_of(problem, run.way);
+  const Stopwatch wall;
+  const CpuStopwatch cpu(CLOCK_PROCESS_CPUTIME_ID);
+  Simulation simulation(scene, &library, 0,
+                        scene.contact->rigid.empty() ? MasterMaker{} : master_of(run.way));
+  const std::vector<StepRecord> records = solve(simulation, {});
+  run.cpu.push_back(cpu.seconds());
+  run.wall.push_back(wall.seconds());
+  run.contact_cpu.push_back(simulation.timings().contact_cpu);
+  const Sizes sizes = simulation.sizes();
+  run.slaves = sizes.slaves, run.segments = sizes.master_segments;
+  run.block_dofs = sizes.dofs;
+  run.master_dofs =
+      simulation.contact()->master().rigid ? sizes.master_dofs : 0; // a body has its dofs in the mesh
+  run.iterations = run.cuts = 0;
+  for (const StepRecord& record : records) {
+    run.iterations += record.iterations();
+    run.cuts += static_cast<int>(record.cuts.size());
+  }
+  return solution_of(problem, simulation, simulation.contact()->slaves(), simulation.contact()->areas(),
+                     records);
+}
+
+double relative_difference(const std::vector<double>& values, const std::vector<double>& truth) {
+  double difference = 0, norm = 0;
+  if (values.size() != truth.size()) return std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    difference += std::pow(values[i] - truth[i], 2), norm += truth[i] * truth[i];
+  return std::sqrt(difference / norm);
+}
+
+std::string sentence(const Problem& problem, const WorkRun& run) {
+  std::string text = problem.name + ", " + problem.levels[run.way.level].name + ", " + word(run.way.family);
+  if (run.way.divisions > 1) text += " " + std::to_string(run.way.divisions);
+  if (run.way.tangent != "consistent") text += ", " + run.way.tangent;
+  if (!run.failure.empty()) return text + ": " + run.failure;
+  return text + ": error " + format_number(run.error, 3) + ", " + format_number(run.cpu.back(), 3) +
+         " s, contact " + format_number(run.contact_cpu.back(), 2) + " s, " + std::to_string(run.iterations) +
+         " iterations";
+}
+
+} // namespace
+
+const char* word(Family family) {
+  switch (family) {
+  case Family::enriched:
+    return "enriched, one segment";
+  case Family::sampled:
+    return "enriched, sampling points";
+  case Family::facets:
+    return "plain segments";
+  case Family::smoothed:
+    return "smoothed segments";
+  case Family::on_facets:
+    return "enriched, on plain segments";
+  case Family::on_smoothed:
+    return "enriched, on smoothed segments";
+  }
+  return "";
+}
+
+double relative_error(const Series& series, const std::vector<double>& truth) {
+  double difference = 0, norm = 0;
+  if (series.value.size() != truth.size()) return std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    difference += series.weight[i] * std::pow(series.value[i] - truth[i], 2);
+    norm += series.weight[i] * truth[i] * truth[i];
+  }
+  return std::sqrt(difference / norm);
+}
+
+double WorkRun::seconds() const { return median(cpu); }
+double WorkRun::contact_seconds() const { return median(contact_cpu); }
+double WorkRun::noise() const {
+  constexpr double unknown = 0.1; // a single run says nothing of it
+  if (cpu.size() < 2) return unknown;
+  std::vector<double> away;
+  for (const double time : cpu) away.push_back(std::abs(time - seconds()));
+  return 2 * median(away) / seconds();
+}
+
+Scene scene_of(const Problem& problem, const Way& way) {
+  Json json = parse_json_file(problem.scene);
+  const auto apply = [&](const std::vector<std::pair<std::string, Json>>& settings) {
+    for (const auto& [pointer, value] : settings) json[Json::json_pointer(pointer)] = value;
+  };
+  apply(problem.settings);
+  apply(problem.levels[way.level].settings);
+  if (way.family == Family::sampled) json["contact"]["sampling"] = 2;
+  if (problem.adapt) problem.adapt(json, way);
+  json["contact"]["model"]["tangent"] = way.tangent;
+  return read_scene_text(json.dump(), problem.scene);
+}
+
+Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
+             const std::function<void(const std::string&)>& progress) {
+  Work work{problem, {}};
+  std::vector<Solution> solutions(problem.ways.size());
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < problem.ways.size(); ++i)
+    work.runs.push_back({problem.ways[i], {}, 0, NAN, 0, 0, 0, 0, 0, 0, {}, {}, {}});
+  const auto first_solution = [&](std::size_t i) {
+    WorkRun& run = work.runs[i];
+    try {
+      solutions[i] = solve_way(problem, library, run);
+    } catch (const JobError& error) {
+      run.failure = error.what();
+    }
+  };
+  WorkRun warm = work.runs.front(); // whoever comes first pays for cold memory: nobody's price
+  solve_way(problem, library, warm);
+  if (!problem.exact) { // the truth comes first
+    first_solution(work.runs.size() - 1);
+    truth = solutions.back().series.value;
+  }
+  for (std::size_t i = 0; i < work.runs.size(); ++i) {
+    WorkRun& run = work.runs[i];
+    if (problem.exact || i + 1 < work.runs.size()) first_solution(i);
+    if (run.failure.empty())
+      run.error = relative_error(solutions[i].series, problem.exact ? solutions[i].series.truth : truth);
+    progress(sentence(problem, run));
+  }
+  for (WorkRun& run : work.runs) { // the finest facets of the same level
+    const WorkRun* finest = nullptr;
+    for (const WorkRun& other : work.runs)
+      if (other.way.family == Family::facets && other.way.level == run.way.level && other.failure.empty() &&
+          (finest == nullptr || other.way.divisions > finest->way.divisions))
+        finest = &other;
+    if (finest == nullptr || finest == &run || !run.failure.empty()) continue;
+    run.global = relative_difference(solutions[static_cast<std::size_t>(&run - work.runs.data())].global,
+                                     solutions[static_cast<std::size_t>(finest - work.runs.data())].global);
+  }
+  for (int repetition = 1; repetitions > 1 && repetition < repetitions + 2; ++repetition)
+    for (WorkRun& run : work.runs)
+      if (run.failure.empty() && run.cpu.front() < (repetition < repetitions ? short_run : very_short_run))
+        solve_way(problem, library, run);
+  return work;
+}
+
+} // namespace host::chart

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scenes of the work-precision diagrams, the ways they are solved in, and their exact pressures.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+#include "chart/work.hpp"
+#include "exact.hpp"
+
+namespace host::chart {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double contact_modulus(const Scene& scene) { return scene.parts.front().setup.material.contact_modulus(); }
+
+double hertz_pressure(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+  const HertzLine hertz = hertz_line(record.force, scene.exact.radius, contact_modulus(scene));
+  const double rest = 1 - std::pow(place[0] / hertz.half_width, 2);
+  return rest > 0 ? hertz.peak_pressure * std::sqrt(rest) : 0;
+}
+
+/// Westergaard (Johnson, Contact Mechanics, 1985, section 13.2).
+/// @param full  mean pressure of full contact
+double sine_pressure(double full, double mean, double x, double wave) {
+  if (mean >= full) return mean + full * std::cos(2 * pi * x / wave);
+  const double edge = mean / full; // sin^2(pi a / lambda)
+  const double rest = edge - std::pow(std::sin(pi * x / wave), 2);
+  return rest > 0 ? 2 * mean * std::cos(pi * x / wave) / edge * std::sqrt(rest) : 0;
+}
+
+double westergaard_pressure(const Scene& scene, const StepRecord& record,
+                            const std::array<double, 3>& place) {
+  const double full =
+      westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
+  return sine_pressure(full, record.mean_pressure, place[0], scene.exact.wavelength);
+}
+
+/// Known in full contact only.
+double double_sine_pressure(const Scene& scene, const StepRecord& record,
+                            const std::array<double, 3>& place) {
+  const double wave = 2 * pi / scene.exact.wavelength;
+  const double full =
+      double_sine_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
+  if (record.mean_pressure < full) return std::numeric_limits<double>::quiet_NaN();
+  return record.mean_pressure + full * std::cos(wave * place[0]) * std::cos(wave * place[1]);
+}
+
+/// All levels by enriched segments, sampling points, plain and smoothed meshes; the tangents on one level.
+std::vector<Way> all_ways(const std::vector<SlaveMesh>& levels, const std::vector<int>& plain,
+                          const std::vector<int>& smooth, bool sampling) {
+  std::vector<Way> ways;
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    ways.push_back({Family::enriched, 1, level});
+    if (sampling) ways.push_back({Family::sampled, 1, level});
+    for (const int n : smooth) ways.push_back({Family::smoothed, n, level});
+    for (const int n : plain) ways.push_back({Family::facets, n, level});
+  }
+  const std::size_t middle = (levels.size() - 1) / 2;
+  for (const char* tangent : {"small_gap", "first_variation"})
+    ways.push_back({Family::enriched, 1, middle, tangent});
+  return ways;
+}
+
+/// A folder of this process alone, gone when it ends.
+struct TemporaryFolder {
+  std::filesystem::path path;
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "ents_chart_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw JobError("no folder for temporary files: " + name);
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+constexpr double stiffness_ratio = 1000;
+
+/// The rigid sine of the scene becomes a body below, the half-plane is turned over and pressed down.
+void elastic_master(Json& scene, const Way& way) {
+  constexpr double amplitude = 0.0005, approach = 0.0016; // the scene's own; some 0.9 p*
+  scene["materials"]["stiff"] = {
+      {"law", "linear_elastic"}, {"young", 1000 * stiffness_ratio}, {"poisson", 0.3}};
+  Json upper = scene["parts"][0];
+  Json& piece = upper["y"]["pieces"][0];
+  piece["growth"] = 1 / piece["growth"].get<double>();
+  piece["to"] = 1 + amplitude;
+  upper["y"]["from"] = amplitude;
+  Json lower{{"name", "lower"}, {"material", "stiff"}};
+  const bool meshed = way.family == Family::facets;
+  if (meshed) {
+    static const TemporaryFolder folder;
+    const auto file = folder.path / ("wave_" + std::to_string(way.divisions) + ".inp");
+    std::ofstream(file) << wavy_block_deck(way.divisions, amplitude, 1, 1);
+    lower["deck"] = file.string();
+  } else {
+    const auto axis = [](double from, double to, int n) {
+      return Json{{"from", from}, {"pieces", Json::array({{{"to", to}, {"divisions", n}}})}};
+    };
+    lower["element"] = "quad4";
+    lower["x"] = axis(-0.5, 0.5, way.divisions);
+    lower["y"] = axis(-1, 0, way.divisions);
+  }
+  scene["parts"] = Json::array({lower, upper});
+  scene["periodic"] = Json::array(
+      {Json::array({"block.x_min", "block.x_max"}),
+       meshed ? Json::array({"lower.LEFT", "lower.RIGHT"}) : Json::array({"lower.x_min", "lower.x_max"})});
+  scene["supports"] = Json::array({{{"nodes", meshed ? "lower.BASE" : "lower.y_min"}, {"x", 0}, {"y", 0}},
+                                   {{"nodes", "block.y_max"}, {"x", 0}, {"y", -approach}}});
+  Json model = scene["contact"]["model"];
+  model.erase("surface_coordinates");
+  if (meshed) model["height"] = nullptr;
+  model["border"] = 0.1;
+  Json master{{"faces", meshed ? "lower.TOP" : "lower.y_max"}};
+  if (!meshed) master["surface_coordinates"] = Json::array({"x"});
+  scene["contact"] = {{"slave", "block.y_min"}, {"master", master}, {"model", model}};
+  scene["steps"] = {{"control", "load_factor"}, {"values", {1. / 3, 2. / 3, 1}}};
+  scene.erase("exact");
+  scene.erase("compare");
+}
+
+double westergaard_two_bodies(const Scene& scene, const StepRecord& record,
+                              const std::array<double, 3>& place) {
+  (void)scene;
+  const double one = 1000 / (1 - 0.3 * 0.3), modulus = one / (1 + 1 / stiffness_ratio);
+  return sine_pressure(westergaard_full_contact(0.0005, 1, modulus), record.mean_pressure, place[0], 1);
+}
+
+const char* const pieces_x = "/parts/0/x/pieces/0/divisions";
+
+} // namespace
+
+std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool quick) {
+  std::vector<Problem> problems;
+  // Three orders below the smallest error of the charts, for every way.
+  const std::pair<std::string, Json> tolerance{"/solver", {{"tolerance", 1e-6}}};
+  const auto level = [](const std::string& name, std::vector<std::pair<std::string, Json>> settings) {
+    return SlaveMesh{name, std::move(settings)};
+  };
+  {
+    Problem p;
+    p.name = "westergaard", p.title = "Westergaard: a sine on a half-plane";
+    p.text = "Three loads up to 0.9 p*; a segment of 1.5 waves.";
+    p.quantity = "contact pressure, L2 over the surface and the loads";
+    p.truth = "Westergaard's exact pressure";
+    p.period = "1.5 waves";
+    p.scene = scenes / "westergaard" / "scene.json";
+    p.settings = {tolerance, {"/steps/values", {0.5178449, 1.0356899, 1.5535348}}};
+    for (const auto& [n, ny, growth] : {std::tuple{32, 16, 0.80}, {64, 22, 0.86}, {128, 30, 0.90}})
+      p.levels.push_back(level(
+          std::to_string(n) + " slave nodes",
+          {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", ny}, {"/parts/0/y/pieces/0/growth", growth}}));
+    if (quick) p.levels.resize(1);
+    p.ways = quick ? all_ways(p.levels, {15, 60}, {15}, true)
+                   : all_ways(p.levels, {7, 15, 30, 60, 120, 240, 480}, {7, 15, 30, 60}, true);
+    p.pressure = westergaard_pressure;
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "hertz2d", p.title = "Hertz: a cylinder on a block";
+    p.text = "Two forces; the master is 2 long, the contact at most 0.4.";
+    p.quantity = "contact pressure, L2 over the surface and the loads";
+    p.truth = "Hertz's exact pressure";
+    p.period = "2 mm, of which 0.4 touch";
+    p.scene = scenes / "hertz2d" / "scene.json";
+    p.settings = {tolerance, {"/steps/values", {1.5, 3.5}}};
+    for (const auto& [n, ny] : {std::pair{15, 5}, {30, 10}, {60, 20}})
+      p.levels.push_back(level(std::to_string(n + 34) + " slave nodes",
+                               {{pieces_x, n}, {"/parts/0/y/pieces/1/divisions", ny}}));
+    if (quick) p.levels.resize(1);
+    p.ways = quick ? all_ways(p.levels, {23, 95}, {23}, true)
+                   : all_ways(p.levels, {6, 11, 23, 47, 95, 191, 383}, {11, 23, 47}, true);
+    p.pressure = hertz_pressure;
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "wavy3d", p.title = "Double sine on a half-space";
+    p.text = "Two loads of partial contact, then full contact, where the exact pressure is known.";
+    p.quantity = "contact pressure, L2 over the surface in full contact";
+    p.truth = "the exact pressure of Johnson, Greenwood and Higginson";
+    p.period = "one wave per direction";
+    p.scene = scenes / "wavy3d" / "scene.json";
+    p.settings = {tolerance, {"/steps/values", {3.905831, 7.811662, 9.959869}}};
+    for (const auto& [n, nz] : {std::pair{6, 5}, {8, 6}, {12, 7}, {16, 9}})
+      p.levels.push_back(level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
+                               {{pieces_x, n},
+                                {"/parts/0/y/pieces/0/divisions", n},
+                                {"/parts/0/z/pieces/0/divisions", nz},
+                                {"/parts/0/z/pieces/0/growth", std::pow(0.75, 8. / nz)}}));
+    if (quick) p.levels.resize(1);
+    p.ways = quick ? all_ways(p.levels, {7, 29}, {7}, true)
+                   : all_ways(p.levels, {5, 9, 15, 19, 23, 29, 59}, {5, 9, 15}, true);
+    p.pressure = double_sine_pressure;
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "elastic_master", p.title = "Westergaard with an elastic master, a thousand times as stiff";
+    p.text = "One wave, three loads up to about 0.9 p*. Plain segments are the surface of a body that is "
+             "meshed to follow the wave; the enriched body is flat, with "
+             "one to four elements.";
+    p.quantity = "contact pressure, L2 over the surface";
+    p.truth = "Westergaard's exact pressure with the compliance of both bodies";
+    p.period = "one wave";
+    p.scene = scenes / "westergaard" / "scene.json";
+    p.settings = {tolerance};
+    for (const auto& [n, ny, growth] : {std::tuple{32, 16, 0.80}, {64, 22, 0.86}, {128, 30, 0.90}})
+      p.levels.push_back(level(
+          std::to_string(n) + " slave nodes",
+          {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", ny}, {"/parts/0/y/pieces/0/growth", growth}}));
+    if (quick) p.levels.resize(1);
+    p.adapt = elastic_master, p.forces = true;
+    for (std::size_t k = 0; k < p.levels.size(); ++k) {
+      for (const int n : {1, 4}) p.ways.push_back({Family::enriched, n, k});
+      for (const int n : quick ? std::vector<int>{8, 32} : std::vector<int>{8, 16, 32, 64, 128, 256})
+        p.ways.push_back({Family::facets, n, k});
+    }
+    p.pressure = westergaard_two_bodies;
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "texture", p.title = "Sliding with friction over a textured arch";
+    p.text = "Eight waves on an arch, pressed down, then 0.25 mm of sliding in 24 steps.";
+    p.quantity = "pressure and friction at the slave nodes, L2 over the surface and the way";
+    p.period = "8 waves";
+    p.scene = scenes / "texture" / "scene.json";
+    p.settings = {{"/solver/tolerance", 1e-6}};
+    p.levels = {level(quick ? "51 slave nodes" : "101 slave nodes", {{pieces_x, quick ? 50 : 100}})};
+    if (quick) p.settings.push_back({"/steps/values", {0.5, 1, 1.05, 1.1}});
+    p.exact = false, p.forces = true;
+    p.after = 1; // while it is pressed down, friction depends on the increments
+    p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 256}, false);
+    for (const int n : quick ? std::vector<int>{8} : std::vector<int>{4, 8, 16, 32}) {
+      p.ways.push_back({Family::on_smoothed, n, 0});
+      p.ways.push_back({Family::on_facets, n, 0});
+    }
+    for (const int n : quick ? std::vector<int>{64, 256} : std::vector<int>{32, 64, 128, 256, 512, 1024})
+      p.ways.push_back({Family::facets, n, 0});
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "rough_afm", p.title = "A measured rough surface";
+    p.text = "256 x 256 heights; four approaches up to 0.045 um.";
+    p.quantity = "contact pressure at the slave nodes, L2 over the surface and the loads";
+    p.period = "256 x 256 heights";
+    p.scene = scenes / "rough_afm" / "scene.json";
+    const int n = quick ? 8 : 28;
+    p.settings = {tolerance, {"/steps/values", quick ? Json{0.045} : Json{0.01, 0.02, 0.03, 0.045}}};
+    p.levels = {level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
+                      {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", n}})};
+    p.exact = false, p.forces = true;
+    p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{32} : std::vector<int>{128, 256}, false);
+    for (const int m : quick ? std::vector<int>{32, 128} : std::vector<int>{64, 128, 256, 512, 1024})
+      p.ways.push_back({Family::facets, m, 0});
+    problems.push_back(std::move(p));
+  }
+  for (Problem& p : problems)
+    if (!p.exact) {
+      const Way& last = p.ways.back();
+      const std::string n = std::to_string(last.divisions);
+      p.truth = "the finest mesh of plain segments, " + (p.name == "rough_afm" ? n + " x " + n : n) +
+                ", on the same slave nodes";
+    }
+  return problems;
+}
+
+} // namespace host::chart

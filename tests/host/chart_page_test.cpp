@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page of `ents-host chart` in a real browser, as wide as a desk and as a phone: are the charts, their
+// axes and texts there, and does nothing stick out?
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "program.hpp"
+
+namespace host::chart {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string shell(const std::string& command) {
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::string text;
+  std::array<char, 4096> part{};
+  for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
+    text.append(part.data(), count);
+  return pclose(pipe) == 0 ? text : std::string();
+}
+
+std::string browser() {
+  for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    if (!shell(std::string("command -v ") + name + " 2>/dev/null").empty()) return name;
+  return {};
+}
+
+/// What a reader sees is measured in the page itself, laid out in a frame of the given width (a browser's own
+/// window has a least width). Boxes are pixels on the screen.
+constexpr const char* measure_script = R"(<script>addEventListener('load',()=>{
+const all=s=>[...document.querySelectorAll(s)],wide=document.documentElement.clientWidth,box=e=>e.getBoundingClientRect();
+const scrolls=e=>{for(;e;e=e.parentElement)if(getComputedStyle(e).overflowX==='auto')return true;return false};
+const charts=all('svg.w').map(s=>({width:box(s).width,height:box(s).height,axes:s.querySelectorAll('.x').length,marks:s.querySelectorAll('title').length,
+labels:[...s.querySelectorAll('text')].filter(t=>t.textContent).map(t=>t.textContent),
+smallest:Math.min(...[...s.querySelectorAll('text')].filter(t=>t.textContent).map(t=>box(t).height)),
+out:[...s.querySelectorAll('text,circle,rect,polygon')].filter(e=>{const b=box(e),c=box(s);return b.width>0&&(b.left<c.left-1||b.right>c.right+1||b.top<c.top-1||b.bottom>c.bottom+1)}).length}));
+const out=all('body *').filter(e=>!scrolls(e)&&box(e).width>0&&(box(e).right>wide+1||box(e).left<-1)).map(e=>e.tagName+' '+(e.textContent||'').slice(0,40));
+parent.postMessage(JSON.stringify({wide,scroll:document.documentElement.scrollWidth,charts,maps:all('.panels svg').length,headings:all('h2').map(h=>h.textContent),
+advice:all('li').filter(l=>l.textContent.startsWith('For an error of')).length,out}),'*')})</script>)";
+
+struct Cleared {
+  fs::path path;
+  ~Cleared() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+/// One run of the command for all tests of a process.
+const fs::path& page_folder() {
+  static const Cleared folder = [] {
+    std::string name = (fs::path(testing::TempDir()) / "ents_chart_page_XXXXXX").string();
+    const fs::path path = mkdtemp(name.data());
+    const test::ProgramOutput output = test::ents_host(
+        "chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + path.string() + "\"");
+    EXPECT_EQ(output.exit_code, 0) << output.text;
+    return Cleared{path};
+  }();
+  return folder.path;
+}
+
+std::string read(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+Json look_at(const std::string& program, int width) {
+  const fs::path folder = page_folder();
+  std::string page = read(folder / "chart.html");
+  page.insert(page.rfind("</body>"), measure_script);
+  std::ofstream(folder / "measured.html") << page;
+  std::ofstream(folder / "frame.html")
+      << "<!DOCTYPE html><body><iframe src=\"measured.html\" style=\"border:0;width:" << width
+      << "px;height:900px\"></"
+         "iframe><script>addEventListener('message',e=>{document.body.textContent='RESULT'+e.data+'END'})"
+         "</script></body>";
+  // Without sandbox: it wants rights that containers do not give, and the page is our own.
+  const std::string dom =
+      shell(program +
+            " --headless --no-sandbox --disable-gpu --hide-scrollbars --virtual-time-budget=20000 "
+            "--user-data-dir=\"" +
+            (folder / "profile").string() + "\" --window-size=1400,1000 --dump-dom \"file://" +
+            (folder / "frame.html").string() + "\" 2>/dev/null");
+  const std::size_t from = dom.find("RESULT"), to = dom.rfind("END");
+  if (from == std::string::npos || to == std::string::npos) return {};
+  std::string text = dom.substr(from + 6, to - from - 6);
+  for (const auto& [escaped, plain] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&nbsp;", " "}, {"&amp;", "&"}})
+    for (std::size_t at; (at = text.find(escaped)) != std::string::npos;)
+      text.replace(at, std::string(escaped).size(), plain);
+  return Json::parse(text, nullptr, false);
+}
+
+class ChartPage : public testing::TestWithParam<int> {};
+
+TEST_P(ChartPage, ShowsItsChartsInABrowser) {
+  const std::string program = browser();
+  if (program.empty()) GTEST_SKIP() << "no browser: install Debian's chromium (sh tests/run.sh does)";
+  const Json seen = look_at(program, GetParam());
+  ASSERT_TRUE(seen.is_object()) << program << " returned no page";
+  EXPECT_EQ(seen.at("wide"), GetParam());
+  EXPECT_LE(seen.at("scroll").get<int>(), GetParam()) << "the page scrolls sideways";
+  EXPECT_TRUE(seen.at("out").empty()) << seen.at("out").dump();
+  const Json data = parse_json_file(page_folder() / "chart.json");
+  EXPECT_EQ(seen.at("charts").size(), 4 * data.at("work_precision").size());
+  std::size_t advice = 0, panels = 0;
+  for (const Json& work : data.at("work_precision")) advice += work.at("advice").size();
+  for (const Json& map : data.at("stability"))
+    for (const Json& panel : map.at("panels")) panels += panel.at("rules").get<bool>() ? 1 : 0;
+  EXPECT_EQ(seen.at("advice"), advice);
+  EXPECT_EQ(seen.at("maps"), panels);
+  EXPECT_EQ(seen.at("headings").size(), 3u);
+  for (const Json& chart : seen.at("charts")) {
+    EXPECT_GT(chart.at("width").get<double>(), 300);
+    EXPECT_EQ(chart.at("axes"), 1) << chart.dump();
+    EXPECT_EQ(chart.at("out"), 0) << chart.dump();
+    EXPECT_GE(chart.at("marks").get<int>(), 3) << chart.dump();
+    EXPECT_GE(chart.at("labels").size(), 6u) << chart.dump(); // two axes with two tics and a name each
+    EXPECT_GT(chart.at("smallest").get<double>(), 9) << "letters too small to be read: " << chart.dump();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, ChartPage, testing::Values(1280, 390),
+                         [](const auto& width) { return "Pixels" + std::to_string(width.param); });
+
+// The command's picture of its own is there, too, and is well-formed to a reader of XML.
+TEST(ChartPicture, IsLeft) {
+  const std::string svg = read(page_folder() / "work_precision.svg");
+  EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
+  EXPECT_NE(svg.find("CPU time of the whole solve"), std::string::npos);
+}
+
+} // namespace
+} // namespace host::chart

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Work-precision diagrams: fronts, sentences and masters, each against what is known beforehand.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "chart/pareto.hpp"
+#include "chart/plot.hpp"
+#include "chart/work.hpp"
+#include "support.hpp"
+
+namespace host::chart {
+namespace {
+
+using test::library;
+
+/// A run as if it had been solved; the noise is twice the spread of its repetitions.
+WorkRun made(Family family, int divisions, double error, double seconds, double spread = 0) {
+  WorkRun run;
+  run.way = {family, divisions, 0, "consistent"};
+  run.error = error;
+  run.cpu = {seconds * (1 - spread), seconds, seconds * (1 + spread)};
+  run.contact_cpu = {0.01 * seconds};
+  run.segments = static_cast<std::size_t>(divisions);
+  return run;
+}
+
+Work made(std::vector<WorkRun> runs) {
+  Work work;
+  work.problem.levels = {{"8 slave nodes", {}}};
+  work.runs = std::move(runs);
+  return work;
+}
+
+TEST(WorkPrecision, FrontHasNoRunThatAnotherBeats) {
+  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.02, 3),
+                          made(Family::enriched, 1, 0.01, 2), made(Family::smoothed, 16, 0.01, 4),
+                          made(Family::facets, 512, 0, 9)});
+  const auto front = pareto_front(work.runs, [](const WorkRun& run) { return run.seconds(); });
+  ASSERT_EQ(front.size(), 2u); // the truth itself has no error and no place
+  EXPECT_EQ(front[0], &work.runs[0]);
+  EXPECT_EQ(front[1], &work.runs[2]);
+}
+
+TEST(WorkPrecision, AdviceFollowsTheRuns) {
+  Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3),
+                    made(Family::enriched, 1, 0.009, 2)});
+  const std::string before = advice(work, {0.01}).at(0);
+  EXPECT_EQ(before, "For an error of 1 % take enriched, one segment, 8 slave nodes: 2.0 s; plain segments "
+                    "(64), 8 slave nodes, takes 1.5 times as long.");
+  std::swap(work.runs[1].cpu, work.runs[2].cpu);
+  EXPECT_EQ(advice(work, {0.01}).at(0).substr(0, 39), "For an error of 1 % take plain segments");
+  EXPECT_TRUE(advice(work, {0.001}).empty());                    // nothing reaches it
+  ASSERT_EQ(advice(work, {0.05, 0.02, 0.01, 0.001}).size(), 1u); // one answer for all that have it
+  EXPECT_EQ(advice(work, {0.05, 0.02, 0.01, 0.001}).at(0).substr(0, 32), "For an error of 5 % to 1 % take ");
+}
+
+// Times that differ by less than their repetitions do are not told apart.
+TEST(WorkPrecision, NoiseIsNoAdvantage) {
+  const Work loud =
+      made({made(Family::facets, 64, 0.009, 2.1, 0.2), made(Family::enriched, 1, 0.009, 2, 0.2)});
+  EXPECT_NE(advice(loud, {0.01}).at(0).find("the same time within the noise"), std::string::npos);
+  const Work slow =
+      made({made(Family::facets, 64, 0.009, 2, 0.2), made(Family::enriched, 1, 0.009, 2.1, 0.2)});
+  EXPECT_EQ(equal_accuracy(slow, 0.01).faster, 0);
+  const Work quiet = made({made(Family::facets, 64, 0.009, 2), made(Family::enriched, 1, 0.009, 2.4)});
+  EXPECT_EQ(equal_accuracy(quiet, 0.01).faster, 1);
+}
+
+TEST(WorkPrecision, EqualAccuracyCountsWhatReachesIt) {
+  const Work work = made({made(Family::facets, 8, 0.1, 1), made(Family::facets, 64, 0.009, 3),
+                          made(Family::facets, 128, 0.005, 2.5), made(Family::enriched, 1, 0.009, 2)});
+  const EqualAccuracy at = equal_accuracy(work, 0.01);
+  EXPECT_EQ(at.fewest_facets, &work.runs[1]);
+  EXPECT_EQ(at.cheapest_facets, &work.runs[2]);
+  EXPECT_EQ(at.enriched, &work.runs[3]);
+  EXPECT_EQ(at.fewest_smoothed, nullptr);
+  const Work same = made({made(Family::enriched, 4, 0.009, 2), made(Family::enriched, 1, 0.009, 2.05)});
+  EXPECT_EQ(equal_accuracy(same, 0.01).enriched, &same.runs[1]); // the time is the same: fewer segments
+  EXPECT_EQ(at.reaching, 2);
+}
+
+TEST(WorkPrecision, ErrorIsWeighted) {
+  EXPECT_DOUBLE_EQ(relative_error({{1, 3}, {}, {1, 4}}, {1, 2}), std::sqrt(4 * 1. / (1 * 1 + 4 * 4)));
+  EXPECT_TRUE(std::isinf(relative_error({{1}, {}, {1}}, {1, 2})));
+}
+
+const Problem& problem(const std::vector<Problem>& problems, const std::string& name) {
+  return *std::find_if(problems.begin(), problems.end(), [&](const Problem& at) { return at.name == name; });
+}
+
+/// rho_e at xi of a segment of a master.
+std::vector<double> point(const Master& master, std::size_t segment, double xi) {
+  const auto m = static_cast<std::size_t>(master.model->layout().nodes);
+  const auto part = [&](const std::vector<double>& values, std::size_t width) {
+    if (values.empty()) return std::vector<double>{};
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(segment * m * width);
+    return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(m * width));
+  };
+  return sample_surface(*master.model, part(master.positions, 2), part(master.surface_coordinates, 1), {xi})
+      .point;
+}
+
+// Catmull-Rom segments through equidistant points of a parabola are the parabola: height and base together
+// are the one enriched segment's surface, to rounding of numbers of order 1.
+TEST(WorkPrecision, SmoothedBaseCarriesTheSameSurface) {
+  const std::vector<Problem> problems = work_problems(EXAMPLES, true);
+  const Problem& texture = problem(problems, "texture");
+  const Scene scene = scene_of(texture, {});
+  const EntsModel one(library(), scene.contact->model.dump(), scene.file.parent_path(), "test");
+  constexpr int n = 8;
+  const Master several = master_of({Family::on_smoothed, n, 0, "consistent"})(library(), scene);
+  for (std::size_t k = 0; k < n; ++k)
+    for (const double xi : {-1., -0.3, 0.4, 1.}) {
+      const double whole = 2 * (static_cast<double>(k) + 0.5 * (1 + xi)) / n - 1;
+      const std::vector<double> expected = sample_surface(one, scene.contact->rigid, {}, {whole}).point,
+                                found = point(several, k, xi);
+      EXPECT_NEAR(found[0], expected[0], 1e-14);
+      EXPECT_NEAR(found[1], expected[1], 1e-14);
+    }
+}
+
+// Smoothed segments come closer with the third power of their length (Catmull-Rom's slopes are second order):
+// 8 from one mesh to the next, 7 allowed for the terms behind.
+TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
+  const std::vector<Problem> problems = work_problems(EXAMPLES, true);
+  const Scene scene = scene_of(problem(problems, "westergaard"), {});
+  std::vector<double> worst;
+  for (const int n : {30, 60, 120}) {
+    const Master master = master_of({Family::smoothed, n, 0, "consistent"})(library(), scene);
+    double largest = 0;
+    for (std::size_t k = 2; k + 2 < static_cast<std::size_t>(n); ++k)
+      for (const double xi : {-0.7, -0.5, 0.3, 0.7}) {
+        const std::vector<double> at = point(master, k, xi);
+        largest =
+            std::max(largest, std::abs(at[1] - (0.0005 - 0.0005 * std::cos(2 * 3.141592653589793 * at[0]))));
+      }
+    worst.push_back(largest);
+  }
+  EXPECT_GT(worst[0] / worst[1], 7);
+  EXPECT_GT(worst[1] / worst[2], 7);
+}
+
+// All ways of the quick chart are solved; on the same slave mesh finer plain segments are better, and none is
+// better than the enriched segment they come close to.
+TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
+  for (const Problem& at : work_problems(EXAMPLES, true)) {
+    const Work work = measure(at, library(), 1, [](const std::string&) {});
+    const WorkRun *enriched = nullptr, *coarse = nullptr, *fine = nullptr;
+    for (const WorkRun& run : work.runs) {
+      EXPECT_EQ(run.failure, "") << at.name << ", " << word(run.way.family) << " " << run.way.divisions;
+      if (run.way.family == Family::enriched && enriched == nullptr) enriched = &run;
+      if (run.way.family != Family::facets) continue;
+      if (coarse == nullptr) coarse = &run;
+      fine = &run;
+    }
+    ASSERT_TRUE(enriched != nullptr && fine != nullptr && fine != coarse) << at.name;
+    EXPECT_LT(fine->error, coarse->error) << at.name;
+    EXPECT_LT(enriched->error, coarse->error) << at.name;
+    if (at.exact) {
+      EXPECT_LE(enriched->error, fine->error) << at.name;
+    }
+    EXPECT_NE(work_svg(work, Price::time).find("<title>"), std::string::npos) << at.name;
+  }
+}
+
+} // namespace
+} // namespace host::chart
