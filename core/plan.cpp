@@ -2,6 +2,7 @@
 #include "core/plan.hpp"
 
 #include "core/kernel_table.hpp"
+#include "core/pair_kernels.hpp"
 
 namespace ents {
 
@@ -25,7 +26,25 @@ const KernelSet& kernels_of(Basis basis) {
   return portable::bezier15_kernels();
 }
 
+// Are there ordinary elements (pair.hpp) of this model?
+bool has_ordinary_elements(const Model& model) {
+  const ContactLaw& law = model.law;
+  return model.projection == ProjectionKind::normal && !model.rigid_master &&
+         (law.normal == NormalKind::penalty || law.normal == NormalKind::power) && !(law.has_friction() && law.symmetrised);
+}
+
 }  // namespace
+
+const PairKernels& best_pair_kernels() {
+#ifdef ENTS_X86_KERNELS
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl"))
+    return avx512::pair_kernels;
+  if (__builtin_cpu_supports("avx2")) return avx2::pair_kernels;
+#endif
+  return portable::pair_kernels;
+}
 
 StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law) {
   StateLayout s{-1, -1, -1, StateLayout::xi_at + parameters, 0.0};
@@ -51,6 +70,7 @@ Plan make_plan(const Model& model) {
   const bool enriched = model.height.bound() > 0.0;
   Plan plan{};
   plan.element = kernels.element[enriched][model.rigid_master];
+  if (has_ordinary_elements(model)) plan.pairs = best_pair_kernels().of_basis(model.basis).of[enriched][model.law.has_friction()];
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
   plan.project = kernels.project[enriched];

@@ -132,8 +132,28 @@ using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* m
 // A box [d] around all of the enriched segment.
 using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low, double* high);
 
+// Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in numbers; arrays that are not
+// wanted or not given are null.
+struct PairBlock {
+  static constexpr std::int32_t most = 64;
+  static constexpr std::int32_t results = want::xi | want::gap | want::normal_gap | want::normal | want::point | want::energy | want::pressure |
+                                          want::residual | want::tangent | want::state | want::flags | want::iterations |
+                                          want::traction | want::slip | want::age;
+  const double *slave, *master, *surface_coordinates, *start, *area, *state_begin;
+  std::int64_t slave_stride, master_stride, surface_coordinates_stride, start_stride, area_stride, state_begin_stride;
+  std::int32_t wanted; // of `results`
+  double *xi, *gap, *normal_gap, *normal, *point, *energy, *pressure, *residual, *tangent, *state_end, *traction, *slip, *age;
+  std::int32_t *flags, *iterations;
+  std::int64_t xi_stride, gap_stride, normal_gap_stride, normal_stride, point_stride, energy_stride, pressure_stride, residual_stride,
+      tangent_stride, state_end_stride, traction_stride, slip_stride, age_stride, flags_stride, iterations_stride;
+  std::int64_t leading, first;
+};
+// Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the others are left to the element kernel.
+using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t count);
+
 struct Plan {
   ElementKernel element;
+  PairKernel pairs;  // null: no element of this model is ordinary
   SurfaceKernel surface;
   TransferKernel transfer;
   ProjectKernel project;

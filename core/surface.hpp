@@ -66,23 +66,23 @@ template <class B, bool H, class S> struct Surface {
   V e2[K];  // rho_e,ab
 };
 
-// h(s(xi)) by the chain rule
-template <class B, int Order, class S>
-ENTS_INLINE void evaluate_height_by_xi(const Geometry<B>& g, const S (&xi)[B::dim - 1],
+// h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi
+template <class B, int Order, class S, class C>
+ENTS_INLINE void evaluate_height_by_xi(const HeightNode& height, const C* coordinates, const S (&xi)[B::dim - 1],
                                        const Shape<S, B::dim - 1, B::nodes>& N, HeightByXi<S, B::dim - 1>& out) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
-  if (!g.surface_coordinates) {
-    const HeightJet<T, S> j = evaluate_height<T>(*g.height, xi);
+  if (!coordinates) {
+    const HeightJet<T, S> j = evaluate_height<T>(height, xi);
     out.h = j.h;
     for (int a = 0; a < T; ++a) out.h1[a] = j.h1[a];
     for (int k = 0; k < K; ++k) out.h2[k] = j.h2[k];
     return;
   }
   S s[T], s1[T][T], s2[K][T];  // s, s_,a, s_,ab
-  const double* c = g.surface_coordinates;
-  double relative[is_range<S> ? T * B::nodes : 1];
+  const C* c = coordinates;
+  C relative[is_range<S> ? T * B::nodes : 1];
   if constexpr (is_range<S>) {  // sum N_i = 1: of differences, or the ranges of N_i would grow with the distance from s = 0
-    for (int i = 0; i < T * B::nodes; ++i) relative[i] = g.surface_coordinates[i] - g.surface_coordinates[i % T];
+    for (int i = 0; i < T * B::nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
     c = relative;
   }
   for (int t = 0; t < T; ++t) {
@@ -101,8 +101,8 @@ ENTS_INLINE void evaluate_height_by_xi(const Geometry<B>& g, const S (&xi)[B::di
       });
   }
   if constexpr (is_range<S>)
-    for (int t = 0; t < T; ++t) s[t] = s[t] + g.surface_coordinates[t];
-  const HeightJet<T, S> j = evaluate_height<T>(*g.height, s);
+    for (int t = 0; t < T; ++t) s[t] = s[t] + coordinates[t];
+  const HeightJet<T, S> j = evaluate_height<T>(height, s);
   out.h = j.h;
   for (int a = 0; a < T; ++a) {
     out.h1[a] = j.h1[0] * s1[a][0];
@@ -180,7 +180,7 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
-    evaluate_height_by_xi<B, Order>(g, xi, N, s.height);
+    evaluate_height_by_xi<B, Order>(*g.height, g.surface_coordinates, xi, N, s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
     if constexpr (bent) {

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A kernel scalar that is one number of each of W elements: lane k of every operation does for element k what the same operation
+// does for a double. There is no fused multiply-add and no other reordering, so that a lane's bits are those of the double.
+//
+// Made of the compiler's vectors (GCC), which it maps to whatever registers the instruction set has.
+#pragma once
+
+#include <cstdint>
+
+#include "core/elementary.hpp"
+#include "core/height.hpp"
+#include "core/scalar.hpp"
+
+namespace ents::ENTS_ISA {
+
+// One truth of each element; for a double, of one: bool.
+ENTS_INLINE bool both(bool a, bool b) { return a & b; }
+ENTS_INLINE bool either(bool a, bool b) { return a | b; }
+ENTS_INLINE bool without(bool a, bool b) { return a & !b; }
+ENTS_INLINE bool any(bool a) { return a; }
+ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
+
+template <class S> inline constexpr int lane_count = 1;
+template <class S> using Truth = decltype(S(0.0) < S(0.0));
+
+ENTS_INLINE double lane(double x, int) { return x; }
+ENTS_INLINE void set_lane(double& x, int, double value) { x = value; }
+
+#if defined(__GNUC__) && !defined(__clang__)
+#define ENTS_HAS_LANES 1
+
+template <int W> struct VectorOf;
+template <> struct VectorOf<2> {
+  typedef double Numbers __attribute__((vector_size(16)));
+  typedef long long Integers __attribute__((vector_size(16)));
+  static ENTS_INLINE Numbers all(double x) { return Numbers{x, x}; }
+};
+#if defined(__AVX__)
+template <> struct VectorOf<4> {
+  typedef double Numbers __attribute__((vector_size(32)));
+  typedef long long Integers __attribute__((vector_size(32)));
+  static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x}; }
+};
+#endif
+#if defined(__AVX512F__)
+template <> struct VectorOf<8> {
+  typedef double Numbers __attribute__((vector_size(64)));
+  typedef long long Integers __attribute__((vector_size(64)));
+  static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x, x, x, x, x}; }
+};
+#endif
+
+template <int W> struct LaneTruth {
+  typename VectorOf<W>::Integers v; // -1 or 0
+};
+template <int W> ENTS_INLINE LaneTruth<W> both(LaneTruth<W> a, LaneTruth<W> b) { return {a.v & b.v}; }
+template <int W> ENTS_INLINE LaneTruth<W> either(LaneTruth<W> a, LaneTruth<W> b) { return {a.v | b.v}; }
+template <int W> ENTS_INLINE LaneTruth<W> without(LaneTruth<W> a, LaneTruth<W> b) { return {a.v & ~b.v}; }
+template <int W> ENTS_INLINE std::uint32_t bits_of(LaneTruth<W> a) {
+#if defined(__AVX512DQ__)
+  if constexpr (W == 8) return __builtin_ia32_cvtq2mask512(a.v);
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256((typename VectorOf<W>::Numbers)a.v));
+#endif
+  std::uint32_t bits = 0;
+  for (int k = 0; k < W; ++k) bits |= (a.v[k] != 0 ? 1u : 0u) << k;
+  return bits;
+}
+template <int W> ENTS_INLINE bool any(LaneTruth<W> a) { return bits_of(a) != 0; }
+
+template <int W> struct Lanes {
+  using Numbers = typename VectorOf<W>::Numbers;
+  Numbers v;
+  Lanes() = default;
+  ENTS_INLINE Lanes(double x) : v(VectorOf<W>::all(x)) {}
+  ENTS_INLINE Lanes(Numbers x, int) : v(x) {}
+
+  friend ENTS_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v, 0); }
+  friend ENTS_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v, 0); }
+  friend ENTS_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v, 0); }
+  friend ENTS_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v, 0); }
+  friend ENTS_INLINE Lanes operator-(Lanes a) { return Lanes(-a.v, 0); }
+  friend ENTS_INLINE LaneTruth<W> operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
+  friend ENTS_INLINE LaneTruth<W> operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
+  friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return {a.v <= b.v}; }
+  friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return {a.v >= b.v}; }
+};
+template <int W> inline constexpr int lane_count<Lanes<W>> = W;
+
+template <int W> ENTS_INLINE Lanes<W> value_of(Lanes<W> a) { return a; }
+template <int W> ENTS_INLINE Lanes<W> minus_value(Lanes<W> a, Lanes<W> b) { return a - b; }
+template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(c.v ? a.v : b.v, 0); }
+template <int W> ENTS_INLINE double lane(const Lanes<W>& x, int k) { return x.v[k]; }
+template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x.v[k] = value; }
+template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
+  Lanes<W> r;
+  for (int k = 0; k < W; ++k) r.v[k] = __builtin_sqrt(a.v[k]);
+  return r;
+}
+template <int W> ENTS_INLINE Lanes<W> absolute(Lanes<W> a) { return select(a < Lanes<W>(0.0), -a, a); }
+
+template <int W> ENTS_INLINE Lanes<W> power_of_two(Lanes<W> n) {
+  using I = typename VectorOf<W>::Integers;
+  const Lanes<W> biased = n + (4503599627370496.0 + 1023.0);
+  return Lanes<W>((typename Lanes<W>::Numbers)(((I)biased.v) << 52), 0);
+}
+template <int W> ENTS_INLINE void add_quarters(Lanes<W> quarters, Lanes<W>& sine, Lanes<W>& cosine) {
+  using I = typename VectorOf<W>::Integers;
+  using V = typename Lanes<W>::Numbers;
+  const I n = (I)(quarters + 6755399441055744.0).v;
+  const I s = (I)sine.v, c = (I)cosine.v;
+  const I swap = (s ^ c) & -(n & 1);
+  sine = Lanes<W>((V)(s ^ swap ^ ((n & 2) << 62)), 0);
+  cosine = Lanes<W>((V)(c ^ swap ^ (((n + 1) & 2) << 62)), 0);
+}
+
+// Two scalars side by side: operations of the one run while the other waits for its own.
+template <class T> struct TwiceTruth {
+  T low, high;
+};
+template <class T> ENTS_INLINE TwiceTruth<T> both(TwiceTruth<T> a, TwiceTruth<T> b) { return {both(a.low, b.low), both(a.high, b.high)}; }
+template <class T> ENTS_INLINE TwiceTruth<T> either(TwiceTruth<T> a, TwiceTruth<T> b) {
+  return {either(a.low, b.low), either(a.high, b.high)};
+}
+template <class T> ENTS_INLINE TwiceTruth<T> without(TwiceTruth<T> a, TwiceTruth<T> b) {
+  return {without(a.low, b.low), without(a.high, b.high)};
+}
+template <class T> ENTS_INLINE bool any(TwiceTruth<T> a) { return any(either(a.low, a.high)); }
+
+template <class S> struct Twice {
+  S low, high;
+  Twice() = default;
+  ENTS_INLINE Twice(double x) : low(x), high(x) {}
+  ENTS_INLINE Twice(S a, S b) : low(a), high(b) {}
+
+  friend ENTS_INLINE Twice operator+(Twice a, Twice b) { return {a.low + b.low, a.high + b.high}; }
+  friend ENTS_INLINE Twice operator-(Twice a, Twice b) { return {a.low - b.low, a.high - b.high}; }
+  friend ENTS_INLINE Twice operator*(Twice a, Twice b) { return {a.low * b.low, a.high * b.high}; }
+  friend ENTS_INLINE Twice operator/(Twice a, Twice b) { return {a.low / b.low, a.high / b.high}; }
+  friend ENTS_INLINE Twice operator-(Twice a) { return {-a.low, -a.high}; }
+  friend ENTS_INLINE TwiceTruth<Truth<S>> operator<(Twice a, Twice b) { return {a.low < b.low, a.high < b.high}; }
+  friend ENTS_INLINE TwiceTruth<Truth<S>> operator>(Twice a, Twice b) { return {a.low > b.low, a.high > b.high}; }
+  friend ENTS_INLINE TwiceTruth<Truth<S>> operator<=(Twice a, Twice b) { return {a.low <= b.low, a.high <= b.high}; }
+  friend ENTS_INLINE TwiceTruth<Truth<S>> operator>=(Twice a, Twice b) { return {a.low >= b.low, a.high >= b.high}; }
+};
+template <class S> ENTS_INLINE Twice<S> value_of(Twice<S> a) { return a; }
+template <class S> ENTS_INLINE Twice<S> minus_value(Twice<S> a, Twice<S> b) { return a - b; }
+template <class S> ENTS_INLINE Twice<S> select(TwiceTruth<Truth<S>> c, Twice<S> a, Twice<S> b) {
+  return {select(c.low, a.low, b.low), select(c.high, a.high, b.high)};
+}
+template <class S> ENTS_INLINE Twice<S> square_root(Twice<S> a) { return {square_root(a.low), square_root(a.high)}; }
+template <class S> ENTS_INLINE Twice<S> absolute(Twice<S> a) { return {absolute(a.low), absolute(a.high)}; }
+template <class S> ENTS_INLINE Twice<S> power_of_two(Twice<S> n) { return {power_of_two(n.low), power_of_two(n.high)}; }
+template <class S> ENTS_INLINE void add_quarters(Twice<S> quarters, Twice<S>& sine, Twice<S>& cosine) {
+  add_quarters(quarters.low, sine.low, cosine.low);
+  add_quarters(quarters.high, sine.high, cosine.high);
+}
+
+// What a plain number is to Dual<double>, lanes are to Dual<Lanes>.
+template <int W> ENTS_INLINE Dual<Lanes<W>> operator*(Dual<Lanes<W>> a, Lanes<W> b) { return {a.v * b, a.d * b}; }
+template <int W> ENTS_INLINE Dual<Lanes<W>> operator*(Lanes<W> a, Dual<Lanes<W>> b) { return {a * b.v, a * b.d}; }
+template <int W> ENTS_INLINE Dual<Lanes<W>> operator+(Dual<Lanes<W>> a, Lanes<W> b) { return {a.v + b, a.d}; }
+template <int W> ENTS_INLINE Dual<Lanes<W>> operator+(Lanes<W> a, Dual<Lanes<W>> b) { return {a + b.v, b.d}; }
+
+// Coefficients of each lane's cell.
+template <int W> ENTS_INLINE void load_cell(const double* coefficients, Lanes<W> cell, Lanes<W> (&c)[4]) {
+  for (int k = 0; k < W; ++k) {
+    double of_lane[4];
+    load_cell(coefficients, cell.v[k], of_lane);
+    for (int i = 0; i < 4; ++i) c[i].v[k] = of_lane[i];
+  }
+}
+template <int W>
+ENTS_INLINE void load_cell(const double* coefficients, std::int64_t row_stride, Lanes<W> cell_1, Lanes<W> cell_2, Lanes<W> (&c)[4][4]) {
+  for (int k = 0; k < W; ++k) {
+    double of_lane[4][4];
+    load_cell(coefficients, row_stride, cell_1.v[k], cell_2.v[k], of_lane);
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i) c[j][i].v[k] = of_lane[j][i];
+  }
+}
+template <class S> ENTS_INLINE void load_cell(const double* coefficients, Twice<S> cell, Twice<S> (&c)[4]) {
+  S low[4], high[4];
+  load_cell(coefficients, cell.low, low);
+  load_cell(coefficients, cell.high, high);
+  for (int i = 0; i < 4; ++i) c[i] = {low[i], high[i]};
+}
+template <class S>
+ENTS_INLINE void load_cell(const double* coefficients, std::int64_t row_stride, Twice<S> cell_1, Twice<S> cell_2, Twice<S> (&c)[4][4]) {
+  S low[4][4], high[4][4];
+  load_cell(coefficients, row_stride, cell_1.low, cell_2.low, low);
+  load_cell(coefficients, row_stride, cell_1.high, cell_2.high, high);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) c[j][i] = {low[j][i], high[j][i]};
+}
+#endif
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ordinary element: projection along the normal from a start next to it, penalty or power law, consistent tangent. It is what
+// nearly all elements of nearly all calls are, so it is written for speed, for one element (S = double) or one per lane; both
+// run the same operations in the same order. Whatever is not ordinary (no start, a projection that needs care, an edge of the
+// range of numbers, an error) is left to evaluate_element().
+//
+// F = |x_s - rho_e|^2 / 2 is g^2 / 2 at its minimum, so that with s the weights of delta X = x_s - rho and f_a = - F_,xi_a u
+//   g dg dg^T ... + g D2g = D2F* = F_uu - f F_,xixi^-1 f,   F_uu = s s^T I + sum_k (w_k z_k^T + z_k w_k^T)
+//   K = A [ W'/g D2F* + (W'' - W'/g) dg dg^T ]
+// W'/g is finite where the pressure vanishes with the gap.
+#pragma once
+
+#include "core/pair_forms.hpp"
+#include "core/pair_surface.hpp"
+#include "core/plan.hpp"
+#include "core/projection.hpp"
+
+namespace ents::ENTS_ISA {
+
+inline constexpr int max_pair_evaluations = 8;
+// Lengths, heights and stiffnesses below this, and lengths above its inverse, keep every product in range.
+inline constexpr double comfortable = 1e30;
+
+template <int K, class S> ENTS_INLINE Truth<S> minimum_of(const S (&f2)[K], const S (&metric)[K]) {
+  return both(f2[0] > 1e-8 * metric[0], determinant(f2) > 1e-8 * determinant(metric));
+}
+
+template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); }
+
+// An element on its way through.
+template <class B, bool H, class S> struct Pair {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, N = D * (B::nodes + 1);
+  PairNodes<B, S> nodes;
+  S area, xi[T];
+  S evaluations, gap, per_gap; // W'/g per area, 0 where open
+  Vec<S, D> normal;            // n_e
+  Truth<S> ordinary, contact, outside;
+  PairProjector<B, H, S> projector;
+
+  ENTS_INLINE Pair(const PairNodes<B, S>& y, const S (&start)[T]) : nodes(y), projector(nodes) {
+    for (int a = 0; a < T; ++a) xi[a] = start[a];
+  }
+  Pair(const Pair&) = delete;
+
+  // Newton's method with full steps. Not ordinary: a step that does not descend, is long or leaves the segment far behind.
+  ENTS_INLINE void project() {
+    auto& p = projector;
+    S step[T];
+    if constexpr (PairProjector<B, H, S>::closed_form) {
+      for (int a = 0; a < T; ++a) xi[a] = p.foot[a];
+      evaluations = S(1.0);
+      ordinary = evaluations > 0.0;
+    } else {
+      const S floor = 1e-26 * dot(nodes.y[0], nodes.y[0]);
+      S previous_length = S(0.0), previous_merit = S(2.0 * comfortable * comfortable);
+      evaluations = S(0.0);
+      Truth<S> active = evaluations >= 0.0;
+      ordinary = active;
+      for (int count = 1; count < max_pair_evaluations; ++count) {
+        p.evaluate(xi);
+        evaluations = select(active, evaluations + 1.0, evaluations);
+        const S q = 1.0 / determinant(p.f2);
+        if constexpr (T == 1) {
+          step[0] = p.r[0] * q;
+        } else {
+          step[0] = (p.f2[2] * p.r[0] - p.f2[1] * p.r[1]) * q;
+          step[1] = (p.f2[0] * p.r[1] - p.f2[1] * p.r[0]) * q;
+        }
+        S length = absolute(step[0]);
+        if constexpr (T == 2) length = larger(length, absolute(step[1]));
+        Truth<S> fine = both(both(minimum_of(p.f2, p.metric), length <= max_step),
+                             p.twice_merit <= previous_merit * (1.0 + 1e-12) + floor);
+        S size = S(0.0);
+        for (int a = 0; a < T; ++a) {
+          step[a] = xi[a] + step[a];
+          size = size + absolute(step[a]);
+        }
+        fine = both(fine, size <= far_outside);
+        ordinary = without(ordinary, without(active, fine));
+        active = both(active, fine);
+        active = both(active, length > 1e-15);
+        // quadratic convergence: see project()
+        const Truth<S> last = either(length <= 1e-13,
+                                     both(length < 1e-4, 10.0 * length * length * length <= 1e-16 * previous_length * previous_length));
+        for (int a = 0; a < T; ++a) xi[a] = select(active, step[a], xi[a]);
+        evaluations = select(both(active, last), evaluations + 1.0, evaluations); // that of arrive()
+        active = without(active, last);
+        previous_length = length;
+        previous_merit = p.twice_merit;
+        if (!any(active)) break;
+      }
+      ordinary = without(ordinary, active);
+    }
+  }
+
+  // The surface at the projection.
+  ENTS_INLINE void arrive() {
+    if constexpr (!PairProjector<B, H, S>::closed_form) projector.evaluate(xi);
+  }
+
+  // Gap, force and status. limit: of the penetration, 0: the segment's size
+  ENTS_INLINE void press(const Plan& plan) {
+    auto& p = projector;
+    const S area2 = p.finish(xi);
+    if constexpr (H) {
+      const Vec<S, D> m = normal_of_tangents(p.s.e);
+      const S area2_e = dot(m, m);
+      ordinary = both(ordinary, area2_e > degenerate_size * area2);
+      normal = (1.0 / square_root(area2_e)) * m;
+      S heights = absolute(p.s.height.h);
+      for (const S& h : p.s.height.h1) heights = heights + absolute(h);
+      for (const S& h : p.s.height.h2) heights = heights + absolute(h);
+      ordinary = both(ordinary, heights < comfortable);
+    } else {
+      normal = p.s.n;
+    }
+    gap = dot(p.s.d, normal);
+
+    S size2 = dot(p.s.a[0], p.s.a[0]), reach2 = dot(nodes.y[0], nodes.y[0]);
+    if constexpr (T == 2) size2 = size2 + dot(p.s.a[1], p.s.a[1]);
+    for (int i = 1; i < B::nodes; ++i) reach2 = reach2 + dot(nodes.y[i], nodes.y[i]);
+    // degenerate segments: the margins of Geometry::smallest_area2, and more
+    const S small = 1e-20 * (T == 2 ? size2 * size2 : size2) + 1e-26 * reach2 * (T == 2 ? size2 : S(1.0));
+    ordinary = both(ordinary, both(area2 > small, minimum_of(p.f2, p.metric)));
+    ordinary = both(ordinary, both(area2 > 1.0 / (comfortable * comfortable), reach2 < comfortable * comfortable));
+    ordinary = both(ordinary, both(area >= 0.0, area < comfortable));
+
+    if constexpr (B::simplex) {
+      outside = either(either(xi[0] < -plan.border, xi[1] < -plan.border), xi[0] + xi[1] - 1.0 > plan.border);
+    } else {
+      outside = absolute(xi[0]) - 1.0 > plan.border;
+      if constexpr (T == 2) outside = either(outside, absolute(xi[1]) - 1.0 > plan.border);
+    }
+    contact = without(gap < 0.0, outside);
+
+    per_gap = S(plan.law.stiffness);
+    if (plan.law.normal == NormalKind::power && plan.law.twice_exponent > 2) {
+      const int n = plan.law.twice_exponent - 2; // c (-g)^(m-1)
+      const S depth = larger(-gap, S(0.0));
+      if (n % 2) per_gap = per_gap * square_root(depth);
+      for (int i = 0; i < n / 2; ++i) per_gap = per_gap * depth;
+    }
+    ordinary = both(ordinary, area * per_gap < comfortable);
+    const S deep2 = plan.penetration_limit > 0.0 ? S(plan.penetration_limit * plan.penetration_limit)
+                                                 : (B::simplex ? 1.0 : 4.0) * size2;
+    // close to the limit evaluate_element() decides
+    ordinary = without(ordinary, both(contact, gap * gap >= 0.99 * deep2));
+    per_gap = select(contact, per_gap, S(0.0));
+  }
+
+  // out = R: A W' dg
+  ENTS_INLINE void residual(S (&out)[N]) const {
+    Form<B, S> f;
+    form_of_p<B, H>(projector.s, (area * per_gap * gap) * normal, f);
+    expand<B, false, parts_of_p<H>>(f, projector.N, out);
+  }
+};
+
+// K = s s^T I - sum_a v_a v_a^T + sum_a (w_a z_a^T + z_a w_a^T) [ + g g^T ]
+template <class B, bool H, class S> struct PairTangent {
+  static constexpr int D = B::dim, T = D - 1, M = B::nodes + 1, N = D * M;
+  static constexpr bool symmetric = true;
+  S weights[1][M]; // s
+  S v[T][N];
+  S w[H ? T : 1][N], z[H ? T : 1][N]; // (H)
+  S g[N];                             // where the law is not linear
+  bool curved_law;
+
+  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
+    const auto& p = pair.projector;
+    const S stiffness = pair.area * pair.per_gap, root = square_root(stiffness);
+    weights[0][0] = root;
+    for (int i = 0; i < B::nodes; ++i) weights[0][i + 1] = -(root * p.N.n[i]);
+
+    // f F^-1 f = sum v v with F = C C^T, v = C^-1 f
+    constexpr int parts = parts_of_f<B, H>;
+    Form<B, S> f[T];
+    forms_of_f(p.s, f);
+    const S c11 = square_root(p.f2[0]);
+    scale<parts>(f[0], root / c11);
+    if constexpr (T == 2) {
+      const S c21 = p.f2[1] / c11, c22 = square_root(p.f2[2] - c21 * c21), q = 1.0 / c22;
+      scale<parts>(f[1], root * q);
+      add_form<parts>(f[1], -(c21 * q), f[0]);
+    }
+    for (int a = 0; a < T; ++a) expand<B, false, parts>(f[a], p.N, v[a]);
+
+    if constexpr (H) {
+      Form<B, S> zf[T];
+      forms_of_z<B>(p.s, zf);
+      const Vec<S, D> n = stiffness * p.s.n; // w_a = n . delta a_a
+      for (int a = 0; a < T; ++a) {
+        expand<B, false, on_position | on_tangents>(zf[a], p.N, z[a]);
+        for (int c = 0; c < D; ++c) {
+          w[a][c] = S(0.0);
+          for (int i = 0; i < B::nodes; ++i) w[a][D * (i + 1) + c] = p.N.d1[a][i] * n[c];
+        }
+      }
+    }
+    curved_law = plan.law.twice_exponent > 2;
+    if (curved_law) { // (m - 1) W'/g dg dg^T
+      Form<B, S> gf;
+      form_of_p<B, H>(p.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
+      expand<B, false, parts_of_p<H>>(gf, p.N, g);
+    } else {
+      for (S& entry : g) entry = S(0.0);
+    }
+  }
+
+  // k + all but the weights; row(array) is the array's entry of the row
+  template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
+    for (int a = 0; a < T; ++a) k = k - row(v[a]) * R(v[a][j]);
+    if constexpr (H)
+      for (int a = 0; a < T; ++a) k = k + (row(w[a]) * R(z[a][j]) + row(z[a]) * R(w[a][j]));
+    if (curved_law) k = k + row(g) * R(g[j]);
+    return k;
+  }
+};
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ordinary elements of a call: a block of up to 64, each written or left to evaluate_element().
+#pragma once
+
+#include "core/pair_friction.hpp"
+#include "core/pair_write.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class T> ENTS_INLINE T* element_at(T* data, std::int64_t stride, std::int64_t e) { return data ? data + stride * e : nullptr; }
+
+ENTS_INLINE bool is_finite(const double* numbers, int count) {
+  double zero = 0.0;
+  for (int i = 0; i < count; ++i) zero += 0.0 * numbers[i];
+  return zero == 0.0;
+}
+
+ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride : plan.surface_coordinates;
+}
+
+// What an element starts from: its history, else the caller's start. Null: the whole segment has to be searched, or an input is
+// wrong that would not be noticed later.
+template <class B, bool H> ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  if constexpr (!H)
+    if (block.surface_coordinates && !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * B::nodes)) return nullptr;
+  const double* start = element_at(block.start, block.start_stride, e);
+  if (start && !is_finite(start, B::dim - 1)) return nullptr;
+  if (block.state_begin) {
+    const double* state = block.state_begin + e * block.state_begin_stride;
+    if (state[StateLayout::tag_at] != plan.state.tag || !is_finite(state, plan.state.size)) return nullptr;
+    const double history = state[StateLayout::history_at];
+    if (history == 1.0 || history == 2.0 || history == 3.0) return state + StateLayout::xi_at;
+    if (history != 0.0) return nullptr;
+  }
+  return start;
+}
+
+// Where the anchor of lane k is at the end, and how far the slave slipped: the elastic slip that is left belongs to the force that
+// is left.
+template <class B, bool H, class S>
+ENTS_INLINE double move_anchor(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, int k, double* anchor) {
+  constexpr int T = B::dim - 1;
+  if (!(bits_of(f.active) >> k & 1)) {
+    for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k);
+    return 0.0;
+  }
+  // dragged: the part of xi - xi_0 that the limit leaves
+  const double kept = bits_of(f.slip) >> k & 1 ? lane(f.limit, k) / lane(f.norm, k) : 1.0;
+  for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k) - kept * lane(f.moved[a], k);
+  const double scale = lane(f.scale, k);
+  return kept < 1.0 && scale > 0.0 ? (1.0 - kept) * lane(f.norm, k) / scale : 0.0;
+}
+
+// t^a / A of lane k
+template <class B, bool H, class S> ENTS_INLINE double traction(const PairFriction<B, H, S>& f, double area, int a, int k) {
+  if (!(bits_of(f.active) >> k & 1) || !(area > 0.0)) return 0.0;
+  return (bits_of(f.slip) >> k & 1 ? lane(f.limit, k) * lane(f.raised[a], k) : lane(f.scale, k) * lane(f.moved[a], k)) / area;
+}
+
+// Small results of one lane.
+template <class B, bool H, bool F, class S>
+ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, int k,
+                               std::int64_t e) {
+  constexpr int T = B::dim - 1;
+  const std::int32_t wanted = block.wanted;
+  const bool pair = bits_of(p.contact) >> k & 1, beyond = bits_of(p.outside) >> k & 1;
+  if (wanted & want::xi)
+    for (int a = 0; a < T; ++a) block.xi[e * block.xi_stride + a] = lane(p.xi[a], k);
+  const double gap = lane(p.gap, k), per_gap = lane(p.per_gap, k), area = lane(p.area, k);
+  if (wanted & want::gap) block.gap[e * block.gap_stride] = gap;
+  if (wanted & want::normal_gap) block.normal_gap[e * block.normal_gap_stride] = gap;
+  for (int c = 0; c < B::dim; ++c) {
+    if (wanted & want::normal) block.normal[e * block.normal_stride + c] = lane(p.normal[c], k);
+    if (wanted & want::point)
+      block.point[e * block.point_stride + c] = block.slave[e * block.slave_stride + c] - lane(p.projector.s.d[c], k);
+    if (wanted & want::traction) { // t^a rho_e,a / A
+      double sum = 0.0;
+      if constexpr (F)
+        for (int a = 0; a < T; ++a) sum += traction(f, area, a, k) * lane(p.projector.s.e[a][c], k);
+      block.traction[e * block.traction_stride + c] = sum;
+    }
+  }
+  if (wanted & want::pressure) block.pressure[e * block.pressure_stride] = pair ? 0.0 - per_gap * gap : 0.0;
+  if (wanted & want::energy)
+    block.energy[e * block.energy_stride] = pair ? area * (per_gap * gap * gap / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
+  if (wanted & want::iterations) block.iterations[e * block.iterations_stride] = static_cast<std::int32_t>(lane(p.evaluations, k));
+  if (!(wanted & (want::state | want::flags | want::age | want::slip))) return;
+  const double* begin = element_at(block.state_begin, block.state_begin_stride, e);
+  bool active = false, slips = false, sheared = false;
+  if constexpr (F) {
+    active = bits_of(f.active) >> k & 1;
+    slips = bits_of(f.slip) >> k & 1;
+    sheared = bits_of(f.at_shear_limit) >> k & 1;
+  }
+  const double now = static_cast<double>(!pair ? History::open : slips ? History::slip : History::stick);
+  const bool changed = begin && begin[StateLayout::history_at] != now;
+  const double age = begin && !changed ? begin[StateLayout::age_at] + 1.0 : 0.0;
+  if (wanted & want::flags)
+    block.flags[e * block.flags_stride] = (pair && wanted & want::element ? flag::contact : 0) | (beyond ? flag::outside : 0) | (changed ? flag::changed : 0) |
+                                          (active ? (slips ? flag::slip : flag::stick) : 0) | (sheared ? flag::shear_limit : 0);
+  if (wanted & want::age) block.age[e * block.age_stride] = age;
+  double anchor[T], slipped = 0.0;
+  if constexpr (F) slipped = (begin ? begin[plan.state.slip_at] : 0.0) + move_anchor(p, f, k, anchor);
+  if (wanted & want::slip) block.slip[e * block.slip_stride] = slipped;
+  if (!(wanted & want::state)) return;
+  double* end = block.state_end + e * block.state_end_stride;
+  end[StateLayout::tag_at] = plan.state.tag;
+  end[StateLayout::history_at] = now;
+  end[StateLayout::age_at] = age;
+  for (int a = 0; a < T; ++a) end[StateLayout::xi_at + a] = lane(p.xi[a], k);
+  if constexpr (F) {
+    for (int a = 0; a < T; ++a) end[plan.state.anchor_at + a] = anchor[a];
+    end[plan.state.slip_at] = slipped;
+  }
+}
+
+template <bool F, class B, bool H, class S> using TangentOf = std::conditional_t<F, PairFrictionTangent<B, H, S>, PairTangent<B, H, S>>;
+
+// Gap, force and friction at the projection.
+template <bool F, class B, bool H, class S>
+ENTS_INLINE void press(const Plan& plan, Pair<B, H, S>& p, PairFriction<B, H, S>& f, const S (&anchor)[B::dim - 1], const S& history) {
+  p.arrive();
+  p.press(plan);
+  if constexpr (F) f.evaluate(plan, p, anchor, history);
+}
+template <bool F, class B, bool H, class S>
+ENTS_INLINE void residual(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[B::dim * (B::nodes + 1)]) {
+  if constexpr (F) friction_residual(p, f, out);
+  else p.residual(out);
+}
+template <bool F, class B, bool H, class S>
+ENTS_INLINE void tangent(const Plan& plan, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, TangentOf<F, B, H, S>& out) {
+  if constexpr (F) out.evaluate(plan, p, f);
+  else out.evaluate(plan, p);
+}
+
+// The anchor in the state, and whether there is one.
+template <int T> ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, std::int64_t e, double& history) {
+  static const double none[T] = {};
+  const double* state = element_at(block.state_begin, block.state_begin_stride, e);
+  history = state && state[StateLayout::history_at] >= 2.0 ? 1.0 : 0.0;
+  return state ? state + plan.state.anchor_at : none;
+}
+
+// An element that is open
+template <int N> ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e) {
+  if (block.wanted & want::residual)
+    for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
+  if (block.wanted & want::tangent)
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) block.tangent[e * block.tangent_stride + j * block.leading + i] = 0.0;
+}
+
+template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  constexpr int D = B::dim, T = D - 1, N = D * (B::nodes + 1);
+  const double* start = start_of<B, H>(plan, block, e);
+  if (!start) return false;
+  const double *slave = block.slave + e * block.slave_stride, *master = block.master + e * block.master_stride;
+  PairNodes<B, double> nodes;
+  for (int i = 0; i < B::nodes; ++i)
+    for (int c = 0; c < D; ++c) nodes.y[i][c] = master[D * i + c] - slave[c];
+  const double* coordinates = coordinates_of(plan, block, e);
+  nodes.has_coordinates = H && coordinates;
+  if (nodes.has_coordinates)
+    for (int i = 0; i < T * B::nodes; ++i) nodes.coordinates[i] = coordinates[i];
+  nodes.height = plan.height;
+  double from[T];
+  for (int a = 0; a < T; ++a) from[a] = start[a];
+  Pair<B, H, double> p(nodes, from);
+  PairFriction<B, H, double> f;
+  p.area = block.area ? block.area[e * block.area_stride] : 1.0;
+  double anchor[T] = {}, history = 0.0;
+  if constexpr (F) {
+    const double* at = anchor_of<T>(plan, block, e, history);
+    for (int a = 0; a < T; ++a) anchor[a] = at[a];
+  }
+  p.project();
+  press<F>(plan, p, f, anchor, history);
+  if (!p.ordinary) return false;
+  if (p.contact) {
+    double* r = block.residual + e * block.residual_stride;
+    double* k = block.tangent + e * block.tangent_stride;
+    if (block.wanted & want::residual) {
+      double of_dofs[N];
+      residual<F>(p, f, of_dofs);
+      for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
+    }
+    if (block.wanted & want::tangent) {
+      TangentOf<F, B, H, double> t;
+      tangent<F>(plan, p, f, t);
+      if constexpr (N <= 12) write_tangent<D>(t, k, block.leading);
+      else write_long_tangent<D>(t, k, block.leading);
+    }
+  } else {
+    write_zeros<N>(block, e);
+  }
+  if (block.wanted & ~(want::residual | want::tangent)) write_scalars<B, H, F>(plan, block, p, f, 0, e);
+  return true;
+}
+
+#if defined(ENTS_HAS_LANES)
+// Inputs of W elements from e on.
+template <class B, bool H, int W> struct PairLanes {
+  static constexpr int D = B::dim, T = D - 1;
+  using S = Lanes<W>;
+  PairNodes<B, S> nodes;
+  S xi[T];
+  std::uint32_t known; // bit k: element e + k has a start
+
+  ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
+    static const double centre[T] = {};
+    const double *start[W], *slave[W], *master[W], *coordinates[W];
+    known = 0;
+    for (int k = 0; k < W; ++k) {
+      start[k] = start_of<B, H>(plan, block, e + k);
+      if (start[k]) known |= 1u << k;
+      else start[k] = centre;
+      slave[k] = block.slave + (e + k) * block.slave_stride;
+      master[k] = block.master + (e + k) * block.master_stride;
+      coordinates[k] = coordinates_of(plan, block, e + k);
+    }
+    S x[D], y[D * B::nodes];
+    read_lanes<W>(slave, x);
+    read_lanes<W>(master, y);
+    for (int i = 0; i < B::nodes; ++i)
+      for (int c = 0; c < D; ++c) nodes.y[i][c] = y[D * i + c] - x[c];
+    nodes.has_coordinates = H && coordinates[0];
+    if (nodes.has_coordinates) read_lanes<W>(coordinates, nodes.coordinates);
+    nodes.height = plan.height;
+    read_lanes<W>(start, xi);
+  }
+};
+
+// Both projections at once.
+template <class B, bool H, int W> ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) {
+  constexpr int D = B::dim, T = D - 1;
+  using S = Twice<Lanes<W>>;
+  PairNodes<B, S> nodes;
+  for (int i = 0; i < B::nodes; ++i)
+    for (int c = 0; c < D; ++c) nodes.y[i][c] = {a.nodes.y[i][c], b.nodes.y[i][c]};
+  nodes.has_coordinates = a.nodes.has_coordinates;
+  if (nodes.has_coordinates)
+    for (int i = 0; i < T * B::nodes; ++i) nodes.coordinates[i] = {a.nodes.coordinates[i], b.nodes.coordinates[i]};
+  nodes.height = a.nodes.height;
+  S xi[T];
+  for (int i = 0; i < T; ++i) xi[i] = {a.xi[i], b.xi[i]};
+  Pair<B, H, S> p(nodes, xi);
+  p.project();
+  for (int i = 0; i < T; ++i) a.xi[i] = p.xi[i].low, b.xi[i] = p.xi[i].high;
+  a.evaluations = p.evaluations.low, b.evaluations = p.evaluations.high;
+  a.ordinary = p.ordinary.low, b.ordinary = p.ordinary.high;
+}
+
+// W projected elements from e on; bit k: element e + k was ordinary and is written.
+template <class B, bool H, bool F, int W>
+ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p, std::uint32_t known, std::int64_t e) {
+  constexpr int D = B::dim, T = D - 1, N = D * (B::nodes + 1);
+  using S = Lanes<W>;
+  PairFriction<B, H, S> f;
+  p.area = S(1.0);
+  if (block.area)
+    for (int k = 0; k < W; ++k) p.area.v[k] = block.area[(e + k) * block.area_stride];
+  S anchor[T], history;
+  if constexpr (F) {
+    const double* at[W];
+    double of_lane[W];
+    for (int k = 0; k < W; ++k) at[k] = anchor_of<T>(plan, block, e + k, of_lane[k]);
+    history = load<S>(of_lane);
+    read_lanes<W>(at, anchor);
+  }
+  press<F>(plan, p, f, anchor, history);
+  const std::uint32_t done = known & bits_of(p.ordinary);
+  if (!done) return 0;
+  const std::uint32_t contact = done & bits_of(p.contact);
+  double nowhere[N * N];
+  const auto places = [&](double* first, std::int64_t stride, double* (&out)[W]) {
+    for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? first + (e + k) * stride : nowhere;
+  };
+  if (contact && block.wanted & want::residual) {
+    S r[N];
+    residual<F>(p, f, r);
+    double* out[W];
+    places(block.residual, block.residual_stride, out);
+    write_lanes<W>(N, out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+  }
+  if (contact && block.wanted & want::tangent) {
+    TangentOf<F, B, H, S> t;
+    tangent<F>(plan, p, f, t);
+    double* out[W];
+    places(block.tangent, block.tangent_stride, out);
+    if constexpr (N <= 12) write_tangent<D>(t, out, block.leading, contact);
+    else write_long_tangent<D>(t, out, block.leading, contact);
+  }
+  for (int k = 0; k < W; ++k)
+    if ((done & ~contact) >> k & 1) write_zeros<N>(block, e + k);
+  if (block.wanted & ~(want::residual | want::tangent))
+    for (int k = 0; k < W; ++k)
+      if (done >> k & 1) write_scalars<B, H, F>(plan, block, p, f, k, e + k);
+  return done;
+}
+#endif
+
+// Bit k: element first + k was ordinary and is written.
+template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int32_t count) {
+  std::uint64_t done = 0;
+  std::int32_t k = 0;
+#if defined(ENTS_HAS_LANES)
+  if constexpr (register_width > 1)
+    for (constexpr int W = register_width; k + W <= count;) {
+      // flat segments leave registers free for two projections at once
+      const bool two = is_flat<B> && H && k + 2 * W <= count;
+      const std::int64_t e = block.first + k;
+      const PairLanes<B, H, W> a(plan, block, e);
+      Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
+      if (two) {
+        const PairLanes<B, H, W> b(plan, block, e + W);
+        Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
+        if constexpr (is_flat<B>) project_both(p, q);
+        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, e + W)} << (k + W);
+      } else {
+        p.project();
+      }
+      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, p, a.known, e)} << k;
+      k += two ? 2 * W : W;
+    }
+#endif
+  for (; k < count; ++k) done |= std::uint64_t{pair_of_one<B, H, F>(plan, block, block.first + k)} << k;
+  return done;
+}
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The enriched segment as the Newton iteration of its projection sees it: what does not depend on xi is contracted once, and what
+// the basis does not have is not computed.
+//
+//   flat (line2, tri3)   n and A are constant: the iteration knows xi, h and the distance from the plane only
+//   quad4                rho and a_1 x a_2 are bilinear and linear in xi
+//   others               shape functions
+//
+// n_,a and n_,ab follow from m = a_1 x a_2 (2D: the tangent turned by 90 degrees), n = m / |m|:
+//   |m| n_,a  = m_,a - n (n . m_,a)
+//   |m| n_,ab = m_,ab - n_,a (n . m_,b) - n_,b (n . m_,a) - n (n_,a . m_,b + n . m_,ab)
+#pragma once
+
+#include "core/lanes.hpp"
+#include "core/surface.hpp"
+
+namespace ents::ENTS_ISA {
+
+// Positions are relative to the slave node.
+template <class B, class S> struct PairNodes {
+  Vec<S, B::dim> y[B::nodes];
+  S coordinates[(B::dim - 1) * B::nodes];
+  bool has_coordinates;     // else s = xi
+  const HeightNode* height; // enriched
+
+  template <int Order> ENTS_INLINE void evaluate_height(const S (&xi)[B::dim - 1], const Shape<S, B::dim - 1, B::nodes>& N,
+                                                        HeightByXi<S, B::dim - 1>& h) const {
+    evaluate_height_by_xi<B, Order>(*height, has_coordinates ? coordinates : nullptr, xi, N, h);
+  }
+};
+
+template <class S, int D, int M> ENTS_INLINE Vec<S, D> weighted_sum(const S (&w)[M], const Vec<S, D> (&y)[M]) {
+  Vec<S, D> v = w[0] * y[0];
+  for (int i = 1; i < M; ++i) add_scaled(v, w[i], y[i]);
+  return v;
+}
+
+// m = normal_of_tangents(a) and its derivatives
+template <class S, int D> struct AreaVector {
+  Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>];
+};
+
+// rho - x_s and its derivatives
+template <class B, class S> struct Rho {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  static constexpr bool linear_area = false; // m_,ab = 0?
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>&) {}
+
+  // s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[T], Shape<S, T, B::nodes>& N, Surface<B, H, S>& s) const {
+    B::template shape<Order>(xi, N);
+    s.d = -weighted_sum(N.n, nodes.y);
+    for (int a = 0; a < T; ++a) s.a[a] = weighted_sum(N.d1[a], nodes.y);
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::second[k]) s.a2[k] = weighted_sum(N.d2[k], nodes.y);
+      else s.a2[k] = Vec<S, D>::zero();
+    });
+    if constexpr (Order > 2)
+      unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
+        if constexpr (B::third[k]) s.a3[k] = weighted_sum(N.d3[k], nodes.y);
+        else s.a3[k] = Vec<S, D>::zero();
+      });
+  }
+  template <bool H> ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) const {
+    v.m = normal_of_tangents(s.a);
+    if constexpr (T == 1) {
+      v.m1[0] = normal_of_tangents(s.a2);
+      const Vec<S, D> third[1] = {s.a3[0]};
+      v.m2[0] = normal_of_tangents(third);
+    } else {
+      v.m1[0] = cross(s.a2[0], s.a[1]) + cross(s.a[0], s.a2[1]);
+      v.m1[1] = cross(s.a2[1], s.a[1]) + cross(s.a[0], s.a2[2]);
+      v.m2[0] = (cross(s.a3[0], s.a[1]) + cross(s.a[0], s.a3[1])) + S(2.0) * cross(s.a2[0], s.a2[1]);
+      v.m2[1] = (cross(s.a3[1], s.a[1]) + cross(s.a[0], s.a3[2])) + cross(s.a2[0], s.a2[2]);
+      v.m2[2] = (cross(s.a3[2], s.a[1]) + cross(s.a[0], s.a3[3])) + S(2.0) * cross(s.a2[1], s.a2[2]);
+    }
+  }
+};
+
+template <class S> struct Rho<Quad4, S> {
+  static constexpr bool linear_area = true;
+  Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
+  ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
+    for (int k = 0; k < 3; ++k) {
+      const S a = nodes.y[0][k], b = nodes.y[1][k], d = nodes.y[2][k], e = nodes.y[3][k];
+      const S sum_1 = a + b, sum_2 = e + d, difference_1 = b - a, difference_2 = d - e;
+      c[k] = 0.25 * (sum_1 + sum_2);
+      c1[k] = 0.25 * (difference_1 + difference_2);
+      c2[k] = 0.25 * (sum_2 - sum_1);
+      c12[k] = 0.25 * (difference_2 - difference_1);
+    }
+  }
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N, Surface<Quad4, H, S>& s) const {
+    if (H && nodes.has_coordinates) Quad4::shape<2>(xi, N);
+    s.a[0] = c1;
+    s.a[1] = c2;
+    add_scaled(s.a[0], xi[1], c12);
+    add_scaled(s.a[1], xi[0], c12);
+    s.d = -c;
+    add_scaled(s.d, -xi[0], c1);
+    add_scaled(s.d, -xi[1], s.a[1]);
+    s.a2[0] = s.a2[2] = Vec<S, 3>::zero();
+    s.a2[1] = c12;
+  }
+  template <bool H> ENTS_INLINE void area_vector(const Surface<Quad4, H, S>& s, AreaVector<S, 3>& v) const {
+    v.m = cross(s.a[0], s.a[1]);
+    v.m1[0] = cross(c1, c12); // + xi_2 c12 x c12
+    v.m1[1] = cross(c12, c2);
+  }
+};
+
+// What Newton's method needs at xi: F = d . d / 2, r_a = rho_e,a . d, F_,xixi and A_e.
+template <class B, bool H, class S> struct PairProjector {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  static constexpr bool closed_form = false;
+  const PairNodes<B, S>& nodes;
+  Rho<B, S> rho;
+  Shape<S, T, B::nodes> N;
+  Surface<B, H, S> s;
+  S r[T], metric[K], f2[K], twice_merit;
+
+  ENTS_INLINE explicit PairProjector(const PairNodes<B, S>& p) : nodes(p), rho(p) {}
+
+  ENTS_INLINE void evaluate(const S (&xi)[T]) {
+    rho.template evaluate<H ? 3 : 2>(nodes, xi, N, s);
+    if constexpr (H) {
+      AreaVector<S, D> v;
+      rho.area_vector(s, v);
+      nodes.template evaluate_height<2>(xi, N, s.height);
+      s.area = square_root(dot(v.m, v.m));
+      const S q = 1.0 / s.area;
+      s.n = q * v.m;
+      S along[T];
+      for (int a = 0; a < T; ++a) {
+        along[a] = dot(s.n, v.m1[a]);
+        s.n1[a] = v.m1[a];
+        add_scaled(s.n1[a], -along[a], s.n);
+        s.n1[a] = q * s.n1[a];
+      }
+      const auto& h = s.height;
+      add_scaled(s.d, -h.h, s.n);
+      for (int a = 0; a < T; ++a) {
+        s.e[a] = s.a[a];
+        add_scaled(s.e[a], h.h1[a], s.n);
+        add_scaled(s.e[a], h.h, s.n1[a]);
+      }
+      const S hq = h.h * q;
+      unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+        constexpr int a = k / 2, b = (k + 1) / 2;
+        S turned = dot(s.n1[a], v.m1[b]);
+        if constexpr (!Rho<B, S>::linear_area) turned = turned + dot(s.n, v.m2[k]);
+        s.e2[k] = (h.h2[k] - hq * turned) * s.n;
+        if constexpr (B::second[k]) s.e2[k] = s.e2[k] + s.a2[k];
+        if constexpr (!Rho<B, S>::linear_area) add_scaled(s.e2[k], hq, v.m2[k]);
+        if constexpr (a == b) {
+          add_scaled(s.e2[k], 2.0 * (h.h1[a] - hq * along[a]), s.n1[a]);
+        } else {
+          add_scaled(s.e2[k], h.h1[a] - hq * along[a], s.n1[b]);
+          add_scaled(s.e2[k], h.h1[b] - hq * along[b], s.n1[a]);
+        }
+      });
+    } else {
+      for (int a = 0; a < T; ++a) s.e[a] = s.a[a];
+      for (int k = 0; k < K; ++k) s.e2[k] = s.a2[k];
+    }
+    for (int a = 0; a < T; ++a) r[a] = dot(s.e[a], s.d);
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      metric[k] = dot(s.e[k / 2], s.e[(k + 1) / 2]);
+      f2[k] = metric[k];
+      if constexpr (H || B::second[k]) f2[k] = f2[k] - dot(s.d, s.e2[k]);
+    });
+    twice_merit = dot(s.d, s.d);
+  }
+
+  // The rest of the surface, for the variations. Returns |a|^2 or |a_1 x a_2|^2.
+  ENTS_INLINE S finish(const S (&xi)[T]) {
+    B::template shape<2>(xi, N);
+    if constexpr (H) {
+      S base[K];
+      for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
+      const S area2 = s.area * s.area;
+      dual_frame(base, area2);
+      return area2;
+    } else {
+      const Vec<S, D> m = normal_of_tangents(s.a);
+      const S area2 = dot(m, m);
+      s.area = square_root(area2);
+      s.n = (1.0 / s.area) * m;
+      return area2;
+    }
+  }
+
+private:
+  ENTS_INLINE void dual_frame(const S (&base)[K], const S& area2) {
+    invert(base, area2, s.dual_metric);
+    for (int a = 0; a < T; ++a) {
+      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
+      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
+    }
+  }
+};
+
+// Flat segments. With xi_0 the projection on the plane and zeta the distance from it,
+//   F = (xi_0 - xi) A (xi_0 - xi) / 2 + (zeta - h)^2 / 2 .
+template <class B, bool H, class S>
+  requires(is_flat<B>)
+struct PairProjector<B, H, S> {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  static constexpr bool closed_form = !H;
+  const PairNodes<B, S>& nodes;
+  Shape<S, T, B::nodes> N;
+  Surface<B, H, S> s;
+  Vec<S, D> offset; // x_s - rho at xi = 0
+  S base[K], area2, foot[T], zeta;
+  S r[T], metric[K], f2[K], twice_merit;
+
+  ENTS_INLINE explicit PairProjector(const PairNodes<B, S>& p) : nodes(p) {
+    if constexpr (T == 1) {
+      offset = S(-0.5) * (p.y[0] + p.y[1]);
+      s.a[0] = S(0.5) * (p.y[1] - p.y[0]);
+    } else {
+      offset = -p.y[0];
+      for (int a = 0; a < T; ++a) s.a[a] = p.y[a + 1] - p.y[0];
+    }
+    for (int k = 0; k < K; ++k) {
+      base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
+      s.a2[k] = Vec<S, D>::zero();
+    }
+    const Vec<S, D> m = normal_of_tangents(s.a);
+    area2 = dot(m, m);
+    s.area = square_root(area2);
+    s.n = (1.0 / s.area) * m;
+    invert(base, area2, s.dual_metric);
+    for (int a = 0; a < T; ++a) {
+      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
+      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
+      foot[a] = dot(s.dual[a], offset);
+    }
+    zeta = dot(s.n, offset);
+  }
+
+  ENTS_INLINE void evaluate(const S (&xi)[T]) {
+    S off[T], lowered[T];
+    for (int a = 0; a < T; ++a) off[a] = foot[a] - xi[a];
+    for (int a = 0; a < T; ++a) {
+      lowered[a] = base[symmetric_index(a, 0)] * off[0];
+      if constexpr (T == 2) lowered[a] = lowered[a] + base[symmetric_index(a, 1)] * off[1];
+    }
+    if (nodes.has_coordinates) B::template shape<2>(xi, N);
+    nodes.template evaluate_height<2>(xi, N, s.height);
+    const auto& h = s.height;
+    const S above = zeta - h.h;
+    for (int a = 0; a < T; ++a) r[a] = lowered[a] + h.h1[a] * above;
+    for (int k = 0; k < K; ++k) {
+      metric[k] = base[k] + h.h1[k / 2] * h.h1[(k + 1) / 2];
+      f2[k] = metric[k] - above * h.h2[k];
+    }
+    twice_merit = above * above;
+    for (int a = 0; a < T; ++a) twice_merit = twice_merit + lowered[a] * off[a];
+  }
+
+  ENTS_INLINE S finish(const S (&xi)[T]) {
+    B::template shape<2>(xi, N);
+    s.d = offset;
+    for (int a = 0; a < T; ++a) {
+      add_scaled(s.d, -xi[a], s.a[a]);
+      s.e[a] = s.a[a];
+    }
+    if constexpr (H) {
+      add_scaled(s.d, -s.height.h, s.n);
+      for (int a = 0; a < T; ++a) add_scaled(s.e[a], s.height.h1[a], s.n);
+      for (int k = 0; k < K; ++k) s.e2[k] = s.height.h2[k] * s.n;
+    } else {
+      for (int k = 0; k < K; ++k) {
+        metric[k] = f2[k] = base[k];
+        s.e2[k] = Vec<S, D>::zero();
+      }
+    }
+    return area2;
+  }
+};
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vectors and tangents of ordinary elements, from numbers in registers to the host's arrays.
+//
+// One element: the columns of K are computed along the rows, as many at a time as a register holds. One element per lane: the
+// lower triangle is computed for all lanes, then transposed, so that each element is written in one go. The entries are the same
+// expressions in the same order, so the bits are the same.
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+
+#include "core/lanes.hpp"
+#include "core/vec.hpp"
+
+namespace ents::ENTS_ISA {
+
+#if defined(__AVX512F__)
+inline constexpr int register_width = 8;
+#elif defined(__AVX__)
+inline constexpr int register_width = 4;
+#elif defined(ENTS_HAS_LANES) && !defined(__x86_64__) // there, kernels for wider registers take over
+inline constexpr int register_width = 2;
+#else
+inline constexpr int register_width = 1;
+#endif
+
+// Offsets of the pieces of `width` that cover n numbers; the last one overlaps the one before.
+constexpr int pieces(int n, int width) { return (n + width - 1) / width; }
+constexpr int piece_at(int n, int width, int piece) { return piece * width + width <= n ? piece * width : n - width; }
+// The widest register that is not longer than n.
+constexpr int width_for(int n) {
+  int width = register_width;
+  while (width > n) width /= 2;
+  return width;
+}
+
+template <int W> struct Register {
+  using type = Lanes<W>;
+};
+template <> struct Register<1> {
+  using type = double;
+};
+
+template <class R> ENTS_INLINE R load(const double* from) {
+  R r;
+  std::memcpy(&r, from, sizeof r);
+  return r;
+}
+template <class R> ENTS_INLINE void store(double* to, const R& r) { std::memcpy(to, &r, sizeof r); }
+
+// x where the row belongs to component c of its node; 0 elsewhere.
+template <int D> struct ComponentPattern {
+  long long of[D + 8]; // -1 where a row belongs to component 0
+  constexpr ComponentPattern() : of() {
+    for (int i = 0; i < D + 8; ++i) of[i] = i % D == 0 ? -1 : 0;
+  }
+};
+template <int D> inline constexpr ComponentPattern<D> component_pattern{};
+template <int D, int W> ENTS_INLINE Lanes<W> where_component(const Lanes<W>& x, int row, int c) {
+  LaneTruth<W> mine;
+  std::memcpy(&mine, component_pattern<D>.of + (row + D - c) % D, sizeof mine);
+  return select(mine, x, Lanes<W>(0.0));
+}
+template <int D> ENTS_INLINE double where_component(double x, int row, int c) { return row % D == c ? x : 0.0; }
+
+// s_i s_j, or s_i r_j + r_i s_j
+template <class R, class Q> ENTS_INLINE R product_of_weights(const R (&i)[1], const Q (&j)[1]) { return i[0] * R(j[0]); }
+template <class R, class Q> ENTS_INLINE R product_of_weights(const R (&i)[2], const Q (&j)[2]) {
+  return i[0] * R(j[1]) + i[1] * R(j[0]);
+}
+
+template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
+  constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N), P = pieces(N, W);
+  constexpr int weights = std::extent_v<decltype(t.weights)>;
+  using R = typename Register<W>::type;
+  double of_row[weights][N];
+  for (int k = 0; k < weights; ++k)
+    for (int i = 0; i < N; ++i) of_row[k][i] = t.weights[k][i / D];
+  for (int n = 0; n < M; ++n) {
+    double of_column[weights];
+    for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
+    unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
+      const int j = D * n + c;
+      double* column = out + j * leading;
+      for (int piece = 0; piece < P; ++piece) {
+        const int i = piece_at(N, W, piece);
+        R w[weights];
+        for (int k = 0; k < weights; ++k) w[k] = load<R>(of_row[k] + i);
+        const R k = where_component<D>(product_of_weights(w, of_column), i, c);
+        const auto row = [i](const auto& array) ENTS_LAMBDA_INLINE { return load<R>(array + i); };
+        store(column + i, t.template add_products<R>(k, row, j));
+      }
+    });
+  }
+}
+
+#if defined(ENTS_HAS_LANES)
+
+// Where entry (i, j) of a symmetric matrix is kept: lower triangle, column by column.
+template <int N> constexpr int kept_at(int i, int j) {
+  const int low = i < j ? i : j, high = i < j ? j : i;
+  return low * (2 * N - low + 1) / 2 + (high - low);
+}
+template <int N> struct KeptAt {
+  std::int16_t of[N * N];
+  constexpr KeptAt() : of() {
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) of[j * N + i] = static_cast<std::int16_t>(kept_at<N>(i, j));
+  }
+};
+template <int N> inline constexpr KeptAt<N> kept_table{};
+
+template <int W> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W]) {
+  using V = typename VectorOf<W>::Numbers;
+  using I = typename VectorOf<W>::Integers;
+  unroll<W == 8 ? 3 : W == 4 ? 2 : 1>([&](auto stage) ENTS_LAMBDA_INLINE {
+    constexpr int distance = W >> (stage.value + 1);
+    I low, high;
+    for (int k = 0; k < W; ++k) {
+      low[k] = k & distance ? W + k - distance : k;
+      high[k] = k & distance ? W + k : k + distance;
+    }
+    unroll<W>([&](auto i) ENTS_LAMBDA_INLINE {
+      if constexpr ((i.value & distance) == 0) {
+        const V a = r[i], b = r[i + distance];
+        r[i] = __builtin_shuffle(a, b, low);
+        r[i + distance] = __builtin_shuffle(a, b, high);
+      }
+    });
+  });
+}
+
+// Entries 0 .. count - 1 of all lanes, entry(i) each, to to[lane][0 .. count - 1].
+template <int W, class Entry> ENTS_INLINE void write_lanes(int count, double* const (&to)[W], Entry&& entry) {
+  typename VectorOf<W>::Numbers r[W];
+  if (count < W) {
+    for (int i = 0; i < W; ++i) r[i] = entry(i < count ? i : count - 1).v;
+    transpose<W>(r);
+    for (int k = 0; k < W; ++k) std::memcpy(to[k], &r[k], sizeof(double) * static_cast<std::size_t>(count));
+    return;
+  }
+  for (int at = 0; at < count; at += W) {
+    const int first = at + W <= count ? at : count - W;
+    for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
+    transpose<W>(r);
+    for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
+  }
+}
+
+// Numbers 0 .. count - 1 of each lane's array.
+template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&from)[W], Lanes<W> (&out)[Count]) {
+  if constexpr (Count < W) {
+    for (int i = 0; i < Count; ++i) {
+      double column[W];
+      for (int k = 0; k < W; ++k) column[k] = from[k][i];
+      out[i] = load<Lanes<W>>(column);
+    }
+  } else {
+    unroll<pieces(Count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
+      constexpr int first = piece_at(Count, W, piece.value);
+      typename VectorOf<W>::Numbers r[W];
+      for (int k = 0; k < W; ++k) std::memcpy(&r[k], from[k] + first, sizeof r[k]);
+      transpose<W>(r);
+      for (int i = 0; i < W; ++i) out[first + i].v = r[i];
+    });
+  }
+}
+
+// Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.
+template <int D, class Tangent, int W>
+ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used) {
+  constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, weights = std::extent_v<decltype(t.weights)>;
+  using S = Lanes<W>;
+  S kept[Tangent::symmetric ? N * (N + 1) / 2 : N * N];
+  S* entry = kept;
+  for (int n = 0; n < M; ++n)
+    unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
+      const int j = D * n + c;
+      S of_column[weights];
+      for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
+      const auto add = [&](int m, auto r) ENTS_LAMBDA_INLINE {
+        const int i = D * m + r;
+        S k = S(0.0);
+        if constexpr (r.value == c.value) {
+          S of_row[weights];
+          for (int w = 0; w < weights; ++w) of_row[w] = t.weights[w][m];
+          k = product_of_weights(of_row, of_column);
+        }
+        const auto row = [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; };
+        *entry++ = t.template add_products<S>(k, row, j);
+      };
+      if constexpr (Tangent::symmetric)
+        unroll<D>([&](auto r) ENTS_LAMBDA_INLINE {
+          if constexpr (r.value >= c.value) add(n, r);
+        });
+      for (int m = Tangent::symmetric ? n + 1 : 0; m < M; ++m) unroll<D>([&](auto r) ENTS_LAMBDA_INLINE { add(m, r); });
+    });
+  const auto entry_at = [&](int i) ENTS_LAMBDA_INLINE {
+    if constexpr (Tangent::symmetric) return kept[kept_table<N>.of[i]];
+    else return kept[i];
+  };
+  if (leading == N) {
+    write_lanes<W>(N * N, out, entry_at);
+  } else {
+    for (int j = 0; j < N; ++j) {
+      double* column[W];
+      for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
+      write_lanes<W>(N, column, [&](int i) ENTS_LAMBDA_INLINE { return entry_at(N * j + i); });
+    }
+  }
+}
+
+#endif
+
+// The same out of line, where a call costs nothing beside it: compilers take long over long functions.
+template <int D, class Tangent, class... Arguments> ENTS_NOINLINE void write_long_tangent(const Tangent& t, const Arguments&... arguments) {
+  write_tangent<D>(t, arguments...);
+}
+
+} // namespace ents::ENTS_ISA
