@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "abi/combination.hpp"
-#include "abi/element_call.hpp"
+#include "abi/element_block.hpp"
 #include "abi/guard.hpp"
 
 namespace ents {
@@ -44,7 +44,7 @@ public:
   Assembly(const ElementCall& call, ents_report* report) : call_(call), plan_(*call.plan), report_(report) {}
 
   std::int32_t open(const ents_system* caller, std::int64_t first, std::int64_t count);
-  std::int32_t add(std::int64_t e);
+  std::int32_t add(std::int64_t first, std::int64_t count);
 
 private:
   // Dofs of an element that stand side by side in the host: those of a node, or of the multipliers.
@@ -55,6 +55,12 @@ private:
     double weight;
   };
 
+  static constexpr int block_numbers = 8192; // of tangents, on the stack
+  std::int32_t add(std::int64_t e);
+  std::uint64_t evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents, std::int32_t* flags) const;
+  std::int32_t add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const;
+  std::int32_t add_element(std::int64_t e, const double* residual, const double* tangent) const;
+  bool add_known(std::int64_t e, const double* tangent) const;
   std::int32_t check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes,
                                std::int64_t node) const;
   // Calls f(group) for the groups of one node of the element; what f returns ends it unless it is 0.
@@ -214,7 +220,31 @@ std::int32_t Assembly::add_block(std::int64_t e, const Group& row, const Group& 
   return ENTS_OK;
 }
 
+// Every entry where an earlier call has found its place. False, and nothing added: not all of them are known.
+bool Assembly::add_known(std::int64_t e, const double* tangent) const {
+  if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return false;
+  const int d = plan_.dimension, count = nodes(), n = plan_.dofs;
+  const std::int64_t* places = system_->places + e * system_->places_size;
+  if (places[0] != call_.segment(e) + 1) return false;
+  ++places;
+  bool known = true;
+  for (int i = 0; i < d * count * count; ++i) known &= places[i] > 0;
+  if (!known) return false;
+  double* values = system_->values - 1;
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b)
+      for (int i = 0; i < d; ++i) {
+        double* row = values + places[d * (count * a + b) + i];
+        const double* entries = tangent + (d * a + i) + d * b * n;
+        row[0] += entries[0];
+        row[1] += entries[n];
+        if (d == 3) row[2] += entries[2 * n];
+      }
+  return true;
+}
+
 std::int32_t Assembly::add_tangent(std::int64_t e, const double* tangent) const {
+  if (add_known(e, tangent)) return ENTS_OK;
   const int d = plan_.dimension, count = nodes();
   const std::int64_t segment = call_.segment(e);
   std::int64_t* places = nullptr;
@@ -278,10 +308,56 @@ std::int32_t Assembly::add(std::int64_t e) {
     if (status != ENTS_OK) return status;
     if ((flags & ENTS_FLAG_CONTACT) == 0 && plan_.multipliers == 0) return ENTS_OK; // nothing but zeros
   }
+  return add_element(e, residual, tangent);
+}
+
+std::int32_t Assembly::add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const {
+  if ((call_.out->wanted & ENTS_FLAGS) != 0) *at(call_.out->flags, call_.out->flags_stride, e) = flags;
+  if (call_.out->status) *at(call_.out->status, call_.out->status_stride, e) = ENTS_OK;
+  return (flags & ENTS_FLAG_CONTACT) == 0 ? ENTS_OK : add_element(e, residual, tangent);
+}
+
+std::int32_t Assembly::add_element(std::int64_t e, const double* residual, const double* tangent) const {
   std::int32_t status = ENTS_OK;
   if (system_->residual) status = add_residual(e, residual);
   if (system_->values && status == ENTS_OK) status = add_tangent(e, tangent);
   return status;
+}
+
+// Bit k: element first + k is evaluated.
+std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents,
+                                       std::int32_t* flags) const {
+  const std::int32_t wanted = call_.out->wanted | ENTS_FLAGS | ENTS_RESIDUAL | (system_->values ? ENTS_TANGENT : 0);
+  if (pair_results(*call_.model, wanted) != wanted) return 0;
+  ElementCall::BlockNodes nodes;
+  PairBlock block = pair_block(*call_.model, *call_.in, *call_.out, first);
+  if (!call_.gather_block(first, count, nodes, block)) return 0;
+  block.wanted = wanted;
+  block.residual = residuals, block.residual_stride = plan_.dofs;
+  block.tangent = tangents, block.tangent_stride = std::int64_t{plan_.dofs} * plan_.dofs;
+  block.leading = plan_.dofs;
+  block.flags = flags, block.flags_stride = 1;
+  return plan_.pairs(plan_, block, static_cast<std::int32_t>(count));
+}
+
+std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
+  const std::int64_t most =
+      std::clamp<std::int64_t>(block_numbers / (plan_.dofs * plan_.dofs), 1, ElementCall::BlockNodes::most);
+  double residuals[ElementCall::BlockNodes::most * largest_dofs], tangents[block_numbers];
+  std::int32_t flags[ElementCall::BlockNodes::most], result = ENTS_OK;
+  for (std::int64_t size; count > 0; first += size, count -= size) {
+    for (size = 0; size < std::min(count, most) && call_.segment(first + size) >= 0;) ++size;
+    const std::uint64_t done = size == 0 ? 0 : evaluate_block(first, size, residuals, tangents, flags);
+    size = std::max<std::int64_t>(size, 1); // without a segment
+    for (std::int64_t k = 0; k < size; ++k) {
+      const std::int64_t e = first + k;
+      const std::int32_t outcome =
+          (done >> k & 1) == 0 ? add(e)
+                               : add_evaluated(e, flags[k], residuals + k * plan_.dofs, tangents + k * plan_.dofs * plan_.dofs);
+      if (const std::int32_t end = call_.settle(outcome, e, result, report_); end < 0) return end;
+    }
+  }
+  return result;
 }
 
 std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
@@ -296,7 +372,7 @@ std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t 
   Assembly assembly(call, report);
   if ((status = assembly.open(system, first, count)) != ENTS_OK) return status;
   report_ok(report);
-  return call.for_each(first, count, report, [&](std::int64_t e) { return assembly.add(e); });
+  return assembly.add(first, count);
 }
 
 // The elements that a detection has found; results per element only.
@@ -307,11 +383,16 @@ std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::in
   if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
     return status;
   report_ok(report);
-  return call.for_each(first, count, report, [&](std::int64_t e) -> std::int32_t {
-    if (call.segment(e) >= 0) return call.evaluate(e, {}, report);
-    call.write_open(e);
-    return ENTS_OK;
-  });
+  std::int32_t result = ENTS_OK;
+  for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
+    const bool found = call.segment(first) >= 0;
+    for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
+    if (!found)
+      for (std::int64_t e = first; e < end; ++e) call.write_open(e);
+    else if (const std::int32_t status = call.evaluate_range(first, end - first, report); status < 0) return status;
+    else if (status > 0 && result == ENTS_OK) result = status;
+  }
+  return result;
 }
 
 } // namespace

@@ -36,20 +36,24 @@ struct ElementCall {
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
 
+  // All elements of a range: ordinary ones in blocks, the others one by one; ends as `settle` says.
+  std::int32_t evaluate_range(std::int64_t first, std::int64_t count, ents_report* report) const;
+
+  // Nodes of the segments of a block, side by side. False if a segment is bad.
+  struct BlockNodes {
+    static constexpr std::int64_t most = 16;
+    double positions[most][16 * 3], surface_coordinates[most][16 * 2];
+  };
+  bool gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, PairBlock& block) const;
+
   // Name the entry that a kernel refused.
   std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;
 
-  // The first negative status ends it; else the first recoverable one is the result.
-  template <class Element>
-  std::int32_t for_each(std::int64_t first, std::int64_t count, ents_report* report,
-                        Element&& element) const {
-    std::int32_t result = ENTS_OK;
-    for (std::int64_t e = first; e < first + count; ++e) {
-      const std::int32_t outcome = element(e);
-      if (outcome < 0) return report && report->status == outcome ? outcome : explain(outcome, e, report);
-      if (outcome > 0 && result == ENTS_OK) result = explain(outcome, e, report);
-    }
-    return result;
+  // What an element's status makes of that of the call: negative ends it; of the recoverable ones the first is told.
+  std::int32_t settle(std::int32_t outcome, std::int64_t e, std::int32_t& result, ents_report* report) const {
+    if (outcome < 0) return report && report->status == outcome ? outcome : explain(outcome, e, report);
+    if (outcome > 0 && result == ENTS_OK) result = explain(outcome, e, report);
+    return ENTS_OK;
   }
 
 private:

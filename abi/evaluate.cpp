@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "abi/element_call.hpp"
+#include "abi/element_block.hpp"
 #include "abi/guard.hpp"
 
 namespace ents {
@@ -286,6 +286,51 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   return outcome;
 }
 
+bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, PairBlock& block) const {
+  const std::int64_t size = std::int64_t{plan->nodes} * plan->parameters;
+  bool has_coordinates = false;
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int64_t s = segment(first + k);
+    SegmentNodes of_segment;
+    if (s < 0 || s >= mesh.segments || gather(*plan, mesh, s, of_segment) != Status::ok) return false;
+    std::copy_n(of_segment.positions, plan->nodes * plan->dimension, nodes.positions[k]);
+    if (of_segment.surface_coordinates) std::copy_n(of_segment.surface_coordinates, size, nodes.surface_coordinates[k]);
+    has_coordinates = of_segment.surface_coordinates != nullptr;
+  }
+  begin_at_first(block);
+  block.master = nodes.positions[0];
+  block.master_stride = std::extent_v<decltype(nodes.positions), 1>;
+  block.surface_coordinates = has_coordinates ? nodes.surface_coordinates[0] : nullptr;
+  block.surface_coordinates_stride = std::extent_v<decltype(nodes.surface_coordinates), 1>;
+  return true;
+}
+
+std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, ents_report* report) const {
+  // Some results may be the element kernel's alone: then it does all of the element, but for what the block kernel writes otherwise.
+  const std::int32_t known = pair_results(*model, out->wanted);
+  const bool mixed = known == 0 || known != out->wanted;
+  const std::int64_t most = mixed ? 1 : in->mesh ? BlockNodes::most : PairBlock::most;
+  BlockNodes nodes;
+  std::int32_t result = ENTS_OK;
+  PairBlock block = pair_block(*model, *in, *out, first);
+  for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
+    size = std::min(count, most);
+    std::uint64_t done = 0;
+    PairBlock here = block;
+    if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    for (std::int64_t k = 0; k < size; ++k) {
+      if ((done >> k & 1) != 0) {
+        if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
+        continue;
+      }
+      const std::int32_t outcome = evaluate(first + k, {}, report);
+      if (const std::int32_t end = settle(outcome, first + k, result, report); end < 0) return end;
+      if (mixed && known != 0 && outcome == ENTS_OK && (!in->mesh || gather_block(first, size, nodes, here))) plan->pairs(*plan, here, 1);
+    }
+  }
+  return result;
+}
+
 void ElementCall::write_open(std::int64_t e) const {
   for (std::uint32_t bits = static_cast<std::uint32_t>(out->wanted); bits != 0; bits &= bits - 1) {
     const int bit = std::countr_zero(bits);
@@ -312,11 +357,12 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
                       const ents_output* output, ents_report* report) {
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
+    if (ents::evaluate_plain_call(model, first, count, input, output, report)) return ents::report_ok(report);
     ents::ElementCall call;
     if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
       return status;
     ents::report_ok(report);
-    return call.for_each(first, count, report, [&](std::int64_t e) { return call.evaluate(e, {}, report); });
+    return call.evaluate_range(first, count, report);
   });
 }
 
