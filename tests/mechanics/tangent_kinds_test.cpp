@@ -172,9 +172,12 @@ TEST_P(TangentKinds, RigidMasterIsTheSlavesPartOfTheElement) {
       ASSERT_EQ(rigid_model.dofs(), basis().dimension);
       EXPECT_EQ(rigid.statuses, whole.statuses);
       EXPECT_EQ(rigid.flags, whole.flags);
-      EXPECT_EQ(rigid.gap, whole.gap);
-      EXPECT_EQ(rigid.xi, whole.xi);
-      EXPECT_EQ(rigid.energy, whole.energy);
+      // both projections are converged to rounding
+      for (std::size_t e = 0; e < rigid.gap.size(); ++e) {
+        ASSERT_NEAR(rigid.gap[e], whole.gap[e], 1e-15);
+        ASSERT_NEAR(rigid.energy[e], whole.energy[e], tolerance * scene.stiffness);
+        for (std::size_t a = e * t; a < (e + 1) * t; ++a) ASSERT_NEAR(rigid.xi[a], whole.xi[a], 1e-14);
+      }
       // `parts` vectors (rank 1) or matrices (rank 2) of the dofs per element
       const auto compare = [&](const std::vector<double>& small, const std::vector<double>& large,
                                std::size_t parts, int rank, const char* name) {

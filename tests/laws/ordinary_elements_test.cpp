@@ -1,0 +1,165 @@
+// Ordinary elements, that is nearly all, are evaluated by kernels of their own, many at once, compiled for several instruction
+// sets (core/pair.hpp). Nothing of that may show: the bits of an element do not depend on its neighbours in the call, on the
+// length of the call or on the processor; and the kernels that take the elements one by one say the same.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "abi/handle.hpp"
+#include "core/pair_kernels.hpp"
+#include "law_elements.hpp"
+#include "samples.hpp"
+
+namespace laws {
+namespace {
+
+constexpr std::int64_t count = 83; // ten registers of eight, and a remainder
+constexpr std::int32_t wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE | ENTS_FLAGS | ENTS_GAP | ENTS_PRESSURE;
+
+// From now on the model takes the kernels of this instruction set; null: it takes elements one by one.
+void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
+  ents::Plan& plan = const_cast<ents_model*>(model.handle())->plan;
+  const ents::Model& m = model.handle()->model;
+  plan.pairs = kernels ? kernels->of_basis(m.basis).of[plan.height != nullptr][m.law.has_friction()] : nullptr;
+}
+
+struct Case {
+  std::string basis, height;
+  Method method;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.basis << " " << c.height << " " << c.method.name; }
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const std::string& basis : mechanics::basis_names())
+    for (const std::string& height : mechanics::height_kinds())
+      for (const Method& method : methods())
+        if (method.normal["type"] == "penalty" || method.normal["type"] == "power") all.push_back({basis, height, method});
+  return all;
+}
+
+class OrdinaryElements : public testing::Test {
+protected:
+  struct Drawn {
+    mechanics::Scene scene;
+    LawElements elements;
+  };
+  // Every seventh start is far off, so that calls mix elements that are ordinary with others.
+  static Drawn draw_mixed(const Case& c) {
+    Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name));
+    Drawn d;
+    d.scene = mechanics::draw_scene(random, mechanics::basis_named(c.basis), c.height, "normal");
+    d.elements = draw(random, d.scene, model_of(d.scene, c.method), count, 0.05);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(count); e += 7)
+      d.elements.state[e * static_cast<std::size_t>(d.elements.layout.state_size) + 3] += 0.7;
+    return d;
+  }
+
+  // Elements first .. of e as a call of their own.
+  static LawElements part(const LawElements& e, std::int64_t first, std::int64_t size) {
+    LawElements p = e;
+    const auto cut = [&](std::vector<double>& v) {
+      if (v.empty()) return;
+      const std::ptrdiff_t each = static_cast<std::ptrdiff_t>(v.size()) / e.at.count;
+      v = std::vector<double>(v.begin() + first * each, v.begin() + (first + size) * each);
+    };
+    cut(p.at.slave), cut(p.at.master), cut(p.at.surface_coordinates), cut(p.at.start), cut(p.at.area), cut(p.state), cut(p.multiplier);
+    p.at.count = size;
+    return p;
+  }
+
+  template <class T> static bool same(const std::vector<T>& a, const std::vector<T>& b, std::int64_t first = 0) {
+    return b.empty() || std::memcmp(a.data() + first, b.data(), sizeof(T) * b.size()) == 0;
+  }
+  // The results of elements first .. in `all`, and `of_part`: the same bits?
+  static bool same(const LawResults& all, const LawResults& of_part, std::int64_t first, const ents_layout& l) {
+    const std::int64_t n = l.dofs;
+    return same(all.status, of_part.status, first) && same(all.flags, of_part.flags, first) && same(all.gap, of_part.gap, first) &&
+           same(all.pressure, of_part.pressure, first) && same(all.residual, of_part.residual, first * n) &&
+           same(all.tangent, of_part.tangent, first * n * n) && same(all.state, of_part.state, first * l.state_size);
+  }
+};
+
+TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
+  for (const Case& c : cases()) {
+    const Drawn d = draw_mixed(c);
+    const mechanics::Model model = model_of(d.scene, c.method);
+    LawResults all;
+    evaluate(model, d.elements, wanted, all);
+    for (const std::int64_t size : {std::int64_t{1}, std::int64_t{13}, std::int64_t{64}})
+      for (std::int64_t first = 0; first + size <= count; first += size) {
+        LawResults some;
+        evaluate(model, part(d.elements, first, size), wanted, some);
+        ASSERT_TRUE(same(all, some, first, d.elements.layout)) << testing::PrintToString(c) << " elements " << first << " + " << size;
+      }
+    LawResults residual; // what else is wanted does not matter
+    evaluate(model, d.elements, ENTS_RESIDUAL, residual);
+    ASSERT_TRUE(same(all.residual, residual.residual)) << testing::PrintToString(c);
+    LawResults more;
+    evaluate(model, d.elements, wanted | ENTS_TRACTION, more);
+    ASSERT_TRUE(same(all, more, 0, d.elements.layout)) << testing::PrintToString(c);
+  }
+}
+
+TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
+  for (const Case& c : cases()) {
+    const Drawn d = draw_mixed(c);
+    const mechanics::Model model = model_of(d.scene, c.method);
+    LawResults best;
+    evaluate(model, d.elements, wanted, best);
+    std::vector<const ents::PairKernels*> others = {&ents::portable::pair_kernels};
+#ifdef ENTS_X86_KERNELS
+    if (__builtin_cpu_supports("avx2")) others.push_back(&ents::avx2::pair_kernels);
+#endif
+    for (const ents::PairKernels* kernels : others) {
+      LawResults other;
+      use(model, kernels);
+      evaluate(model, d.elements, wanted, other);
+      ASSERT_TRUE(same(best, other, 0, d.elements.layout)) << testing::PrintToString(c) << " " << kernels->instruction_set;
+    }
+  }
+  std::cout << "this processor: " << ents::best_pair_kernels().instruction_set << "\n";
+}
+
+// Both solve the projection to rounding. Forces differ by rounding times its condition and that of the friction law (trial force over
+// limit, below 100 here): 1e-12 of the largest entry, and stiffness (below 400) times rounding of positions, 1e-13; the tangent
+// divides by F_,xixi once more. Elements next to a border of the law may fall on different sides of it.
+TEST_F(OrdinaryElements, SayWhatElementsOneByOneSay) {
+  std::int64_t compared = 0, across = 0, contact = 0;
+  for (const Case& c : cases()) {
+    const Drawn d = draw_mixed(c);
+    LawResults block, alone;
+    const mechanics::Model model = model_of(d.scene, c.method);
+    evaluate(model, d.elements, wanted, block);
+    use(model, nullptr);
+    evaluate(model, d.elements, wanted, alone);
+    const std::size_t n = static_cast<std::size_t>(d.elements.layout.dofs), size = static_cast<std::size_t>(d.elements.layout.state_size);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(count); ++e) {
+      ASSERT_EQ(block.status[e], alone.status[e]) << testing::PrintToString(c) << " element " << e;
+      if (alone.status[e] != ENTS_OK) continue;
+      if (block.flags[e] != alone.flags[e]) {
+        ++across;
+        continue;
+      }
+      ++compared;
+      contact += alone.flags[e] & ENTS_FLAG_CONTACT;
+      const auto close = [&](const std::vector<double>& a, const std::vector<double>& b, std::size_t entries, double relative, const char* what) {
+        const double tolerance = relative * mechanics::largest_entry(&b[e * entries], entries) + 1e-13;
+        for (std::size_t i = 0; i < entries; ++i)
+          ASSERT_NEAR(a[e * entries + i], b[e * entries + i], tolerance) << what << " " << testing::PrintToString(c) << " element " << e;
+      };
+      close(block.residual, alone.residual, n, 1e-12, "residual");
+      close(block.tangent, alone.tangent, n * n, 1e-11, "tangent");
+      close(block.state, alone.state, size, 1e-12, "state");
+      ASSERT_NEAR(block.gap[e], alone.gap[e], 1e-14);
+      ASSERT_NEAR(block.pressure[e], alone.pressure[e], 1e-11);
+    }
+  }
+  EXPECT_GT(contact, compared / 2);
+  EXPECT_LT(across, compared / 1000);
+  std::cout << compared << " elements, " << contact << " in contact; " << across << " on the other side of a border of the law\n";
+}
+
+} // namespace
+} // namespace laws
