@@ -31,9 +31,12 @@ std::int32_t wanted(const std::string& level) {
   throw std::invalid_argument(level);
 }
 
+bool has_height(const std::string& variant) { return variant != "plain" && variant != "plain_coulomb"; }
+bool has_friction(const std::string& variant) { return variant == "plain_coulomb" || variant == "enriched_coulomb"; }
+
 // One wave per segment, so gentle that the projection is unique.
 json height_of(const std::string& variant, int parameters, Random& random) {
-  if (variant == "plain") return nullptr;
+  if (!has_height(variant)) return nullptr;
   if (variant == "constant" || variant == "map") return mechanics::draw_height(random, variant, parameters);
   return {{"type", "sine"}, {"amplitude", 0.03}, {"wave_vector", std::vector<double>(static_cast<std::size_t>(parameters), 0.5)}, {"phase", 0.3}};
 }
@@ -50,6 +53,7 @@ Scene scene_of(const Case& c, Random& random) {
 std::string text_of(const Case& c, const Scene& scene) {
   json text = scene.model();
   if (c.variant == "rigid") text["master"] = "rigid";
+  if (has_friction(c.variant)) text["contact"]["friction"] = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 0.8}};
   return text.dump();
 }
 
@@ -65,12 +69,13 @@ std::string Case::name() const { return basis + "/" + variant + "/" + level + "/
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const std::string& basis : mechanics::basis_names())
-    for (const char* variant : {"plain", "enriched"}) {
+    for (const char* variant : {"plain", "enriched", "plain_coulomb", "enriched_coulomb"}) {
       for (const Call call : {Call::single, Call::batch})
-        for (const char* level : {"gap", "R", "RK", "kinematics1", "kinematics2"}) cases.push_back({basis, variant, level, call});
+        for (const char* level : {"gap", "R", "RK", "kinematics1", "kinematics2"})
+          if (!has_friction(variant) || level[0] == 'R') cases.push_back({basis, variant, level, call});
     }
   for (const char* basis : {"line2", "tri3", "quad4", "quad9"})
-    for (const char* variant : {"plain", "enriched"})
+    for (const char* variant : {"plain", "enriched", "plain_coulomb", "enriched_coulomb"})
       for (const char* level : {"R", "RK"}) cases.push_back({basis, variant, level, Call::stream});
   for (const char* basis : {"line2", "quad4", "quad9"})
     for (const char* variant : {"constant", "map", "coordinates", "rigid", "first_variation", "small_gap"})
@@ -80,6 +85,24 @@ std::vector<Case> all_cases() {
 }
 
 Job::Job(const Case& c) : Job(c, Random(2026)) {}
+
+// In contact before, at points so far from the starts that some elements stick and some slip.
+void Job::set_anchors(Random& random) {
+  ents_layout layout{};
+  layout.struct_size = sizeof layout;
+  ents_model_layout(model_.handle(), &layout, nullptr);
+  const std::size_t size = static_cast<std::size_t>(layout.state_size), t = static_cast<std::size_t>(layout.parameters);
+  states_.resize(size * static_cast<std::size_t>(elements_.count));
+  ents_state_init(model_.handle(), elements_.count, states_.data(), layout.state_size, nullptr);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(elements_.count); ++e) {
+    double* state = &states_[e * size];
+    state[1] = 2.0; // stick; then age, xi, anchor, slip
+    for (std::size_t a = 0; a < t; ++a) {
+      state[3 + a] = elements_.start[e * t + a];
+      state[3 + t + a] = elements_.start[e * t + a] + random.uniform(-0.03, 0.03);
+    }
+  }
+}
 
 Job::Job(const Case& c, Random random)
     : scene_(scene_of(c, random)), model_(text_of(c, scene_)),
@@ -92,6 +115,7 @@ Job::Job(const Case& c, Random random)
   for (std::int64_t e = 0; e < elements_.count; ++e)
     if (!at.ok(e) || !at.has_flag(e, ENTS_FLAG_CONTACT)) throw std::runtime_error(c.name() + ": an element is not in contact");
   for (std::size_t i = 0; i < at.xi.size(); ++i) elements_.start[i] = at.xi[i] + (random.coin() ? 1e-2 : -1e-2);
+  if (has_friction(c.variant)) set_anchors(random);
   const std::vector<std::int32_t> evaluations = model_.evaluate(elements_, wants | ENTS_ITERATIONS).iterations;
   surface_evaluations_ = std::accumulate(evaluations.begin(), evaluations.end(), 0.0) / static_cast<double>(elements_.count);
 
@@ -107,6 +131,8 @@ Job::Job(const Case& c, Random random)
   input_.start_stride = t;
   input_.area = elements_.area.data();
   input_.area_stride = 1;
+  input_.state_begin = states_.empty() ? nullptr : states_.data();
+  input_.state_begin_stride = static_cast<std::int64_t>(states_.size()) / elements_.count;
 
   // Outputs one behind the other, as a host's element loop has them; written once here, so that no page is new when timed.
   output_.struct_size = sizeof output_;

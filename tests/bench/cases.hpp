@@ -43,10 +43,12 @@ public:
 
 private:
   Job(const Case& c, mechanics::Random random);
+  void set_anchors(mechanics::Random& random);
 
   mechanics::Scene scene_;
   mechanics::Model model_;
   mechanics::Elements elements_;
+  std::vector<double> states_; // with friction
   std::int64_t next_ = 0, per_call_ = 1;
   ents_input input_{};
   ents_output output_{};

@@ -10,21 +10,23 @@
 #include <string>
 #include <vector>
 
+#include "assembly.hpp"
 #include "cases.hpp"
 #include "detection.hpp"
+#include "roofline.hpp"
 #include "summary.hpp"
 
 namespace {
 
-constexpr char summary_cases[] = "/(plain|enriched)/(R|RK)/(single|batch)$";
+constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_coulomb/RK)/(single|batch)$";
 
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
-       ents-bench --detection[=N]
+       ents-bench --detection[=N] | --roofline | --assembly
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
-  VARIANT  plain (no height), enriched (a sine); for line2, quad4 and quad9 also constant, map, coordinates (a sine of surface
+  VARIANT  plain (no height), enriched (a sine), plain_coulomb, enriched_coulomb (R and RK; some stick, some slip); for line2, quad4 and quad9 also constant, map, coordinates (a sine of surface
            coordinates), rigid (master), first_variation, small_gap (tangents; all with the sine)
   LEVEL    gap; R residual; RK residual and tangent; kinematics1 xi, gap and first variations; kinematics2 and second ones
   CALL     single: 16 different elements in turn, one per call; batch: 64 per call; stream: 100000 per call (quad9: 25000), through main
@@ -34,6 +36,8 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
 
   --detection[=N]                 n slave nodes on surfaces of n = 1000, 10000 .. N segments (1000000 if not given): time and memory
                                   of the search, and their growth
+  --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
+  --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only
@@ -100,6 +104,14 @@ int main(int argc, char** argv) {
         return 2;
       }
       bench::run_detection(std::cout, most);
+      return 0;
+    }
+    if (argument == "--assembly") {
+      bench::run_assembly(std::cout);
+      return 0;
+    }
+    if (argument == "--roofline") {
+      bench::run_roofline(std::cout);
       return 0;
     }
     if (argument == "--summary") summary = true;
