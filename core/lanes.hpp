@@ -23,6 +23,15 @@ ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
 template <class S> inline constexpr int lane_count = 1;
 template <class S> using Truth = decltype(S(0.0) < S(0.0));
 
+// 1 / x where x may be zero: whoever divides before knowing that must not use the result. (The sanitizers are told.)
+#if defined(__SANITIZE_ADDRESS__)
+__attribute__((no_sanitize("float-divide-by-zero"))) inline double unchecked_inverse(double x) { return 1.0 / x; }
+#else
+ENTS_INLINE double unchecked_inverse(double x) { return 1.0 / x; }
+#endif
+template <class S> ENTS_INLINE S unchecked_inverse(S x) { return 1.0 / x; }
+template <class S> ENTS_INLINE Dual<S> unchecked_inverse(Dual<S> x) { return 1.0 / x; }
+
 ENTS_INLINE double lane(double x, int) { return x; }
 ENTS_INLINE void set_lane(double& x, int, double value) { x = value; }
 

@@ -59,7 +59,7 @@ template <class B, bool H, class S> struct Pair {
       for (int count = 1; count < max_pair_evaluations; ++count) {
         p.evaluate(xi);
         evaluations = select(active, evaluations + 1.0, evaluations);
-        const S q = 1.0 / determinant(p.f2);
+        const S q = unchecked_inverse(determinant(p.f2));
         if constexpr (T == 1) {
           step[0] = p.r[0] * q;
         } else {
@@ -106,7 +106,7 @@ template <class B, bool H, class S> struct Pair {
       const Vec<S, D> m = normal_of_tangents(p.s.e);
       const S area2_e = dot(m, m);
       ordinary = both(ordinary, area2_e > degenerate_size * area2);
-      normal = (1.0 / square_root(area2_e)) * m;
+      normal = unchecked_inverse(square_root(area2_e)) * m;
       S heights = absolute(p.s.height.h);
       for (const S& h : p.s.height.h1) heights = heights + absolute(h);
       for (const S& h : p.s.height.h2) heights = heights + absolute(h);

@@ -45,8 +45,9 @@ ENTS_INLINE double move_anchor(const Pair<B, H, S>& p, const PairFriction<B, H, 
     for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k);
     return 0.0;
   }
-  // dragged: the part of xi - xi_0 that the limit leaves
-  const double kept = bits_of(f.slip) >> k & 1 ? lane(f.limit, k) / lane(f.norm, k) : 1.0;
+  // dragged: the part of xi - xi_0 that the limit leaves, and a little less, so that the next increment, which begins at the limit,
+  // begins inside of it whatever rounding does: or equal elements would stick here and slip there
+  const double kept = bits_of(f.slip) >> k & 1 ? lane(f.limit, k) / lane(f.norm, k) * (1.0 - 1e-12) : 1.0;
   for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k) - kept * lane(f.moved[a], k);
   const double scale = lane(f.scale, k);
   return kept < 1.0 && scale > 0.0 ? (1.0 - kept) * lane(f.norm, k) / scale : 0.0;
@@ -179,16 +180,16 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
   press<F>(plan, p, f, anchor, history);
   if (!p.ordinary) return false;
   if (p.contact) {
-    double* r = block.residual + e * block.residual_stride;
-    double* k = block.tangent + e * block.tangent_stride;
     if (block.wanted & want::residual) {
       double of_dofs[N];
       residual<F>(p, f, of_dofs);
+      double* r = block.residual + e * block.residual_stride;
       for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
     }
     if (block.wanted & want::tangent) {
       TangentOf<F, B, H, double> t;
       tangent<F>(plan, p, f, t);
+      double* k = block.tangent + e * block.tangent_stride;
       if constexpr (N <= 12) write_tangent<D>(t, k, block.leading);
       else write_long_tangent<D>(t, k, block.leading);
     }

@@ -111,6 +111,15 @@ template <class S> struct Rho<Quad4, S> {
   }
 };
 
+// The inverse of a metric whose determinant is `area2`
+template <class S> ENTS_INLINE void invert_metric(const S (&)[1], const S& area2, S (&inverse)[1]) { inverse[0] = unchecked_inverse(area2); }
+template <class S> ENTS_INLINE void invert_metric(const S (&m)[3], const S& area2, S (&inverse)[3]) {
+  const S q = unchecked_inverse(area2);
+  inverse[0] = m[2] * q;
+  inverse[1] = -m[1] * q;
+  inverse[2] = m[0] * q;
+}
+
 // What Newton's method needs at xi: F = d . d / 2, r_a = rho_e,a . d, F_,xixi and A_e.
 template <class B, bool H, class S> struct PairProjector {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
@@ -130,7 +139,7 @@ template <class B, bool H, class S> struct PairProjector {
       rho.area_vector(s, v);
       nodes.template evaluate_height<2>(xi, N, s.height);
       s.area = square_root(dot(v.m, v.m));
-      const S q = 1.0 / s.area;
+      const S q = unchecked_inverse(s.area);
       s.n = q * v.m;
       S along[T];
       for (int a = 0; a < T; ++a) {
@@ -187,14 +196,14 @@ template <class B, bool H, class S> struct PairProjector {
       const Vec<S, D> m = normal_of_tangents(s.a);
       const S area2 = dot(m, m);
       s.area = square_root(area2);
-      s.n = (1.0 / s.area) * m;
+      s.n = unchecked_inverse(s.area) * m;
       return area2;
     }
   }
 
 private:
   ENTS_INLINE void dual_frame(const S (&base)[K], const S& area2) {
-    invert(base, area2, s.dual_metric);
+    invert_metric(base, area2, s.dual_metric);
     for (int a = 0; a < T; ++a) {
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
@@ -231,8 +240,8 @@ struct PairProjector<B, H, S> {
     const Vec<S, D> m = normal_of_tangents(s.a);
     area2 = dot(m, m);
     s.area = square_root(area2);
-    s.n = (1.0 / s.area) * m;
-    invert(base, area2, s.dual_metric);
+    s.n = unchecked_inverse(s.area) * m;
+    invert_metric(base, area2, s.dual_metric);
     for (int a = 0; a < T; ++a) {
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
