@@ -39,14 +39,14 @@ template <class Run> double median_seconds(Run&& run) {
   target double name(std::int64_t rounds) {                                                                 \
     typedef double Vector __attribute__((vector_size(8 * width)));                                          \
     Vector a[chains], b[chains];                                                                            \
-    for (int i = 0; i < chains; ++i) a[i] = b[i] = Vector{};                                                \
+    _Pragma("GCC unroll 16") for (int i = 0; i < chains; ++i) a[i] = b[i] = Vector{};                                                \
     for (std::int64_t k = 0; k < rounds; ++k) {                                                             \
-      for (int i = 0; i < chains; ++i) a[i] = a[i] * 1.0000000001;                                          \
-      for (int i = 0; i < chains; ++i) b[i] = b[i] + 1e-10;                                                 \
-      for (int i = 0; i < chains; ++i) asm volatile("" : "+v"(a[i]), "+v"(b[i]));                           \
+      _Pragma("GCC unroll 16") for (int i = 0; i < chains; ++i) a[i] = a[i] * 1.0000000001;                                          \
+      _Pragma("GCC unroll 16") for (int i = 0; i < chains; ++i) b[i] = b[i] + 1e-10;                                                 \
+      _Pragma("GCC unroll 16") for (int i = 0; i < chains; ++i) asm volatile("" : "+v"(a[i]), "+v"(b[i]));                           \
     }                                                                                                       \
     double sum = 0.0;                                                                                       \
-    for (int i = 0; i < chains; ++i) sum += a[i][0] + b[i][0];                                              \
+    _Pragma("GCC unroll 16") for (int i = 0; i < chains; ++i) sum += a[i][0] + b[i][0];                                              \
     return sum;                                                                                             \
   }
 #if defined(__x86_64__)
