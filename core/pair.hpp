@@ -5,7 +5,7 @@
 // range of numbers, an error) is left to evaluate_element().
 //
 // F = |x_s - rho_e|^2 / 2 is g^2 / 2 at its minimum, so that with s the weights of delta X = x_s - rho and f_a = - F_,xi_a u
-//   g dg dg^T ... + g D2g = D2F* = F_uu - f F_,xixi^-1 f,   F_uu = s s^T I + sum_k (w_k z_k^T + z_k w_k^T)
+//   dg dg^T + g D2g = D2F* = F_uu - f F_,xixi^-1 f,   F_uu = s s^T I + sum_k (w_k z_k^T + z_k w_k^T)
 //   K = A [ W'/g D2F* + (W'' - W'/g) dg dg^T ]
 // W'/g is finite where the pressure vanishes with the gap.
 #pragma once
@@ -98,7 +98,7 @@ template <class B, bool H, class S> struct Pair {
     if constexpr (!PairProjector<B, H, S>::closed_form) projector.evaluate(xi);
   }
 
-  // Gap, force and status. limit: of the penetration, 0: the segment's size
+  // Gap, force and status.
   ENTS_INLINE void press(const Plan& plan) {
     auto& p = projector;
     const S area2 = p.finish(xi);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <iomanip>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 
 #include "mesh_surface.hpp"
+#include "thread_time.hpp"
 
 namespace bench {
 
@@ -16,12 +16,6 @@ namespace {
 
 using mechanics::MeshSurface;
 using mechanics::Model;
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // A surface, slave nodes just below it, and the equations of both: slaves first.
 struct Problem {

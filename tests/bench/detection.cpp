@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <iomanip>
 #include <limits>
 #include <ostream>
 
 #include "mesh_surface.hpp"
 #include "random.hpp"
+#include "thread_time.hpp"
 
 namespace bench {
 
@@ -18,12 +18,6 @@ namespace {
 using mechanics::Detector;
 using mechanics::MeshSurface;
 using mechanics::Random;
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // ns per item, the fastest of some repetitions: 5 or as many as fit into half a second.
 template <class Prepare, class Run> double ns_per_item(std::int64_t items, Prepare&& prepare, Run&& run) {

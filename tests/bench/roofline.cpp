@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <iomanip>
 #include <ostream>
 #include <string>
@@ -10,16 +9,11 @@
 
 #include "cases.hpp"
 #include "counted.hpp"
+#include "thread_time.hpp"
 
 namespace bench {
 
 namespace {
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 // Seconds of one run, the median of 9.
 template <class Run> double median_seconds(Run&& run) {
