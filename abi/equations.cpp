@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abi/equations.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace ents {
+
+std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std::int64_t count) {
+  std::int32_t status = ENTS_OK;
+  system_ = known_struct(caller, copy_, "system", status, report_);
+  if (!system_) return status;
+  const ents_system& s = *system_;
+  if ((call_.out->wanted & (ENTS_RESIDUAL | ENTS_TANGENT)) != 0)
+    return report_status(report_, ENTS_BAD_MASK, -1,
+                         "output.wanted asks for residual or tangent; ents_assemble adds them to the system");
+  if (!call_.in->mesh) return report_status(report_, ENTS_NULL_ARGUMENT, -1, "input.mesh is null");
+  if (s.index_size != 4 && s.index_size != 8)
+    return report_message(report_, ENTS_BAD_VALUE, -1, "system.index_size is %d; it must be 4 or 8",
+                          s.index_size);
+  if (s.rows < 0 || s.slave_nodes < 0 || s.master_nodes < 0)
+    return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s is negative",
+                          s.rows < 0 ? "rows" : (s.slave_nodes < 0 ? "slave_nodes" : "master_nodes"));
+  const bool rigid = nodes() == 1;
+  const struct {
+    const char* name;
+    bool needed;
+    const void* array;
+  } arrays[] = {{"slave_equations", true, s.slave_equations},
+                {"master_equations", !rigid, s.master_equations},
+                {"multiplier_equations", plan_.multipliers > 0, s.multiplier_equations},
+                {"row_begin", s.values != nullptr, s.row_begin},
+                {"columns", s.values != nullptr, s.columns}};
+  for (const auto& a : arrays)
+    if (a.needed && !a.array && count > 0)
+      return report_message(report_, ENTS_NULL_ARGUMENT, -1, "system.%s is null", a.name);
+  if (s.slave && (status = check_combination(s.slave, "system.slave", slave_, report_)) != ENTS_OK)
+    return status;
+  if (s.master && (status = check_combination(s.master, "system.master", master_, report_)) != ENTS_OK)
+    return status;
+  if (s.slave && slave_.points < first + count)
+    return report_message(report_, ENTS_BAD_COUNT, -1,
+                          "system.slave has %lld points; the elements end at %lld",
+                          static_cast<long long>(slave_.points), static_cast<long long>(first + count));
+  if (s.master && master_.points < call_.mesh.nodes)
+    return report_message(report_, ENTS_BAD_COUNT, -1,
+                          "system.master has %lld points; the mesh has %lld nodes",
+                          static_cast<long long>(master_.points), static_cast<long long>(call_.mesh.nodes));
+  const std::int64_t places = std::int64_t{plan_.dimension} * nodes() * nodes() + 1;
+  if (s.places && !s.slave && !s.master && s.places_size < places)
+    return report_message(report_, ENTS_BAD_COUNT, -1, "system.places_size is %lld; at least %lld is needed",
+                          static_cast<long long>(s.places_size), static_cast<long long>(places));
+  pattern_ = {s.row_begin, s.columns, s.rows, s.index_size == 8};
+  constexpr std::int64_t cached = std::int64_t{1} << 18;
+  large_ = s.values && count > 0 && pattern_.begin(s.rows) > cached;
+  return ENTS_OK;
+}
+
+std::int32_t Equations::check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes,
+                                       std::int64_t node) const {
+  if (node < 0 || node >= nodes)
+    return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s covers %lld nodes; node %lld is needed",
+                          name, static_cast<long long>(nodes), static_cast<long long>(node));
+  for (int i = 0; i < plan_.dimension; ++i)
+    if (equations[node * plan_.dimension + i] >= system_->rows)
+      return report_message(
+          report_, ENTS_BAD_VALUE, -1, "system.%s of node %lld is %lld; there are %lld rows", name,
+          static_cast<long long>(node), static_cast<long long>(equations[node * plan_.dimension + i]),
+          static_cast<long long>(system_->rows));
+  return ENTS_OK;
+}
+
+template <class F> std::int32_t Equations::for_groups(std::int64_t e, int node, F&& f) const {
+  const int d = plan_.dimension;
+  const bool is_slave = node == 0;
+  const ents_combination* combination =
+      is_slave ? (system_->slave ? &slave_ : nullptr) : (system_->master ? &master_ : nullptr);
+  const std::int64_t point =
+      is_slave ? e : call_.mesh.connectivity[call_.segment(e) * plan_.nodes + node - 1];
+  const std::int64_t* equations = is_slave ? system_->slave_equations : system_->master_equations;
+  const std::int64_t count = is_slave ? system_->slave_nodes : system_->master_nodes;
+  const char* name = is_slave ? "slave_equations" : "master_equations";
+  if (!combination) {
+    if (const std::int32_t status = check_equations(name, equations, count, point); status != ENTS_OK)
+      return status;
+    return f(Group{d * node, d, equations + point * d, 1.0});
+  }
+  if (const std::int32_t status = check_combined_point(
+          *combination, is_slave ? "system.slave" : "system.master", point, count, report_);
+      status != ENTS_OK)
+    return status;
+  for (std::int64_t j = combination->begin[point]; j < combination->begin[point + 1]; ++j) {
+    std::int32_t status = check_equations(name, equations, count, combination->nodes[j]);
+    if (status == ENTS_OK)
+      status = f(Group{d * node, d, equations + combination->nodes[j] * d, combination->weights[j]});
+    if (status != ENTS_OK) return status;
+  }
+  return ENTS_OK;
+}
+
+std::int32_t Equations::add_residual(std::int64_t e, const double* residual) const {
+  const auto add = [&](const Group& group) -> std::int32_t {
+    for (int i = 0; i < group.size; ++i)
+      if (group.equations[i] >= 0)
+        system_->residual[group.equations[i]] += group.weight * residual[group.dof + i];
+    return ENTS_OK;
+  };
+  const bool has_segment = call_.segment(e) >= 0;
+  for (int node = 0; has_segment && node < nodes(); ++node)
+    if (const std::int32_t status = for_groups(e, node, add); status != ENTS_OK) return status;
+  if (plan_.multipliers > 0)
+    return add({plan_.dofs - plan_.multipliers, plan_.multipliers,
+                system_->multiplier_equations + e * plan_.multipliers, 1.0});
+  return ENTS_OK;
+}
+
+std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
+                                 std::int64_t* place) const {
+  const double weight = row.weight * column.weight;
+  const std::int64_t *rows = row.equations, *columns = column.equations;
+  bool in_line = true; // the columns stand side by side in every row
+  for (int j = 0; j < column.size; ++j) in_line = in_line && columns[j] == columns[0] + j && columns[j] >= 0;
+  for (int i = 0; i < row.size; ++i) {
+    if (rows[i] < 0) continue;
+    const double* block = tangent + (row.dof + i) + static_cast<std::int64_t>(column.dof) * plan_.dofs;
+    std::int64_t known = place ? place[i] - 1 : -1;
+    for (int j = 0; j < column.size; ++j) {
+      if (columns[j] < 0) continue;
+      std::int64_t at = known >= 0 ? known + j : -1;
+      if (at < 0) {
+        at = pattern_.find(rows[i], columns[j]);
+        if (at < 0)
+          return report_message(
+              report_, ENTS_BAD_PATTERN, e, "the pattern has no entry (%lld, %lld), which element %lld needs",
+              static_cast<long long>(rows[i]), static_cast<long long>(columns[j]), static_cast<long long>(e));
+        if (in_line && j == 0 && at + column.size <= pattern_.begin(rows[i] + 1) &&
+            pattern_.is_column(at + column.size - 1, columns[column.size - 1])) {
+          known = at;
+          if (place) place[i] = at + 1;
+        }
+      }
+      system_->values[at] += weight * block[static_cast<std::int64_t>(j) * plan_.dofs];
+    }
+  }
+  return ENTS_OK;
+}
+
+// Where an earlier call has found the entries of an element: for node a and node b, the begin of each row's d entries, counted from 1.
+// Null: not all of them are known.
+inline const std::int64_t* Equations::known_places(std::int64_t e) const noexcept {
+  if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return nullptr;
+  const std::int64_t* places = system_->places + e * system_->places_size;
+  const std::int64_t segment = call_.segment(e);
+  if (segment < 0 || places[0] != segment + 1) return nullptr;
+  ++places;
+  std::int64_t unknown = 0; // negative: there was one of 0
+  for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) unknown |= places[i] - 1;
+  return unknown < 0 ? nullptr : places;
+}
+
+// Known places mean that all equations of the element have been looked at, and none is left out.
+template <int D>
+void Equations::add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
+                          bool symmetric) const noexcept {
+  const int count = nodes(), n = plan_.dofs;
+  if (system_->residual) {
+    const std::int64_t* connectivity = count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
+    for (int a = 0; a < count; ++a) {
+      const std::int64_t* rows = a == 0 ? system_->slave_equations + e * D : system_->master_equations + connectivity[a - 1] * D;
+      for (int i = 0; i < D; ++i) system_->residual[rows[i]] += residual[D * a + i];
+    }
+  }
+  double* const values = system_->values - 1;
+  // numbers of a row side by side where the element's symmetry lets its columns stand for them
+  const std::int64_t along = symmetric ? 1 : n, across = symmetric ? n : 1;
+  const auto add = [&](auto step) {
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b, places += D)
+        for (int i = 0; i < D; ++i) {
+          double* const row = values + places[i];
+          const double* const entries = tangent + (D * a + i) * across + D * b * along;
+          double sum[D];
+          for (int j = 0; j < D; ++j) sum[j] = row[j] + entries[j * step];
+          for (int j = 0; j < D; ++j) row[j] = sum[j];
+        }
+  };
+  if (symmetric) add(std::integral_constant<std::int64_t, 1>{});
+  else add(std::int64_t{n});
+}
+
+void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
+#if defined(__GNUC__)
+  if (!large_) return;
+  const std::int64_t* places = known_places(e);
+  if (!places) return;
+  for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) {
+    __builtin_prefetch(system_->values + places[i], 1);
+    asm volatile(""); // or a compiler takes the whole function for one without effect
+  }
+#endif
+}
+
+std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const {
+  const int d = plan_.dimension, count = nodes();
+  const std::int64_t segment = call_.segment(e);
+  std::int64_t* places = nullptr;
+  if (system_->places && !system_->slave && !system_->master && segment >= 0) {
+    places = system_->places + e * system_->places_size;
+    if (places[0] != segment + 1) { // those of another segment
+      std::fill_n(places + 1, d * count * count, std::int64_t{0});
+      places[0] = segment + 1;
+    }
+  }
+  const Group multipliers{
+      plan_.dofs - plan_.multipliers, plan_.multipliers,
+      plan_.multipliers > 0 ? system_->multiplier_equations + e * plan_.multipliers : nullptr, 1.0};
+  if (segment < 0) return add_block(e, multipliers, multipliers, tangent, nullptr);
+  for (int a = 0; a < count; ++a) {
+    const std::int32_t status = for_groups(e, a, [&](const Group& row) -> std::int32_t {
+      for (int b = 0; b < count; ++b) {
+        const std::int32_t outcome = for_groups(e, b, [&](const Group& column) {
+          return add_block(e, row, column, tangent, places ? places + 1 + d * (count * a + b) : nullptr);
+        });
+        if (outcome != ENTS_OK) return outcome;
+      }
+      if (plan_.multipliers == 0) return ENTS_OK;
+      const std::int32_t outcome = add_block(e, row, multipliers, tangent, nullptr);
+      return outcome == ENTS_OK ? add_block(e, multipliers, row, tangent, nullptr) : outcome;
+    });
+    if (status != ENTS_OK) return status;
+  }
+  return plan_.multipliers > 0 ? add_block(e, multipliers, multipliers, tangent, nullptr) : ENTS_OK;
+}
+
+std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent, bool symmetric) const {
+  if (system_->values)
+    if (const std::int64_t* places = known_places(e)) {
+      if (plan_.dimension == 3) add_known<3>(e, places, residual, tangent, symmetric);
+      else add_known<2>(e, places, residual, tangent, symmetric);
+      return ENTS_OK;
+    }
+  std::int32_t status = ENTS_OK;
+  if (system_->residual) status = add_residual(e, residual);
+  if (system_->values && status == ENTS_OK) status = add_tangent(e, tangent);
+  return status;
+}
+
+} // namespace ents
