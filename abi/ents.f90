@@ -19,7 +19,7 @@ module ents
 
   ! What this module promises: pass both to ents_check_contract.
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 2
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 3
 
   ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
   integer(c_int32_t), parameter :: ENTS_OK = 0
@@ -45,6 +45,17 @@ module ents
   integer(c_int32_t), parameter :: ENTS_BAD_PATTERN = -13
   integer(c_int32_t), parameter :: ENTS_NO_MEMORY = -100
   integer(c_int32_t), parameter :: ENTS_INTERNAL = -101
+
+  ! ents_layout%needs
+  integer(c_int32_t), parameter :: ENTS_NEEDS_HEIGHT = 1
+  integer(c_int32_t), parameter :: ENTS_NEEDS_SLOPE = 2
+  integer(c_int32_t), parameter :: ENTS_NEEDS_CURVED = 4
+  integer(c_int32_t), parameter :: ENTS_NEEDS_ITERATION = 8
+  integer(c_int32_t), parameter :: ENTS_NEEDS_MASTER = 16
+  integer(c_int32_t), parameter :: ENTS_NEEDS_FRICTION = 32
+  integer(c_int32_t), parameter :: ENTS_NEEDS_HISTORY = 64
+  integer(c_int32_t), parameter :: ENTS_NEEDS_MULTIPLIERS = 128
+  integer(c_int32_t), parameter :: ENTS_NEEDS_ONE_BY_ONE = 256
 
   ! ents_output%wanted
   integer(c_int32_t), parameter :: ENTS_XI = 1
@@ -124,7 +135,8 @@ module ents
     integer(c_int32_t) :: multipliers = 0
     integer(c_int32_t) :: friction = 0
     integer(c_int32_t) :: augmentable = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: needs = 0 ! ENTS_NEEDS_...
+    type(c_ptr) :: instruction_set = c_null_ptr ! read it with ents_string
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh

@@ -51,7 +51,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 2
+#define ENTS_CONTRACT_MINOR 3
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -155,8 +155,26 @@ typedef struct ents_layout {
   int32_t multipliers;         /* dofs of multipliers, after those of the nodes: 0, 1, or d with friction */
   int32_t friction;            /* 1 if the law has friction */
   int32_t augmentable;         /* 1 if the multipliers live in the state: ents_state_augment */
-  int32_t reserved;
+  int32_t needs;               /* ENTS_NEEDS_... bits (since contract 1.3, as what follows; `reserved` before) */
+  const char *instruction_set; /* of the kernels of its residuals and tangents: "portable", "avx2", "avx512". Static text. The
+                                  bits of the results do not depend on it */
 } ents_layout;
+
+/* What the elements of a model need, decided when it is made. What a model does not need is not computed. (What a call does not
+ * ask for is not, either; nor are forces of open elements, but for their gap.) `ents-bench --savings` measures what each is worth. */
+#define ENTS_NEEDS_HEIGHT      (1 << 0)  /* a height that is not zero everywhere; else the segments are plain ones, whatever the text says */
+#define ENTS_NEEDS_SLOPE       (1 << 1)  /* a height of another type than "constant": it is evaluated with its derivatives at each step of a projection */
+#define ENTS_NEEDS_CURVED      (1 << 2)  /* segments whose normal varies: all but line2 and tri3. It is followed through projection and variations */
+#define ENTS_NEEDS_ITERATION   (1 << 3)  /* projections by Newton's method; else (plain line2, tri3) in closed form */
+#define ENTS_NEEDS_MASTER      (1 << 4)  /* a master that deforms: R and K of its dofs, too; else ("master": "rigid") of the slave's alone */
+#define ENTS_NEEDS_FRICTION    (1 << 5)  /* tangential forces and their limit; else K is symmetric and no anchor is kept */
+#define ENTS_NEEDS_HISTORY     (1 << 6)  /* the force depends on ents_input.state_begin (friction, multipliers in the state); else on positions
+                                            alone, and the state serves as start of the projection */
+#define ENTS_NEEDS_MULTIPLIERS (1 << 7)  /* dofs of multipliers after those of the nodes */
+#define ENTS_NEEDS_ONE_BY_ONE  (1 << 8)  /* residual and tangent from the general kernel, element by element: the model has something that
+                                            the kernels of ordinary elements, which take as many at once as a register holds, do not
+                                            know (a shadow projection, a law other than penalty and power, a tangent other
+                                            than the consistent one, "symmetrised", a patch ...) */
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
 

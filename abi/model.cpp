@@ -5,13 +5,20 @@
 #include <string_view>
 #include <vector>
 
+#include "abi/element_block.hpp"
 #include "abi/guard.hpp"
-#include "abi/handle.hpp"
 #include "abi/model_json.hpp"
+#include "core/needs.hpp"
+#include "core/pair_kernels.hpp"
 
 namespace ents {
 
 namespace {
+
+static_assert(need::height == ENTS_NEEDS_HEIGHT && need::slope == ENTS_NEEDS_SLOPE && need::curved == ENTS_NEEDS_CURVED);
+static_assert(need::iteration == ENTS_NEEDS_ITERATION && need::master == ENTS_NEEDS_MASTER && need::friction == ENTS_NEEDS_FRICTION);
+static_assert(need::history == ENTS_NEEDS_HISTORY && need::multipliers == ENTS_NEEDS_MULTIPLIERS);
+static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE);
 
 std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* report) {
   ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked), {}};
@@ -143,6 +150,10 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.multipliers = model->plan.multipliers;
     out.friction = model->model.law.has_friction();
     out.augmentable = model->model.law.multiplier_in_state();
+    constexpr std::int32_t forces = ents::want::residual | ents::want::tangent;
+    const bool one_by_one = ents::pair_results(*model, forces) != forces;
+    out.needs = ents::needs_of(model->model, model->plan) | (one_by_one ? ents::need::one_by_one : 0);
+    out.instruction_set = (one_by_one ? ents::portable::pair_kernels : ents::best_pair_kernels()).instruction_set;
     ents::give_back(out, layout);
     return ents::report_ok(report);
   });

@@ -20,7 +20,7 @@ import os
 
 import numpy as np
 
-CONTRACT_MAJOR, CONTRACT_MINOR = 1, 2
+CONTRACT_MAJOR, CONTRACT_MINOR = 1, 3
 ENDS_STRAIGHT, ENDS_REPEATED = 0, 1
 
 
@@ -38,6 +38,11 @@ class Flag(enum.IntFlag):
     CONTACT, OUTSIDE, FAR_SIDE, SEARCHED, STICK, SLIP, SHEAR_LIMIT, CHANGED, AMBIGUOUS, BEHIND_EDGE = (1 << i for i in range(10))
 
 
+class Need(enum.IntFlag):
+    """Bits of Model.layout.needs: what the elements of a model need. What they do not need is not computed."""
+    HEIGHT, SLOPE, CURVED, ITERATION, MASTER, FRICTION, HISTORY, MULTIPLIERS, ONE_BY_ONE = (1 << i for i in range(9))
+
+
 class Error(RuntimeError):
     """A mistake of the caller or of the installation: .status (see Status), .element (-1: none), and the message of the report."""
 
@@ -47,7 +52,7 @@ class Error(RuntimeError):
 
 
 # ---- structs of ents.h: kind and name of every field, in order ----------------------------------------------------------------
-_KINDS = {"i": ctypes.c_int32, "l": ctypes.c_int64, "d": ctypes.c_double, "p": ctypes.c_void_p, "m": ctypes.c_char * 512,
+_KINDS = {"i": ctypes.c_int32, "l": ctypes.c_int64, "d": ctypes.c_double, "p": ctypes.c_void_p, "s": ctypes.c_char_p, "m": ctypes.c_char * 512,
           "l16": ctypes.c_int64 * 16, "d16": ctypes.c_double * 16, "d16x2": ctypes.c_double * 2 * 16, "d16x3": ctypes.c_double * 3 * 16}
 
 
@@ -64,7 +69,7 @@ QUANTITIES = {name: 1 << bit for bit, (name, _) in enumerate(_STRIDED)}
 Report = _struct("ents_report", "i:status l:element d:step_factor m:message")
 Data = _struct("ents_data", "i:reserved p:name p:values l:rows l:columns")
 Layout = _struct("ents_layout", "i:dimension i:nodes i:parameters i:dofs i:state_size i:symmetric_tangent i:own_surface_coordinates "
-                 "i:multipliers i:friction i:augmentable i:reserved")
+                 "i:multipliers i:friction i:augmentable i:needs s:instruction_set")
 MasterMesh = _struct("ents_master_mesh", "i:reserved l:segments p:connectivity l:nodes p:positions p:surface_coordinates")
 Detection = _struct("ents_detection", "i:reserved p:slave d:reach p:segment p:xi p:gap p:flags p:other")
 Input = _struct("ents_input", "i:reserved " + " ".join(f"p:{name} l:{name}_stride" for name in (
@@ -211,7 +216,7 @@ class Model:
         else:
             self.library.call("model_create_from_file", os.fsencode(source), ctypes.byref(self._handle))
         self.layout = _new(Layout)
-        """Sizes: dimension, nodes, parameters, dofs, state_size, symmetric_tangent, multipliers, friction, augmentable."""
+        """Sizes: dimension, nodes, parameters, dofs, state_size, symmetric_tangent, multipliers, friction, augmentable; needs (see Need) and instruction_set."""
         self._call("model_layout", self.layout)
 
     def __del__(self):

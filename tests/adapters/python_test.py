@@ -47,12 +47,19 @@ class Header(unittest.TestCase):
     def test_constants(self):
         mine = {"ENTS_CONTRACT_MAJOR": ents.CONTRACT_MAJOR, "ENTS_CONTRACT_MINOR": ents.CONTRACT_MINOR}
         mine.update(("ENTS_" + name, value.value) for name, value in ents.Status.__members__.items())
+        mine.update(("ENTS_NEEDS_" + name, value.value) for name, value in ents.Need.__members__.items())
         mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
         mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
         mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
         mine.update(("ENTS_CHECK_" + name.upper(), place) for place, name in enumerate(ents.CONDITIONS))
         theirs = {name: value[0] for name, value in self.numbers.items() if name.startswith("ENTS_") and "%" not in name}
         self.assertEqual(mine, theirs)
+
+    def test_needs(self):
+        layout = ents.Model(FIRST).layout
+        self.assertIn(ents.Need.MASTER, ents.Need(layout.needs))
+        self.assertNotIn(ents.Need.FRICTION, ents.Need(layout.needs))
+        self.assertIn(layout.instruction_set, (b"portable", b"avx2", b"avx512"))
 
     def test_library_agrees(self):
         """A struct that says it is one longer has to be refused: the library reads struct_size where Python puts it."""

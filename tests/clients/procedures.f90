@@ -33,6 +33,8 @@ program procedures
   call ents_init(layout)
   call expect(ents_model_layout(model, layout, report) == ENTS_OK, "model_layout")
   call expect(layout%dimension == 3 .and. layout%nodes == 4 .and. layout%parameters == 2 .and. layout%dofs == 15, "layout")
+  call expect(iand(layout%needs, ENTS_NEEDS_MASTER) /= 0 .and. iand(layout%needs, ENTS_NEEDS_FRICTION) == 0, "layout%needs")
+  call expect(any(ents_string(layout%instruction_set) == [character(8) :: "portable", "avx2", "avx512"]), "layout%instruction_set")
   call check_evaluate()
   call check_state()
   call check_areas()
