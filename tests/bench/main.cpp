@@ -14,6 +14,7 @@
 #include "cases.hpp"
 #include "detection.hpp"
 #include "roofline.hpp"
+#include "savings.hpp"
 #include "summary.hpp"
 
 namespace {
@@ -22,7 +23,7 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
-       ents-bench --detection[=N] | --roofline | --assembly
+       ents-bench --detection[=N] | --roofline | --savings | --assembly
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -37,6 +38,7 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --detection[=N]                 n slave nodes on surfaces of n = 1000, 10000 .. N segments (1000000 if not given): time and memory
                                   of the search, and their growth
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
+  --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
@@ -112,6 +114,10 @@ int main(int argc, char** argv) {
     }
     if (argument == "--roofline") {
       bench::run_roofline(std::cout);
+      return 0;
+    }
+    if (argument == "--savings") {
+      bench::run_savings(std::cout);
       return 0;
     }
     if (argument == "--summary") summary = true;
