@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host check: is this enrichment admissible on this surface? The library judges (ents_surface_check), here it is told.
+// ents-host check: is this enrichment admissible on this surface, and what does it need? The library judges (ents_surface_check) and
+// decides (ents_model_layout), here it is told.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "check_mesh.hpp"
+#include "check_needs.hpp"
 #include "check_picture.hpp"
 #include "commands.hpp"
 #include "ents_library.hpp"
@@ -175,12 +177,14 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
                 {"admissible", answer.admissible()},
                 {"conditions", Json::array()},
                 {"failing_segments", Json::array()}};
+    result.update(needs_json(model.layout()));
     for (const Condition& c : conditions)
       if (answer.known(c)) result["conditions"].push_back(answer.json(c));
     for (std::size_t s = 0; s < surface.segments(); ++s)
       if (answer.violations()[s] != 0) result["failing_segments"].push_back(s);
     std::printf("%s\n", result.dump(2).c_str());
   } else {
+    std::printf("%s", describe_needs(model.layout()).c_str());
     print(answer, surface.segments());
   }
   if (!options.out.empty()) {

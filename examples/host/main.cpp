@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
 
   CheckOptions check;
   CLI::App* check_app = app.add_subcommand(
-      "check", "Is the enrichment of a model admissible? Exit code 1 and what fails, where and by how much, if not");
+      "check", "Is the enrichment of a model admissible? Exit code 1 and what fails, where and by how much, if not. And what does it need?");
   check_app->add_option("model", check.model, "model file (JSON, as ents_model_create_from_file reads it)")->required();
   check_app->add_option("--mesh", check.mesh,
                         "where the segments are: a .json file {\"nodes\": [[x, y], ...], \"segments\": [[0, 1], ...]} "
@@ -112,7 +112,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.0, 180.0));
   check_app->add_option("--out", check.out, "folder for a picture of the enriched surface with the offending places marked");
   add_common(*check_app);
-  check_app->footer("Each condition prints its worst value on the whole surface, the bound, how much is missing, and where: the segment, natural\n"
+  check_app->footer("\"this scene needs: ...\" is what the library computes for this model, \"it does not need: ...\" what it leaves out, and why: its own\n"
+                    "decision (ents_layout.needs), not a reading of the file; ents-bench --savings says what each is worth.\n"
+                    "Each condition prints its worst value on the whole surface, the bound, how much is missing, and where: the segment, natural\n"
                     "coordinates on it and, for edges and pairs, the other segment. Lengths are the mesh's.\n\n"
                     "Examples:\n"
                     "  ents-host check model.json                                        one flat segment of size 2\n"

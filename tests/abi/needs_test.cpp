@@ -28,7 +28,9 @@ std::string law(const std::string& keys) { return R"("contact": {)" + keys + "}"
 TEST(Needs, AreThoseOfTheModel) {
   constexpr int32_t plain = ENTS_NEEDS_MASTER;
   constexpr int32_t flat_enriched = plain | ENTS_NEEDS_HEIGHT | ENTS_NEEDS_SLOPE | ENTS_NEEDS_ITERATION;
-  const auto height = [](const std::string& keys) { return line(R"("height": )" + keys + ", " + law(penalty)); };
+  const auto height = [](const std::string& keys) {
+    return line(R"("height": )" + keys + ", " + law(penalty));
+  };
   const auto normal = [](const std::string& keys) { return line(law(R"("normal": )" + keys)); };
   const Case cases[] = {
       {"plain", line(law(penalty)), plain},
@@ -38,16 +40,23 @@ TEST(Needs, AreThoseOfTheModel) {
       {"constant zero", height(R"({"type": "constant", "value": 0})"), plain},
       {"sine without amplitude", height(R"({"type": "sine", "amplitude": 0, "wave_vector": [1]})"), plain},
       {"product with zero",
-       height(R"({"type": "product", "of": [{"type": "polynomial", "coefficients": [1, 2]}, {"type": "constant", "value": 0}]})"), plain},
+       height(
+           R"({"type": "product", "of": [{"type": "polynomial", "coefficients": [1, 2]}, {"type": "constant", "value": 0}]})"),
+       plain},
       {"friction", line(law(penalty + ", " + coulomb)), plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
       {"symmetrised", line(law(penalty + ", " + coulomb + R"(, "symmetrised": true)")),
        plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY | ENTS_NEEDS_ONE_BY_ONE},
-      {"augmented", normal(R"({"type": "augmented", "stiffness": 1})"), plain | ENTS_NEEDS_HISTORY | ENTS_NEEDS_ONE_BY_ONE},
-      {"multiplier", normal(R"({"type": "multiplier", "stiffness": 1})"), plain | ENTS_NEEDS_MULTIPLIERS | ENTS_NEEDS_ONE_BY_ONE},
-      {"exponential", normal(R"({"type": "exponential", "pressure": 1, "clearance": 0.01})"), plain | ENTS_NEEDS_ONE_BY_ONE},
-      {"shadow", line(R"("projection": {"type": "shadow_direction", "direction": [0, 1]}, )" + law(penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
+      {"augmented", normal(R"({"type": "augmented", "stiffness": 1})"),
+       plain | ENTS_NEEDS_HISTORY | ENTS_NEEDS_ONE_BY_ONE},
+      {"multiplier", normal(R"({"type": "multiplier", "stiffness": 1})"),
+       plain | ENTS_NEEDS_MULTIPLIERS | ENTS_NEEDS_ONE_BY_ONE},
+      {"exponential", normal(R"({"type": "exponential", "pressure": 1, "clearance": 0.01})"),
+       plain | ENTS_NEEDS_ONE_BY_ONE},
+      {"shadow", line(R"("projection": {"type": "shadow_direction", "direction": [0, 1]}, )" + law(penalty)),
+       plain | ENTS_NEEDS_ONE_BY_ONE},
       {"small gap", line(R"("tangent": "small_gap", )" + law(penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
-      {"first variation", line(R"("tangent": "first_variation", )" + law(penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
+      {"first variation", line(R"("tangent": "first_variation", )" + law(penalty)),
+       plain | ENTS_NEEDS_ONE_BY_ONE},
       {"patch", line(R"("patch": [[0, 1], [1, 2]], )" + law(penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
       {"kinematics", line(sine), flat_enriched | ENTS_NEEDS_ONE_BY_ONE},
   };
@@ -80,7 +89,8 @@ TEST(Needs, OlderCallersAreServed) {
 TEST(Needs, AgreeWithTheRestOfTheLayout) {
   for (const Model& model : make(all_kinds())) {
     const ents_layout& l = model.layout;
-    EXPECT_EQ(needs(model, ENTS_NEEDS_MASTER), l.dofs - l.multipliers == l.dimension * (l.nodes + 1)) << model.text();
+    EXPECT_EQ(needs(model, ENTS_NEEDS_MASTER), l.dofs - l.multipliers == l.dimension * (l.nodes + 1))
+        << model.text();
     EXPECT_EQ(needs(model, ENTS_NEEDS_FRICTION), l.friction == 1) << model.text();
     EXPECT_EQ(needs(model, ENTS_NEEDS_MULTIPLIERS), l.multipliers > 0) << model.text();
   }
@@ -93,11 +103,14 @@ protected:
     Results results(model.layout);
     for (int attempt = 0; attempt < 100; ++attempt) {
       Element e = with_new_state(model, draw(model, b, random, -0.03, -0.02));
-      if (test::evaluate(model, e, want_element | ENTS_FLAGS, results) == ENTS_OK && (results.flags & ENTS_FLAG_CONTACT) != 0) return e;
+      if (test::evaluate(model, e, want_element | ENTS_FLAGS, results) == ENTS_OK &&
+          (results.flags & ENTS_FLAG_CONTACT) != 0)
+        return e;
     }
     throw std::runtime_error("no element in contact: " + model.text());
   }
-  std::vector<double> base_normal(const Model& model, const Element& e, const std::vector<double>& xi, double& height) {
+  std::vector<double> base_normal(const Model& model, const Element& e, const std::vector<double>& xi,
+                                  double& height) {
     std::vector<double> normal(static_cast<std::size_t>(model.layout.dimension));
     ents_surface surface{};
     surface.struct_size = sizeof surface;
@@ -124,12 +137,13 @@ TEST_F(NeedsOfElements, HeightSlopeAndCurvatureAreThoseOfTheSurface) {
     EXPECT_EQ(needs(model, ENTS_NEEDS_SLOPE), h[0] != h[1]) << model.text();
     double turn = 0.0;
     for (std::size_t c = 0; c < n[0].size(); ++c) turn += std::fabs(n[0][c] - n[1][c]);
-    EXPECT_EQ(needs(model, ENTS_NEEDS_CURVED), turn > 1e-12) << model.text(); // rounding of a unit vector: 1e-15
+    EXPECT_EQ(needs(model, ENTS_NEEDS_CURVED), turn > 1e-12)
+        << model.text(); // rounding of a unit vector: 1e-15
   }
 }
 
-// From a start far off, a closed form looks at the surface once (the general kernel once more, to end there); Newton's method, where the
-// equations are not linear, at least three times.
+// From a start far off, a closed form looks at the surface once (the general kernel once more, to end there);
+// Newton's method, where the equations are not linear, at least three times.
 TEST_F(NeedsOfElements, IterationIsCounted) {
   for (const ModelKind& kind : all_kinds()) {
     const Model model(text(kind));
@@ -143,13 +157,14 @@ TEST_F(NeedsOfElements, IterationIsCounted) {
     } else if (needs(model, ENTS_NEEDS_SLOPE)) {
       EXPECT_GE(results.iterations, 3) << model.text();
     } else {
-      EXPECT_GE(results.iterations, 2) << model.text(); // a constant height on a flat segment: one step and its end
+      EXPECT_GE(results.iterations, 2)
+          << model.text(); // a constant height on a flat segment: one step and its end
     }
   }
 }
 
-// Without history a state is a start and nothing else: the start alone gives the same bits. With it, what follows the start in
-// the state moves the force.
+// Without history a state is a start and nothing else: the start alone gives the same bits. With it, what
+// follows the start in the state moves the force.
 TEST_F(NeedsOfElements, HistoryMovesTheForce) {
   for (const ModelKind& kind : all_kinds()) {
     const Model model(text(kind));
@@ -163,7 +178,8 @@ TEST_F(NeedsOfElements, HistoryMovesTheForce) {
     ASSERT_EQ(test::evaluate(model, e, ENTS_RESIDUAL | ENTS_TANGENT, with), ENTS_OK) << model.text();
     e[state_begin].clear();
     ASSERT_EQ(test::evaluate(model, e, ENTS_RESIDUAL | ENTS_TANGENT, without), ENTS_OK) << model.text();
-    EXPECT_EQ(needs(model, ENTS_NEEDS_HISTORY), !same_bits(with.of(ENTS_RESIDUAL), without.of(ENTS_RESIDUAL))) << model.text();
+    EXPECT_EQ(needs(model, ENTS_NEEDS_HISTORY), !same_bits(with.of(ENTS_RESIDUAL), without.of(ENTS_RESIDUAL)))
+        << model.text();
   }
 }
 

@@ -254,10 +254,14 @@ void print_basis(std::ostream& out, const char* basis, std::ostream& more_expens
 } // namespace
 
 void run_savings(std::ostream& out) {
-  out << "What a scene does not need is not computed: everything (a sine, a master that deforms, Coulomb friction,\n"
-         "residual and tangent, contact), then without some of it. ns per element (thread CPU time, medians,\n"
-         "interleaved) and ratio to everything; evaluated in calls of one and of 64 elements, and 64 assembled by\n"
-         "ents_assemble. needs: what ents_layout says of the model: of everything (+), then what is left out (-) or\n"
+  out << "What a scene does not need is not computed: everything (a sine, a master that deforms, Coulomb "
+         "friction,\n"
+         "residual and tangent, contact), then without some of it. ns per element (thread CPU time, "
+         "medians,\n"
+         "interleaved) and ratio to everything; evaluated in calls of one and of 64 elements, and 64 "
+         "assembled by\n"
+         "ents_assemble. needs: what ents_layout says of the model: of everything (+), then what is left out "
+         "(-) or\n"
          "comes in (+); a tangent that is not asked for and a slave that is open are a matter of the call\n";
   std::ostringstream more_expensive;
   more_expensive << std::fixed << std::setprecision(2);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "ents_library.hpp"
 #include "output/pictures.hpp"
 #include "program.hpp"
 
@@ -135,6 +136,53 @@ TEST_F(Check, AMeasuredSurface) {
   const Json near = result(model, mesh + " --reach " + std::to_string(10 * least), 1);
   EXPECT_LE(condition(near, "projection").at("value").get<double>(), least);
   EXPECT_EQ(condition(near, "projection").at("segment"), 0);
+}
+
+// What is left out is the library's decision: the bits of the layout, in words.
+TEST_F(Check, SaysWhatTheSceneNeeds) {
+  const Json penalty = {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}};
+  const Json friction = {{"normal", {{"type", "augmented_multiplier"}, {"stiffness", 1}}},
+                         {"friction", {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1}}}};
+  const Json wave = {{"type", "sine"}, {"amplitude", 0.01}, {"wave_vector", {1, 0}}}, even = {{"type", "constant"}, {"value", 0.01}};
+  const std::string enriched = "a height (not zero)", varies = "slopes of the height (it varies)", iterated = "iterations of the projection (no closed form)",
+                    turns = "a normal that turns (curved or warped segments)", deforms = "forces and stiffness of the master (it deforms)",
+                    frictionless = "friction (none in the model), history (forces follow from positions alone), multipliers as unknowns (none in the law)",
+                    plain = "a height (zero everywhere), a normal that turns (flat segments), iterations of the projection (closed form)";
+  struct {
+    Json model;
+    std::string needs, does_not_need;
+  } const cases[] = {
+      {{{"segment", "line2"}, {"contact", penalty}}, deforms, plain + ", " + frictionless},
+      {{{"segment", "tri3"}, {"master", "rigid"}, {"contact", penalty}, {"height", {{"type", "constant"}, {"value", 0}}}},
+       "positions alone", plain + ", forces and stiffness of the master (it is rigid), " + frictionless},
+      {{{"segment", "quad4"}, {"contact", penalty}, {"height", wave}},
+       enriched + ", " + varies + ", " + turns + ", " + iterated + ", " + deforms, frictionless},
+      {{{"segment", "quad4"}, {"master", "rigid"}, {"contact", penalty}, {"height", even}}, enriched + ", " + turns + ", " + iterated,
+       "slopes of the height (it is constant), forces and stiffness of the master (it is rigid), " + frictionless},
+      {{{"segment", "quad9"}, {"contact", friction}, {"height", wave}},
+       enriched + ", " + varies + ", " + turns + ", " + iterated + ", " + deforms +
+           ", friction (in the model), history (forces depend on it), multipliers as unknowns (in the law)", ""},
+  };
+  const char* const names[] = {"height", "slope", "curved", "iteration", "master", "friction", "history", "multipliers", "one_by_one"};
+  const EntsLibrary library;
+  for (const auto& c : cases) {
+    const std::string file = write("model.json", c.model);
+    const ProgramOutput text = check(file, "");
+    std::string expected = "this scene needs: " + c.needs + "\n";
+    if (!c.does_not_need.empty()) expected += "it does not need: " + c.does_not_need + "\n";
+    EXPECT_EQ(text.text.substr(0, text.text.find("kernels: ")), expected) << c.model;
+    const EntsModel model(library, c.model.dump(), "", "here");
+    const std::string set = model.layout().instruction_set;
+    EXPECT_NE(text.text.find((model.layout().needs & ENTS_NEEDS_ONE_BY_ONE) != 0 ? "kernels: portable, elements one by one" : "kernels: " + set + ", those"),
+              std::string::npos)
+        << text.text;
+    const Json json = result(file, "", text.exit_code);
+    EXPECT_EQ(json.at("instruction_set").get<std::string>(), set);
+    std::vector<std::string> by_bit[2]; // not needed, needed
+    for (int bit = 0; bit < 9; ++bit) by_bit[model.layout().needs >> bit & 1].push_back(names[bit]);
+    EXPECT_EQ(json.at("needs").get<std::vector<std::string>>(), by_bit[1]);
+    EXPECT_EQ(json.at("does_not_need").get<std::vector<std::string>>(), by_bit[0]);
+  }
 }
 
 TEST_F(Check, WrongInputIsExitCodeTwo) {

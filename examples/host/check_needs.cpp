@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check_needs.hpp"
+
+namespace host {
+namespace {
+
+struct Need {
+  std::int32_t bit;
+  const char *key, *what, *needed, *left_out;
+};
+
+constexpr Need all_needs[] = {
+    {ENTS_NEEDS_HEIGHT, "height", "a height", "not zero", "zero everywhere"},
+    {ENTS_NEEDS_SLOPE, "slope", "slopes of the height", "it varies", "it is constant"},
+    {ENTS_NEEDS_CURVED, "curved", "a normal that turns", "curved or warped segments", "flat segments"},
+    {ENTS_NEEDS_ITERATION, "iteration", "iterations of the projection", "no closed form", "closed form"},
+    {ENTS_NEEDS_MASTER, "master", "forces and stiffness of the master", "it deforms", "it is rigid"},
+    {ENTS_NEEDS_FRICTION, "friction", "friction", "in the model", "none in the model"},
+    {ENTS_NEEDS_HISTORY, "history", "history", "forces depend on it", "forces follow from positions alone"},
+    {ENTS_NEEDS_MULTIPLIERS, "multipliers", "multipliers as unknowns", "in the law", "none in the law"},
+    {ENTS_NEEDS_ONE_BY_ONE, "one_by_one", nullptr, nullptr, nullptr}, // a sentence of its own
+};
+
+bool has(const ents_layout& layout, const Need& need) { return (layout.needs & need.bit) != 0; }
+
+} // namespace
+
+std::string describe_needs(const ents_layout& layout) {
+  std::string needed, left_out;
+  for (const Need& need : all_needs) {
+    if (need.what == nullptr) continue;
+    if (need.bit == ENTS_NEEDS_SLOPE && (layout.needs & ENTS_NEEDS_HEIGHT) == 0) continue; // slopes of what?
+    std::string& list = has(layout, need) ? needed : left_out;
+    if (!list.empty()) list += ", ";
+    list.append(need.what).append(" (").append(has(layout, need) ? need.needed : need.left_out).append(")");
+  }
+  const bool one_by_one = (layout.needs & ENTS_NEEDS_ONE_BY_ONE) != 0;
+  std::string text = "this scene needs: ";
+  text.append(needed.empty() ? "positions alone" : needed).append("\n");
+  if (!left_out.empty()) text.append("it does not need: ").append(left_out).append("\n");
+  text.append("kernels: ").append(layout.instruction_set);
+  text.append(one_by_one ? ", elements one by one (the fast kernels do not know all of this model)\n"
+                         : ", those of ordinary elements\n");
+  return text;
+}
+
+Json needs_json(const ents_layout& layout) {
+  Json json{{"needs", Json::array()},
+            {"does_not_need", Json::array()},
+            {"instruction_set", layout.instruction_set}};
+  for (const Need& need : all_needs) json[has(layout, need) ? "needs" : "does_not_need"].push_back(need.key);
+  return json;
+}
+
+} // namespace host

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the library says that a model needs (ents_layout.needs), in words.
+#pragma once
+
+#include "ents_library.hpp"
+#include "json_reader.hpp"
+
+namespace host {
+
+/// "this scene needs: ...", "it does not need: ..." (unless it needs all), each thing with its why, and
+/// "kernels: ...": three lines.
+std::string describe_needs(const ents_layout& layout);
+
+/// {"needs": [..], "does_not_need": [..], "instruction_set": ".."}; names are those of the bits, in small
+/// letters.
+Json needs_json(const ents_layout& layout);
+
+} // namespace host
