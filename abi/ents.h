@@ -160,8 +160,8 @@ typedef struct ents_layout {
                                   bits of the results do not depend on it */
 } ents_layout;
 
-/* What the elements of a model need, decided when it is made. What a model does not need is not computed. (What a call does not
- * ask for is not, either; nor are forces of open elements, but for their gap.) `ents-bench --savings` measures what each is worth. */
+/* What the elements of a model need, decided when it is made. What it does not need is not computed. (A call does not compute what it does
+ * not ask for, either, and an open element ends at its gap.) `ents-bench --savings` measures what each is worth. */
 #define ENTS_NEEDS_HEIGHT      (1 << 0)  /* a height that is not zero everywhere; else the segments are plain ones, whatever the text says */
 #define ENTS_NEEDS_SLOPE       (1 << 1)  /* a height of another type than "constant": it is evaluated with its derivatives at each step of a projection */
 #define ENTS_NEEDS_CURVED      (1 << 2)  /* segments whose normal varies: all but line2 and tri3. It is followed through projection and variations */
