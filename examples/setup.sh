@@ -11,7 +11,8 @@ library, the reference host, the benchmark and the tests in build/; with --targe
 package, too. -D... goes to CMake:
   -DENTS_WERROR=ON                       warnings are errors
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
-They stay in force in build/ until changed or until build/ is removed.
+They stay in force in build/ until changed or until build/ is removed. Packages that are used where they are installed:
+  --with libtrilinos-sacado-dev          Sacado, which ents-bench --differentiation compares with
 
 exit status: 0 built; 1 the build failed; 2 a package is missing and cannot be installed, or the command line is wrong
 HELP

@@ -39,7 +39,12 @@ public:
   }
   std::int64_t elements_per_call() const { return per_call_; }
   double mean_surface_evaluations() const { return surface_evaluations_; }
-  double* results() { return storage_.data(); }
+  double* results() { return storage_.data(); } // RK: [elements][n], then [elements][n][n]
+
+  const mechanics::Elements& elements() const { return elements_; }
+  int dofs() const { return model_.dofs(); }
+  double stiffness() const { return scene_.stiffness; }
+  const nlohmann::json& height() const { return scene_.height; }
 
 private:
   Job(const Case& c, mechanics::Random random);

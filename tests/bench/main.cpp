@@ -13,6 +13,7 @@
 #include "assembly.hpp"
 #include "cases.hpp"
 #include "detection.hpp"
+#include "differentiation.hpp"
 #include "roofline.hpp"
 #include "savings.hpp"
 #include "summary.hpp"
@@ -24,6 +25,7 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
        ents-bench --detection[=N] | --roofline | --savings | --assembly
+       ents-bench --differentiation
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -40,6 +42,8 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
   --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
+  --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
+                                  differs by more than 1e-9
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only
@@ -112,6 +116,7 @@ int main(int argc, char** argv) {
       bench::run_assembly(std::cout);
       return 0;
     }
+    if (argument == "--differentiation") return bench::run_differentiation(std::cout) ? 0 : 1;
     if (argument == "--roofline") {
       bench::run_roofline(std::cout);
       return 0;
