@@ -1,5 +1,6 @@
 #include "cases.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -53,7 +54,7 @@ Scene scene_of(const Case& c, Random& random) {
 std::string text_of(const Case& c, const Scene& scene) {
   json text = scene.model();
   if (c.variant == "rigid") text["master"] = "rigid";
-  if (has_friction(c.variant)) text["contact"]["friction"] = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 0.8}};
+  if (has_friction(c.variant)) text["contact"]["friction"] = {{"type", "coulomb"}, {"coefficient", friction_coefficient}, {"stiffness", friction_stiffness}};
   return text.dump();
 }
 
@@ -166,6 +167,20 @@ Job::Job(const Case& c, Random random)
   }
   if (ents_evaluate(model_.handle(), 0, elements_.count, &input_, &output_, nullptr) != ENTS_OK)
     throw std::runtime_error(c.name() + ": an element fails");
+  if (frictional()) check_friction(c.name());
+}
+
+void Job::check_friction(const std::string& name) const {
+  std::vector<std::int32_t> flags(static_cast<std::size_t>(elements_.count));
+  ents_output output{};
+  output.struct_size = sizeof output;
+  output.wanted = ENTS_FLAGS;
+  output.flags = flags.data();
+  output.flags_stride = 1;
+  if (ents_evaluate(model_.handle(), 0, elements_.count, &input_, &output, nullptr) != ENTS_OK) throw std::runtime_error(name + ": no flags");
+  for (const std::int32_t flag : {ENTS_FLAG_STICK, ENTS_FLAG_SLIP})
+    if (std::none_of(flags.begin(), flags.end(), [flag](std::int32_t f) { return (f & flag) != 0; }))
+      throw std::runtime_error(name + (flag == ENTS_FLAG_STICK ? ": no element sticks" : ": no element slips"));
 }
 
 } // namespace bench

@@ -23,6 +23,9 @@ struct Case {
   std::string name() const; // quad4/enriched/RK/single
 };
 
+// Of the variants with friction. The stiffness, per area, is such that some elements stick and some slip.
+inline constexpr double friction_coefficient = 0.3, friction_stiffness = 8.0;
+
 // The grid basis x {plain, enriched} x level x call, and what shows that absent things cost nothing.
 std::vector<Case> all_cases();
 
@@ -45,10 +48,18 @@ public:
   int dofs() const { return model_.dofs(); }
   double stiffness() const { return scene_.stiffness; }
   const nlohmann::json& height() const { return scene_.height; }
+  std::vector<double> projections() const { return model_.evaluate(elements_, ENTS_XI).xi; } // [elements][d-1]
+  bool frictional() const { return !states_.empty(); }
+  // With friction: natural coordinates [d-1] of the point where element e stuck
+  const double* anchor(std::size_t e) const {
+    const std::size_t count = static_cast<std::size_t>(elements_.count);
+    return &states_[e * (states_.size() / count) + 3 + elements_.start.size() / count];
+  }
 
 private:
   Job(const Case& c, mechanics::Random random);
   void set_anchors(mechanics::Random& random);
+  void check_friction(const std::string& name) const;
 
   mechanics::Scene scene_;
   mechanics::Model model_;
