@@ -14,6 +14,7 @@
 #include "cases.hpp"
 #include "detection.hpp"
 #include "differentiation.hpp"
+#include "peers.hpp"
 #include "roofline.hpp"
 #include "savings.hpp"
 #include "summary.hpp"
@@ -25,7 +26,7 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
        ents-bench --detection[=N] | --roofline | --savings | --assembly
-       ents-bench --differentiation
+       ents-bench --differentiation | --peers
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -44,6 +45,7 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
                                   differs by more than 1e-9
+  --peers                         CalculiX's contact spring against a quad4; if it is built in, else how; fails if its forces are others
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only
@@ -117,6 +119,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (argument == "--differentiation") return bench::run_differentiation(std::cout) ? 0 : 1;
+    if (argument == "--peers") return bench::run_peers(std::cout);
     if (argument == "--roofline") {
       bench::run_roofline(std::cout);
       return 0;
