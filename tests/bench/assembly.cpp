@@ -1,12 +1,12 @@
 #include "assembly.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <set>
 #include <stdexcept>
 
+#include "growth.hpp"
 #include "mesh_surface.hpp"
 #include "thread_time.hpp"
 
@@ -121,17 +121,10 @@ void run_assembly(std::ostream& out) {
       const double first = nanoseconds(p, assemble), later = median_nanoseconds(p, assemble), alone = median_nanoseconds(p, evaluate);
       out << std::left << std::setw(12) << p.count << std::right << std::setw(12) << first << std::setw(12) << later << std::setw(12) << alone
           << std::setw(12) << later - alone << std::endl;
-      sizes.push_back(std::log(static_cast<double>(p.count)));
-      later_seconds.push_back(std::log(later) + sizes.back());
+      sizes.push_back(static_cast<double>(p.count));
+      later_seconds.push_back(later * sizes.back());
     }
-    const std::size_t n = sizes.size();
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < n; ++i) x += sizes[i], y += later_seconds[i];
-    for (std::size_t i = 0; i < n; ++i) {
-      xx += (sizes[i] - x / static_cast<double>(n)) * (sizes[i] - x / static_cast<double>(n));
-      xy += (sizes[i] - x / static_cast<double>(n)) * (later_seconds[i] - y / static_cast<double>(n));
-    }
-    out << "slope of later calls over the number of elements: " << std::setprecision(2) << xy / xx << "\n";
+    out << "slope of later calls over the number of elements: " << std::setprecision(2) << slope(sizes, later_seconds) << "\n";
   }
 }
 

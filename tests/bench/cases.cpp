@@ -18,6 +18,7 @@ const char* call_name(Call call) {
   switch (call) {
   case Call::single: return "single";
   case Call::batch: return "batch";
+  case Call::various: return "various";
   default: return "stream";
   }
 }
@@ -59,6 +60,7 @@ std::string text_of(const Case& c, const Scene& scene) {
 }
 
 std::int64_t count_of(const Case& c) {
+  if (c.call == Call::various) return 4096;
   if (c.call == Call::stream) return c.basis == "quad9" ? 25000 : 100000;
   return c.call == Call::single ? 16 : 64;
 }

@@ -11,7 +11,8 @@ namespace bench {
 enum class Call {
   single, // one element per call, 16 different ones in turn: everything stays in the first cache
   batch,  // 64 elements per call
-  stream  // 1e5 elements per call, from and to main memory
+  stream, // 1e5 elements per call, from and to main memory
+  various // 4096 per call; not among all_cases(), for those who take the elements
 };
 
 struct Case {
@@ -45,6 +46,8 @@ public:
   double* results() { return storage_.data(); } // RK: [elements][n], then [elements][n][n]
 
   const mechanics::Elements& elements() const { return elements_; }
+  const mechanics::Model& model() const { return model_; }
+  int dimension() const { return model_.dimension(); }
   int dofs() const { return model_.dofs(); }
   double stiffness() const { return scene_.stiffness; }
   const nlohmann::json& height() const { return scene_.height; }

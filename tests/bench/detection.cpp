@@ -7,6 +7,7 @@
 #include <limits>
 #include <ostream>
 
+#include "growth.hpp"
 #include "mesh_surface.hpp"
 #include "random.hpp"
 #include "thread_time.hpp"
@@ -98,20 +99,15 @@ void run_detection(std::ostream& out, std::int64_t most) {
         out << std::left << std::setw(18) << n << std::right << std::setprecision(0);
         for (const double value : now) out << std::setw(10) << value;
         out << std::endl;
-        x.push_back(std::log(static_cast<double>(n)));
+        x.push_back(static_cast<double>(n));
         y.push_back(now);
       }
       if (x.size() < 2) continue;
       out << std::left << std::setw(18) << "slope" << std::right << std::setprecision(2);
-      double mean = 0.0;
-      for (const double v : x) mean += v / static_cast<double>(x.size());
       for (int q = 0; q < quantities; ++q) {
-        double above = 0.0, below = 0.0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          above += (x[i] - mean) * (std::log(y[i][static_cast<std::size_t>(q)]) + x[i]); // per item, times n
-          below += (x[i] - mean) * (x[i] - mean);
-        }
-        out << std::setw(10) << above / below;
+        std::vector<double> costs;
+        for (std::size_t i = 0; i < x.size(); ++i) costs.push_back(y[i][static_cast<std::size_t>(q)] * x[i]);
+        out << std::setw(10) << slope(x, costs);
       }
       out << "\n";
     }

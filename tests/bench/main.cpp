@@ -17,6 +17,7 @@
 #include "peers.hpp"
 #include "roofline.hpp"
 #include "savings.hpp"
+#include "streaming.hpp"
 #include "summary.hpp"
 
 namespace {
@@ -26,7 +27,7 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
        ents-bench --detection[=N] | --roofline | --savings | --assembly
-       ents-bench --differentiation | --peers
+       ents-bench --differentiation | --peers | --streaming[=N]
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -42,6 +43,8 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
                                   of the search, and their growth
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
   --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
+  --streaming[=N]                 array calls of 100, 1000 .. N elements (1000000 if not given; up to 4 GB): cost with results in main memory
+                                  beside the floor of its stores, with results in the same places, and its growth
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
                                   differs by more than 1e-9
@@ -105,13 +108,16 @@ int main(int argc, char** argv) {
       print_help();
       return 0;
     }
-    if (argument.rfind("--detection", 0) == 0) {
-      const std::int64_t most = argument == "--detection" ? 1000000 : std::atoll(argument.substr(12).c_str());
+    const std::pair<std::string, void (*)(std::ostream&, std::int64_t)> growing[] = {{"--detection", bench::run_detection},
+                                                                                     {"--streaming", bench::run_streaming}};
+    for (const auto& [flag, run] : growing) {
+      if (argument != flag && argument.rfind(flag + "=", 0) != 0) continue;
+      const std::int64_t most = argument == flag ? 1000000 : std::atoll(argument.substr(flag.size() + 1).c_str());
       if (most < 1000) {
-        std::cerr << argument << ": at least 1000 segments are needed\n";
+        std::cerr << argument << ": at least 1000 are needed\n";
         return 2;
       }
-      bench::run_detection(std::cout, most);
+      run(std::cout, most);
       return 0;
     }
     if (argument == "--assembly") {

@@ -9,6 +9,7 @@
 
 #include "cases.hpp"
 #include "counted.hpp"
+#include "stores.hpp"
 #include "thread_time.hpp"
 
 namespace bench {
@@ -67,10 +68,7 @@ Limits measure_limits() {
   volatile double sink = 0.0;
   if (run) limits.flops = each * static_cast<double>(rounds) / median_seconds([&] { sink = sink + run(rounds); });
   std::vector<double> memory(std::size_t{1} << 25, 1.0); // 256 MiB
-  limits.bytes = 8.0 * static_cast<double>(memory.size()) / median_seconds([&] {
-                   std::fill(memory.begin(), memory.end(), sink);
-                   asm volatile("" : : "r"(memory.data()) : "memory");
-                 });
+  limits.bytes = 8.0 * static_cast<double>(memory.size()) / median_seconds([&] { store_all(memory.data(), memory.size(), sink); });
   return limits;
 }
 
