@@ -2,9 +2,11 @@
 // Work-precision diagrams: fronts, sentences and masters, each against what is known beforehand.
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
+#include "chart/automatic_tangent.hpp"
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
 #include "chart/work.hpp"
@@ -142,20 +144,75 @@ TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
   EXPECT_GT(worst[1] / worst[2], 7);
 }
 
+// The differentiated element is the library's: slave nodes all over the scene's segment, one corner raised, pressed in by up to the amplitude. Coordinates and
+// the distances that come from them are of order 1, so that both round the gap by some 1e-15 and the residual by that times the stiffness; a
+// tangent is made of some hundred operations on numbers of its own size.
+TEST(WorkPrecision, AutomaticTangentIsTheClosedOne) {
+  const std::vector<Problem> problems = work_problems(EXAMPLES, true);
+  const Scene scene = scene_of(problem(problems, "wavy3d"), {});
+  Json text = scene.contact->model;
+  text["master"] = "rigid";
+  const EntsModel model(library(), text.dump(), scene.file.parent_path(), "test");
+  const AutomaticTangent automatic(library(), scene);
+  std::vector<double> master = scene.contact->rigid;
+  master[2] += 0.1; // not flat any more: the normal turns
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> inside(-0.9, 0.9), depth(-0.002, 0.0);
+  int touching = 0;
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<double> start{inside(random), inside(random)};
+    const SurfaceSample at = sample_surface(model, master, {}, start);
+    double slave[3], area = 0.7;
+    const double gap = depth(random);
+    for (std::size_t c = 0; c < 3; ++c) slave[c] = at.point[c] + gap * at.normal[c];
+    struct Results {
+      double residual[3], tangent[9], xi[2];
+      std::int32_t flags = 0;
+    } results[2];
+    for (const EntsLibrary* way : {&library(), &automatic.library()}) {
+      Results& r = results[way == &library() ? 0 : 1];
+      auto in = ents_struct<ents_input>();
+      in.slave = slave, in.slave_stride = 3;
+      in.master = master.data();
+      in.start = start.data(), in.start_stride = 2;
+      in.area = &area, in.area_stride = 1;
+      auto out = ents_struct<ents_output>();
+      out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_XI | ENTS_FLAGS;
+      out.residual = r.residual, out.residual_stride = 3;
+      out.tangent = r.tangent, out.tangent_stride = 9, out.tangent_leading_dimension = 3;
+      out.xi = r.xi, out.xi_stride = 2;
+      out.flags = &r.flags, out.flags_stride = 1;
+      ASSERT_EQ(way->evaluate(model.get(), 0, 1, &in, &out, nullptr), ENTS_OK);
+    }
+    ASSERT_EQ(results[0].flags, results[1].flags);
+    touching += (results[0].flags & ENTS_FLAG_CONTACT) != 0;
+    const double largest = *std::max_element(results[0].tangent, results[0].tangent + 9);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(results[1].residual[i], results[0].residual[i], 4e-15 * largest);
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(results[1].tangent[i], results[0].tangent[i], 1e-13 * largest);
+  }
+  EXPECT_GT(touching, 150);
+}
+
 // All ways of the quick chart are solved; on the same slave mesh finer plain segments are better, and none is
 // better than the enriched segment they come close to.
 TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
   for (const Problem& at : work_problems(EXAMPLES, true)) {
     const Work work = measure(at, library(), 1, [](const std::string&) {});
-    const WorkRun *enriched = nullptr, *coarse = nullptr, *fine = nullptr;
+    const WorkRun *enriched = nullptr, *coarse = nullptr, *fine = nullptr, *automatic = nullptr;
     for (const WorkRun& run : work.runs) {
       EXPECT_EQ(run.failure, "") << at.name << ", " << word(run.way.family) << " " << run.way.divisions;
+      if (run.way.tangent == automatic_tangent) automatic = &run;
       if (run.way.family == Family::enriched && enriched == nullptr) enriched = &run;
       if (run.way.family != Family::facets) continue;
       if (coarse == nullptr) coarse = &run;
       fine = &run;
     }
     ASSERT_TRUE(enriched != nullptr && fine != nullptr && fine != coarse) << at.name;
+    EXPECT_EQ(automatic != nullptr, at.name == "wavy3d");
+    if (automatic != nullptr) { // the same steps: the errors differ by what Newton's tolerance of 1e-6 leaves
+      EXPECT_EQ(automatic->iterations, enriched->iterations);
+      EXPECT_NEAR(automatic->error, enriched->error, 1e-6);
+    }
     EXPECT_LT(fine->error, coarse->error) << at.name;
     EXPECT_LT(enriched->error, coarse->error) << at.name;
     if (at.exact) {

@@ -7,7 +7,9 @@
 #include <ctime>
 #include <limits>
 #include <map>
+#include <optional>
 
+#include "chart/automatic_tangent.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -79,9 +81,11 @@ Solution solution_of(const Problem& problem, const Simulation& simulation, const
 /// Solve once and add the price to the run.
 Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& run) {
   const Scene scene = scene_of(problem, run.way);
+  std::optional<AutomaticTangent> automatic;
+  if (run.way.tangent == automatic_tangent) automatic.emplace(library, scene);
   const Stopwatch wall;
   const CpuStopwatch cpu(CLOCK_PROCESS_CPUTIME_ID);
-  Simulation simulation(scene, &library, 0,
+  Simulation simulation(scene, automatic ? &automatic->library() : &library, 0,
                         scene.contact->rigid.empty() ? MasterMaker{} : master_of(run.way));
   const std::vector<StepRecord> records = solve(simulation, {});
   run.cpu.push_back(cpu.seconds());
@@ -168,7 +172,7 @@ Scene scene_of(const Problem& problem, const Way& way) {
   apply(problem.levels[way.level].settings);
   if (way.family == Family::sampled) json["contact"]["sampling"] = 2;
   if (problem.adapt) problem.adapt(json, way);
-  json["contact"]["model"]["tangent"] = way.tangent;
+  json["contact"]["model"]["tangent"] = way.tangent == automatic_tangent ? "consistent" : way.tangent;
   return read_scene_text(json.dump(), problem.scene);
 }
 

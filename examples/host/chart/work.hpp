@@ -25,12 +25,15 @@ enum class Family {
 };
 const char* word(Family family);
 
+/// Way::tangent: the consistent one by automatic differentiation instead of the library's closed form.
+inline constexpr const char* automatic_tangent = "automatic";
+
 /// One way to solve a problem.
 struct Way {
   Family family = Family::enriched;
   int divisions = 1;     ///< segments of the master per direction
   std::size_t level = 0; ///< of the slave mesh, see Problem::levels
-  std::string tangent = "consistent";
+  std::string tangent = "consistent"; ///< of the library, or automatic_tangent
 
   bool operator==(const Way&) const = default;
 };

@@ -199,6 +199,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     if (quick) p.levels.resize(1);
     p.ways = quick ? all_ways(p.levels, {7, 29}, {7}, true)
                    : all_ways(p.levels, {5, 9, 15, 19, 23, 29, 59}, {5, 9, 15}, true);
+    p.ways.push_back({Family::enriched, 1, (p.levels.size() - 1) / 2, automatic_tangent});
     p.pressure = double_sine_pressure;
     problems.push_back(std::move(p));
   }
