@@ -58,7 +58,7 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
 Cases are interleaved at random, so that a slow second of the machine does not hit one of them alone
 (--benchmark_enable_random_interleaving=false turns this off). The other --benchmark_ flags are those of Google Benchmark.
 
-exit status: 0 done; 1 a case failed; 2 the command line is wrong)");
+exit status: 0 done; 1 a case failed; 2 the command line is wrong, or --peers finds nothing built in)");
 }
 
 void register_case(const bench::Case& c) {
