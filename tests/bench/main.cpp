@@ -44,7 +44,7 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
   --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
   --streaming[=N]                 array calls of 100, 1000 .. N elements (1000000 if not given; up to 4 GB): cost with results in main memory
-                                  beside the floor of its stores, with results in the same places, and its growth
+                                  beside the floor of its stores, with results in the same places, with these copied, and its growth
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
                                   differs by more than 1e-9

@@ -52,6 +52,7 @@ public:
     output_.tangent_leading_dimension = leading_;
     // a cache line's length at its end, so that it can begin with one
     memory_.assign(static_cast<std::size_t>(count_ * (residual_stride_ + tangent_stride_)) + 8, 1.0);
+    cached_.assign(static_cast<std::size_t>(per_call * (residual_stride_ + tangent_stride_)), 1.0);
     first_ = memory_.data();
     while (reinterpret_cast<std::uintptr_t>(first_) % 64 != 0) ++first_;
   }
@@ -62,10 +63,22 @@ public:
   }
 
   // n elements in one call, results one behind the other
-  void stream(std::int64_t n) { evaluate(0, n, n); }
+  void stream(std::int64_t n) { evaluate(0, n, n, first_); }
   // in calls of 64, results in the same places
   void reuse(std::int64_t n) {
-    for (std::int64_t e = 0; e < n; e += per_call) evaluate(e, std::min(per_call, n - e), per_call);
+    for (std::int64_t e = 0; e < n; e += per_call)
+      evaluate(e, std::min(per_call, n - e), per_call, cached_.data());
+  }
+
+  // the same, each call's results then copied to places of their own: residuals and tangents of 64, of the
+  // next 64, ..
+  void copy(std::int64_t n) {
+    const std::int64_t each = residual_stride_ + tangent_stride_;
+    for (std::int64_t e = 0; e < n; e += per_call) {
+      const std::int64_t some = std::min(per_call, n - e);
+      evaluate(e, some, some, cached_.data());
+      std::copy_n(cached_.data(), some * each, first_ + e * each);
+    }
   }
 
 private:
@@ -75,21 +88,21 @@ private:
     for (std::size_t i = 0; i < many.size(); ++i) many[i] = few[i % few.size()];
     return many;
   }
-  void evaluate(std::int64_t first, std::int64_t n, std::int64_t places) {
+  void evaluate(std::int64_t first, std::int64_t n, std::int64_t places, double* results) {
     input_.slave = slave_.data() + first * input_.slave_stride;
     input_.master = master_.data() + first * input_.master_stride;
     input_.start = start_.data() + first * input_.start_stride;
     input_.area = area_.data() + first;
-    output_.residual = first_;
-    output_.tangent = first_ + places * residual_stride_;
+    output_.residual = results;
+    output_.tangent = results + places * residual_stride_;
     if (ents_evaluate(job_.model().handle(), 0, n, &input_, &output_, nullptr) != ENTS_OK)
       throw std::runtime_error("an element fails");
-    asm volatile("" : : "r"(first_) : "memory");
+    asm volatile("" : : "r"(results) : "memory");
   }
 
   const Job& job_;
   std::int64_t leading_, residual_stride_, tangent_stride_, count_;
-  std::vector<double> slave_, master_, start_, area_, memory_;
+  std::vector<double> slave_, master_, start_, area_, memory_, cached_;
   double* first_ = nullptr;
   ents_input input_{};
   ents_output output_{};
@@ -104,12 +117,14 @@ void run_streaming(std::ostream& out, std::int64_t most) {
          "memory: one call for all, results one behind the other; floor: bytes of the results at the rate of "
          "plain stores to the same memory\n"
          "reused: calls of "
-      << per_call << ", results in the same places; slope: of log time over log n, n = 10^2 .. " << most
-      << "\n\n"
-      << std::setw(57) << "memory" << std::setw(26) << "reused"
+      << per_call
+      << ", results in the same places; copied: the same, each call's results then copied to main memory\n"
+         "slope: of log time over log n, n = 10^2 .. "
+      << most << "\n\n"
+      << std::setw(64) << "memory" << std::setw(26) << "reused"
       << "\n"
       << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "floor" << std::setw(9) << "ns"
-      << std::setw(10) << "% stores" << std::setw(8) << "slope"
+      << std::setw(10) << "% stores" << std::setw(8) << "slope" << std::setw(8) << "copied"
       << "  ";
   std::vector<std::int64_t> sizes;
   for (std::int64_t n = 100; n <= most; n *= 10) {
@@ -118,6 +133,7 @@ void run_streaming(std::ostream& out, std::int64_t most) {
   }
   out << std::setw(7) << "slope"
       << "\n";
+  most = sizes.back();
   std::vector<Kind> kinds;
   for (const char* basis : {"line2", "tri3", "quad4", "quad9"})
     for (const bool enriched : {false, true}) {
@@ -135,6 +151,7 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       pieces.push_back([&elements, n] { elements.reuse(n); });
       pieces.push_back([&elements, n] { elements.stream(n); });
     }
+    pieces.push_back([&elements] { elements.copy(elements.count()); });
     const std::vector<double> seconds = interleaved_seconds(pieces, rounds);
     std::vector<double> reused, streamed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -148,7 +165,8 @@ void run_streaming(std::ostream& out, std::int64_t most) {
         << std::right << std::fixed << std::setprecision(0) << std::setw(9) << counts.back() << std::setw(7)
         << elements.bytes() << std::setw(7) << floor << std::setw(9) << memory << std::setw(10)
         << 100.0 * floor / memory << std::setprecision(2) << std::setw(8) << slope(counts, streamed)
-        << std::setprecision(1) << "  ";
+        << std::setprecision(0) << std::setw(8)
+        << 1e9 * seconds.back() / static_cast<double>(elements.count()) << std::setprecision(1) << "  ";
     for (std::size_t i = 0; i < sizes.size(); ++i) out << std::setw(8) << 1e9 * reused[i] / counts[i];
     out << std::setprecision(2) << std::setw(8) << slope(counts, reused) << std::endl;
   }
