@@ -5,6 +5,7 @@
 #include "abi/element_block.hpp"
 #include "abi/equations.hpp"
 #include "abi/guard.hpp"
+#include "core/pair_kernels.hpp"
 
 namespace ents {
 
@@ -78,7 +79,7 @@ std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, d
   ElementCall::BlockNodes nodes;
   PairBlock block = pair_block(*call_.model, *call_.in, *call_.out, first);
   if (!call_.gather_block(first, count, nodes, block)) return 0;
-  block.wanted = wanted;
+  block.wanted = wanted | (call_.out->wanted == 0 ? forces_only : 0);
   block.residual = residuals, block.residual_stride = plan_.dofs;
   block.tangent = tangents, block.tangent_stride = std::int64_t{plan_.dofs} * plan_.dofs;
   block.leading = plan_.dofs;

@@ -170,6 +170,7 @@ void Equations::add_known(std::int64_t e, const std::int64_t* places, const doub
       for (int i = 0; i < D; ++i) system_->residual[rows[i]] += residual[D * a + i];
     }
   }
+  if (!system_->values) return;
   double* const values = system_->values - 1;
   // numbers of a row side by side where the element's symmetry lets its columns stand for them
   const std::int64_t along = symmetric ? 1 : n, across = symmetric ? n : 1;
@@ -233,12 +234,11 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
 }
 
 std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent, bool symmetric) const {
-  if (system_->values)
-    if (const std::int64_t* places = known_places(e)) {
-      if (plan_.dimension == 3) add_known<3>(e, places, residual, tangent, symmetric);
-      else add_known<2>(e, places, residual, tangent, symmetric);
-      return ENTS_OK;
-    }
+  if (const std::int64_t* places = known_places(e)) {
+    if (plan_.dimension == 3) add_known<3>(e, places, residual, tangent, symmetric);
+    else add_known<2>(e, places, residual, tangent, symmetric);
+    return ENTS_OK;
+  }
   std::int32_t status = ENTS_OK;
   if (system_->residual) status = add_residual(e, residual);
   if (system_->values && status == ENTS_OK) status = add_tangent(e, tangent);

@@ -309,7 +309,15 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
   // Some results may be the element kernel's alone: then it does all of the element, but for what the block kernel writes otherwise.
   const std::int32_t known = pair_results(*model, out->wanted);
   const bool mixed = known == 0 || known != out->wanted;
-  const std::int64_t most = mixed ? 1 : in->mesh ? BlockNodes::most : PairBlock::most;
+  // Tangents that no cache holds are written block by block into one that does, and copied from there: an element per lane, they would
+  // be written a piece here and a piece there.
+  constexpr std::int64_t cached = 8192, beyond_caches = std::int64_t{1} << 19; // numbers
+  const std::int64_t entries = std::int64_t{plan->dofs} * plan->dofs;
+  double tangents[cached];
+  const std::int64_t staged = cached / entries & ~std::int64_t{7}; // whole registers
+  const bool copies = !mixed && (known & want::tangent) != 0 && staged > 0 && count > beyond_caches / entries &&
+                      leading_dimension(*model, *out) == plan->dofs;
+  const std::int64_t most = mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, copies ? staged : count);
   BlockNodes nodes;
   std::int32_t result = ENTS_OK;
   PairBlock block = pair_block(*model, *in, *out, first);
@@ -317,9 +325,14 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
     size = std::min(count, most);
     std::uint64_t done = 0;
     PairBlock here = block;
+    if (copies) {
+      begin_at_first(here);
+      here.tangent = tangents, here.tangent_stride = entries;
+    }
     if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
+        if (copies) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }

@@ -35,19 +35,15 @@ ENTS_INLINE void expand(const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes
   for (int c = 0; c < D; ++c) out[c] = (Parts & on_position) ? f.x[c] : S(0.0);
   if constexpr (!Rigid) {
     for (int i = 0; i < B::nodes; ++i) {
-      S v[D];
-      for (int c = 0; c < D; ++c) {
-        v[c] = S(0.0);
-        if constexpr ((Parts & on_position) != 0) v[c] = -(N.n[i] * f.x[c]);
-        if constexpr ((Parts & on_tangents) != 0)
-          for (int k = 0; k < T; ++k) v[c] = v[c] + N.d1[k][i] * f.a[k][c];
-      }
+      Vec<S, D> v = Vec<S, D>::zero();
+      if constexpr ((Parts & on_position) != 0) v = -(N.n[i] * f.x);
+      if constexpr ((Parts & on_tangents) != 0)
+        for (int k = 0; k < T; ++k) add_scaled(v, N.d1[k][i], f.a[k]);
       if constexpr ((Parts & on_curvatures) != 0)
         unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-          if constexpr (B::second[k])
-            for (int c = 0; c < D; ++c) v[c] = v[c] + N.d2[k][i] * f.a2[k][c];
+          if constexpr (B::second[k]) add_scaled(v, N.d2[k][i], f.a2[k]);
         });
-      for (int c = 0; c < D; ++c) out[D * (i + 1) + c] = v[c];
+      store(v, &out[D * (i + 1)]);
     }
   }
 }

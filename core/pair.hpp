@@ -29,7 +29,7 @@ template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); 
 
 // An element on its way through.
 template <class B, bool H, class S> struct Pair {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, N = D * (B::nodes + 1);
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   PairNodes<B, S> nodes;
   S area, xi[T];
   S evaluations, gap, per_gap; // W'/g per area, 0 where open
@@ -41,6 +41,26 @@ template <class B, bool H, class S> struct Pair {
     for (int a = 0; a < T; ++a) xi[a] = start[a];
   }
   Pair(const Pair&) = delete;
+
+  // Is the slave above all of the enriched segment, so that a projection could only find it open? False: not known.
+  //   flat   rho_e is a graph over the plane: n_e . n > 0, and x_s - rho_e = g n_e has the component zeta - h > 0 along n
+  //   quad4, plain   rho is a graph over the plane of its middle if its normals are on the side of that normal; they and rho are
+  //          bilinear, so their corners decide
+  ENTS_INLINE Truth<S> is_clearly_open(const Plan& plan) const {
+    if constexpr (is_flat<B>) {
+      return projector.zeta > S(plan.height_bound);
+    } else if constexpr (std::is_same_v<B, Quad4> && !H) {
+      const auto& rho = projector.rho;
+      const Vec<S, 3> middle = cross(rho.c1, rho.c2), turn_1 = cross(rho.c1, rho.c12), turn_2 = cross(rho.c12, rho.c2);
+      const S reach = S(1.0 + plan.border), size = dot(middle, middle);
+      Truth<S> open = size > reach * (absolute(dot(middle, turn_1)) + absolute(dot(middle, turn_2)));
+      const S height = dot(middle, rho.c), along_1 = reach * dot(middle, rho.c1), along_2 = reach * dot(middle, rho.c2),
+              warp = reach * reach * dot(middle, rho.c12);
+      return both(open, -height > absolute(along_1) + absolute(along_2) + absolute(warp));
+    } else {
+      return S(1.0) < S(0.0);
+    }
+  }
 
   // Newton's method with full steps. Not ordinary: a step that does not descend, is long or leaves the segment far behind.
   ENTS_INLINE void project() {
@@ -149,28 +169,30 @@ template <class B, bool H, class S> struct Pair {
   }
 
   // out = R: A W' dg
-  ENTS_INLINE void residual(S (&out)[N]) const {
+  template <bool Rigid> ENTS_INLINE void residual(S (&out)[dof_count<B, Rigid>]) const {
     Form<B, S> f;
     form_of_p<B, H>(projector.s, (area * per_gap * gap) * normal, f);
-    expand<B, false, parts_of_p<H>>(f, projector.N, out);
+    expand<B, Rigid, parts_of_p<H>>(f, projector.N, out);
   }
 };
 
 // K = s s^T I - sum_a v_a v_a^T + sum_a (w_a z_a^T + z_a w_a^T) [ + g g^T ]
-template <class B, bool H, class S> struct PairTangent {
-  static constexpr int D = B::dim, T = D - 1, M = B::nodes + 1, N = D * M;
+template <class B, bool H, bool Rigid, class S> struct PairTangent {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
+  static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
   static constexpr bool symmetric = true;
   S weights[1][M]; // s
   S v[T][N];
-  S w[H ? T : 1][N], z[H ? T : 1][N]; // (H)
-  S g[N];                             // where the law is not linear
+  S w[turns ? T : 1][N], z[turns ? T : 1][N];
+  S g[N]; // where the law is not linear
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
     const auto& p = pair.projector;
     const S stiffness = pair.area * pair.per_gap, root = square_root(stiffness);
     weights[0][0] = root;
-    for (int i = 0; i < B::nodes; ++i) weights[0][i + 1] = -(root * p.N.n[i]);
+    if constexpr (!Rigid)
+      for (int i = 0; i < B::nodes; ++i) weights[0][i + 1] = -(root * p.N.n[i]);
 
     // f F^-1 f = sum v v with F = C C^T, v = C^-1 f
     constexpr int parts = parts_of_f<B, H>;
@@ -183,14 +205,14 @@ template <class B, bool H, class S> struct PairTangent {
       scale<parts>(f[1], root * q);
       add_form<parts>(f[1], -(c21 * q), f[0]);
     }
-    for (int a = 0; a < T; ++a) expand<B, false, parts>(f[a], p.N, v[a]);
+    for (int a = 0; a < T; ++a) expand<B, Rigid, parts>(f[a], p.N, v[a]);
 
-    if constexpr (H) {
+    if constexpr (turns) {
       Form<B, S> zf[T];
       forms_of_z<B>(p.s, zf);
       const Vec<S, D> n = stiffness * p.s.n; // w_a = n . delta a_a
       for (int a = 0; a < T; ++a) {
-        expand<B, false, on_position | on_tangents>(zf[a], p.N, z[a]);
+        expand<B, Rigid, on_position | on_tangents>(zf[a], p.N, z[a]);
         for (int c = 0; c < D; ++c) {
           w[a][c] = S(0.0);
           for (int i = 0; i < B::nodes; ++i) w[a][D * (i + 1) + c] = p.N.d1[a][i] * n[c];
@@ -201,7 +223,7 @@ template <class B, bool H, class S> struct PairTangent {
     if (curved_law) { // (m - 1) W'/g dg dg^T
       Form<B, S> gf;
       form_of_p<B, H>(p.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
-      expand<B, false, parts_of_p<H>>(gf, p.N, g);
+      expand<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
       for (S& entry : g) entry = S(0.0);
     }
@@ -210,7 +232,7 @@ template <class B, bool H, class S> struct PairTangent {
   // k + all but the weights; row(array) is the array's entry of the row
   template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
     for (int a = 0; a < T; ++a) k = k - row(v[a]) * R(v[a][j]);
-    if constexpr (H)
+    if constexpr (turns)
       for (int a = 0; a < T; ++a) k = k + (row(w[a]) * R(z[a][j]) + row(z[a]) * R(w[a][j]));
     if (curved_law) k = k + row(g) * R(g[j]);
     return k;

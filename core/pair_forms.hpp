@@ -60,10 +60,8 @@ template <class B, class S> ENTS_INLINE Form<B, S> zero_form() {
 template <int Parts, class B, class S>
 ENTS_INLINE void split(const Form<B, Dual<S>>& f, Form<B, S>& value, Form<B, S>& derivative) {
   const auto part = [](const Vec<Dual<S>, B::dim>& from, Vec<S, B::dim>& v, Vec<S, B::dim>& d) ENTS_LAMBDA_INLINE {
-    for (int c = 0; c < B::dim; ++c) {
-      v[c] = from[c].v;
-      d[c] = from[c].d;
-    }
+    v = value_of(from);
+    d = derivative_of(from);
   };
   if constexpr ((Parts & on_position) != 0) part(f.x, value.x, derivative.x);
   for (int k = 0; k < B::dim - 1; ++k) part(f.a[k], value.a[k], derivative.a[k]);

@@ -13,7 +13,7 @@
 namespace ents::ENTS_ISA {
 
 template <class B, bool H, class S> struct PairFriction {
-  static constexpr int D = B::dim, T = D - 1, N = D * (B::nodes + 1);
+  static constexpr int D = B::dim, T = D - 1;
   Truth<S> active, slip, at_shear_limit;
   S moved[T];           // xi - xi_0; 0 where there is no friction
   S force[T];           // t_a
@@ -64,9 +64,8 @@ template <class B, bool H, class S> struct PairFriction {
 };
 
 // R = A W' dg + t_a dxi^a
-template <class B, bool H, class S>
-ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
-                                   S (&out)[B::dim * (B::nodes + 1)]) {
+template <bool Rigid, class B, bool H, class S>
+ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction, S (&out)[dof_count<B, Rigid>]) {
   constexpr int T = B::dim - 1;
   const auto& p = pair.projector;
   Form<B, S> force, f[T];
@@ -82,18 +81,19 @@ ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction
     if constexpr (T == 2) raised = raised + inverse[symmetric_index(1, b)] * friction.force[1];
     add_form<parts_of_f<B, H>>(force, raised, f[b]);
   }
-  expand<B, false, parts_of_f<B, H>>(force, p.N, out);
+  expand<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
 }
 
 // K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a P_a^T + Y_a x_a^T) [ + g g^T ]
 // x_a = dxi^a
-template <class B, bool H, class S> struct PairFrictionTangent {
-  static constexpr int D = B::dim, T = D - 1, M = B::nodes + 1, N = D * M, K = symmetric_size<T>;
-  static constexpr bool turns = H && !is_flat<B>; // does w change along y?
+template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D, K = symmetric_size<T>;
+  static constexpr bool turns = H && !Rigid;               // w, Z: dofs of the master
+  static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
   static constexpr bool symmetric = false;
   S weights[2][M]; // s, r
   S x[T][N], Y[T][N], P[T][N];
-  S w[H ? T : 1][N], Z[H ? T : 1][N], w1[turns ? T : 1][N], z[turns ? T : 1][N];
+  S w[turns ? T : 1][N], Z[turns ? T : 1][N], w1[bends ? T : 1][N], z[bends ? T : 1][N];
   S g[N];
   bool curved_law;
 
@@ -109,7 +109,7 @@ template <class B, bool H, class S> struct PairFrictionTangent {
     for (int a = 0; a < T; ++a) {
       xf[a] = zero_form<B, S>();
       for (int b = 0; b < T; ++b) add_form<parts>(xf[a], inverse[symmetric_index(a, b)], f[b]);
-      expand<B, false, parts>(xf[a], p.N, x[a]);
+      expand<B, Rigid, parts>(xf[a], p.N, x[a]);
     }
 
     // along y = - M t
@@ -121,8 +121,7 @@ template <class B, bool H, class S> struct PairFrictionTangent {
       xi[a] = U(pair.xi[a], -y);
     }
     PairNodes<B, U> nodes;
-    for (int i = 0; i < B::nodes; ++i)
-      for (int c = 0; c < D; ++c) nodes.y[i][c] = U(pair.nodes.y[i][c]);
+    for (int i = 0; i < B::nodes; ++i) set_constant(nodes.y[i], pair.nodes.y[i]);
     nodes.has_coordinates = pair.nodes.has_coordinates;
     if (nodes.has_coordinates)
       for (int i = 0; i < T * B::nodes; ++i) nodes.coordinates[i] = U(pair.nodes.coordinates[i]);
@@ -140,14 +139,14 @@ template <class B, bool H, class S> struct PairFrictionTangent {
 
     set_weights(stiffness, p.N, N1);
     set_projection_terms(stiffness, p.N, N1, moving, f, xf);
-    if constexpr (H) set_height_terms(stiffness, p, N1, moving);
+    if constexpr (turns) set_height_terms(stiffness, p, N1, moving);
     add_change_of_force(plan, pair, friction, xf);
 
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
       Form<B, S> gf;
       form_of_p<B, H>(p.s, (square_root(stiffness) * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
-      expand<B, false, parts_of_p<H>>(gf, p.N, g);
+      expand<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
       for (S& entry : g) entry = S(0.0);
     }
@@ -156,8 +155,8 @@ template <class B, bool H, class S> struct PairFrictionTangent {
   // k + all but the weights; row(array) is the array's entry of the row
   template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
     for (int a = 0; a < T; ++a) {
-      if constexpr (H) k = k + (row(w[a]) * R(Z[a][j]) + row(Z[a]) * R(w[a][j]));
-      if constexpr (turns) k = k + (row(w1[a]) * R(z[a][j]) + row(z[a]) * R(w1[a][j]));
+      if constexpr (turns) k = k + (row(w[a]) * R(Z[a][j]) + row(Z[a]) * R(w[a][j]));
+      if constexpr (bends) k = k + (row(w1[a]) * R(z[a][j]) + row(z[a]) * R(w1[a][j]));
       k = k + (row(x[a]) * R(P[a][j]) + row(Y[a]) * R(x[a][j]));
     }
     if (curved_law) k = k + row(g) * R(g[j]);
@@ -184,9 +183,9 @@ private:
       add_form<parts>(sum, S(-1.0), rate);
       add_form<parts>(sum, -0.5 * stiffness, f[a]);
       for (int b = 0; b < T; ++b) add_form<parts>(sum, 0.5 * moving.f2[symmetric_index(a, b)].d, xf[b]);
-      expand<B, false, parts>(sum, N0, Y[a]);
+      expand<B, Rigid, parts>(sum, N0, Y[a]);
       S turned[N];
-      expand<B, false, parts>(value, N1, turned);
+      expand<B, Rigid, parts>(value, N1, turned);
       for (int i = D; i < N; ++i) Y[a][i] = Y[a][i] - turned[i]; // the slave's shape function does not change
     }
   }
@@ -194,6 +193,7 @@ private:
   ENTS_NOINLINE void set_height_terms(const S& stiffness, const PairProjector<B, H, S>& p, const Shape<S, T, B::nodes>& N1,
                                       const PairProjector<B, H, Dual<S>>& moving) {
     using U = Dual<S>;
+    const Vec<S, D> turn = derivative_of(moving.s.n);
     Form<B, U> moving_z[T];
     forms_of_z<B>(moving.s, moving_z);
     for (int a = 0; a < T; ++a) {
@@ -201,18 +201,18 @@ private:
       split<on_position | on_tangents>(moving_z[a], value, rate);
       Form<B, S> sum = rate;
       add_form<on_position | on_tangents>(sum, stiffness, value);
-      expand<B, false, on_position | on_tangents>(sum, p.N, Z[a]);
+      expand<B, Rigid, on_position | on_tangents>(sum, p.N, Z[a]);
       S turned[N];
-      expand<B, false, on_position | on_tangents>(value, N1, turned);
+      expand<B, Rigid, on_position | on_tangents>(value, N1, turned);
       for (int i = D; i < N; ++i) Z[a][i] = Z[a][i] + turned[i];
-      if constexpr (turns) expand<B, false, on_position | on_tangents>(value, p.N, z[a]);
+      if constexpr (bends) expand<B, Rigid, on_position | on_tangents>(value, p.N, z[a]);
       for (int c = 0; c < D; ++c) {
         w[a][c] = S(0.0);
         for (int i = 0; i < B::nodes; ++i) w[a][D * (i + 1) + c] = p.N.d1[a][i] * p.s.n[c];
-        if constexpr (turns) {
+        if constexpr (bends) {
           w1[a][c] = S(0.0);
           for (int i = 0; i < B::nodes; ++i)
-            w1[a][D * (i + 1) + c] = N1.d1[a][i] * p.s.n[c] + p.N.d1[a][i] * moving.s.n[c].d;
+            w1[a][D * (i + 1) + c] = N1.d1[a][i] * p.s.n[c] + p.N.d1[a][i] * turn[c];
         }
       }
     }
@@ -223,10 +223,11 @@ private:
     const S half = 0.5 * stiffness;
     weights[0][0] = S(1.0);
     weights[1][0] = half;
-    for (int i = 0; i < B::nodes; ++i) {
-      weights[0][i + 1] = -N0.n[i];
-      weights[1][i + 1] = -N1.n[i] - half * N0.n[i];
-    }
+    if constexpr (!Rigid)
+      for (int i = 0; i < B::nodes; ++i) {
+        weights[0][i + 1] = -N0.n[i];
+        weights[1][i + 1] = -N1.n[i] - half * N0.n[i];
+      }
   }
 
   // P_a = Y_a + dt_a
@@ -289,7 +290,7 @@ private:
     }
     for (int a = 0; a < T; ++a) {
       S change[N];
-      expand<B, false, parts>(dt[a], p.N, change);
+      expand<B, Rigid, parts>(dt[a], p.N, change);
       for (int i = 0; i < N; ++i) P[a][i] = Y[a][i] + change[i];
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/pair_friction.hpp"
+#include "core/pair_kernels.hpp"
 #include "core/pair_write.hpp"
 
 namespace ents::ENTS_ISA {
@@ -116,7 +117,8 @@ ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const P
   }
 }
 
-template <bool F, class B, bool H, class S> using TangentOf = std::conditional_t<F, PairFrictionTangent<B, H, S>, PairTangent<B, H, S>>;
+template <bool F, bool Rigid, class B, bool H, class S>
+using TangentOf = std::conditional_t<F, PairFrictionTangent<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
 
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
@@ -125,13 +127,13 @@ ENTS_INLINE void press(const Plan& plan, Pair<B, H, S>& p, PairFriction<B, H, S>
   p.press(plan);
   if constexpr (F) f.evaluate(plan, p, anchor, history);
 }
-template <bool F, class B, bool H, class S>
-ENTS_INLINE void residual(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[B::dim * (B::nodes + 1)]) {
-  if constexpr (F) friction_residual(p, f, out);
-  else p.residual(out);
+template <bool F, bool Rigid, class B, bool H, class S>
+ENTS_INLINE void residual(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
+  if constexpr (F) friction_residual<Rigid>(p, f, out);
+  else p.template residual<Rigid>(out);
 }
-template <bool F, class B, bool H, class S>
-ENTS_INLINE void tangent(const Plan& plan, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, TangentOf<F, B, H, S>& out) {
+template <bool F, bool Rigid, class B, bool H, class S>
+ENTS_INLINE void tangent(const Plan& plan, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, TangentOf<F, Rigid, B, H, S>& out) {
   if constexpr (F) out.evaluate(plan, p, f);
   else out.evaluate(plan, p);
 }
@@ -144,8 +146,15 @@ template <int T> ENTS_INLINE const double* anchor_of(const Plan& plan, const Pai
   return state ? state + plan.state.anchor_at : none;
 }
 
+inline constexpr std::int32_t beside_forces = PairBlock::results & ~(want::residual | want::tangent);
+
+// An element that is clearly open
+ENTS_INLINE void write_open(const PairBlock& block, std::int64_t e) {
+  if (block.wanted & want::flags) block.flags[e * block.flags_stride] = 0;
+}
 // An element that is open
-template <int N> ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e) {
+ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
+  if (block.wanted & forces_only) return;
   if (block.wanted & want::residual)
     for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
   if (block.wanted & want::tangent)
@@ -153,14 +162,33 @@ template <int N> ENTS_INLINE void write_zeros(const PairBlock& block, std::int64
       for (int i = 0; i < N; ++i) block.tangent[e * block.tangent_stride + j * block.leading + i] = 0.0;
 }
 
+// Residual and tangent of an element in contact.
+template <bool F, bool Rigid, class B, bool H>
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pair<B, H, double>& p, const PairFriction<B, H, double>& f,
+                              std::int64_t e) {
+  constexpr int N = dof_count<B, Rigid>;
+  if (block.wanted & want::residual) {
+    double of_dofs[N];
+    residual<F, Rigid>(p, f, of_dofs);
+    double* r = block.residual + e * block.residual_stride;
+    for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
+  }
+  if (block.wanted & want::tangent) {
+    TangentOf<F, Rigid, B, H, double> t;
+    tangent<F, Rigid>(plan, p, f, t);
+    double* k = block.tangent + e * block.tangent_stride;
+    if constexpr (N <= 12) write_tangent<B::dim>(t, k, block.leading);
+    else write_long_tangent<B::dim>(t, k, block.leading);
+  }
+}
+
 template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  constexpr int D = B::dim, T = D - 1, N = D * (B::nodes + 1);
+  constexpr int D = B::dim, T = D - 1;
   const double* start = start_of<B, H>(plan, block, e);
   if (!start) return false;
   const double *slave = block.slave + e * block.slave_stride, *master = block.master + e * block.master_stride;
   PairNodes<B, double> nodes;
-  for (int i = 0; i < B::nodes; ++i)
-    for (int c = 0; c < D; ++c) nodes.y[i][c] = master[D * i + c] - slave[c];
+  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + D * i) - vec_at<D>(slave);
   const double* coordinates = coordinates_of(plan, block, e);
   nodes.has_coordinates = H && coordinates;
   if (nodes.has_coordinates)
@@ -176,27 +204,17 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
     const double* at = anchor_of<T>(plan, block, e, history);
     for (int a = 0; a < T; ++a) anchor[a] = at[a];
   }
+  if (block.wanted & forces_only && p.is_clearly_open(plan)) {
+    write_open(block, e);
+    return true;
+  }
   p.project();
   press<F>(plan, p, f, anchor, history);
   if (!p.ordinary) return false;
-  if (p.contact) {
-    if (block.wanted & want::residual) {
-      double of_dofs[N];
-      residual<F>(p, f, of_dofs);
-      double* r = block.residual + e * block.residual_stride;
-      for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
-    }
-    if (block.wanted & want::tangent) {
-      TangentOf<F, B, H, double> t;
-      tangent<F>(plan, p, f, t);
-      double* k = block.tangent + e * block.tangent_stride;
-      if constexpr (N <= 12) write_tangent<D>(t, k, block.leading);
-      else write_long_tangent<D>(t, k, block.leading);
-    }
-  } else {
-    write_zeros<N>(block, e);
-  }
-  if (block.wanted & ~(want::residual | want::tangent)) write_scalars<B, H, F>(plan, block, p, f, 0, e);
+  if (!p.contact) write_zeros(block, e, plan.dofs);
+  else if (plan.dofs == D) write_forces<F, true>(plan, block, p, f, e);
+  else write_forces<F, false>(plan, block, p, f, e);
+  if (block.wanted & beside_forces) write_scalars<B, H, F>(plan, block, p, f, 0, e);
   return true;
 }
 
@@ -253,10 +271,38 @@ template <class B, bool H, int W> ENTS_INLINE void project_both(Pair<B, H, Lanes
   a.ordinary = p.ordinary.low, b.ordinary = p.ordinary.high;
 }
 
-// W projected elements from e on; bit k: element e + k was ordinary and is written.
+// Residuals and tangents of the elements e + k whose bit is set in `contact`.
+template <bool F, bool Rigid, class B, bool H, int W>
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pair<B, H, Lanes<W>>& p,
+                              const PairFriction<B, H, Lanes<W>>& f, std::int64_t e, std::uint32_t contact) {
+  constexpr int N = dof_count<B, Rigid>;
+  using S = Lanes<W>;
+  double nowhere[N * N];
+  const auto places = [&](double* first, std::int64_t stride, double* (&out)[W]) {
+    for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? first + (e + k) * stride : nowhere;
+  };
+  if (block.wanted & want::residual) {
+    S r[N];
+    residual<F, Rigid>(p, f, r);
+    double* out[W];
+    places(block.residual, block.residual_stride, out);
+    write_lanes<N>(out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+  }
+  if (block.wanted & want::tangent) {
+    TangentOf<F, Rigid, B, H, S> t;
+    tangent<F, Rigid>(plan, p, f, t);
+    double* out[W];
+    places(block.tangent, block.tangent_stride, out);
+    if constexpr (N <= 12) write_tangent<B::dim>(t, out, block.leading, contact);
+    else write_long_tangent<B::dim>(t, out, block.leading, contact);
+  }
+}
+
+// W projected elements from e on, those with a bit in `far` clearly open; bit k: element e + k was ordinary and is written.
 template <class B, bool H, bool F, int W>
-ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p, std::uint32_t known, std::int64_t e) {
-  constexpr int D = B::dim, T = D - 1, N = D * (B::nodes + 1);
+ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p, std::uint32_t known, std::uint32_t far,
+                                           std::int64_t e) {
+  constexpr int D = B::dim, T = D - 1;
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
   p.area = S(1.0);
@@ -271,33 +317,18 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
     read_lanes<W>(at, anchor);
   }
   press<F>(plan, p, f, anchor, history);
-  const std::uint32_t done = known & bits_of(p.ordinary);
+  const std::uint32_t done = known & (bits_of(p.ordinary) | far);
   if (!done) return 0;
-  const std::uint32_t contact = done & bits_of(p.contact);
-  double nowhere[N * N];
-  const auto places = [&](double* first, std::int64_t stride, double* (&out)[W]) {
-    for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? first + (e + k) * stride : nowhere;
-  };
-  if (contact && block.wanted & want::residual) {
-    S r[N];
-    residual<F>(p, f, r);
-    double* out[W];
-    places(block.residual, block.residual_stride, out);
-    write_lanes<W>(N, out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
-  }
-  if (contact && block.wanted & want::tangent) {
-    TangentOf<F, B, H, S> t;
-    tangent<F>(plan, p, f, t);
-    double* out[W];
-    places(block.tangent, block.tangent_stride, out);
-    if constexpr (N <= 12) write_tangent<D>(t, out, block.leading, contact);
-    else write_long_tangent<D>(t, out, block.leading, contact);
-  }
+  const std::uint32_t contact = done & bits_of(p.contact) & ~far;
+  if (contact && plan.dofs == D) write_forces<F, true>(plan, block, p, f, e, contact);
+  else if (contact) write_forces<F, false>(plan, block, p, f, e, contact);
   for (int k = 0; k < W; ++k)
-    if ((done & ~contact) >> k & 1) write_zeros<N>(block, e + k);
-  if (block.wanted & ~(want::residual | want::tangent))
-    for (int k = 0; k < W; ++k)
-      if (done >> k & 1) write_scalars<B, H, F>(plan, block, p, f, k, e + k);
+    if ((done & ~contact) >> k & 1) write_zeros(block, e + k, plan.dofs);
+  if (block.wanted & beside_forces)
+    for (int k = 0; k < W; ++k) {
+      if (far >> k & 1) write_open(block, e + k);
+      else if (done >> k & 1) write_scalars<B, H, F>(plan, block, p, f, k, e + k);
+    }
   return done;
 }
 #endif
@@ -309,20 +340,31 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
 #if defined(ENTS_HAS_LANES)
   if constexpr (register_width > 1)
     for (constexpr int W = register_width; k + W <= count;) {
+      constexpr std::uint32_t all = (1u << W) - 1;
+      const auto far_of = [&](const PairLanes<B, H, W>& lanes, const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
+        return block.wanted & forces_only ? lanes.known & bits_of(pair.is_clearly_open(plan)) : 0u;
+      };
       // flat segments leave registers free for two projections at once
       const bool two = is_flat<B> && H && k + 2 * W <= count;
       const std::int64_t e = block.first + k;
       const PairLanes<B, H, W> a(plan, block, e);
       Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
+      const std::uint32_t far = far_of(a, p);
+      if (far == all) {
+        for (int i = 0; i < W; ++i) write_open(block, e + i);
+        done |= std::uint64_t{all} << k;
+        k += W;
+        continue;
+      }
       if (two) {
         const PairLanes<B, H, W> b(plan, block, e + W);
         Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
         if constexpr (is_flat<B>) project_both(p, q);
-        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, e + W)} << (k + W);
+        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, far_of(b, q), e + W)} << (k + W);
       } else {
         p.project();
       }
-      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, p, a.known, e)} << k;
+      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, p, a.known, far, e)} << k;
       k += two ? 2 * W : W;
     }
 #endif

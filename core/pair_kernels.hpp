@@ -6,6 +6,11 @@
 
 namespace ents {
 
+// Beside the results in PairBlock::wanted: residual and tangent of elements in contact are all that is looked at, and ENTS_FLAG_CONTACT.
+// Of others nothing is written but their flags, and an element that is clearly open is not projected.
+inline constexpr std::int32_t forces_only = 1 << 30;
+static_assert((want::all & forces_only) == 0);
+
 struct PairKernelsOfBasis {
   PairKernel of[2][2]; // [enriched][friction]
 };

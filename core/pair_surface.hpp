@@ -82,13 +82,14 @@ template <class S> struct Rho<Quad4, S> {
   static constexpr bool linear_area = true;
   Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
   ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
+    c = c1 = c2 = c12 = Vec<S, 3>::zero();
     for (int k = 0; k < 3; ++k) {
       const S a = nodes.y[0][k], b = nodes.y[1][k], d = nodes.y[2][k], e = nodes.y[3][k];
       const S sum_1 = a + b, sum_2 = e + d, difference_1 = b - a, difference_2 = d - e;
-      c[k] = 0.25 * (sum_1 + sum_2);
-      c1[k] = 0.25 * (difference_1 + difference_2);
-      c2[k] = 0.25 * (sum_2 - sum_1);
-      c12[k] = 0.25 * (difference_2 - difference_1);
+      c.set(k, 0.25 * (sum_1 + sum_2));
+      c1.set(k, 0.25 * (difference_1 + difference_2));
+      c2.set(k, 0.25 * (sum_2 - sum_1));
+      c12.set(k, 0.25 * (difference_2 - difference_1));
     }
   }
   template <int Order, bool H>

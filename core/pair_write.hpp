@@ -130,20 +130,20 @@ template <int W> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W
   });
 }
 
-// Entries 0 .. count - 1 of all lanes, entry(i) each, to to[lane][0 .. count - 1].
-template <int W, class Entry> ENTS_INLINE void write_lanes(int count, double* const (&to)[W], Entry&& entry) {
+// Entries 0 .. Count - 1 of all lanes, entry(i) each, to to[lane][0 .. Count - 1].
+template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* const (&to)[W], Entry&& entry) {
   typename VectorOf<W>::Numbers r[W];
-  if (count < W) {
-    for (int i = 0; i < W; ++i) r[i] = entry(i < count ? i : count - 1).v;
+  if constexpr (Count < W) {
+    for (int i = 0; i < W; ++i) r[i] = entry(i < Count ? i : Count - 1).v;
     transpose<W>(r);
-    for (int k = 0; k < W; ++k) std::memcpy(to[k], &r[k], sizeof(double) * static_cast<std::size_t>(count));
-    return;
-  }
-  for (int at = 0; at < count; at += W) {
-    const int first = at + W <= count ? at : count - W;
-    for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
-    transpose<W>(r);
-    for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
+    for (int k = 0; k < W; ++k) std::memcpy(to[k], &r[k], sizeof(double) * Count);
+  } else {
+    for (int at = 0; at < Count; at += W) {
+      const int first = at + W <= Count ? at : Count - W;
+      for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
+      transpose<W>(r);
+      for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
+    }
   }
 }
 
@@ -200,12 +200,12 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
     else return kept[i];
   };
   if (leading == N) {
-    write_lanes<W>(N * N, out, entry_at);
+    write_lanes<N * N>(out, entry_at);
   } else {
     for (int j = 0; j < N; ++j) {
       double* column[W];
       for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
-      write_lanes<W>(N, column, [&](int i) ENTS_LAMBDA_INLINE { return entry_at(N * j + i); });
+      write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return entry_at(N * j + i); });
     }
   }
 }

@@ -29,7 +29,7 @@ const KernelSet& kernels_of(Basis basis) {
 // Are there ordinary elements (pair.hpp) of this model?
 bool has_ordinary_elements(const Model& model) {
   const ContactLaw& law = model.law;
-  return model.projection == ProjectionKind::normal && !model.rigid_master &&
+  return model.projection == ProjectionKind::normal &&
          (law.normal == NormalKind::penalty || law.normal == NormalKind::power) && !(law.has_friction() && law.symmetrised);
 }
 

@@ -10,6 +10,7 @@ namespace ents::ENTS_ISA {
 template <class S, int D>
 struct Vec {
   S c[D];
+  ENTS_INLINE void set(int i, const S& x) { c[i] = x; }
   ENTS_INLINE S& operator[](int i) { return c[i]; }
   ENTS_INLINE const S& operator[](int i) const { return c[i]; }
   static ENTS_INLINE Vec zero() {
@@ -18,6 +19,26 @@ struct Vec {
     return v;
   }
 };
+
+// The vector that begins at `from`
+template <int D> ENTS_INLINE Vec<double, D> vec_at(const double* from) {
+  Vec<double, D> a;
+  for (int i = 0; i < D; ++i) a.set(i, from[i]);
+  return a;
+}
+template <class S, int D> ENTS_INLINE Vec<S, D> value_of(const Vec<Dual<S>, D>& a) {
+  Vec<S, D> v;
+  for (int i = 0; i < D; ++i) v[i] = a[i].v;
+  return v;
+}
+template <class S, int D> ENTS_INLINE Vec<S, D> derivative_of(const Vec<Dual<S>, D>& a) {
+  Vec<S, D> d;
+  for (int i = 0; i < D; ++i) d[i] = a[i].d;
+  return d;
+}
+template <class S, int D> ENTS_INLINE void set_constant(Vec<Dual<S>, D>& a, const Vec<S, D>& value) {
+  for (int i = 0; i < D; ++i) a[i] = Dual<S>(value[i]);
+}
 
 template <class S, int D> ENTS_INLINE Vec<S, D> operator+(Vec<S, D> a, const Vec<S, D>& b) {
   for (int i = 0; i < D; ++i) a.c[i] = a.c[i] + b.c[i];
@@ -44,10 +65,19 @@ template <class S, int D> ENTS_INLINE S dot(const Vec<S, D>& a, const Vec<S, D>&
   for (int i = 1; i < D; ++i) s = s + a.c[i] * b.c[i];
   return s;
 }
+template <class S, int D> ENTS_INLINE void store(const Vec<S, D>& a, S* to) {
+  for (int i = 0; i < D; ++i) to[i] = a[i];
+}
 template <class S> ENTS_INLINE Vec<S, 3> cross(const Vec<S, 3>& a, const Vec<S, 3>& b) {
   return {{a.c[1] * b.c[2] - a.c[2] * b.c[1], a.c[2] * b.c[0] - a.c[0] * b.c[2],
            a.c[0] * b.c[1] - a.c[1] * b.c[0]}};
 }
+
+#if defined(__AVX__) && defined(__GNUC__) && !defined(__clang__)
+} // namespace ents::ENTS_ISA
+#include "core/packed_vec.hpp"
+namespace ents::ENTS_ISA {
+#endif
 
 // The vector m that points along the normal of a surface with the tangents a: the tangent turned by +90
 // degrees in 2D, a_1 x a_2 in 3D.

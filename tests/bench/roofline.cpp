@@ -112,8 +112,8 @@ template <class B, bool H> double operations() {
   counted.press(plan);
   if (!counted.ordinary || !counted.contact) return std::nan("");
   Counted residual[N];
-  counted.residual(residual);
-  PairTangent<B, H, Counted> tangent;
+  counted.template residual<false>(residual);
+  PairTangent<B, H, false, Counted> tangent;
   tangent.evaluate(plan, counted);
   for (int j = 0; j < N; ++j)
     for (int i = j; i < N; ++i) {

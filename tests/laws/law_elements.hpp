@@ -145,8 +145,9 @@ inline void evaluate(const mechanics::Model& model, const LawElements& e, std::i
   if (ents_evaluate(model.handle(), 0, count, &in, &out, &report) < 0) throw std::runtime_error(report.message);
 }
 
-inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method) {
+inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method, const char* master = "deformable") {
   json text = scene.model();
+  text["master"] = master;
   text["contact"] = {{"normal", method.normal}, {"friction", method.friction}};
   return mechanics::Model(text.dump());
 }

@@ -27,15 +27,17 @@ void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
 struct Case {
   std::string basis, height;
   Method method;
+  const char* master;
 };
-void PrintTo(const Case& c, std::ostream* out) { *out << c.basis << " " << c.height << " " << c.method.name; }
+void PrintTo(const Case& c, std::ostream* out) { *out << c.basis << " " << c.height << " " << c.method.name << " " << c.master; }
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string& basis : mechanics::basis_names())
     for (const std::string& height : mechanics::height_kinds())
       for (const Method& method : methods())
-        if (method.normal["type"] == "penalty" || method.normal["type"] == "power") all.push_back({basis, height, method});
+        if (method.normal["type"] == "penalty" || method.normal["type"] == "power")
+          for (const char* master : {"deformable", "rigid"}) all.push_back({basis, height, method, master});
   return all;
 }
 
@@ -50,7 +52,7 @@ protected:
     Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name));
     Drawn d;
     d.scene = mechanics::draw_scene(random, mechanics::basis_named(c.basis), c.height, "normal");
-    d.elements = draw(random, d.scene, model_of(d.scene, c.method), count, 0.05);
+    d.elements = draw(random, d.scene, model_of(d.scene, c.method, c.master), count, 0.05);
     for (std::size_t e = 0; e < static_cast<std::size_t>(count); e += 7)
       d.elements.state[e * static_cast<std::size_t>(d.elements.layout.state_size) + 3] += 0.7;
     return d;
@@ -84,7 +86,7 @@ protected:
 TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
   for (const Case& c : cases()) {
     const Drawn d = draw_mixed(c);
-    const mechanics::Model model = model_of(d.scene, c.method);
+    const mechanics::Model model = model_of(d.scene, c.method, c.master);
     LawResults all;
     evaluate(model, d.elements, wanted, all);
     for (const std::int64_t size : {std::int64_t{1}, std::int64_t{13}, std::int64_t{64}})
@@ -102,10 +104,38 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
   }
 }
 
+// A rigid master leaves the slave's own rows and columns.
+TEST_F(OrdinaryElements, OfARigidMasterAreAPartOfThoseOfADeformableOne) {
+  std::int64_t in_contact = 0;
+  for (Case c : cases()) {
+    if (std::strcmp(c.master, "rigid") == 0) continue;
+    Drawn d = draw_mixed(c);
+    LawResults whole, rigid;
+    evaluate(model_of(d.scene, c.method), d.elements, wanted, whole);
+    const std::size_t n = static_cast<std::size_t>(d.elements.layout.dofs), dim = static_cast<std::size_t>(d.elements.layout.dimension);
+    const mechanics::Model model = model_of(d.scene, c.method, "rigid");
+    d.elements.layout = layout_of(model.handle());
+    evaluate(model, d.elements, wanted, rigid);
+    ASSERT_EQ(rigid.status, whole.status) << testing::PrintToString(c);
+    ASSERT_EQ(rigid.flags, whole.flags) << testing::PrintToString(c);
+    ASSERT_TRUE(same(rigid.state, whole.state)) << testing::PrintToString(c);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(count); ++e) {
+      if (whole.status[e] != ENTS_OK) continue;
+      in_contact += whole.flags[e] & ENTS_FLAG_CONTACT;
+      for (std::size_t i = 0; i < dim; ++i) {
+        ASSERT_EQ(rigid.residual[e * dim + i], whole.residual[e * n + i]) << testing::PrintToString(c) << " element " << e;
+        for (std::size_t j = 0; j < dim; ++j)
+          ASSERT_EQ(rigid.tangent[(e * dim + j) * dim + i], whole.tangent[(e * n + j) * n + i]) << testing::PrintToString(c) << " element " << e;
+      }
+    }
+  }
+  EXPECT_GT(in_contact, 10000);
+}
+
 TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
   for (const Case& c : cases()) {
     const Drawn d = draw_mixed(c);
-    const mechanics::Model model = model_of(d.scene, c.method);
+    const mechanics::Model model = model_of(d.scene, c.method, c.master);
     LawResults best;
     evaluate(model, d.elements, wanted, best);
     std::vector<const ents::PairKernels*> others = {&ents::portable::pair_kernels};
@@ -130,7 +160,7 @@ TEST_F(OrdinaryElements, SayWhatElementsOneByOneSay) {
   for (const Case& c : cases()) {
     const Drawn d = draw_mixed(c);
     LawResults block, alone;
-    const mechanics::Model model = model_of(d.scene, c.method);
+    const mechanics::Model model = model_of(d.scene, c.method, c.master);
     evaluate(model, d.elements, wanted, block);
     use(model, nullptr);
     evaluate(model, d.elements, wanted, alone);
