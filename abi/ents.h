@@ -475,8 +475,7 @@ typedef struct ents_system {
  * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
  * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero.
  * What is open adds nothing, but for the equations "multiplier = 0". Where no results per element are asked for, elements that are
- * clearly open (the slave above all of a line2, tri3 or plain quad4, or of their heights' bound) are not projected, so nothing is said of
- * a projection that would fail.
+ * clearly open (the slave above all of a line2 or tri3 and its height's bound, or of a plain quad4) are not projected.
  * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
  *   output  results per element as of ents_evaluate, or null
  * Errors: those of ents_evaluate; BAD_PATTERN names the row and column that the pattern lacks. After an error or a

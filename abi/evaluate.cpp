@@ -330,9 +330,11 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
       here.tangent = tangents, here.tangent_stride = entries;
     }
     if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    const bool whole = copies && out->tangent_stride == entries && done == ~std::uint64_t{0} >> (64 - size);
+    if (whole) std::copy_n(tangents, size * entries, at(out->tangent, entries, first)); // long copies need not read what they overwrite
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
-        if (copies) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));
+        if (copies && !whole) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }
