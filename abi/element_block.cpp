@@ -75,25 +75,30 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
   if (wanted == 0 || pair_results(*model, wanted) != wanted) return false;
   if (first < 0 || count < 1 || first > most || count > most) return false;
   if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin)) return false;
-  const auto shared = [](const void* data, std::int64_t stride, std::int64_t size) {
-    return !data || stride == 0 || (stride >= size && stride < most);
+  const bool one = first + count == 1; // its strides are of no meaning
+  const auto shared = [one](const void* data, std::int64_t stride, std::int64_t size) {
+    return !data || one || stride == 0 || (stride >= size && stride < most);
   };
-  const auto own = [wanted](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size) {
-    return (wanted & bit) == 0 || (data && stride >= size && stride < most);
+  const auto own = [wanted, one](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size) {
+    return (wanted & bit) == 0 || (data && (one || (stride >= size && stride < most)));
   };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, n = plan.dofs;
   const std::int64_t leading = out->tangent_leading_dimension == 0 ? n : out->tangent_leading_dimension;
-  return shared(in->slave, in->slave_stride, d) && shared(in->master, in->master_stride, m * d) &&
-         shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) && shared(in->start, in->start_stride, t) &&
-         shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, plan.state.size) &&
-         own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&
-         own(want::tangent, out->tangent, out->tangent_stride, (n - 1) * leading + n) && own(want::xi, out->xi, out->xi_stride, t) &&
-         own(want::gap, out->gap, out->gap_stride, 1) && own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) && own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) && own(want::energy, out->energy, out->energy_stride, 1) &&
-         own(want::pressure, out->pressure, out->pressure_stride, 1) &&
+  if (!(shared(in->slave, in->slave_stride, d) && shared(in->master, in->master_stride, m * d) &&
+        shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) && shared(in->start, in->start_stride, t) &&
+        shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, plan.state.size) &&
+        own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&
+        own(want::tangent, out->tangent, out->tangent_stride, (n - 1) * leading + n) &&
+        (!out->status || one || (out->status_stride >= 1 && out->status_stride < most))))
+    return false;
+  if ((wanted & ~(want::residual | want::tangent)) == 0) return true;
+  return own(want::xi, out->xi, out->xi_stride, t) && own(want::gap, out->gap, out->gap_stride, 1) &&
+         own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) &&
+         own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) &&
+         own(want::energy, out->energy, out->energy_stride, 1) && own(want::pressure, out->pressure, out->pressure_stride, 1) &&
          own(want::state, out->state_end, out->state_end_stride, plan.state.size) &&
          own(want::slip, out->slip, out->slip_stride, 1) && own(want::age, out->age, out->age_stride, 1) &&
-         own(want::flags, out->flags, out->flags_stride, 1) && own(want::iterations, out->iterations, out->iterations_stride, 1) &&
-         (!out->status || (out->status_stride >= 1 && out->status_stride < most));
+         own(want::flags, out->flags, out->flags_stride, 1) && own(want::iterations, out->iterations, out->iterations_stride, 1);
 }
 
 } // namespace
