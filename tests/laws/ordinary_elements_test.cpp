@@ -104,6 +104,43 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
   }
 }
 
+// Calls whose tangents no cache holds are written another way.
+TEST_F(OrdinaryElements, HaveTheSameBitsInLongCalls) {
+  constexpr std::int64_t many = 15000, padded = 50; // more than 2^19 numbers of 6 x 6
+  const Method method = {"penalty", {{"type", "penalty"}, {"stiffness", 100.0}}, nullptr};
+  Random random(5);
+  const mechanics::Scene scene = mechanics::draw_scene(random, mechanics::basis_named("line2"), "sine", "normal");
+  const mechanics::Model model = model_of(scene, method);
+  LawElements elements = draw(random, scene, model, many, 0.05);
+  const ents_layout& l = elements.layout;
+  for (std::int64_t e = 0; e < many; e += 1000) // blocks that are not ordinary as a whole
+    elements.state[static_cast<std::size_t>(e * l.state_size + 3)] += 0.7;
+  LawResults all;
+  evaluate(model, elements, wanted, all);
+  for (std::int64_t first = 0; first < many; first += 60) {
+    LawResults some;
+    evaluate(model, part(elements, first, 60), wanted, some);
+    ASSERT_TRUE(same(all, some, first, l)) << first;
+  }
+  std::vector<double> tangent(static_cast<std::size_t>(many * padded), -7.0);
+  ents_input in{};
+  in.struct_size = sizeof in;
+  in.slave = elements.at.slave.data(), in.slave_stride = 2;
+  in.master = elements.at.master.data(), in.master_stride = 4;
+  if (!elements.at.surface_coordinates.empty()) in.surface_coordinates = elements.at.surface_coordinates.data(), in.surface_coordinates_stride = 2;
+  in.area = elements.at.area.data(), in.area_stride = 1;
+  in.state_begin = elements.state.data(), in.state_begin_stride = l.state_size;
+  ents_output out{};
+  out.struct_size = sizeof out;
+  out.wanted = ENTS_TANGENT;
+  out.tangent = tangent.data(), out.tangent_stride = padded;
+  ASSERT_EQ(ents_evaluate(model.handle(), 0, many, &in, &out, nullptr), ENTS_OK);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(many); ++e) {
+    ASSERT_EQ(std::memcmp(&tangent[e * padded], &all.tangent[e * 36], 36 * sizeof(double)), 0) << e;
+    for (std::size_t i = 36; i < padded; ++i) ASSERT_EQ(tangent[e * padded + i], -7.0) << e;
+  }
+}
+
 // A rigid master leaves the slave's own rows and columns.
 TEST_F(OrdinaryElements, OfARigidMasterAreAPartOfThoseOfADeformableOne) {
   std::int64_t in_contact = 0;
