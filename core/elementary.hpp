@@ -7,9 +7,7 @@
 //
 // A vector scalar R joins in with its own select, power_of_two, add_quarters and value_of.
 //
-// Polynomials and the reduction of the exponential: fdlibm (Sun Microsystems 1993, free to copy with this
-// notice): k_sin.c, k_cos.c, e_exp.c. Reduction of the sine: Cody and Waite, Software Manual for the
-// Elementary Functions, 1980, with pi/2 in three parts.
+// The exponential is that of fdlibm (Sun Microsystems 1993, free to copy with this notice): e_exp.c.
 #pragma once
 
 #include <cstdint>
@@ -71,23 +69,16 @@ ENTS_INLINE void add_quarters(double quarters, double& sine, double& cosine) {
   cosine = __builtin_bit_cast(double, c ^ swap ^ (((n + 1) & 2) << 62));
 }
 
-// Sine and cosine of y + tail, |y| <= pi/4, |tail| <= ulp(y).
-template <class R> ENTS_INLINE void sin_cos_near_zero(R y, R tail, R& sine, R& cosine) {
-  const R z = y * y;
-  const R p = 8.33333333332248946124e-03 +
-              z * (-1.98412698298579493134e-04 +
-                   z * (2.75573137070700676789e-06 +
-                        z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-  const R y_cubed = z * y;
-  sine = y - ((z * (0.5 * tail - y_cubed * p) - tail) + y_cubed * 1.66666666666666324348e-01);
-  const R q = z * (4.16666666666666019037e-02 +
-                   z * (-1.38888888888741095749e-03 +
-                        z * (2.48015872894767294178e-05 +
-                             z * (-2.75573143513906633035e-07 +
-                                  z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-  const R half_z = 0.5 * z;
-  const R w = 1.0 - half_z;
-  cosine = w + (((1.0 - w) - half_z) + (z * q - y * tail));
+// Sine and cosine of 2 pi f, |f| <= 1/8. Polynomials in f^2 through the zeros of Chebyshev's: sine to 1.3e-17 of 2 pi f, cosine to
+// 1.2e-19, where arithmetic is exact. Summed in pairs, not one after the other: whoever waits for a sine waits for the longest chain.
+template <class R> ENTS_INLINE void sin_cos_near_zero(R f, R& sine, R& cosine) {
+  const R z = f * f, z2 = z * z, z4 = z2 * z2;
+  const R s = ((-41.341702240399755 + z * 81.6052492760517) + z2 * (-76.70585973561397 + z * 42.05868917945876)) +
+              z4 * (-15.094054064726203 + z * 3.786430011879243);
+  sine = f * two_pi + (f * z * s + f * 2.4492935982947064e-16); // the rest of 2 pi
+  const R c = ((19.739208802178716 + z * -64.93939402266824) + z2 * (85.45681720664378 + z * -60.24464135269435)) +
+              z4 * ((26.426253274804587 + z * -7.903206845861561) + z2 * 1.6990328650055457);
+  cosine = 1.0 - z * c;
 }
 
 // Sine and cosine of 2 pi (t + offset), |offset| <= 1. t is reduced before the offset is added, so that large
@@ -96,7 +87,7 @@ template <class R> ENTS_INLINE void sin_cos_turns(R t, double offset, R& sine, R
   const R r = (t - nearest_integer(t)) + offset;
   const R quarters = nearest_integer(4.0 * r);
   const R f = r - 0.25 * quarters; // exact, |f| <= 1/8
-  sin_cos_near_zero(f * two_pi, f * 2.4492935982947064e-16, sine, cosine);
+  sin_cos_near_zero(f, sine, cosine);
   add_quarters(quarters, sine, cosine);
 }
 template <class S> ENTS_INLINE void sin_cos_turns(Dual<S> t, double offset, Dual<S>& sine, Dual<S>& cosine) {
@@ -104,27 +95,6 @@ template <class S> ENTS_INLINE void sin_cos_turns(Dual<S> t, double offset, Dual
   const S rate = two_pi * t.d;
   sine.d = cosine.v * rate;
   cosine.d = -sine.v * rate;
-}
-
-// Sine and cosine of x in radians, |x| <= 1e6.
-template <class R> ENTS_INLINE void sin_cos(R x, R& sine, R& cosine) {
-  // pi/2 = p1 + p2 + p3; p1 and p2 have 33 bits, so that q p1 and q p2 are exact for q < 2^20.
-  constexpr double p1 = 1.57079632673412561417e+00, p2 = 6.07710050630396597660e-11,
-                   p3 = 2.02226624879595063154e-21;
-  const R q = nearest_integer(x * 6.36619772367581382433e-01);
-  const R r = x - q * p1, w = q * p2;
-  const R difference = r - w, part = r - difference; // two-sum: error of r - w
-  const R error = (r - (difference + part)) + (part - w);
-  const R rest = error - q * p3;
-  const R y = difference + rest;
-  const R tail = rest - (y - difference);
-  sin_cos_near_zero(y, tail, sine, cosine);
-  add_quarters(q, sine, cosine);
-}
-template <class S> ENTS_INLINE void sin_cos(Dual<S> x, Dual<S>& sine, Dual<S>& cosine) {
-  sin_cos(x.v, sine.v, cosine.v);
-  sine.d = cosine.v * x.d;
-  cosine.d = -sine.v * x.d;
 }
 
 // e^x. 0 below -708, before results leave the normal numbers, infinite above 709.78.

@@ -67,7 +67,11 @@ template <class S> ENTS_INLINE Dual<S>& operator+=(Dual<S>& a, Dual<S> b) { retu
 template <class S> ENTS_INLINE Dual<S>& operator-=(Dual<S>& a, Dual<S> b) { return a = a - b; }
 template <class S> ENTS_INLINE Dual<S>& operator*=(Dual<S>& a, Dual<S> b) { return a = a * b; }
 
+#if defined(__GNUC__)
+ENTS_INLINE double absolute(double a) { return __builtin_fabs(a); }
+#else
 ENTS_INLINE double absolute(double a) { return a < 0 ? -a : a; }
+#endif
 
 ENTS_INLINE double square_root(double a) { return __builtin_sqrt(a); }
 template <class S> ENTS_INLINE Dual<S> square_root(Dual<S> a) {
