@@ -3,6 +3,13 @@
 
 namespace ents {
 
+namespace {
+
+// Does anyone look at the other results' places?
+bool only_forces(std::int32_t wanted) noexcept { return (wanted & ~(want::residual | want::tangent)) == 0; }
+
+} // namespace
+
 PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first) noexcept {
   PairBlock b;
   b.slave = in.slave, b.slave_stride = in.slave_stride;
@@ -11,7 +18,12 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   b.start = in.start, b.start_stride = in.start_stride;
   b.area = in.area, b.area_stride = in.area_stride;
   b.state_begin = in.state_begin, b.state_begin_stride = in.state_begin_stride;
+  b.first = first;
   b.wanted = pair_results(model, out.wanted);
+  b.residual = out.residual, b.residual_stride = out.residual_stride;
+  b.tangent = out.tangent, b.tangent_stride = out.tangent_stride;
+  b.leading = out.tangent_leading_dimension == 0 ? model.plan.dofs : out.tangent_leading_dimension;
+  if (only_forces(b.wanted)) return b;
   b.xi = out.xi, b.xi_stride = out.xi_stride;
   b.gap = out.gap, b.gap_stride = out.gap_stride;
   b.normal_gap = out.normal_gap, b.normal_gap_stride = out.normal_gap_stride;
@@ -20,15 +32,11 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   b.traction = out.traction, b.traction_stride = out.traction_stride;
   b.energy = out.energy, b.energy_stride = out.energy_stride;
   b.pressure = out.pressure, b.pressure_stride = out.pressure_stride;
-  b.residual = out.residual, b.residual_stride = out.residual_stride;
-  b.tangent = out.tangent, b.tangent_stride = out.tangent_stride;
   b.state_end = out.state_end, b.state_end_stride = out.state_end_stride;
   b.slip = out.slip, b.slip_stride = out.slip_stride;
   b.age = out.age, b.age_stride = out.age_stride;
   b.flags = out.flags, b.flags_stride = out.flags_stride;
   b.iterations = out.iterations, b.iterations_stride = out.iterations_stride;
-  b.leading = out.tangent_leading_dimension == 0 ? model.plan.dofs : out.tangent_leading_dimension;
-  b.first = first;
   return b;
 }
 
@@ -44,6 +52,9 @@ void begin_at_first(PairBlock& b) noexcept {
   move(b.start, b.start_stride);
   move(b.area, b.area_stride);
   move(b.state_begin, b.state_begin_stride);
+  move(b.residual, b.residual_stride);
+  move(b.tangent, b.tangent_stride);
+  if (only_forces(b.wanted)) return;
   move(b.xi, b.xi_stride);
   move(b.gap, b.gap_stride);
   move(b.normal_gap, b.normal_gap_stride);
@@ -52,8 +63,6 @@ void begin_at_first(PairBlock& b) noexcept {
   move(b.traction, b.traction_stride);
   move(b.energy, b.energy_stride);
   move(b.pressure, b.pressure_stride);
-  move(b.residual, b.residual_stride);
-  move(b.tangent, b.tangent_stride);
   move(b.state_end, b.state_end_stride);
   move(b.slip, b.slip_stride);
   move(b.age, b.age_stride);

@@ -39,6 +39,10 @@ struct ElementCall {
   // All elements of a range: ordinary ones in blocks, the others one by one; ends as `settle` says.
   std::int32_t evaluate_range(std::int64_t first, std::int64_t count, ents_report* report) const;
 
+  // Both, for any call; apart, so that the way of plain calls stays short.
+  ENTS_NOINLINE static std::int32_t evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
+                                                  const ents_output* output, ents_report* report);
+
   // Nodes of the segments of a block, side by side. False if a segment is bad.
   struct BlockNodes {
     static constexpr std::int64_t most = 16;

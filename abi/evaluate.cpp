@@ -346,6 +346,14 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
   return result;
 }
 
+std::int32_t ElementCall::evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
+                                        const ents_output* output, ents_report* report) {
+  ElementCall call;
+  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK) return status;
+  report_ok(report);
+  return call.evaluate_range(first, count, report);
+}
+
 void ElementCall::write_open(std::int64_t e) const {
   for (std::uint32_t bits = static_cast<std::uint32_t>(out->wanted); bits != 0; bits &= bits - 1) {
     const int bit = std::countr_zero(bits);
@@ -373,11 +381,7 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
     if (ents::evaluate_plain_call(model, first, count, input, output, report)) return ents::report_ok(report);
-    ents::ElementCall call;
-    if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
-      return status;
-    ents::report_ok(report);
-    return call.evaluate_range(first, count, report);
+    return ents::ElementCall::evaluate_call(model, first, count, input, output, report);
   });
 }
 

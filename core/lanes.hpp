@@ -107,7 +107,10 @@ template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
   for (int k = 0; k < W; ++k) r.v[k] = __builtin_sqrt(a.v[k]);
   return r;
 }
-template <int W> ENTS_INLINE Lanes<W> absolute(Lanes<W> a) { return select(a < Lanes<W>(0.0), -a, a); }
+template <int W> ENTS_INLINE Lanes<W> absolute(Lanes<W> a) {
+  using I = typename VectorOf<W>::Integers;
+  return Lanes<W>((typename Lanes<W>::Numbers)((I)a.v & ~(I)Lanes<W>(-0.0).v), 0);
+}
 
 template <int W> ENTS_INLINE Lanes<W> power_of_two(Lanes<W> n) {
   using I = typename VectorOf<W>::Integers;

@@ -10,8 +10,10 @@
 // W'/g is finite where the pressure vanishes with the gap.
 #pragma once
 
+#include "core/dof_rows.hpp"
 #include "core/pair_forms.hpp"
 #include "core/pair_surface.hpp"
+#include "core/pair_write.hpp"
 #include "core/plan.hpp"
 #include "core/projection.hpp"
 
@@ -30,10 +32,12 @@ template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); 
 // An element on its way through.
 template <class B, bool H, class S> struct Pair {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  PairNodes<B, S> nodes;
+  const PairNodes<B, S>& nodes;
   S area, xi[T];
-  S evaluations, gap, per_gap; // W'/g per area, 0 where open
-  Vec<S, D> normal;            // n_e
+  S evaluations, per_gap;  // W'/g per area, 0 where open
+  Vec<S, D> gap_vector;    // g n_e
+  S gap;                   // where it is measured,
+  Vec<S, D> normal;        // n_e, too
   Truth<S> ordinary, contact, outside;
   PairProjector<B, H, S> projector;
 
@@ -48,7 +52,8 @@ template <class B, bool H, class S> struct Pair {
   //          bilinear, so their corners decide
   ENTS_INLINE Truth<S> is_clearly_open(const Plan& plan) const {
     if constexpr (is_flat<B>) {
-      return projector.zeta > S(plan.height_bound);
+      if constexpr (H) return projector.zeta > S(plan.height_bound);
+      else return dot(normal_of_tangents(projector.s.a), projector.offset) > S(0.0);
     } else if constexpr (std::is_same_v<B, Quad4> && !H) {
       const auto& rho = projector.rho;
       const Vec<S, 3> middle = cross(rho.c1, rho.c2), turn_1 = cross(rho.c1, rho.c12), turn_2 = cross(rho.c12, rho.c2);
@@ -64,14 +69,15 @@ template <class B, bool H, class S> struct Pair {
 
   // Newton's method with full steps. Not ordinary: a step that does not descend, is long or leaves the segment far behind.
   ENTS_INLINE void project() {
-    auto& p = projector;
-    S step[T];
     if constexpr (PairProjector<B, H, S>::closed_form) {
-      for (int a = 0; a < T; ++a) xi[a] = p.foot[a];
+      for (int a = 0; a < T; ++a) xi[a] = projector.foot[a];
       evaluations = S(1.0);
       ordinary = evaluations > 0.0;
     } else {
-      const S floor = 1e-26 * dot(nodes.y[0], nodes.y[0]);
+      using Descent = typename DescentOf<B, H, S>::type;
+      Descent p(projector);
+      S step[T];
+      const S floor = std::remove_reference_t<Descent>::rounding * dot(nodes.y[0], nodes.y[0]);
       S previous_length = S(0.0), previous_merit = S(2.0 * comfortable * comfortable);
       evaluations = S(0.0);
       Truth<S> active = evaluations >= 0.0;
@@ -99,6 +105,7 @@ template <class B, bool H, class S> struct Pair {
         ordinary = without(ordinary, without(active, fine));
         active = both(active, fine);
         active = both(active, length > 1e-15);
+        if (!any(active)) break; // one element: what follows does not wait for what it is compared with
         // quadratic convergence: see project()
         const Truth<S> last = either(length <= 1e-13,
                                      both(length < 1e-4, 10.0 * length * length * length <= 1e-16 * previous_length * previous_length));
@@ -118,23 +125,31 @@ template <class B, bool H, class S> struct Pair {
     if constexpr (!PairProjector<B, H, S>::closed_form) projector.evaluate(xi);
   }
 
-  // Gap, force and status.
-  ENTS_INLINE void press(const Plan& plan) {
+  // Gap, force and status. A penalty's forces need neither g nor n_e, which cost a root.
+  ENTS_INLINE void press(const Plan& plan, bool measures) {
     auto& p = projector;
     const S area2 = p.finish(xi);
+    const Vec<S, D> m = H ? normal_of_tangents(p.s.e) : normal_of_tangents(p.s.a);
+    const S area2_e = H ? dot(m, m) : area2;
+    S across; // g |m|
+    if constexpr (is_flat<B> && !H) across = dot(p.offset, m);
+    else across = dot(p.s.d, m);
+    gap_vector = (across * unchecked_inverse(area2_e)) * m;
+    if (measures) {
+      const S q = unchecked_inverse(square_root(area2_e));
+      normal = q * m;
+      gap = across * q;
+    } else {
+      normal = Vec<S, D>::zero();
+      gap = S(0.0);
+    }
     if constexpr (H) {
-      const Vec<S, D> m = normal_of_tangents(p.s.e);
-      const S area2_e = dot(m, m);
       ordinary = both(ordinary, area2_e > degenerate_size * area2);
-      normal = unchecked_inverse(square_root(area2_e)) * m;
       S heights = absolute(p.s.height.h);
       for (const S& h : p.s.height.h1) heights = heights + absolute(h);
       for (const S& h : p.s.height.h2) heights = heights + absolute(h);
       ordinary = both(ordinary, heights < comfortable);
-    } else {
-      normal = p.s.n;
     }
-    gap = dot(p.s.d, normal);
 
     S size2 = dot(p.s.a[0], p.s.a[0]), reach2 = dot(nodes.y[0], nodes.y[0]);
     if constexpr (T == 2) size2 = size2 + dot(p.s.a[1], p.s.a[1]);
@@ -151,7 +166,7 @@ template <class B, bool H, class S> struct Pair {
       outside = absolute(xi[0]) - 1.0 > plan.border;
       if constexpr (T == 2) outside = either(outside, absolute(xi[1]) - 1.0 > plan.border);
     }
-    contact = without(gap < 0.0, outside);
+    contact = without(across < 0.0, outside);
 
     per_gap = S(plan.law.stiffness);
     if (plan.law.normal == NormalKind::power && plan.law.twice_exponent > 2) {
@@ -164,15 +179,15 @@ template <class B, bool H, class S> struct Pair {
     const S deep2 = plan.penetration_limit > 0.0 ? S(plan.penetration_limit * plan.penetration_limit)
                                                  : (B::simplex ? 1.0 : 4.0) * size2;
     // close to the limit evaluate_element() decides
-    ordinary = without(ordinary, both(contact, gap * gap >= 0.99 * deep2));
+    ordinary = without(ordinary, both(contact, across * across >= 0.99 * deep2 * area2_e));
     per_gap = select(contact, per_gap, S(0.0));
   }
 
   // out = R: A W' dg
   template <bool Rigid> ENTS_INLINE void residual(S (&out)[dof_count<B, Rigid>]) const {
     Form<B, S> f;
-    form_of_p<B, H>(projector.s, (area * per_gap * gap) * normal, f);
-    expand<B, Rigid, parts_of_p<H>>(f, projector.N, out);
+    form_of_p<B, H>(projector.s, (area * per_gap) * gap_vector, f);
+    expand_to_dofs<B, Rigid, parts_of_p<H>>(f, projector.N, out);
   }
 };
 
@@ -182,9 +197,9 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
   static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
   static constexpr bool symmetric = true;
   S weights[1][M]; // s
-  S v[T][N];
-  S w[turns ? T : 1][N], z[turns ? T : 1][N];
-  S g[N]; // where the law is not linear
+  DofArray<S, N> v[T];
+  DofArray<S, N> w[turns ? T : 1], z[turns ? T : 1];
+  DofArray<S, N> g; // where the law is not linear
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
@@ -199,34 +214,43 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
     Form<B, S> f[T];
     forms_of_f(p.s, f);
     const S c11 = square_root(p.f2[0]);
-    scale<parts>(f[0], root / c11);
     if constexpr (T == 2) {
-      const S c21 = p.f2[1] / c11, c22 = square_root(p.f2[2] - c21 * c21), q = 1.0 / c22;
-      scale<parts>(f[1], root * q);
-      add_form<parts>(f[1], -(c21 * q), f[0]);
+      const S q = root / square_root(p.f2[0] * determinant(p.f2));
+      scale<parts>(f[1], q * p.f2[0]);
+      add_form<parts>(f[1], -(q * p.f2[1]), f[0]);
     }
-    for (int a = 0; a < T; ++a) expand<B, Rigid, parts>(f[a], p.N, v[a]);
+    scale<parts>(f[0], root / c11);
+    for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(f[a], p.N, v[a]);
 
     if constexpr (turns) {
       Form<B, S> zf[T];
       forms_of_z<B>(p.s, zf);
       const Vec<S, D> n = stiffness * p.s.n; // w_a = n . delta a_a
       for (int a = 0; a < T; ++a) {
-        expand<B, Rigid, on_position | on_tangents>(zf[a], p.N, z[a]);
-        for (int c = 0; c < D; ++c) {
-          w[a][c] = S(0.0);
-          for (int i = 0; i < B::nodes; ++i) w[a][D * (i + 1) + c] = p.N.d1[a][i] * n[c];
-        }
+        expand_to_dofs<B, Rigid, on_position | on_tangents>(zf[a], p.N, z[a]);
+        expand_to_nodes<B>(p.N.d1[a], n, w[a]);
       }
     }
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) { // (m - 1) W'/g dg dg^T
       Form<B, S> gf;
       form_of_p<B, H>(p.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
-      expand<B, Rigid, parts_of_p<H>>(gf, p.N, g);
+      expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
-      for (S& entry : g) entry = S(0.0);
+      for_each_dof(g, [] ENTS_LAMBDA_INLINE { return S(0.0); });
     }
+  }
+
+  // Each lane's to one[lane]
+  template <class One, int W>
+    requires(!turns)
+  ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
+    double* of_lane[W];
+    for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[0];
+    write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return weights[0][i]; });
+    for (int a = 0; a < T; ++a) hand_out(v[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].v[a]; });
+    if (curved_law) hand_out(g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
+    for (int k = 0; k < W; ++k) one[k].curved_law = curved_law;
   }
 
   // k + all but the weights; row(array) is the array's entry of the row

@@ -69,7 +69,7 @@ ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction
   constexpr int T = B::dim - 1;
   const auto& p = pair.projector;
   Form<B, S> force, f[T];
-  form_of_p<B, H>(p.s, (pair.area * pair.per_gap * pair.gap) * pair.normal, force);
+  form_of_p<B, H>(p.s, (pair.area * pair.per_gap) * pair.gap_vector, force);
   if constexpr (!H)
     for (auto& v : force.a) v = Vec<S, B::dim>::zero();
   for (auto& v : force.a2) v = Vec<S, B::dim>::zero();
@@ -81,7 +81,7 @@ ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction
     if constexpr (T == 2) raised = raised + inverse[symmetric_index(1, b)] * friction.force[1];
     add_form<parts_of_f<B, H>>(force, raised, f[b]);
   }
-  expand<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
+  expand_to_dofs<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
 }
 
 // K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a P_a^T + Y_a x_a^T) [ + g g^T ]
@@ -92,9 +92,9 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
   static constexpr bool symmetric = false;
   S weights[2][M]; // s, r
-  S x[T][N], Y[T][N], P[T][N];
-  S w[turns ? T : 1][N], Z[turns ? T : 1][N], w1[bends ? T : 1][N], z[bends ? T : 1][N];
-  S g[N];
+  DofArray<S, N> x[T], Y[T], P[T];
+  DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
+  DofArray<S, N> g;
   bool curved_law;
 
   // In parts that compilers digest.
@@ -109,7 +109,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
     for (int a = 0; a < T; ++a) {
       xf[a] = zero_form<B, S>();
       for (int b = 0; b < T; ++b) add_form<parts>(xf[a], inverse[symmetric_index(a, b)], f[b]);
-      expand<B, Rigid, parts>(xf[a], p.N, x[a]);
+      expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
     }
 
     // along y = - M t
@@ -146,9 +146,9 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
     if (curved_law) {
       Form<B, S> gf;
       form_of_p<B, H>(p.s, (square_root(stiffness) * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
-      expand<B, Rigid, parts_of_p<H>>(gf, p.N, g);
+      expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
-      for (S& entry : g) entry = S(0.0);
+      for_each_dof(g, [] ENTS_LAMBDA_INLINE { return S(0.0); });
     }
   }
 
@@ -183,10 +183,10 @@ private:
       add_form<parts>(sum, S(-1.0), rate);
       add_form<parts>(sum, -0.5 * stiffness, f[a]);
       for (int b = 0; b < T; ++b) add_form<parts>(sum, 0.5 * moving.f2[symmetric_index(a, b)].d, xf[b]);
-      expand<B, Rigid, parts>(sum, N0, Y[a]);
-      S turned[N];
-      expand<B, Rigid, parts>(value, N1, turned);
-      for (int i = D; i < N; ++i) Y[a][i] = Y[a][i] - turned[i]; // the slave's shape function does not change
+      DofArray<S, N> now, turned; // the slave's shape function does not change
+      expand_to_dofs<B, Rigid, parts>(sum, N0, now);
+      expand_to_dofs<B, Rigid, parts, false>(value, N1, turned);
+      for_each_dof(Y[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, now, turned);
     }
   }
 
@@ -201,19 +201,17 @@ private:
       split<on_position | on_tangents>(moving_z[a], value, rate);
       Form<B, S> sum = rate;
       add_form<on_position | on_tangents>(sum, stiffness, value);
-      expand<B, Rigid, on_position | on_tangents>(sum, p.N, Z[a]);
-      S turned[N];
-      expand<B, Rigid, on_position | on_tangents>(value, N1, turned);
-      for (int i = D; i < N; ++i) Z[a][i] = Z[a][i] + turned[i];
-      if constexpr (bends) expand<B, Rigid, on_position | on_tangents>(value, p.N, z[a]);
-      for (int c = 0; c < D; ++c) {
-        w[a][c] = S(0.0);
-        for (int i = 0; i < B::nodes; ++i) w[a][D * (i + 1) + c] = p.N.d1[a][i] * p.s.n[c];
-        if constexpr (bends) {
-          w1[a][c] = S(0.0);
-          for (int i = 0; i < B::nodes; ++i)
-            w1[a][D * (i + 1) + c] = N1.d1[a][i] * p.s.n[c] + p.N.d1[a][i] * turn[c];
-        }
+      const auto add = [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; };
+      DofArray<S, N> now, turned;
+      expand_to_dofs<B, Rigid, on_position | on_tangents>(sum, p.N, now);
+      expand_to_dofs<B, Rigid, on_position | on_tangents, false>(value, N1, turned);
+      for_each_dof(Z[a], add, now, turned);
+      expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
+      if constexpr (bends) {
+        expand_to_dofs<B, Rigid, on_position | on_tangents>(value, p.N, z[a]);
+        expand_to_nodes<B>(N1.d1[a], p.s.n, now);
+        expand_to_nodes<B>(p.N.d1[a], turn, turned);
+        for_each_dof(w1[a], add, now, turned);
       }
     }
   }
@@ -289,9 +287,9 @@ private:
       }
     }
     for (int a = 0; a < T; ++a) {
-      S change[N];
-      expand<B, Rigid, parts>(dt[a], p.N, change);
-      for (int i = 0; i < N; ++i) P[a][i] = Y[a][i] + change[i];
+      DofArray<S, N> change;
+      expand_to_dofs<B, Rigid, parts>(dt[a], p.N, change);
+      for_each_dof(P[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, Y[a], change);
     }
   }
 };

@@ -120,11 +120,14 @@ ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const P
 template <bool F, bool Rigid, class B, bool H, class S>
 using TangentOf = std::conditional_t<F, PairFrictionTangent<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
 
+inline constexpr std::int32_t beside_forces = PairBlock::results & ~(want::residual | want::tangent);
+
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
-ENTS_INLINE void press(const Plan& plan, Pair<B, H, S>& p, PairFriction<B, H, S>& f, const S (&anchor)[B::dim - 1], const S& history) {
+ENTS_INLINE void press(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p, PairFriction<B, H, S>& f, const S (&anchor)[B::dim - 1],
+                       const S& history) {
   p.arrive();
-  p.press(plan);
+  p.press(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
   if constexpr (F) f.evaluate(plan, p, anchor, history);
 }
 template <bool F, bool Rigid, class B, bool H, class S>
@@ -145,8 +148,6 @@ template <int T> ENTS_INLINE const double* anchor_of(const Plan& plan, const Pai
   history = state && state[StateLayout::history_at] >= 2.0 ? 1.0 : 0.0;
   return state ? state + plan.state.anchor_at : none;
 }
-
-inline constexpr std::int32_t beside_forces = PairBlock::results & ~(want::residual | want::tangent);
 
 // An element that is clearly open
 ENTS_INLINE void write_open(const PairBlock& block, std::int64_t e) {
@@ -177,7 +178,7 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pa
     TangentOf<F, Rigid, B, H, double> t;
     tangent<F, Rigid>(plan, p, f, t);
     double* k = block.tangent + e * block.tangent_stride;
-    if constexpr (N <= 12) write_tangent<B::dim>(t, k, block.leading);
+    if constexpr (N <= 15) write_tangent<B::dim>(t, k, block.leading);
     else write_long_tangent<B::dim>(t, k, block.leading);
   }
 }
@@ -209,7 +210,7 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
     return true;
   }
   p.project();
-  press<F>(plan, p, f, anchor, history);
+  press<F>(plan, block.wanted, p, f, anchor, history);
   if (!p.ordinary) return false;
   if (!p.contact) write_zeros(block, e, plan.dofs);
   else if (plan.dofs == D) write_forces<F, true>(plan, block, p, f, e);
@@ -229,25 +230,35 @@ template <class B, bool H, int W> struct PairLanes {
 
   ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
     static const double centre[T] = {};
-    const double *start[W], *slave[W], *master[W], *coordinates[W];
+    // nothing but a number to be looked at
+    const bool plain_start = block.start && !block.state_begin && (H || !block.surface_coordinates);
+    const double *start[W], *slave[W], *master[W];
     known = 0;
     for (int k = 0; k < W; ++k) {
-      start[k] = start_of<B, H>(plan, block, e + k);
-      if (start[k]) known |= 1u << k;
-      else start[k] = centre;
       slave[k] = block.slave + (e + k) * block.slave_stride;
       master[k] = block.master + (e + k) * block.master_stride;
-      coordinates[k] = coordinates_of(plan, block, e + k);
+      start[k] = plain_start ? block.start + (e + k) * block.start_stride : start_of<B, H>(plan, block, e + k);
+      if (start[k]) known |= 1u << k;
+      else start[k] = centre;
     }
     S x[D], y[D * B::nodes];
     read_lanes<W>(slave, x);
     read_lanes<W>(master, y);
     for (int i = 0; i < B::nodes; ++i)
       for (int c = 0; c < D; ++c) nodes.y[i][c] = y[D * i + c] - x[c];
-    nodes.has_coordinates = H && coordinates[0];
-    if (nodes.has_coordinates) read_lanes<W>(coordinates, nodes.coordinates);
+    nodes.has_coordinates = H && coordinates_of(plan, block, e);
+    if (nodes.has_coordinates) {
+      const double* coordinates[W];
+      for (int k = 0; k < W; ++k) coordinates[k] = coordinates_of(plan, block, e + k);
+      read_lanes<W>(coordinates, nodes.coordinates);
+    }
     nodes.height = plan.height;
     read_lanes<W>(start, xi);
+    if (plain_start) {
+      S zero = 0.0 * xi[0];
+      if constexpr (T == 2) zero = zero + 0.0 * xi[1];
+      known = bits_of(zero >= 0.0);
+    }
   }
 };
 
@@ -293,7 +304,13 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pa
     tangent<F, Rigid>(plan, p, f, t);
     double* out[W];
     places(block.tangent, block.tangent_stride, out);
-    if constexpr (N <= 12) write_tangent<B::dim>(t, out, block.leading, contact);
+    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries.
+    if constexpr (!F && !TangentOf<F, Rigid, B, H, S>::turns && N >= W) {
+      TangentOf<F, Rigid, B, H, double> one[W];
+      t.hand_out_lanes(one);
+      for (int k = 0; k < W; ++k)
+        if (contact >> k & 1) write_tangent<B::dim>(one[k], out[k], block.leading);
+    } else if constexpr (N <= 12) write_tangent<B::dim>(t, out, block.leading, contact);
     else write_long_tangent<B::dim>(t, out, block.leading, contact);
   }
 }
@@ -306,8 +323,7 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
   p.area = S(1.0);
-  if (block.area)
-    for (int k = 0; k < W; ++k) p.area.v[k] = block.area[(e + k) * block.area_stride];
+  if (block.area) p.area = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return block.area[(e + k) * block.area_stride]; });
   S anchor[T], history;
   if constexpr (F) {
     const double* at[W];
@@ -316,7 +332,7 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
     history = load<S>(of_lane);
     read_lanes<W>(at, anchor);
   }
-  press<F>(plan, p, f, anchor, history);
+  press<F>(plan, block.wanted, p, f, anchor, history);
   const std::uint32_t done = known & (bits_of(p.ordinary) | far);
   if (!done) return 0;
   const std::uint32_t contact = done & bits_of(p.contact) & ~far;
@@ -345,7 +361,8 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
         return block.wanted & forces_only ? lanes.known & bits_of(pair.is_clearly_open(plan)) : 0u;
       };
       // flat segments leave registers free for two projections at once
-      const bool two = is_flat<B> && H && k + 2 * W <= count;
+      constexpr bool in_pairs = is_flat<B> && H;
+      const bool two = in_pairs && k + 2 * W <= count;
       const std::int64_t e = block.first + k;
       const PairLanes<B, H, W> a(plan, block, e);
       Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
@@ -359,7 +376,7 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
       if (two) {
         const PairLanes<B, H, W> b(plan, block, e + W);
         Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
-        if constexpr (is_flat<B>) project_both(p, q);
+        if constexpr (in_pairs) project_both(p, q);
         done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, far_of(b, q), e + W)} << (k + W);
       } else {
         p.project();

@@ -18,6 +18,7 @@ namespace ents::ENTS_ISA {
 
 // Positions are relative to the slave node.
 template <class B, class S> struct PairNodes {
+  static constexpr int T = B::dim - 1;
   Vec<S, B::dim> y[B::nodes];
   S coordinates[(B::dim - 1) * B::nodes];
   bool has_coordinates;     // else s = xi
@@ -25,7 +26,14 @@ template <class B, class S> struct PairNodes {
 
   template <int Order> ENTS_INLINE void evaluate_height(const S (&xi)[B::dim - 1], const Shape<S, B::dim - 1, B::nodes>& N,
                                                         HeightByXi<S, B::dim - 1>& h) const {
-    evaluate_height_by_xi<B, Order>(*height, has_coordinates ? coordinates : nullptr, xi, N, h);
+    if (has_coordinates) {
+      evaluate_height_by_xi<B, Order>(*height, coordinates, xi, N, h);
+    } else {
+      const HeightJet<T, S> at_xi = evaluate_height_here(*height, xi);
+      h.h = at_xi.h;
+      for (int a = 0; a < T; ++a) h.h1[a] = at_xi.h1[a];
+      for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = at_xi.h2[k];
+    }
   }
 };
 
@@ -82,15 +90,13 @@ template <class S> struct Rho<Quad4, S> {
   static constexpr bool linear_area = true;
   Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
   ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
-    c = c1 = c2 = c12 = Vec<S, 3>::zero();
-    for (int k = 0; k < 3; ++k) {
-      const S a = nodes.y[0][k], b = nodes.y[1][k], d = nodes.y[2][k], e = nodes.y[3][k];
-      const S sum_1 = a + b, sum_2 = e + d, difference_1 = b - a, difference_2 = d - e;
-      c.set(k, 0.25 * (sum_1 + sum_2));
-      c1.set(k, 0.25 * (difference_1 + difference_2));
-      c2.set(k, 0.25 * (sum_2 - sum_1));
-      c12.set(k, 0.25 * (difference_2 - difference_1));
-    }
+    const auto& y = nodes.y;
+    const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0], difference_2 = y[2] - y[3];
+    const S quarter(0.25);
+    c = quarter * (sum_1 + sum_2);
+    c1 = quarter * (difference_1 + difference_2);
+    c2 = quarter * (sum_2 - sum_1);
+    c12 = quarter * (difference_2 - difference_1);
   }
   template <int Order, bool H>
   ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N, Surface<Quad4, H, S>& s) const {
@@ -125,6 +131,7 @@ template <class S> ENTS_INLINE void invert_metric(const S (&m)[3], const S& area
 template <class B, bool H, class S> struct PairProjector {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = false;
+  static constexpr double rounding = 1e-26; // of twice_merit, relative to the square of the distance of a node
   const PairNodes<B, S>& nodes;
   Rho<B, S> rho;
   Shape<S, T, B::nodes> N;
@@ -144,7 +151,7 @@ template <class B, bool H, class S> struct PairProjector {
       s.n = q * v.m;
       S along[T];
       for (int a = 0; a < T; ++a) {
-        along[a] = dot(s.n, v.m1[a]);
+        along[a] = q * dot(v.m, v.m1[a]);
         s.n1[a] = v.m1[a];
         add_scaled(s.n1[a], -along[a], s.n);
         s.n1[a] = q * s.n1[a];
@@ -195,10 +202,7 @@ template <class B, bool H, class S> struct PairProjector {
       return area2;
     } else {
       const Vec<S, D> m = normal_of_tangents(s.a);
-      const S area2 = dot(m, m);
-      s.area = square_root(area2);
-      s.n = unchecked_inverse(s.area) * m;
-      return area2;
+      return dot(m, m);
     }
   }
 
@@ -219,6 +223,7 @@ template <class B, bool H, class S>
 struct PairProjector<B, H, S> {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = !H;
+  static constexpr double rounding = 1e-26;
   const PairNodes<B, S>& nodes;
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
@@ -240,15 +245,22 @@ struct PairProjector<B, H, S> {
     }
     const Vec<S, D> m = normal_of_tangents(s.a);
     area2 = dot(m, m);
-    s.area = square_root(area2);
-    s.n = unchecked_inverse(s.area) * m;
     invert_metric(base, area2, s.dual_metric);
-    for (int a = 0; a < T; ++a) {
-      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
-      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
-      foot[a] = dot(s.dual[a], offset);
+    if constexpr (H) {
+      s.area = square_root(area2);
+      s.n = unchecked_inverse(s.area) * m;
+      zeta = dot(s.n, offset);
     }
-    zeta = dot(s.n, offset);
+    S along[T];
+    for (int a = 0; a < T; ++a) along[a] = dot(s.a[a], offset);
+    for (int a = 0; a < T; ++a) {
+      foot[a] = s.dual_metric[symmetric_index(a, 0)] * along[0];
+      if constexpr (T == 2) foot[a] = foot[a] + s.dual_metric[symmetric_index(a, 1)] * along[1];
+      if constexpr (H) {
+        s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
+        if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
+      }
+    }
   }
 
   ENTS_INLINE void evaluate(const S (&xi)[T]) {
@@ -290,6 +302,72 @@ struct PairProjector<B, H, S> {
     }
     return area2;
   }
+};
+
+// The same for quad4, without vectors. With c, c_1, c_2, c_12 of rho - x_s, D = x_s - rho, m = a_1 x a_2 and w = n . D = P / |m|,
+//   F = (D . D - 2 h w + h^2) / 2 ,
+// D . D, m . m and P = m . D are polynomials: products of c .. c_12 are taken once. (In P all of c_12 . m but a triple product
+// vanishes.) `metric` is that of rho.
+template <bool H, class S> struct QuadDescent {
+  static constexpr double rounding = 1e-13; // of twice_merit, relative to the distance of a node
+  const PairNodes<Quad4, S>& nodes;
+  S g00, g01, g02, g0x, g11, g12, g1x, g22, g2x, gxx;      // of c, c_1, c_2, c_12
+  S p0, p1, p2, px, m00, m01, m02, m11, m12, m22; // enriched: P, m . m
+  S r[2], metric[3], f2[3], twice_merit;
+
+  ENTS_INLINE explicit QuadDescent(const PairProjector<Quad4, H, S>& p) : nodes(p.nodes) {
+    const auto& [c, c1, c2, c12] = p.rho;
+    g00 = dot(c, c), g01 = dot(c, c1), g02 = dot(c, c2), g0x = dot(c, c12);
+    g11 = dot(c1, c1), g12 = dot(c1, c2), g1x = dot(c1, c12), g22 = dot(c2, c2), g2x = dot(c2, c12), gxx = dot(c12, c12);
+    if constexpr (H) {
+      const Vec<S, 3> m = cross(c1, c2), m1 = cross(c1, c12), m2 = cross(c12, c2);
+      p0 = dot(c, m), p1 = dot(c, m1), p2 = dot(c, m2), px = dot(c12, m);
+      m00 = dot(m, m), m01 = dot(m, m1), m02 = dot(m, m2), m11 = dot(m1, m1), m12 = dot(m1, m2), m22 = dot(m2, m2);
+    }
+  }
+
+  ENTS_INLINE void evaluate(const S (&xi)[2]) {
+    const S x = xi[0], y = xi[1], xy = x * y;
+    metric[0] = g11 + y * (2.0 * g1x + y * gxx);
+    metric[2] = g22 + x * (2.0 * g2x + x * gxx);
+    metric[1] = (g12 + x * g1x) + (y * g2x + xy * gxx);
+    const S bend = (g0x + x * g1x) + (y * g2x + xy * gxx);
+    const S towards_1 = (g01 + y * g0x) + y * (g12 + y * g2x), towards_2 = (g02 + x * g0x) + x * (g12 + x * g1x); // F_,a at xi_a = 0
+    const S F1 = towards_1 + x * metric[0], F2 = towards_2 + y * metric[2];
+    const S at_y = g00 + y * (2.0 * g02 + y * g22); // D . D at xi_1 = 0
+    twice_merit = at_y + x * (2.0 * towards_1 + x * metric[0]);
+    f2[0] = metric[0], f2[1] = metric[1] + bend, f2[2] = metric[2];
+    r[0] = -F1, r[1] = -F2;
+    if constexpr (H) {
+      HeightByXi<S, 2> h;
+      Shape<S, 2, 4> N;
+      if (nodes.has_coordinates) Quad4::shape<2>(xi, N);
+      nodes.template evaluate_height<2>(xi, N, h);
+      const S half_1 = m01 + x * m11 + y * m12, half_2 = m02 + x * m12 + y * m22; // (m . m)_,a / 2
+      const S area2 = (m00 + x * m01 + y * m02) + x * half_1 + y * half_2;
+      const S q = unchecked_inverse(square_root(area2)), q2 = q * q;
+      const S P1 = y * px - p1, P2 = x * px - p2, P = (y * P2 - p0) - x * p1;
+      const S w = q * P, l1 = q2 * half_1, l2 = q2 * half_2;
+      const S u1 = q * P1, u2 = q * P2, w1 = u1 - w * l1, w2 = u2 - w * l2;
+      const S w11 = w * (3.0 * l1 * l1 - q2 * m11) - 2.0 * u1 * l1;
+      const S w22 = w * (3.0 * l2 * l2 - q2 * m22) - 2.0 * u2 * l2;
+      const S w12 = w * (3.0 * l1 * l2 - q2 * m12) + (q * px - (u1 * l2 + u2 * l1));
+      const S above = w - h.h;
+      twice_merit = twice_merit - h.h * (above + w);
+      r[0] = r[0] + (h.h1[0] * above + h.h * w1);
+      r[1] = r[1] + (h.h1[1] * above + h.h * w2);
+      f2[0] = f2[0] - (h.h2[0] * above + h.h1[0] * (2.0 * w1 - h.h1[0]) + h.h * w11);
+      f2[1] = f2[1] - (h.h2[1] * above + (h.h1[0] * (w2 - h.h1[1]) + h.h1[1] * w1) + h.h * w12);
+      f2[2] = f2[2] - (h.h2[2] * above + h.h1[1] * (2.0 * w2 - h.h1[1]) + h.h * w22);
+    }
+  }
+};
+
+template <class B, bool H, class S> struct DescentOf {
+  using type = PairProjector<B, H, S>&;
+};
+template <bool H, class S> struct DescentOf<Quad4, H, S> {
+  using type = QuadDescent<H, S>;
 };
 
 } // namespace ents::ENTS_ISA

@@ -6,47 +6,9 @@
 // expressions in the same order, so the bits are the same.
 #pragma once
 
-#include <cstring>
-#include <type_traits>
-
-#include "core/lanes.hpp"
-#include "core/vec.hpp"
+#include "core/dof_rows.hpp"
 
 namespace ents::ENTS_ISA {
-
-#if defined(__AVX512F__)
-inline constexpr int register_width = 8;
-#elif defined(__AVX__)
-inline constexpr int register_width = 4;
-#elif defined(ENTS_HAS_LANES) && !defined(__x86_64__) // there, kernels for wider registers take over
-inline constexpr int register_width = 2;
-#else
-inline constexpr int register_width = 1;
-#endif
-
-// Offsets of the pieces of `width` that cover n numbers; the last one overlaps the one before.
-constexpr int pieces(int n, int width) { return (n + width - 1) / width; }
-constexpr int piece_at(int n, int width, int piece) { return piece * width + width <= n ? piece * width : n - width; }
-// The widest register that is not longer than n.
-constexpr int width_for(int n) {
-  int width = register_width;
-  while (width > n) width /= 2;
-  return width;
-}
-
-template <int W> struct Register {
-  using type = Lanes<W>;
-};
-template <> struct Register<1> {
-  using type = double;
-};
-
-template <class R> ENTS_INLINE R load(const double* from) {
-  R r;
-  std::memcpy(&r, from, sizeof r);
-  return r;
-}
-template <class R> ENTS_INLINE void store(double* to, const R& r) { std::memcpy(to, &r, sizeof r); }
 
 // x where the row belongs to component c of its node; 0 elsewhere.
 template <int D> struct ComponentPattern {
@@ -69,27 +31,41 @@ template <class R, class Q> ENTS_INLINE R product_of_weights(const R (&i)[2], co
   return i[0] * R(j[1]) + i[1] * R(j[0]);
 }
 
+// Weights of the nodes that the dofs of a piece belong to
+template <int D, int W, int At, int M> ENTS_INLINE auto row_of_weights(const double (&weights)[M]) {
+  if constexpr (W == 1) {
+    return weights[At / D];
+  } else {
+#if defined(ENTS_HAS_DOF_ROWS)
+    return DofPiece<D, W, At>::template weights<1>(weights);
+#else
+    double of_dof[W];
+    for (int k = 0; k < W; ++k) of_dof[k] = weights[(At + k) / D];
+    return load<Lanes<W>>(of_dof);
+#endif
+  }
+}
+
 template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N), P = pieces(N, W);
   constexpr int weights = std::extent_v<decltype(t.weights)>;
   using R = typename Register<W>::type;
-  double of_row[weights][N];
-  for (int k = 0; k < weights; ++k)
-    for (int i = 0; i < N; ++i) of_row[k][i] = t.weights[k][i / D];
+  R of_row[P][weights];
+  unroll<P>([&](auto piece) ENTS_LAMBDA_INLINE {
+    for (int k = 0; k < weights; ++k) of_row[piece][k] = row_of_weights<D, W, piece_at(N, W, piece.value)>(t.weights[k]);
+  });
   for (int n = 0; n < M; ++n) {
     double of_column[weights];
     for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
       double* column = out + j * leading;
-      for (int piece = 0; piece < P; ++piece) {
-        const int i = piece_at(N, W, piece);
-        R w[weights];
-        for (int k = 0; k < weights; ++k) w[k] = load<R>(of_row[k] + i);
-        const R k = where_component<D>(product_of_weights(w, of_column), i, c);
-        const auto row = [i](const auto& array) ENTS_LAMBDA_INLINE { return load<R>(array + i); };
+      unroll<P>([&](auto piece) ENTS_LAMBDA_INLINE {
+        constexpr int p = piece.value, i = piece_at(N, W, p);
+        const R k = where_component<D>(product_of_weights(of_row[p], of_column), i, c);
+        const auto row = [](const auto& numbers) ENTS_LAMBDA_INLINE { return piece_of<p, R>(numbers); };
         store(column + i, t.template add_products<R>(k, row, j));
-      }
+      });
     });
   }
 }
@@ -147,14 +123,18 @@ template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* co
   }
 }
 
+// number(k) of each lane k. (A register is slow to read where its numbers have been written one by one.)
+template <int W, class Number, int... k> ENTS_INLINE Lanes<W> each_lane(Number&& number, std::integer_sequence<int, k...>) {
+  return Lanes<W>(typename VectorOf<W>::Numbers{number(k)...}, 0);
+}
+template <int W, class Number> ENTS_INLINE Lanes<W> each_lane(Number&& number) {
+  return each_lane<W>(number, std::make_integer_sequence<int, W>());
+}
+
 // Numbers 0 .. count - 1 of each lane's array.
 template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&from)[W], Lanes<W> (&out)[Count]) {
   if constexpr (Count < W) {
-    for (int i = 0; i < Count; ++i) {
-      double column[W];
-      for (int k = 0; k < W; ++k) column[k] = from[k][i];
-      out[i] = load<Lanes<W>>(column);
-    }
+    for (int i = 0; i < Count; ++i) out[i] = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k][i]; });
   } else {
     unroll<pieces(Count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
       constexpr int first = piece_at(Count, W, piece.value);
@@ -164,6 +144,18 @@ template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&fr
       for (int i = 0; i < W; ++i) out[first + i].v = r[i];
     });
   }
+}
+
+// Each lane's numbers to an element of its own: to(lane)
+template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&numbers)[N], To&& to) {
+  static_assert(width_for(N) == W);
+  unroll<pieces(N, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
+    constexpr int p = piece.value, first = piece_at(N, W, p);
+    typename VectorOf<W>::Numbers r[W];
+    for (int i = 0; i < W; ++i) r[i] = numbers[first + i].v;
+    transpose<W>(r);
+    for (int k = 0; k < W; ++k) set_piece<p>(to(k), Lanes<W>(r[k], 0));
+  });
 }
 
 // Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.

@@ -109,7 +109,7 @@ template <class B, bool H> double operations() {
   counted.area = 1.0;
   counted.project();
   counted.arrive();
-  counted.press(plan);
+  counted.press(plan, false);
   if (!counted.ordinary || !counted.contact) return std::nan("");
   Counted residual[N];
   counted.template residual<false>(residual);
