@@ -18,6 +18,7 @@ ENTS_INLINE bool both(bool a, bool b) { return a & b; }
 ENTS_INLINE bool either(bool a, bool b) { return a | b; }
 ENTS_INLINE bool without(bool a, bool b) { return a & !b; }
 ENTS_INLINE bool any(bool a) { return a; }
+ENTS_INLINE bool every(bool a) { return a; }
 ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
 
 template <class S> inline constexpr int lane_count = 1;
@@ -77,6 +78,7 @@ template <int W> ENTS_INLINE std::uint32_t bits_of(LaneTruth<W> a) {
   return bits;
 }
 template <int W> ENTS_INLINE bool any(LaneTruth<W> a) { return bits_of(a) != 0; }
+template <int W> ENTS_INLINE bool every(LaneTruth<W> a) { return bits_of(a) == (1u << W) - 1; }
 
 template <int W> struct Lanes {
   using Numbers = typename VectorOf<W>::Numbers;
@@ -139,6 +141,7 @@ template <class T> ENTS_INLINE TwiceTruth<T> without(TwiceTruth<T> a, TwiceTruth
   return {without(a.low, b.low), without(a.high, b.high)};
 }
 template <class T> ENTS_INLINE bool any(TwiceTruth<T> a) { return any(either(a.low, a.high)); }
+template <class T> ENTS_INLINE bool every(TwiceTruth<T> a) { return every(both(a.low, a.high)); }
 
 template <class S> struct Twice {
   S low, high;

@@ -105,11 +105,16 @@ template <class B, bool H, class S> struct Pair {
         ordinary = without(ordinary, without(active, fine));
         active = both(active, fine);
         active = both(active, length > 1e-15);
-        if (!any(active)) break; // one element: what follows does not wait for what it is compared with
+        if (!any(active)) break;
         // quadratic convergence: see project()
         const Truth<S> last = either(length <= 1e-13,
                                      both(length < 1e-4, 10.0 * length * length * length <= 1e-16 * previous_length * previous_length));
-        for (int a = 0; a < T; ++a) xi[a] = select(active, step[a], xi[a]);
+        // one element, or all of them: the next step does not wait for what this one is compared with
+        if (every(active)) {
+          for (int a = 0; a < T; ++a) xi[a] = step[a];
+        } else {
+          for (int a = 0; a < T; ++a) xi[a] = select(active, step[a], xi[a]);
+        }
         evaluations = select(both(active, last), evaluations + 1.0, evaluations); // that of arrive()
         active = without(active, last);
         previous_length = length;

@@ -97,7 +97,6 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   DofArray<S, N> g;
   bool curved_law;
 
-  // In parts that compilers digest.
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction) {
     constexpr int parts = parts_of_f<B, H>;
     const auto& p = pair.projector;
@@ -127,7 +126,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
       for (int i = 0; i < T * B::nodes; ++i) nodes.coordinates[i] = U(pair.nodes.coordinates[i]);
     nodes.height = pair.nodes.height;
     PairProjector<B, H, U> moving(nodes);
-    move(xi, moving);
+    in_part([&] ENTS_LAMBDA_INLINE { move(xi, moving); });
     Shape<S, T, B::nodes> N1;
     for (int i = 0; i < B::nodes; ++i) {
       N1.n[i] = moving.N.n[i].d;
@@ -138,9 +137,9 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
     }
 
     set_weights(stiffness, p.N, N1);
-    set_projection_terms(stiffness, p.N, N1, moving, f, xf);
-    if constexpr (turns) set_height_terms(stiffness, p, N1, moving);
-    add_change_of_force(plan, pair, friction, xf);
+    in_part([&] ENTS_LAMBDA_INLINE { set_projection_terms(stiffness, p.N, N1, moving, f, xf); });
+    if constexpr (turns) in_part([&] ENTS_LAMBDA_INLINE { set_height_terms(stiffness, p, N1, moving); });
+    in_part([&] ENTS_LAMBDA_INLINE { add_change_of_force(plan, pair, friction, xf); });
 
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
@@ -164,13 +163,20 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   }
 
 private:
-  static ENTS_NOINLINE void move(const Dual<S> (&xi)[T], PairProjector<B, H, Dual<S>>& moving) {
+  // With a height, in parts that compilers digest.
+  template <class Part> static ENTS_INLINE void in_part(Part&& part) {
+    if constexpr (H) apart(part);
+    else part();
+  }
+  template <class Part> static ENTS_NOINLINE void apart(Part&& part) { part(); }
+
+  static ENTS_INLINE void move(const Dual<S> (&xi)[T], PairProjector<B, H, Dual<S>>& moving) {
     if constexpr (!PairProjector<B, H, Dual<S>>::closed_form) moving.evaluate(xi);
     moving.finish(xi);
   }
 
   // Y_a = - f'_a + F'_ab x_b / 2 - (A W'/g) f_a / 2
-  ENTS_NOINLINE void set_projection_terms(const S& stiffness, const Shape<S, T, B::nodes>& N0, const Shape<S, T, B::nodes>& N1,
+  ENTS_INLINE void set_projection_terms(const S& stiffness, const Shape<S, T, B::nodes>& N0, const Shape<S, T, B::nodes>& N1,
                                           const PairProjector<B, H, Dual<S>>& moving, const Form<B, S> (&f)[T], const Form<B, S> (&xf)[T]) {
     constexpr int parts = parts_of_f<B, H>;
     using U = Dual<S>;
@@ -190,7 +196,7 @@ private:
     }
   }
 
-  ENTS_NOINLINE void set_height_terms(const S& stiffness, const PairProjector<B, H, S>& p, const Shape<S, T, B::nodes>& N1,
+  ENTS_INLINE void set_height_terms(const S& stiffness, const PairProjector<B, H, S>& p, const Shape<S, T, B::nodes>& N1,
                                       const PairProjector<B, H, Dual<S>>& moving) {
     using U = Dual<S>;
     const Vec<S, D> turn = derivative_of(moving.s.n);
@@ -229,7 +235,7 @@ private:
   }
 
   // P_a = Y_a + dt_a
-  ENTS_NOINLINE void add_change_of_force(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+  ENTS_INLINE void add_change_of_force(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
                                        const Form<B, S> (&xf)[T]) {
     constexpr int parts = parts_of_f<B, H>, slope = parts_of_slope<B, H>;
     const auto& p = pair.projector;
