@@ -2,6 +2,8 @@
 // Ordinary elements of a call: a block of up to 64, each written or left to evaluate_element().
 #pragma once
 
+#include <cstring>
+
 #include "core/pair_friction.hpp"
 #include "core/pair_kernels.hpp"
 #include "core/pair_write.hpp"
@@ -158,9 +160,10 @@ ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
   if (block.wanted & forces_only) return;
   if (block.wanted & want::residual)
     for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
-  if (block.wanted & want::tangent)
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) block.tangent[e * block.tangent_stride + j * block.leading + i] = 0.0;
+  if (!(block.wanted & want::tangent)) return;
+  double* tangent = block.tangent + e * block.tangent_stride;
+  const std::int64_t columns = block.leading == N ? 1 : N, length = block.leading == N ? std::int64_t{N} * N : N;
+  for (std::int64_t j = 0; j < columns; ++j) std::memset(tangent + j * block.leading, 0, sizeof(double) * static_cast<std::size_t>(length));
 }
 
 // Residual and tangent of an element in contact.

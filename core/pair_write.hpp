@@ -2,8 +2,9 @@
 // Vectors and tangents of ordinary elements, from numbers in registers to the host's arrays.
 //
 // One element: the columns of K are computed along the rows, as many at a time as a register holds. One element per lane: the
-// lower triangle is computed for all lanes, then transposed, so that each element is written in one go. The entries are the same
-// expressions in the same order, so the bits are the same.
+// lower triangle is computed for all lanes, then transposed, so that each element is written in one go; or, where an entry is the sum
+// of few products, these are handed out to the elements. The entries are the same expressions in the same order, so the bits are the
+// same.
 #pragma once
 
 #include "core/dof_rows.hpp"
