@@ -34,10 +34,10 @@ template <class B, bool H, class S> struct Pair {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   const PairNodes<B, S>& nodes;
   S area, xi[T];
-  S evaluations, per_gap;  // W'/g per area, 0 where open
-  Vec<S, D> gap_vector;    // g n_e
-  S gap;                   // where it is measured,
-  Vec<S, D> normal;        // n_e, too
+  S evaluations, per_gap; // W'/g per area, 0 where open
+  Vec<S, D> gap_vector;   // g n_e
+  S gap;                  // g
+  Vec<S, D> normal;       // and n_e, where they are measured
   Truth<S> ordinary, contact, outside;
   PairProjector<B, H, S> projector;
 

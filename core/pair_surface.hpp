@@ -304,15 +304,15 @@ struct PairProjector<B, H, S> {
   }
 };
 
-// The same for quad4, without vectors. With c, c_1, c_2, c_12 of rho - x_s, D = x_s - rho, m = a_1 x a_2 and w = n . D = P / |m|,
+// What Newton's method needs of a quad4, without vectors. With c, c_1, c_2, c_12 of rho - x_s, D = x_s - rho, m = a_1 x a_2 and w = n . D = P / |m|,
 //   F = (D . D - 2 h w + h^2) / 2 ,
 // D . D, m . m and P = m . D are polynomials: products of c .. c_12 are taken once. (In P all of c_12 . m but a triple product
 // vanishes.) `metric` is that of rho.
 template <bool H, class S> struct QuadDescent {
-  static constexpr double rounding = 1e-13; // of twice_merit, relative to the distance of a node
+  static constexpr double rounding = 1e-13; // twice_merit is a difference of squares of the distance
   const PairNodes<Quad4, S>& nodes;
-  S g00, g01, g02, g0x, g11, g12, g1x, g22, g2x, gxx;      // of c, c_1, c_2, c_12
-  S p0, p1, p2, px, m00, m01, m02, m11, m12, m22; // enriched: P, m . m
+  S g00, g01, g02, g0x, g11, g12, g1x, g22, g2x, gxx; // c_i . c_j; x: 12
+  S p0, p1, p2, px, m00, m01, m02, m11, m12, m22;     // enriched: of P, of m . m
   S r[2], metric[3], f2[3], twice_merit;
 
   ENTS_INLINE explicit QuadDescent(const PairProjector<Quad4, H, S>& p) : nodes(p.nodes) {
@@ -363,6 +363,7 @@ template <bool H, class S> struct QuadDescent {
   }
 };
 
+// What Newton's method asks: the projector itself, or a shorter way to the same numbers
 template <class B, bool H, class S> struct DescentOf {
   using type = PairProjector<B, H, S>&;
 };
