@@ -14,11 +14,13 @@
 
 namespace ents::ENTS_ISA {
 
-#if defined(__AVX512F__)
+#if !defined(ENTS_HAS_LANES)
+inline constexpr int register_width = 1;
+#elif defined(__AVX512F__)
 inline constexpr int register_width = 8;
 #elif defined(__AVX__)
 inline constexpr int register_width = 4;
-#elif defined(ENTS_HAS_LANES) && !defined(__x86_64__) // there, kernels for wider registers take over
+#elif !defined(__x86_64__) // there, kernels for wider registers take over
 inline constexpr int register_width = 2;
 #else
 inline constexpr int register_width = 1;

@@ -36,6 +36,8 @@ template <class S> ENTS_INLINE Dual<S> unchecked_inverse(Dual<S> x) { return 1.0
 ENTS_INLINE double lane(double x, int) { return x; }
 ENTS_INLINE void set_lane(double& x, int, double value) { x = value; }
 
+template <int W> struct Lanes; // where the compiler has them
+
 #if defined(__GNUC__) && !defined(__clang__)
 #define ENTS_HAS_LANES 1
 

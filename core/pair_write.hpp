@@ -12,6 +12,8 @@
 namespace ents::ENTS_ISA {
 
 // x where the row belongs to component c of its node; 0 elsewhere.
+template <int D> ENTS_INLINE double where_component(double x, int row, int c) { return row % D == c ? x : 0.0; }
+#if defined(ENTS_HAS_LANES)
 template <int D> struct ComponentPattern {
   long long of[D + 8]; // -1 where a row belongs to component 0
   constexpr ComponentPattern() : of() {
@@ -24,7 +26,7 @@ template <int D, int W> ENTS_INLINE Lanes<W> where_component(const Lanes<W>& x, 
   std::memcpy(&mine, component_pattern<D>.of + (row + D - c) % D, sizeof mine);
   return select(mine, x, Lanes<W>(0.0));
 }
-template <int D> ENTS_INLINE double where_component(double x, int row, int c) { return row % D == c ? x : 0.0; }
+#endif
 
 // s_i s_j, or s_i r_j + r_i s_j
 template <class R, class Q> ENTS_INLINE R product_of_weights(const R (&i)[1], const Q (&j)[1]) { return i[0] * R(j[0]); }
