@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,22 @@ TEST(WorkPrecision, FrontHasNoRunThatAnotherBeats) {
   ASSERT_EQ(front.size(), 2u); // the truth itself has no error and no place
   EXPECT_EQ(front[0], &work.runs[0]);
   EXPECT_EQ(front[1], &work.runs[2]);
+}
+
+TEST(WorkPrecision, NumbersOfTheAxisStayInThePicture) {
+  const std::regex number("<text x=\"([0-9.]+)\"[^>]*>(0\\.[0-9]+)</text>");
+  std::size_t numbers = 0, at_the_edge = 0;
+  for (double largest = 2e-4; largest < 2e-3; largest *= 1.01) { // wherever the last tic is
+    const Work work = made({made(Family::facets, 8, 0.1, 0.3 * largest), made(Family::enriched, 1, 0.01, largest)});
+    const std::string svg = work_panel(work, Price::time, "");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it, ++numbers) {
+      const double right = std::stod((*it)[1]) + 3.8 * static_cast<double>((*it)[2].length());
+      EXPECT_LE(right, panel_width + 0.1) << it->str();
+      if (right > panel_width - 1) ++at_the_edge;
+    }
+  }
+  EXPECT_GT(numbers, 200u);
+  EXPECT_GT(at_the_edge, 5u);
 }
 
 TEST(WorkPrecision, AdviceFollowsTheRuns) {

@@ -60,6 +60,12 @@ std::string text(double x, double y, const char* anchor, const std::string& word
          escaped(words) + "</text>";
 }
 
+/// Text under the place `x` of the axis, moved to the left where it would leave the panel.
+std::string number_below(double x, double y, const std::string& words) {
+  const double half = 3.8 * static_cast<double>(words.size()); // of its width
+  return text(std::min(x, panel_width - half), y, "middle", words);
+}
+
 std::string grid(const Scale& x, const Scale& y) {
   std::string out;
   const auto decades = [](const Scale& scale, const auto& draw) {
@@ -77,7 +83,7 @@ std::string grid(const Scale& x, const Scale& y) {
     const double place = left + at * inner_width;
     out += k == 1 ? line(place, top, place, base, "class=\"g\"")
                   : line(place, base, place, base - 4, "class=\"t\"");
-    if (numbered(x, k)) out += text(place, base + 17, "middle", tic_text(d, k, false));
+    if (numbered(x, k)) out += number_below(place, base + 17, tic_text(d, k, false));
   });
   decades(y, [&](int d, int k, double at) {
     const double place = base - at * inner_height;
