@@ -289,5 +289,25 @@ template <int T, class S> ENTS_INLINE HeightJet<T, S> evaluate_height_here(const
   return node.kind == HeightKind::sine ? sine_height(node.sine, s) : evaluate_height(node, s);
 }
 
+// The jet at s, in `d` its derivative along y. A sine's is known from the jet itself.
+template <int T, class S>
+ENTS_INLINE HeightJet<T, Dual<S>> jet_along(const HeightNode& node, const S (&s)[T], const S (&y)[T], const HeightJet<T, S>& at) {
+  if (node.kind != HeightKind::sine) {
+    Dual<S> moving[T];
+    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(s[a], y[a]);
+    return evaluate_height(node, moving);
+  }
+  const auto along = [&](const S& first, const S& last) ENTS_LAMBDA_INLINE { return T == 1 ? y[0] * first : y[0] * first + y[T - 1] * last; };
+  HeightJet<T, Dual<S>> jet;
+  jet.h = {at.h, along(at.h1[0], at.h1[T - 1])};
+  int k = 0;
+  for (int a = 0; a < T; ++a) {
+    const double wa = two_pi * node.sine.wave_vector[a];
+    jet.h1[a] = {at.h1[a], along(at.h2[a], at.h2[a + T - 1])};
+    for (int b = a; b < T; ++b, ++k) jet.h2[k] = {at.h2[k], -(wa * (two_pi * node.sine.wave_vector[b])) * jet.h.d};
+  }
+  return jet;
+}
+
 } // namespace ENTS_ISA
 } // namespace ents

@@ -41,9 +41,9 @@ ENTS_INLINE double dot(const Vec<double, 3>& a, const Vec<double, 3>& b) {
 }
 ENTS_INLINE Vec<double, 3> value_of(const Vec<Dual<double>, 3>& a) { return a.v; }
 ENTS_INLINE Vec<double, 3> derivative_of(const Vec<Dual<double>, 3>& a) { return a.d; }
-ENTS_INLINE void set_constant(Vec<Dual<double>, 3>& a, const Vec<double, 3>& value) {
+ENTS_INLINE void set_dual(Vec<Dual<double>, 3>& a, const Vec<double, 3>& value, const Vec<double, 3>& derivative) {
   a.v = value;
-  a.d = Vec<double, 3>::zero();
+  a.d = derivative;
 }
 ENTS_INLINE void store(const Vec<double, 3>& a, double* to) {
   typedef double Two __attribute__((vector_size(16)));

@@ -200,7 +200,7 @@ template <class B, bool H, class S> struct Pair {
 template <class B, bool H, bool Rigid, class S> struct PairTangent {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
   static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
-  static constexpr bool symmetric = true;
+  static constexpr bool symmetric = true, has_rest = false;
   S weights[1][M]; // s
   DofArray<S, N> v[T];
   DofArray<S, N> w[turns ? T : 1], z[turns ? T : 1];
@@ -221,10 +221,10 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
     const S c11 = square_root(p.f2[0]);
     if constexpr (T == 2) {
       const S q = root / square_root(p.f2[0] * determinant(p.f2));
-      scale<parts>(f[1], q * p.f2[0]);
+      set_form<parts>(f[1], q * p.f2[0], f[1]);
       add_form<parts>(f[1], -(q * p.f2[1]), f[0]);
     }
-    scale<parts>(f[0], root / c11);
+    set_form<parts>(f[0], root / c11, f[0]);
     for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(f[a], p.N, v[a]);
 
     if constexpr (turns) {
@@ -258,14 +258,14 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
     for (int k = 0; k < W; ++k) one[k].curved_law = curved_law;
   }
 
-  // k + all but the weights; row(array) is the array's entry of the row
+  // k + all but the weights and g g^T; row(array) is the array's entry of the row
   template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
     for (int a = 0; a < T; ++a) k = k - row(v[a]) * R(v[a][j]);
     if constexpr (turns)
       for (int a = 0; a < T; ++a) k = k + (row(w[a]) * R(z[a][j]) + row(z[a]) * R(w[a][j]));
-    if (curved_law) k = k + row(g) * R(g[j]);
     return k;
   }
+  template <class R, class Row> ENTS_INLINE R add_rest(R k, Row&&, int) const { return k; }
 };
 
 } // namespace ents::ENTS_ISA

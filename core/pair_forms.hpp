@@ -31,55 +31,53 @@ template <class B, class S> ENTS_INLINE void forms_of_z(const Surface<B, true, S
   });
 }
 
-template <int Parts, class B, class S> ENTS_INLINE void scale(Form<B, S>& f, const S& by) {
-  if constexpr ((Parts & on_position) != 0) f.x = by * f.x;
-  for (auto& v : f.a) v = by * v;
+// to = factor f; they may be the same
+template <int Parts, class B, class S> ENTS_INLINE void set_form(Form<B, S>& to, const S& factor, const Form<B, S>& f) {
+  constexpr int T = B::dim - 1;
+  if constexpr ((Parts & on_position) != 0) to.x = factor * f.x;
+  if constexpr ((Parts & on_tangents) != 0)
+    for (int k = 0; k < T; ++k) to.a[k] = factor * f.a[k];
   if constexpr ((Parts & on_curvatures) != 0)
-    unroll<symmetric_size<B::dim - 1>>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) f.a2[k] = by * f.a2[k];
+    unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::second[k]) to.a2[k] = factor * f.a2[k];
     });
 }
 // sum += factor f
 template <int Parts, class B, class S> ENTS_INLINE void add_form(Form<B, S>& sum, const S& factor, const Form<B, S>& f) {
   constexpr int T = B::dim - 1;
   if constexpr ((Parts & on_position) != 0) add_scaled(sum.x, factor, f.x);
-  for (int k = 0; k < T; ++k) add_scaled(sum.a[k], factor, f.a[k]);
+  if constexpr ((Parts & on_tangents) != 0)
+    for (int k = 0; k < T; ++k) add_scaled(sum.a[k], factor, f.a[k]);
   if constexpr ((Parts & on_curvatures) != 0)
     unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
       if constexpr (B::second[k]) add_scaled(sum.a2[k], factor, f.a2[k]);
     });
 }
-template <class B, class S> ENTS_INLINE Form<B, S> zero_form() {
-  Form<B, S> f;
-  f.x = Vec<S, B::dim>::zero();
-  for (auto& v : f.a) v = Vec<S, B::dim>::zero();
-  for (auto& v : f.a2) v = Vec<S, B::dim>::zero();
-  return f;
-}
-// f = value + derivative along y
-template <int Parts, class B, class S>
-ENTS_INLINE void split(const Form<B, Dual<S>>& f, Form<B, S>& value, Form<B, S>& derivative) {
-  const auto part = [](const Vec<Dual<S>, B::dim>& from, Vec<S, B::dim>& v, Vec<S, B::dim>& d) ENTS_LAMBDA_INLINE {
-    v = value_of(from);
-    d = derivative_of(from);
-  };
-  if constexpr ((Parts & on_position) != 0) part(f.x, value.x, derivative.x);
-  for (int k = 0; k < B::dim - 1; ++k) part(f.a[k], value.a[k], derivative.a[k]);
+template <int Parts, class B, class S> ENTS_INLINE void value_of_form(const Form<B, Dual<S>>& f, Form<B, S>& value) {
+  if constexpr ((Parts & on_position) != 0) value.x = value_of(f.x);
+  for (int k = 0; k < B::dim - 1; ++k) value.a[k] = value_of(f.a[k]);
   if constexpr ((Parts & on_curvatures) != 0)
     unroll<symmetric_size<B::dim - 1>>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) part(f.a2[k], value.a2[k], derivative.a2[k]);
+      if constexpr (B::second[k]) value.a2[k] = value_of(f.a2[k]);
     });
 }
-template <int Parts, class B, class S> ENTS_INLINE void select_form(Truth<S> condition, const Form<B, S>& yes, Form<B, S>& other) {
-  const auto part = [&](const Vec<S, B::dim>& from, Vec<S, B::dim>& to) ENTS_LAMBDA_INLINE {
-    for (int c = 0; c < B::dim; ++c) to[c] = select(condition, from[c], to[c]);
-  };
-  if constexpr ((Parts & on_position) != 0) part(yes.x, other.x);
-  for (int k = 0; k < B::dim - 1; ++k) part(yes.a[k], other.a[k]);
-  if constexpr ((Parts & on_curvatures) != 0)
-    unroll<symmetric_size<B::dim - 1>>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) part(yes.a2[k], other.a2[k]);
-    });
+// The form whose expansion is the derivative along y of that of f, but for third derivatives of the basis. It has a part on second ones
+// where the basis has them.
+template <int Parts, class B, class S> ENTS_INLINE void set_form_rate(const Form<B, Dual<S>>& f, const S (&y)[B::dim - 1], Form<B, S>& rate) {
+  constexpr int T = B::dim - 1;
+  if constexpr ((Parts & on_position) != 0) rate.x = derivative_of(f.x);
+  for (int k = 0; k < T; ++k) {
+    rate.a[k] = derivative_of(f.a[k]);
+    if constexpr ((Parts & on_position) != 0) add_scaled(rate.a[k], -y[k], value_of(f.x));
+  }
+  unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
+    if constexpr (B::second[k]) {
+      constexpr int a = k / 2, b = (k + 1) / 2;
+      rate.a2[k] = y[b] * value_of(f.a[a]);
+      if constexpr (a != b) add_scaled(rate.a2[k], y[a], value_of(f.a[b]));
+      if constexpr ((Parts & on_curvatures) != 0) rate.a2[k] = rate.a2[k] + derivative_of(f.a2[k]);
+    }
+  });
 }
 
 } // namespace ents::ENTS_ISA

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "core/pair.hpp"
+#include "core/pair_drift.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -84,63 +85,38 @@ ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction
   expand_to_dofs<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
 }
 
-// K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a P_a^T + Y_a x_a^T) [ + g g^T ]
-// x_a = dxi^a
+// K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a Y_a^T + Y_a x_a^T + x_a dt_a^T) [ + g g^T ]
+//   x_a = dxi^a = M^ab f_b,  Y_a = - f'_a + (F'_ab - (A W'/g) F_,ab) x_b / 2
+// The derivative along y of a form's expansion is the expansion of another form, for delta X' = - y^k delta a_k and
+// delta a_k' = y^l delta a_kl; only third derivatives of the basis ask for an expansion of their own.
 template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D, K = symmetric_size<T>;
-  static constexpr bool turns = H && !Rigid;               // w, Z: dofs of the master
+  static constexpr bool turns = H && !Rigid;          // w, Z: dofs of the master
   static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
-  static constexpr bool symmetric = false;
+  static constexpr bool symmetric = H && !is_flat<B>, has_rest = symmetric; // but for that rest, x_a P_a^T
   S weights[2][M]; // s, r
-  DofArray<S, N> x[T], Y[T], P[T];
+  DofArray<S, N> x[T], Y[T];
+  DofArray<S, N> P[T]; // dt_a; Y_a + dt_a if not `symmetric`
   DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
   DofArray<S, N> g;
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction) {
-    constexpr int parts = parts_of_f<B, H>;
     const auto& p = pair.projector;
     const S stiffness = pair.area * pair.per_gap;
-    Form<B, S> f[T], xf[T];
-    forms_of_f(p.s, f);
-    S inverse[K];
+    S inverse[K], y[T];
     invert(p.f2, determinant(p.f2), inverse);
     for (int a = 0; a < T; ++a) {
-      xf[a] = zero_form<B, S>();
-      for (int b = 0; b < T; ++b) add_form<parts>(xf[a], inverse[symmetric_index(a, b)], f[b]);
-      expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
+      S sum = inverse[symmetric_index(a, 0)] * friction.force[0];
+      if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * friction.force[1];
+      y[a] = -sum;
     }
-
-    // along y = - M t
-    using U = Dual<S>;
-    U xi[T];
-    for (int a = 0; a < T; ++a) {
-      S y = inverse[symmetric_index(a, 0)] * friction.force[0];
-      if constexpr (T == 2) y = y + inverse[symmetric_index(a, 1)] * friction.force[1];
-      xi[a] = U(pair.xi[a], -y);
-    }
-    PairNodes<B, U> nodes;
-    for (int i = 0; i < B::nodes; ++i) set_constant(nodes.y[i], pair.nodes.y[i]);
-    nodes.has_coordinates = pair.nodes.has_coordinates;
-    if (nodes.has_coordinates)
-      for (int i = 0; i < T * B::nodes; ++i) nodes.coordinates[i] = U(pair.nodes.coordinates[i]);
-    nodes.height = pair.nodes.height;
-    PairProjector<B, H, U> moving(nodes);
-    in_part([&] ENTS_LAMBDA_INLINE { move(xi, moving); });
-    Shape<S, T, B::nodes> N1;
-    for (int i = 0; i < B::nodes; ++i) {
-      N1.n[i] = moving.N.n[i].d;
-      for (int a = 0; a < T; ++a) N1.d1[a][i] = moving.N.d1[a][i].d;
-      unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::second[k]) N1.d2[k][i] = moving.N.d2[k][i].d;
-      });
-    }
-
-    set_weights(stiffness, p.N, N1);
-    in_part([&] ENTS_LAMBDA_INLINE { set_projection_terms(stiffness, p.N, N1, moving, f, xf); });
-    if constexpr (turns) in_part([&] ENTS_LAMBDA_INLINE { set_height_terms(stiffness, p, N1, moving); });
-    in_part([&] ENTS_LAMBDA_INLINE { add_change_of_force(plan, pair, friction, xf); });
-
+    in_part([&] ENTS_LAMBDA_INLINE {
+      const Drift drift(p, pair.xi, y);
+      set_weights(stiffness, drift);
+      in_part([&] ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
+      if constexpr (turns) in_part([&] ENTS_LAMBDA_INLINE { set_height_terms(stiffness, drift); });
+    });
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
       Form<B, S> gf;
@@ -151,18 +127,45 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
     }
   }
 
-  // k + all but the weights; row(array) is the array's entry of the row
+  // Each lane's to one[lane]
+  template <class One, int W>
+    requires(!turns)
+  ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
+    for (int r = 0; r < 2; ++r) {
+      double* of_lane[W];
+      for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[r];
+      write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return weights[r][i]; });
+    }
+    for (int a = 0; a < T; ++a) {
+      hand_out(x[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].x[a]; });
+      hand_out(Y[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].Y[a]; });
+      hand_out(P[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].P[a]; });
+    }
+    if (curved_law) hand_out(g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
+    for (int k = 0; k < W; ++k) one[k].curved_law = curved_law;
+  }
+
+  // k + all but the weights and g g^T; row(array) is the array's entry of the row
   template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
     for (int a = 0; a < T; ++a) {
       if constexpr (turns) k = k + (row(w[a]) * R(Z[a][j]) + row(Z[a]) * R(w[a][j]));
       if constexpr (bends) k = k + (row(w1[a]) * R(z[a][j]) + row(z[a]) * R(w1[a][j]));
-      k = k + (row(x[a]) * R(P[a][j]) + row(Y[a]) * R(x[a][j]));
+      k = k + (row(x[a]) * R((symmetric ? Y : P)[a][j]) + row(Y[a]) * R(x[a][j]));
     }
-    if (curved_law) k = k + row(g) * R(g[j]);
+    return k;
+  }
+  // k + what is not symmetric
+  template <class R, class Row> ENTS_INLINE R add_rest(R k, Row&& row, int j) const {
+    if constexpr (symmetric)
+      for (int a = 0; a < T; ++a) k = k + row(x[a]) * R(P[a][j]);
     return k;
   }
 
 private:
+  using Drift = PairDrift<B, H, S>;
+  static constexpr int parts = parts_of_f<B, H>, parts_of_rate = is_flat<B> ? parts : parts | on_curvatures;
+  static constexpr bool by_third = H && Drift::is_cubic; // do forms of second derivatives change?
+
   // With a height, in parts that compilers digest.
   template <class Part> static ENTS_INLINE void in_part(Part&& part) {
     if constexpr (H) apart(part);
@@ -170,132 +173,154 @@ private:
   }
   template <class Part> static ENTS_NOINLINE void apart(Part&& part) { part(); }
 
-  static ENTS_INLINE void move(const Dual<S> (&xi)[T], PairProjector<B, H, Dual<S>>& moving) {
-    if constexpr (!PairProjector<B, H, Dual<S>>::closed_form) moving.evaluate(xi);
-    moving.finish(xi);
-  }
-
-  // Y_a = - f'_a + F'_ab x_b / 2 - (A W'/g) f_a / 2
-  ENTS_INLINE void set_projection_terms(const S& stiffness, const Shape<S, T, B::nodes>& N0, const Shape<S, T, B::nodes>& N1,
-                                          const PairProjector<B, H, Dual<S>>& moving, const Form<B, S> (&f)[T], const Form<B, S> (&xf)[T]) {
-    constexpr int parts = parts_of_f<B, H>;
-    using U = Dual<S>;
-    Form<B, U> moving_f[T];
-    forms_of_f(moving.s, moving_f);
-    for (int a = 0; a < T; ++a) {
-      Form<B, S> rate, value;
-      split<parts>(moving_f[a], value, rate);
-      Form<B, S> sum = zero_form<B, S>();
-      add_form<parts>(sum, S(-1.0), rate);
-      add_form<parts>(sum, -0.5 * stiffness, f[a]);
-      for (int b = 0; b < T; ++b) add_form<parts>(sum, 0.5 * moving.f2[symmetric_index(a, b)].d, xf[b]);
-      DofArray<S, N> now, turned; // the slave's shape function does not change
-      expand_to_dofs<B, Rigid, parts>(sum, N0, now);
-      expand_to_dofs<B, Rigid, parts, false>(value, N1, turned);
-      for_each_dof(Y[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, now, turned);
-    }
-  }
-
-  ENTS_INLINE void set_height_terms(const S& stiffness, const PairProjector<B, H, S>& p, const Shape<S, T, B::nodes>& N1,
-                                      const PairProjector<B, H, Dual<S>>& moving) {
-    using U = Dual<S>;
-    const Vec<S, D> turn = derivative_of(moving.s.n);
-    Form<B, U> moving_z[T];
-    forms_of_z<B>(moving.s, moving_z);
-    for (int a = 0; a < T; ++a) {
-      Form<B, S> rate, value;
-      split<on_position | on_tangents>(moving_z[a], value, rate);
-      Form<B, S> sum = rate;
-      add_form<on_position | on_tangents>(sum, stiffness, value);
-      const auto add = [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; };
-      DofArray<S, N> now, turned;
-      expand_to_dofs<B, Rigid, on_position | on_tangents>(sum, p.N, now);
-      expand_to_dofs<B, Rigid, on_position | on_tangents, false>(value, N1, turned);
-      for_each_dof(Z[a], add, now, turned);
-      expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
-      if constexpr (bends) {
-        expand_to_dofs<B, Rigid, on_position | on_tangents>(value, p.N, z[a]);
-        expand_to_nodes<B>(N1.d1[a], p.s.n, now);
-        expand_to_nodes<B>(p.N.d1[a], turn, turned);
-        for_each_dof(w1[a], add, now, turned);
-      }
-    }
-  }
-
   // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
-  ENTS_INLINE void set_weights(const S& stiffness, const Shape<S, T, B::nodes>& N0, const Shape<S, T, B::nodes>& N1) {
+  ENTS_INLINE void set_weights(const S& stiffness, const Drift& drift) {
     const S half = 0.5 * stiffness;
     weights[0][0] = S(1.0);
     weights[1][0] = half;
     if constexpr (!Rigid)
       for (int i = 0; i < B::nodes; ++i) {
-        weights[0][i + 1] = -N0.n[i];
-        weights[1][i + 1] = -N1.n[i] - half * N0.n[i];
+        S change = drift.y[0] * drift.p.N.d1[0][i];
+        if constexpr (T == 2) change = change + drift.y[1] * drift.p.N.d1[1][i];
+        weights[0][i + 1] = -drift.p.N.n[i];
+        weights[1][i + 1] = -change - half * drift.p.N.n[i];
       }
   }
 
-  // P_a = Y_a + dt_a
-  ENTS_INLINE void add_change_of_force(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
-                                       const Form<B, S> (&xf)[T]) {
-    constexpr int parts = parts_of_f<B, H>, slope = parts_of_slope<B, H>;
-    const auto& p = pair.projector;
-    const auto& surface = p.s;
-    // scale (dA_ab w^b + A_ab x_b), w = moved
-    Form<B, S> dt[T];
-    Vec<S, D> W = friction.moved[0] * surface.e[0];
-    if constexpr (T == 2) add_scaled(W, friction.moved[1], surface.e[1]);
-    const S scale = select(friction.active, friction.scale, S(0.0));
-    unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
-      dt[a] = zero_form<B, S>();
-      Form<B, S> of;
-      unroll<T>([&](auto b) ENTS_LAMBDA_INLINE {
-        form_of_slope<b.value, B, H>(surface, (scale * friction.moved[b]) * surface.e[a], of);
-        add_form<slope>(dt[a], S(1.0), of);
-      });
-      form_of_slope<a.value, B, H>(surface, scale * W, of);
-      add_form<slope>(dt[a], S(1.0), of);
-      for (int c = 0; c < T; ++c) {
-        Vec<S, D> bend = friction.moved[0] * surface.e2[symmetric_index(0, c)];
-        if constexpr (T == 2) add_scaled(bend, friction.moved[1], surface.e2[symmetric_index(1, c)]);
-        const S rate = dot(surface.e[a], bend) + dot(W, surface.e2[symmetric_index(a, c)]) + p.metric[symmetric_index(a, c)];
-        add_form<parts>(dt[a], scale * rate, xf[c]);
-      }
+  // - value of the part on second derivatives, whose expansion changes by third ones
+  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Drift& drift, DofArray<S, N>& from) {
+    Shape<S, T, B::nodes> third;
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::second[k])
+        for (int i = 0; i < B::nodes; ++i) third.d2[k][i] = drift.N.d2[k][i].d;
     });
-    if (any(friction.slip)) {
-      // dt_a <- m_a dL + ratio (dt_a - m_a d|t|),  d|t| = m^a dt_a - |t| W . m^b D(rho_e,b), W = m^b rho_e,b
-      Vec<S, D> M1 = friction.raised[0] * surface.e[0];
-      if constexpr (T == 2) add_scaled(M1, friction.raised[1], surface.e[1]);
-      Form<B, S> norm = zero_form<B, S>();
-      for (int a = 0; a < T; ++a) add_form<parts>(norm, friction.raised[a], dt[a]);
-      unroll<T>([&](auto b) ENTS_LAMBDA_INLINE {
-        Form<B, S> of;
-        form_of_slope<b.value, B, H>(surface, (-friction.norm * friction.raised[b]) * M1, of);
-        add_form<slope>(norm, S(1.0), of);
-      });
+    DofArray<S, N> of;
+    expand_to_dofs<B, Rigid, on_curvatures>(value, third, of);
+    for_each_dof(from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
+  }
+
+  ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+                                        const S (&inverse)[K], const Drift& drift) {
+    const auto& p = pair.projector;
+    const S stiffness = pair.area * pair.per_gap;
+    Form<B, Dual<S>> f[T];
+    forms_of_f(drift.s, f);
+    Form<B, S> value[T], xf[T];
+    for (int a = 0; a < T; ++a) value_of_form<parts>(f[a], value[a]);
+    for (int a = 0; a < T; ++a) {
+      set_form<parts>(xf[a], inverse[symmetric_index(a, 0)], value[0]);
+      if constexpr (T == 2) add_form<parts>(xf[a], inverse[symmetric_index(a, 1)], value[1]);
+      expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
+    }
+    const ChangeOfForce change(plan, pair, friction);
+    for (int a = 0; a < T; ++a) {
+      Form<B, S> rate, Yf, Pf;
+      set_form_rate<parts>(f[a], drift.y, rate);
+      set_form<parts_of_rate>(Yf, S(-1.0), rate);
+      if constexpr (!symmetric) set_form<parts_of_rate>(Pf, S(-1.0), rate);
       for (int c = 0; c < T; ++c) {
-        Vec<S, D> bend = friction.raised[0] * surface.e2[symmetric_index(0, c)];
-        if constexpr (T == 2) add_scaled(bend, friction.raised[1], surface.e2[symmetric_index(1, c)]);
-        add_form<parts>(norm, -friction.norm * dot(M1, bend), xf[c]);
+        const int k = symmetric_index(a, c);
+        const S half = 0.5 * (drift.f2[k] - stiffness * p.f2[k]);
+        add_form<parts>(Yf, half, xf[c]);
+        if constexpr (!symmetric) add_form<parts>(Pf, half + change.by_xi[a][c], xf[c]);
+        else if (c == 0) set_form<parts>(Pf, change.by_xi[a][c], xf[c]);
+        else add_form<parts>(Pf, change.by_xi[a][c], xf[c]);
       }
-      Form<B, S> gap;
-      const S m = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
-      form_of_p<B, H>(surface, (-friction.by_pressure * (m * pair.area * pair.per_gap)) * pair.normal, gap);
-      if constexpr (!H)
-        for (auto& v : gap.a) v = Vec<S, D>::zero();
-      for (auto& v : gap.a2) v = Vec<S, D>::zero();
-      const S ratio = friction.limit / select(friction.slip, friction.norm, S(1.0));
+      change.add_to(a, p.s, Pf);
+      expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
+      expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, p.N, P[a]);
+      if constexpr (by_third && !Rigid) subtract_third(value[a], drift, Y[a]);
+    }
+  }
+
+  // dt_a = by_xi[a][c] x_c + sum_b towards[a][b] . D(rho_e,b) + n_a dL, where D is at fixed xi, w = moved, n_a = direction and
+  //   stick  t_a = scale A_ab w^b
+  //   slip   t_a = L n_a,  dn_a = (D(A_ab w^b) - n_a m^b w^c D(A_bc) / 2) / |w|,  m = w / |w|
+  struct ChangeOfForce {
+    S by_xi[T][T], slips[T];
+    Vec<S, D> towards[T][T];
+    Form<B, S> limit; // dL
+
+    ENTS_INLINE ChangeOfForce(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction) {
+      const auto& surface = pair.projector.s;
+      const auto& w = friction.moved;
+      const S none(0.0);
+      const S ratio = select(friction.slip, friction.scale * (friction.limit / select(friction.slip, friction.norm, S(1.0))),
+                             select(friction.active, friction.scale, none));
+      S m[T];
       for (int a = 0; a < T; ++a) {
-        Form<B, S> now = zero_form<B, S>();
-        add_form<parts>(now, ratio, dt[a]);
-        add_form<parts>(now, -(ratio * friction.direction[a]), norm);
-        add_form<parts>(now, friction.direction[a], gap);
-        select_form<parts>(friction.slip, now, dt[a]);
+        slips[a] = select(friction.slip, friction.direction[a], none);
+        m[a] = select(friction.slip, friction.raised[a], none);
+      }
+      // (A_ab w^b)_,c at fixed w and |w|_,c, with W = w^b rho_e,b
+      Vec<S, D> W = w[0] * surface.e[0];
+      if constexpr (T == 2) add_scaled(W, w[1], surface.e[1]);
+      S along[T];
+      for (int c = 0; c < T; ++c) {
+        Vec<S, D> bend = w[0] * surface.e2[symmetric_index(0, c)];
+        if constexpr (T == 2) add_scaled(bend, w[1], surface.e2[symmetric_index(1, c)]);
+        for (int a = 0; a < T; ++a)
+          by_xi[a][c] = dot(surface.e[a], bend) + dot(W, surface.e2[symmetric_index(a, c)]) + pair.projector.metric[symmetric_index(a, c)];
+        along[c] = slips[c] + m[0] * dot(surface.e[0], bend);
+        if constexpr (T == 2) along[c] = along[c] + m[1] * dot(surface.e[1], bend);
+      }
+      for (int a = 0; a < T; ++a) {
+        for (int c = 0; c < T; ++c) by_xi[a][c] = ratio * (by_xi[a][c] - slips[a] * along[c]);
+        for (int b = 0; b < T; ++b) {
+          towards[a][b] = (ratio * w[b]) * surface.e[a];
+          add_scaled(towards[a][b], -(ratio * slips[a] * m[b]), W);
+        }
+        towards[a][a] = towards[a][a] + ratio * W;
+      }
+      const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
+      form_of_p<B, H>(surface, (-friction.by_pressure * (exponent * pair.area * pair.per_gap)) * pair.normal, limit);
+    }
+
+    ENTS_INLINE void add_to(int a, const Surface<B, H, S>& surface, Form<B, S>& f) const {
+      unroll<T>([&](auto b) ENTS_LAMBDA_INLINE { add_slope<b.value>(surface, towards[a][b], f); });
+      add_form<parts_of_p<H>>(f, slips[a], limit);
+    }
+    template <int I> static ENTS_INLINE void add_slope(const Surface<B, H, S>& surface, const Vec<S, D>& c, Form<B, S>& f) {
+      if constexpr (!H) {
+        f.a[I] = f.a[I] + c;
+      } else {
+        Form<B, S> of;
+        form_of_slope<I, B, H>(surface, c, of);
+        for (int k = 0; k < T; ++k) f.a[k] = f.a[k] + of.a[k];
+        if constexpr (!is_flat<B>)
+          unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
+            constexpr int at = symmetric_index(k, I);
+            if constexpr (B::second[at]) f.a2[at] = f.a2[at] + of.a2[at];
+          });
       }
     }
+  };
+
+  // Z_a = z'_a + (A W'/g) z_a, and w'_a
+  ENTS_INLINE void set_height_terms(const S& stiffness, const Drift& drift) {
+    constexpr int of_z = on_position | on_tangents, of_rate = is_flat<B> ? of_z : of_z | on_curvatures;
+    const auto& p = drift.p;
+    Form<B, Dual<S>> moving_z[T];
+    forms_of_z<B>(drift.s, moving_z);
     for (int a = 0; a < T; ++a) {
-      DofArray<S, N> change;
-      expand_to_dofs<B, Rigid, parts>(dt[a], p.N, change);
-      for_each_dof(P[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, Y[a], change);
+      Form<B, S> value, sum;
+      value_of_form<of_z>(moving_z[a], value);
+      set_form_rate<of_z>(moving_z[a], drift.y, sum);
+      add_form<of_z>(sum, stiffness, value);
+      expand_to_dofs<B, Rigid, of_rate>(sum, p.N, Z[a]);
+      expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
+      if constexpr (bends) {
+        expand_to_dofs<B, Rigid, of_z>(value, p.N, z[a]);
+        S change[B::nodes]; // y^b N_,ab
+        for (int i = 0; i < B::nodes; ++i)
+          if constexpr (T == 1) change[i] = drift.y[0] * p.N.d2[0][i];
+          else if constexpr (!B::second[0]) change[i] = drift.y[1 - a] * p.N.d2[1][i];
+          else change[i] = drift.y[0] * p.N.d2[a][i] + drift.y[1] * p.N.d2[a + 1][i];
+        DofArray<S, N> now, turned;
+        expand_to_nodes<B>(change, p.s.n, now);
+        expand_to_nodes<B>(p.N.d1[a], derivative_of(drift.s.n), turned);
+        for_each_dof(w1[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
+      }
     }
   }
 };

@@ -308,7 +308,7 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pa
     double* out[W];
     places(block.tangent, block.tangent_stride, out);
     // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries.
-    if constexpr (!F && !TangentOf<F, Rigid, B, H, S>::turns && N >= W) {
+    if constexpr (!TangentOf<F, Rigid, B, H, S>::turns && N >= W) {
       TangentOf<F, Rigid, B, H, double> one[W];
       t.hand_out_lanes(one);
       for (int k = 0; k < W; ++k)

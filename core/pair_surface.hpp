@@ -24,16 +24,27 @@ template <class B, class S> struct PairNodes {
   bool has_coordinates;     // else s = xi
   const HeightNode* height; // enriched
 
-  template <int Order> ENTS_INLINE void evaluate_height(const S (&xi)[B::dim - 1], const Shape<S, B::dim - 1, B::nodes>& N,
-                                                        HeightByXi<S, B::dim - 1>& h) const {
+  template <int Order>
+  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, HeightJet<T, S>& h) const {
     if (has_coordinates) {
       evaluate_height_by_xi<B, Order>(*height, coordinates, xi, N, h);
-    } else {
-      const HeightJet<T, S> at_xi = evaluate_height_here(*height, xi);
-      h.h = at_xi.h;
-      for (int a = 0; a < T; ++a) h.h1[a] = at_xi.h1[a];
-      for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = at_xi.h2[k];
+    } else { // number by number: as a whole it would go through memory
+      const HeightJet<T, S> jet = evaluate_height_here(*height, xi);
+      h.h = jet.h;
+      for (int a = 0; a < T; ++a) h.h1[a] = jet.h1[a];
+      for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = jet.h2[k];
     }
+  }
+  // `at`, in `d` its derivative along a direction
+  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const Shape<Dual<S>, T, B::nodes>& N, const HeightJet<T, S>& at,
+                                HeightJet<T, Dual<S>>& h) const {
+    if (!has_coordinates) {
+      h = jet_along(*height, xi, direction, at);
+      return;
+    }
+    Dual<S> moving[T];
+    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
+    evaluate_height_by_xi<B, 2>(*height, coordinates, moving, N, h);
   }
 };
 
@@ -70,7 +81,7 @@ template <class B, class S> struct Rho {
         else s.a3[k] = Vec<S, D>::zero();
       });
   }
-  template <bool H> ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) const {
+  template <bool H> static ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) {
     v.m = normal_of_tangents(s.a);
     if constexpr (T == 1) {
       v.m1[0] = normal_of_tangents(s.a2);
@@ -339,7 +350,7 @@ template <bool H, class S> struct QuadDescent {
     f2[0] = metric[0], f2[1] = metric[1] + bend, f2[2] = metric[2];
     r[0] = -F1, r[1] = -F2;
     if constexpr (H) {
-      HeightByXi<S, 2> h;
+      HeightJet<2, S> h;
       Shape<S, 2, 4> N;
       if (nodes.has_coordinates) Quad4::shape<2>(xi, N);
       nodes.template evaluate_height<2>(xi, N, h);

@@ -67,10 +67,13 @@ template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t,
         constexpr int p = piece.value, i = piece_at(N, W, p);
         const R k = where_component<D>(product_of_weights(of_row[p], of_column), i, c);
         const auto row = [](const auto& numbers) ENTS_LAMBDA_INLINE { return piece_of<p, R>(numbers); };
-        store(column + i, t.template add_products<R>(k, row, j));
+        store(column + i, t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j));
       });
     });
   }
+  if (t.curved_law) // g g^T
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) out[j * leading + i] += t.g[i] * t.g[j];
 }
 
 #if defined(ENTS_HAS_LANES)
@@ -190,18 +193,27 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
         });
       for (int m = Tangent::symmetric ? n + 1 : 0; m < M; ++m) unroll<D>([&](auto r) ENTS_LAMBDA_INLINE { add(m, r); });
     });
+  if (!Tangent::has_rest && t.curved_law) {
+    entry = kept;
+    for (int j = 0; j < N; ++j)
+      for (int i = Tangent::symmetric ? j : 0; i < N; ++i, ++entry) *entry = *entry + t.g[i] * t.g[j];
+  }
   const auto entry_at = [&](int i) ENTS_LAMBDA_INLINE {
     if constexpr (Tangent::symmetric) return kept[kept_table<N>.of[i]];
     else return kept[i];
   };
-  if (leading == N) {
+  if (!Tangent::has_rest && leading == N) {
     write_lanes<N * N>(out, entry_at);
-  } else {
-    for (int j = 0; j < N; ++j) {
-      double* column[W];
-      for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
-      write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return entry_at(N * j + i); });
-    }
+    return;
+  }
+  for (int j = 0; j < N; ++j) {
+    double* column[W];
+    for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
+    const auto at_row = [&](int i) ENTS_LAMBDA_INLINE {
+      return t.template add_rest<S>(entry_at(N * j + i), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
+    };
+    if (Tangent::has_rest && t.curved_law) write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; });
+    else write_lanes<N>(column, at_row);
   }
 }
 

@@ -42,11 +42,7 @@ template <class B> struct Geometry {
 };
 
 // h and its derivatives by xi
-template <class S, int T> struct HeightByXi {
-  S h;
-  S h1[T];
-  S h2[symmetric_size<T>];
-};
+template <class S, int T> using HeightByXi = HeightJet<T, S>;
 
 // Surface at one xi. H: enriched or plain. Order 1: tangents; 2: curvatures, too.
 template <class B, bool H, class S> struct Surface {
@@ -59,7 +55,7 @@ template <class B, bool H, class S> struct Surface {
   S dual_metric[K];                   // a^k . a^l
   S area;                             // |a| or |a_1 x a_2|
   V n1[T];                            // n_,a (H, bent basis)
-  HeightByXi<S, T> height;            // (H)
+  HeightJet<T, S> height;  // by xi (H)
 
   V d;      // x_s - rho_e
   V e[T];   // rho_e,a
@@ -69,13 +65,10 @@ template <class B, bool H, class S> struct Surface {
 // h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi
 template <class B, int Order, class S, class C>
 ENTS_INLINE void evaluate_height_by_xi(const HeightNode& height, const C* coordinates, const S (&xi)[B::dim - 1],
-                                       const Shape<S, B::dim - 1, B::nodes>& N, HeightByXi<S, B::dim - 1>& out) {
+                                       const Shape<S, B::dim - 1, B::nodes>& N, HeightJet<B::dim - 1, S>& out) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
   if (!coordinates) {
-    const HeightJet<T, S> j = evaluate_height<T>(height, xi);
-    out.h = j.h;
-    for (int a = 0; a < T; ++a) out.h1[a] = j.h1[a];
-    for (int k = 0; k < K; ++k) out.h2[k] = j.h2[k];
+    out = evaluate_height<T>(height, xi);
     return;
   }
   S s[T], s1[T][T], s2[K][T];  // s, s_,a, s_,ab

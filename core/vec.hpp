@@ -36,8 +36,11 @@ template <class S, int D> ENTS_INLINE Vec<S, D> derivative_of(const Vec<Dual<S>,
   for (int i = 0; i < D; ++i) d[i] = a[i].d;
   return d;
 }
+template <class S, int D> ENTS_INLINE void set_dual(Vec<Dual<S>, D>& a, const Vec<S, D>& value, const Vec<S, D>& derivative) {
+  for (int i = 0; i < D; ++i) a[i] = Dual<S>(value[i], derivative[i]);
+}
 template <class S, int D> ENTS_INLINE void set_constant(Vec<Dual<S>, D>& a, const Vec<S, D>& value) {
-  for (int i = 0; i < D; ++i) a[i] = Dual<S>(value[i]);
+  set_dual(a, value, Vec<S, D>::zero());
 }
 
 template <class S, int D> ENTS_INLINE Vec<S, D> operator+(Vec<S, D> a, const Vec<S, D>& b) {
