@@ -88,8 +88,8 @@ std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, d
 }
 
 std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
-  const std::int64_t most =
-      std::clamp<std::int64_t>(block_numbers / (plan_.dofs * plan_.dofs), 1, ElementCall::BlockNodes::most);
+  const std::int64_t fitting = block_numbers / (plan_.dofs * plan_.dofs), registers = fitting & ~std::int64_t{7}; // whole ones
+  const std::int64_t most = std::clamp<std::int64_t>(registers > 0 ? registers : fitting, 1, ElementCall::BlockNodes::most);
   double residuals[ElementCall::BlockNodes::most * Equations::max_dofs], tangents[block_numbers];
   std::int32_t flags[ElementCall::BlockNodes::most], result = ENTS_OK;
   const std::int64_t last = first + count;
