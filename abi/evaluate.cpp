@@ -6,6 +6,7 @@
 
 #include "abi/element_block.hpp"
 #include "abi/guard.hpp"
+#include "abi/stream_copy.hpp"
 
 namespace ents {
 
@@ -319,6 +320,7 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
                       leading_dimension(*model, *out) == plan->dofs;
   const std::int64_t most = mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, copies ? staged : count);
   BlockNodes nodes;
+  StreamCopy stream;
   std::int32_t result = ENTS_OK;
   PairBlock block = pair_block(*model, *in, *out, first);
   for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
@@ -331,7 +333,7 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
     }
     if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     const bool whole = copies && out->tangent_stride == entries && done == ~std::uint64_t{0} >> (64 - size);
-    if (whole) std::copy_n(tangents, size * entries, at(out->tangent, entries, first)); // long copies need not read what they overwrite
+    if (whole) stream(tangents, size * entries, at(out->tangent, entries, first));
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
         if (copies && !whole) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));

@@ -139,6 +139,16 @@ TEST_F(OrdinaryElements, HaveTheSameBitsInLongCalls) {
     ASSERT_EQ(std::memcmp(&tangent[e * padded], &all.tangent[e * 36], 36 * sizeof(double)), 0) << e;
     for (std::size_t i = 36; i < padded; ++i) ASSERT_EQ(tangent[e * padded + i], -7.0) << e;
   }
+  for (const std::size_t before : {8, 9, 15}) { // wherever the array begins, nothing beside it is written
+    std::vector<double> side_by_side(before + many * 36 + 8, -7.0);
+    out.tangent = side_by_side.data() + before, out.tangent_stride = 36;
+    ASSERT_EQ(ents_evaluate(model.handle(), 0, many, &in, &out, nullptr), ENTS_OK);
+    ASSERT_EQ(std::memcmp(out.tangent, all.tangent.data(), many * 36 * sizeof(double)), 0) << before;
+    for (std::size_t i = 0; i < 8; ++i) {
+      ASSERT_EQ(side_by_side[before - 1 - i], -7.0) << before;
+      ASSERT_EQ(side_by_side[before + many * 36 + i], -7.0) << before;
+    }
+  }
 }
 
 // A rigid master leaves the slave's own rows and columns.
