@@ -242,7 +242,7 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
       form_of_p<B, H>(p.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
       expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
-      for_each_dof(g, [] ENTS_LAMBDA_INLINE { return S(0.0); });
+      for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
     }
   }
 

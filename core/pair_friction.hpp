@@ -111,11 +111,11 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
       if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * friction.force[1];
       y[a] = -sum;
     }
-    in_part([&] ENTS_LAMBDA_INLINE {
+    in_part([&]() ENTS_LAMBDA_INLINE {
       const Drift drift(p, pair.xi, y);
       set_weights(stiffness, drift);
-      in_part([&] ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
-      if constexpr (turns) in_part([&] ENTS_LAMBDA_INLINE { set_height_terms(stiffness, drift); });
+      in_part([&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
+      if constexpr (turns) in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(stiffness, drift); });
     });
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
@@ -123,7 +123,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
       form_of_p<B, H>(p.s, (square_root(stiffness) * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
       expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
     } else {
-      for_each_dof(g, [] ENTS_LAMBDA_INLINE { return S(0.0); });
+      for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
     }
   }
 
