@@ -23,8 +23,8 @@ template <class B, bool H, class S> struct PairDrift {
 
   const PairProjector<B, H, S>& p;
   S y[T];
-  Surface<B, H, U> s;     // plain: d and e only
-  S f2[K];                // F_,xixi'
+  Surface<B, H, U> s;      // plain: d and e only
+  S f2[K];                 // F_,xixi'
   Shape<U, T, B::nodes> N; // of cubic bases, or where the height asks for it
 
   ENTS_INLINE PairDrift(const PairProjector<B, H, S>& projector, const S (&xi)[T], const S (&direction)[T]) : p(projector) {
@@ -206,18 +206,8 @@ private:
     U base[K];
     for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
     const S q2 = q * q;
-    const U inverse(q2, -2.0 * (area_rate * q) * q2);
-    if constexpr (T == 1) {
-      s.dual_metric[0] = inverse;
-    } else {
-      s.dual_metric[0] = base[2] * inverse;
-      s.dual_metric[1] = -base[1] * inverse;
-      s.dual_metric[2] = base[0] * inverse;
-    }
-    for (int a = 0; a < T; ++a) {
-      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
-      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
-    }
+    invert_metric(base, U(q2, -2.0 * (area_rate * q) * q2), s.dual_metric);
+    set_dual_tangents(s);
   }
 };
 

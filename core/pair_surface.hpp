@@ -129,13 +129,20 @@ template <class S> struct Rho<Quad4, S> {
   }
 };
 
-// The inverse of a metric whose determinant is `area2`
-template <class S> ENTS_INLINE void invert_metric(const S (&)[1], const S& area2, S (&inverse)[1]) { inverse[0] = unchecked_inverse(area2); }
-template <class S> ENTS_INLINE void invert_metric(const S (&m)[3], const S& area2, S (&inverse)[3]) {
-  const S q = unchecked_inverse(area2);
-  inverse[0] = m[2] * q;
-  inverse[1] = -m[1] * q;
-  inverse[2] = m[0] * q;
+// The inverse of a metric, with that of its determinant
+template <class S> ENTS_INLINE void invert_metric(const S (&)[1], const S& inverse_area2, S (&inverse)[1]) { inverse[0] = inverse_area2; }
+template <class S> ENTS_INLINE void invert_metric(const S (&m)[3], const S& inverse_area2, S (&inverse)[3]) {
+  inverse[0] = m[2] * inverse_area2;
+  inverse[1] = -m[1] * inverse_area2;
+  inverse[2] = m[0] * inverse_area2;
+}
+// a^a
+template <class B, bool H, class S> ENTS_INLINE void set_dual_tangents(Surface<B, H, S>& s) {
+  constexpr int T = B::dim - 1;
+  for (int a = 0; a < T; ++a) {
+    s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
+    if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
+  }
 }
 
 // What Newton's method needs at xi: F = d . d / 2, r_a = rho_e,a . d, F_,xixi and A_e.
@@ -209,20 +216,12 @@ template <class B, bool H, class S> struct PairProjector {
       S base[K];
       for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
       const S area2 = s.area * s.area;
-      dual_frame(base, area2);
+      invert_metric(base, unchecked_inverse(area2), s.dual_metric);
+      set_dual_tangents(s);
       return area2;
     } else {
       const Vec<S, D> m = normal_of_tangents(s.a);
       return dot(m, m);
-    }
-  }
-
-private:
-  ENTS_INLINE void dual_frame(const S (&base)[K], const S& area2) {
-    invert_metric(base, area2, s.dual_metric);
-    for (int a = 0; a < T; ++a) {
-      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
-      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
   }
 };
@@ -256,7 +255,7 @@ struct PairProjector<B, H, S> {
     }
     const Vec<S, D> m = normal_of_tangents(s.a);
     area2 = dot(m, m);
-    invert_metric(base, area2, s.dual_metric);
+    invert_metric(base, unchecked_inverse(area2), s.dual_metric);
     if constexpr (H) {
       s.area = square_root(area2);
       s.n = unchecked_inverse(s.area) * m;
@@ -267,11 +266,8 @@ struct PairProjector<B, H, S> {
     for (int a = 0; a < T; ++a) {
       foot[a] = s.dual_metric[symmetric_index(a, 0)] * along[0];
       if constexpr (T == 2) foot[a] = foot[a] + s.dual_metric[symmetric_index(a, 1)] * along[1];
-      if constexpr (H) {
-        s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
-        if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
-      }
     }
+    if constexpr (H) set_dual_tangents(s);
   }
 
   ENTS_INLINE void evaluate(const S (&xi)[T]) {
