@@ -45,6 +45,8 @@ public:
   double mean_surface_evaluations() const { return surface_evaluations_; }
   double* results() { return storage_.data(); } // RK: [elements][n], then [elements][n][n]
 
+  const ents_input& input() const { return input_; }
+  const ents_output& output() const { return output_; }
   const mechanics::Elements& elements() const { return elements_; }
   const mechanics::Model& model() const { return model_; }
   int dimension() const { return model_.dimension(); }

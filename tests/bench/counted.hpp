@@ -10,7 +10,7 @@ namespace ents::counted {
 struct Counted {
   double v;
   static inline std::int64_t operations = 0; // additions, multiplications, divisions, roots
-  Counted() = default;
+  Counted() : v(0.0) {}
   Counted(double x) : v(x) {}
   static Counted count(double x) {
     ++operations;

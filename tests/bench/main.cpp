@@ -14,6 +14,7 @@
 #include "cases.hpp"
 #include "detection.hpp"
 #include "differentiation.hpp"
+#include "limits.hpp"
 #include "peers.hpp"
 #include "roofline.hpp"
 #include "savings.hpp"
@@ -26,8 +27,8 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
-       ents-bench --detection[=N] | --roofline | --savings | --assembly
-       ents-bench --differentiation | --peers | --streaming[=N]
+       ents-bench --detection[=N] | --roofline | --limits | --savings
+       ents-bench --assembly | --differentiation | --peers | --streaming[=N]
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
@@ -42,6 +43,7 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --detection[=N]                 n slave nodes on surfaces of n = 1000, 10000 .. N segments (1000000 if not given): time and memory
                                   of the search, and their growth
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
+  --limits                        calls beside their kernels alone, their chains of operations, their stores and their arithmetic
   --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
   --streaming[=N]                 array calls of 100, 1000 .. N elements (1000000 if not given; up to 4 GB): cost with results in main memory
                                   beside the floor of its stores, with results in the same places, with these copied, and its growth
@@ -128,6 +130,10 @@ int main(int argc, char** argv) {
     if (argument == "--peers") return bench::run_peers(std::cout);
     if (argument == "--roofline") {
       bench::run_roofline(std::cout);
+      return 0;
+    }
+    if (argument == "--limits") {
+      bench::run_limits(std::cout);
       return 0;
     }
     if (argument == "--savings") {

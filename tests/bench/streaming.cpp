@@ -58,9 +58,8 @@ public:
   }
   std::int64_t count() const { return count_; }
   double bytes() const { return 8.0 * static_cast<double>(residual_stride_ + tangent_stride_); }
-  void store() {
-    store_all(first_, static_cast<std::size_t>(count_ * (residual_stride_ + tangent_stride_)), 1.0);
-  }
+  void store() { store_all(first_, entries(), 1.0); }
+  void store_past() { store_past_caches(first_, entries(), 1.0); }
 
   // n elements in one call, results one behind the other
   void stream(std::int64_t n) { evaluate(0, n, n, first_); }
@@ -82,6 +81,7 @@ public:
   }
 
 private:
+  std::size_t entries() const { return static_cast<std::size_t>(count_ * (residual_stride_ + tangent_stride_)); } // even: n (n + 1) is
   std::vector<double> repeated(const std::vector<double>& few, std::int64_t different) const {
     const std::size_t entries = few.size() / static_cast<std::size_t>(different);
     std::vector<double> many(static_cast<std::size_t>(count_) * entries);
@@ -115,15 +115,15 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       << rounds
       << " in turns)\n"
          "memory: one call for all, results one behind the other; floor: bytes of the results at the rate of "
-         "plain stores to the same memory\n"
+         "plain stores to the same memory; past: of stores past the caches\n"
          "reused: calls of "
       << per_call
       << ", results in the same places; copied: the same, each call's results then copied to main memory\n"
          "slope: of log time over log n, n = 10^2 .. "
       << most << "\n\n"
-      << std::setw(64) << "memory" << std::setw(26) << "reused"
+      << std::setw(71) << "memory" << std::setw(26) << "reused"
       << "\n"
-      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "floor" << std::setw(9) << "ns"
+      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "floor" << std::setw(7) << "past" << std::setw(9) << "ns"
       << std::setw(10) << "% stores" << std::setw(8) << "slope" << std::setw(8) << "copied"
       << "  ";
   std::vector<std::int64_t> sizes;
@@ -143,7 +143,7 @@ void run_streaming(std::ostream& out, std::int64_t most) {
   for (const Kind& kind : kinds) {
     const Job job({kind.basis, kind.enriched ? "enriched" : "plain", "RK", Call::various});
     Elements elements(job, kind.padding, most);
-    std::vector<std::function<void()>> pieces{[&] { elements.store(); }};
+    std::vector<std::function<void()>> pieces{[&] { elements.store(); }, [&] { elements.store_past(); }};
     std::vector<double> counts;
     for (std::int64_t n : sizes) {
       n = std::min(n, elements.count());
@@ -155,15 +155,16 @@ void run_streaming(std::ostream& out, std::int64_t most) {
     const std::vector<double> seconds = interleaved_seconds(pieces, rounds);
     std::vector<double> reused, streamed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      reused.push_back(seconds[1 + 2 * i]);
-      streamed.push_back(seconds[2 + 2 * i]);
+      reused.push_back(seconds[2 + 2 * i]);
+      streamed.push_back(seconds[3 + 2 * i]);
     }
     const double floor = 1e9 * seconds[0] / static_cast<double>(elements.count()),
+                 past = 1e9 * seconds[1] / static_cast<double>(elements.count()),
                  memory = 1e9 * streamed.back() / counts.back();
     out << std::left << std::setw(22)
         << kind.basis + (kind.enriched ? " enriched" : " plain") + (kind.padding ? ", padded" : "")
         << std::right << std::fixed << std::setprecision(0) << std::setw(9) << counts.back() << std::setw(7)
-        << elements.bytes() << std::setw(7) << floor << std::setw(9) << memory << std::setw(10)
+        << elements.bytes() << std::setw(7) << floor << std::setw(7) << past << std::setw(9) << memory << std::setw(10)
         << 100.0 * floor / memory << std::setprecision(2) << std::setw(8) << slope(counts, streamed)
         << std::setprecision(0) << std::setw(8)
         << 1e9 * seconds.back() / static_cast<double>(elements.count()) << std::setprecision(1) << "  ";

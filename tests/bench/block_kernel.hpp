@@ -1,0 +1,31 @@
+// The library's kernel of ordinary elements without the library's door: what ents_evaluate calls once it has checked a call.
+#pragma once
+
+#include "abi/handle.hpp"
+#include "cases.hpp"
+
+namespace bench {
+
+class BlockKernel {
+public:
+  // pairs: null: the job's own. The job must outlive it.
+  explicit BlockKernel(const Job& job, ents::PairKernel pairs = nullptr);
+
+  // All elements of the job, `some` per call. Throws if one is not ordinary.
+  void run(std::int32_t some);
+  // The same, and each call waits for the last number that the call before it wrote.
+  void run_in_turn(std::int32_t some);
+
+private:
+  const ents::Plan& plan_;
+  ents::PairKernel pairs_;
+  ents::PairBlock block_{};
+  std::int64_t count_;
+  const double* last_; // of element 0
+  std::int64_t last_stride_;
+};
+
+// Compiled with fused multiply-add; null where it is not built in (-DENTS_BENCH_FUSED=ON).
+ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction);
+
+} // namespace bench

@@ -1,0 +1,24 @@
+// The kernels once more, as they are not built: multiplications and additions fused where the compiler can, for this machine. What equal bits on every
+// machine cost.
+#include "block_kernel.hpp"
+
+#if defined(ENTS_BENCH_FUSED)
+#define ENTS_ISA fused
+#include "core/pair_table.hpp"
+
+namespace bench {
+
+ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
+  using namespace ents::fused;
+  if (basis == "line2") return pair_kernels_of<ents::Line2>.of[enriched][friction];
+  if (basis == "tri3") return pair_kernels_of<ents::Tri3>.of[enriched][friction];
+  if (basis == "quad4") return pair_kernels_of<ents::Quad4>.of[enriched][friction];
+  return nullptr;
+}
+
+} // namespace bench
+#else
+namespace bench {
+ents::PairKernel fused_kernel(const std::string&, bool, bool) { return nullptr; }
+} // namespace bench
+#endif
