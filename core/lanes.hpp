@@ -11,6 +11,10 @@
 #include "core/height.hpp"
 #include "core/scalar.hpp"
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 namespace ents::ENTS_ISA {
 
 // One truth of each element; for a double, of one: bool.
@@ -41,17 +45,22 @@ template <int W> struct Lanes; // where the compiler has them
 #if defined(__GNUC__) && !defined(__clang__)
 #define ENTS_HAS_LANES 1
 
+// halves: two half registers that lie apart in memory, as one. Reading does what an exchange between registers would.
 template <int W> struct VectorOf;
 template <> struct VectorOf<2> {
   typedef double Numbers __attribute__((vector_size(16)));
   typedef long long Integers __attribute__((vector_size(16)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x}; }
+  static ENTS_INLINE Numbers halves(const double* low, const double* high) { return Numbers{*low, *high}; }
 };
 #if defined(__AVX__)
 template <> struct VectorOf<4> {
   typedef double Numbers __attribute__((vector_size(32)));
   typedef long long Integers __attribute__((vector_size(32)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x}; }
+  static ENTS_INLINE Numbers halves(const double* low, const double* high) {
+    return (Numbers)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
+  }
 };
 #endif
 #if defined(__AVX512F__)
@@ -59,6 +68,9 @@ template <> struct VectorOf<8> {
   typedef double Numbers __attribute__((vector_size(64)));
   typedef long long Integers __attribute__((vector_size(64)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x, x, x, x, x}; }
+  static ENTS_INLINE Numbers halves(const double* low, const double* high) {
+    return (Numbers)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+  }
 };
 #endif
 
@@ -106,7 +118,14 @@ template <int W> ENTS_INLINE Lanes<W> minus_value(Lanes<W> a, Lanes<W> b) { retu
 template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(c.v ? a.v : b.v, 0); }
 template <int W> ENTS_INLINE double lane(const Lanes<W>& x, int k) { return x.v[k]; }
 template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x.v[k] = value; }
+// One instruction: as a loop over lanes GCC would make W scalar roots of it.
 template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
+#if defined(__AVX512F__)
+  if constexpr (W == 8) return Lanes<W>((typename Lanes<W>::Numbers)_mm512_sqrt_pd((__m512d)a.v), 0);
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return Lanes<W>((typename Lanes<W>::Numbers)_mm256_sqrt_pd((__m256d)a.v), 0);
+#endif
   Lanes<W> r;
   for (int k = 0; k < W; ++k) r.v[k] = __builtin_sqrt(a.v[k]);
   return r;

@@ -92,11 +92,12 @@ template <int N> struct KeptAt {
 };
 template <int N> inline constexpr KeptAt<N> kept_table{};
 
-template <int W> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W]) {
+// A square of W x W numbers. `First` 1: halves have been exchanged already.
+template <int W, int First = 0> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W]) {
   using V = typename VectorOf<W>::Numbers;
   using I = typename VectorOf<W>::Integers;
-  unroll<W == 8 ? 3 : W == 4 ? 2 : 1>([&](auto stage) ENTS_LAMBDA_INLINE {
-    constexpr int distance = W >> (stage.value + 1);
+  unroll<(W == 8 ? 3 : W == 4 ? 2 : 1) - First>([&](auto stage) ENTS_LAMBDA_INLINE {
+    constexpr int distance = W >> (stage.value + First + 1);
     I low, high;
     for (int k = 0; k < W; ++k) {
       low[k] = k & distance ? W + k - distance : k;
@@ -112,7 +113,17 @@ template <int W> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W
   });
 }
 
-// Entries 0 .. Count - 1 of all lanes, entry(i) each, to to[lane][0 .. Count - 1].
+// Rows of W numbers, row(k) where the k-th lies in memory, as columns.
+template <int W, class Row> ENTS_INLINE void read_transposed(Row&& row, typename VectorOf<W>::Numbers (&r)[W]) {
+  unroll<W / 2>([&](auto k) ENTS_LAMBDA_INLINE {
+    const double *a = row(k), *b = row(k + W / 2);
+    r[k] = VectorOf<W>::halves(a, b);
+    r[k + W / 2] = VectorOf<W>::halves(a + W / 2, b + W / 2);
+  });
+  transpose<W, 1>(r);
+}
+
+// Entries 0 .. Count - 1 of all lanes, entry(i) each (a reference: it lies in memory), to to[lane][0 .. Count - 1].
 template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* const (&to)[W], Entry&& entry) {
   typename VectorOf<W>::Numbers r[W];
   if constexpr (Count < W) {
@@ -122,8 +133,12 @@ template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* co
   } else {
     for (int at = 0; at < Count; at += W) {
       const int first = at + W <= Count ? at : Count - W;
-      for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
-      transpose<W>(r);
+      if constexpr (std::is_reference_v<decltype(entry(0))>) {
+        read_transposed<W>([&](int i) ENTS_LAMBDA_INLINE { return reinterpret_cast<const double*>(&entry(first + i)); }, r);
+      } else {
+        for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
+        transpose<W>(r);
+      }
       for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
     }
   }
@@ -145,8 +160,7 @@ template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&fr
     unroll<pieces(Count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
       constexpr int first = piece_at(Count, W, piece.value);
       typename VectorOf<W>::Numbers r[W];
-      for (int k = 0; k < W; ++k) std::memcpy(&r[k], from[k] + first, sizeof r[k]);
-      transpose<W>(r);
+      read_transposed<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k] + first; }, r);
       for (int i = 0; i < W; ++i) out[first + i].v = r[i];
     });
   }
@@ -198,7 +212,7 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
     for (int j = 0; j < N; ++j)
       for (int i = Tangent::symmetric ? j : 0; i < N; ++i, ++entry) *entry = *entry + t.g[i] * t.g[j];
   }
-  const auto entry_at = [&](int i) ENTS_LAMBDA_INLINE {
+  const auto entry_at = [&](int i) ENTS_LAMBDA_INLINE -> const S& {
     if constexpr (Tangent::symmetric) return kept[kept_table<N>.of[i]];
     else return kept[i];
   };
@@ -213,7 +227,8 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
       return t.template add_rest<S>(entry_at(N * j + i), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
     };
     if (Tangent::has_rest && t.curved_law) write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; });
-    else write_lanes<N>(column, at_row);
+    else if constexpr (Tangent::has_rest) write_lanes<N>(column, at_row);
+    else write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entry_at(N * j + i); });
   }
 }
 

@@ -10,9 +10,9 @@ namespace bench {
 
 ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
   using namespace ents::fused;
-  if (basis == "line2") return pair_kernels_of<ents::Line2>.of[enriched][friction];
-  if (basis == "tri3") return pair_kernels_of<ents::Tri3>.of[enriched][friction];
-  if (basis == "quad4") return pair_kernels_of<ents::Quad4>.of[enriched][friction];
+  if (basis == "line2") return pair_kernels_of<Line2>.of[enriched][friction];
+  if (basis == "tri3") return pair_kernels_of<Tri3>.of[enriched][friction];
+  if (basis == "quad4") return pair_kernels_of<Quad4>.of[enriched][friction];
   return nullptr;
 }
 
