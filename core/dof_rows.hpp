@@ -102,8 +102,11 @@ template <int D, int W, int At> struct DofPiece {
     return weights_of<Slave>(n, std::make_integer_sequence<int, W>());
   }
   static ENTS_INLINE R where_slave(const R& slave, const R& other) {
-    LaneTruth<W> here;
-    for (int k = 0; k < W; ++k) here.v[k] = node(k) < 0 ? -1 : 0;
+    LaneTruth<W> here{};
+    for (int k = 0; k < W; ++k) {
+      if constexpr (has_masks<W>) here.v = static_cast<decltype(here.v)>(here.v | (node(k) < 0) << k);
+      else here.v[k] = node(k) < 0 ? -1 : 0;
+    }
     return select(here, slave, other);
   }
 

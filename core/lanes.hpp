@@ -10,6 +10,7 @@
 #include "core/elementary.hpp"
 #include "core/height.hpp"
 #include "core/scalar.hpp"
+#include "core/vec.hpp"
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -74,22 +75,54 @@ template <> struct VectorOf<8> {
 };
 #endif
 
+#if defined(__AVX512DQ__)
+#define ENTS_HAS_MASKS 1
+#endif
 template <int W> struct LaneTruth {
   typename VectorOf<W>::Integers v; // -1 or 0
 };
-template <int W> ENTS_INLINE LaneTruth<W> both(LaneTruth<W> a, LaneTruth<W> b) { return {a.v & b.v}; }
-template <int W> ENTS_INLINE LaneTruth<W> either(LaneTruth<W> a, LaneTruth<W> b) { return {a.v | b.v}; }
-template <int W> ENTS_INLINE LaneTruth<W> without(LaneTruth<W> a, LaneTruth<W> b) { return {a.v & ~b.v}; }
+#if defined(ENTS_HAS_MASKS)
+template <> struct LaneTruth<8> {
+  __mmask8 v; // a bit of each lane
+};
+#endif
+template <int W> inline constexpr bool has_masks = sizeof(LaneTruth<W>) == 1;
+
+template <int W> ENTS_INLINE LaneTruth<W> less(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
+#if defined(ENTS_HAS_MASKS)
+  if constexpr (has_masks<W>) return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OS)};
+  else
+#endif
+  return {a < b};
+}
+template <int W> ENTS_INLINE LaneTruth<W> less_or_equal(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
+#if defined(ENTS_HAS_MASKS)
+  if constexpr (has_masks<W>) return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OS)};
+  else
+#endif
+  return {a <= b};
+}
+template <int W> ENTS_INLINE typename VectorOf<W>::Numbers chosen(LaneTruth<W> c, typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
+#if defined(ENTS_HAS_MASKS)
+  if constexpr (has_masks<W>) return (typename VectorOf<W>::Numbers)_mm512_mask_blend_pd(c.v, (__m512d)b, (__m512d)a);
+  else
+#endif
+  return c.v ? a : b;
+}
+template <int W> ENTS_INLINE LaneTruth<W> both(LaneTruth<W> a, LaneTruth<W> b) { return {static_cast<decltype(a.v)>(a.v & b.v)}; }
+template <int W> ENTS_INLINE LaneTruth<W> either(LaneTruth<W> a, LaneTruth<W> b) { return {static_cast<decltype(a.v)>(a.v | b.v)}; }
+template <int W> ENTS_INLINE LaneTruth<W> without(LaneTruth<W> a, LaneTruth<W> b) { return {static_cast<decltype(a.v)>(a.v & ~b.v)}; }
 template <int W> ENTS_INLINE std::uint32_t bits_of(LaneTruth<W> a) {
-#if defined(__AVX512DQ__)
-  if constexpr (W == 8) return __builtin_ia32_cvtq2mask512(a.v);
-#endif
+  if constexpr (has_masks<W>) {
+    return a.v;
+  } else {
 #if defined(__AVX__)
-  if constexpr (W == 4) return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256((typename VectorOf<W>::Numbers)a.v));
+    if constexpr (W == 4) return static_cast<std::uint32_t>(__builtin_ia32_movmskpd256((typename VectorOf<W>::Numbers)a.v));
 #endif
-  std::uint32_t bits = 0;
-  for (int k = 0; k < W; ++k) bits |= (a.v[k] != 0 ? 1u : 0u) << k;
-  return bits;
+    std::uint32_t bits = 0;
+    for (int k = 0; k < W; ++k) bits |= (a.v[k] != 0 ? 1u : 0u) << k;
+    return bits;
+  }
 }
 template <int W> ENTS_INLINE bool any(LaneTruth<W> a) { return bits_of(a) != 0; }
 template <int W> ENTS_INLINE bool every(LaneTruth<W> a) { return bits_of(a) == (1u << W) - 1; }
@@ -106,16 +139,16 @@ template <int W> struct Lanes {
   friend ENTS_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v, 0); }
   friend ENTS_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v, 0); }
   friend ENTS_INLINE Lanes operator-(Lanes a) { return Lanes(-a.v, 0); }
-  friend ENTS_INLINE LaneTruth<W> operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
-  friend ENTS_INLINE LaneTruth<W> operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
-  friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return {a.v <= b.v}; }
-  friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return {a.v >= b.v}; }
+  friend ENTS_INLINE LaneTruth<W> operator<(Lanes a, Lanes b) { return less<W>(a.v, b.v); }
+  friend ENTS_INLINE LaneTruth<W> operator>(Lanes a, Lanes b) { return less<W>(b.v, a.v); }
+  friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return less_or_equal<W>(a.v, b.v); }
+  friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return less_or_equal<W>(b.v, a.v); }
 };
 template <int W> inline constexpr int lane_count<Lanes<W>> = W;
 
 template <int W> ENTS_INLINE Lanes<W> value_of(Lanes<W> a) { return a; }
 template <int W> ENTS_INLINE Lanes<W> minus_value(Lanes<W> a, Lanes<W> b) { return a - b; }
-template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(c.v ? a.v : b.v, 0); }
+template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(chosen(c, a.v, b.v), 0); }
 template <int W> ENTS_INLINE double lane(const Lanes<W>& x, int k) { return x.v[k]; }
 template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x.v[k] = value; }
 // One instruction: as a loop over lanes GCC would make W scalar roots of it.
@@ -199,22 +232,53 @@ template <int W> ENTS_INLINE Dual<Lanes<W>> operator*(Lanes<W> a, Dual<Lanes<W>>
 template <int W> ENTS_INLINE Dual<Lanes<W>> operator+(Dual<Lanes<W>> a, Lanes<W> b) { return {a.v + b, a.d}; }
 template <int W> ENTS_INLINE Dual<Lanes<W>> operator+(Lanes<W> a, Dual<Lanes<W>> b) { return {a + b.v, b.d}; }
 
+// Count registers, numbers that are `Distance`, then half of it, .. apart exchanged: squares of 2 Distance numbers in them are transposed.
+template <int W, int Distance, int Count> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[Count]) {
+  if constexpr (Distance > 0) {
+    using V = typename VectorOf<W>::Numbers;
+    using I = typename VectorOf<W>::Integers;
+    I low, high;
+    for (int k = 0; k < W; ++k) {
+      low[k] = k & Distance ? W + k - Distance : k;
+      high[k] = k & Distance ? W + k : k + Distance;
+    }
+    unroll<Count>([&](auto i) ENTS_LAMBDA_INLINE {
+      if constexpr ((i.value & Distance) == 0) {
+        const V a = r[i], b = r[i + Distance];
+        r[i] = __builtin_shuffle(a, b, low);
+        r[i + Distance] = __builtin_shuffle(a, b, high);
+      }
+    });
+    transpose<W, Distance / 2>(r);
+  }
+}
+// W rows of Count numbers, W or half of it, as columns; the k-th row lies at row(k).
+template <int W, int Count, class Row> ENTS_INLINE void read_transposed(Row&& row, typename VectorOf<W>::Numbers (&r)[Count]) {
+  constexpr int half = W / 2;
+  unroll<half>([&](auto k) ENTS_LAMBDA_INLINE {
+    const double *a = row(k), *b = row(k + half);
+    unroll<Count / half>([&](auto part) ENTS_LAMBDA_INLINE { r[k + part * half] = VectorOf<W>::halves(a + part * half, b + part * half); });
+  });
+  transpose<W, half / 2>(r);
+}
+
 // Coefficients of each lane's cell.
 template <int W> ENTS_INLINE void load_cell(const double* coefficients, Lanes<W> cell, Lanes<W> (&c)[4]) {
-  for (int k = 0; k < W; ++k) {
-    double of_lane[4];
-    load_cell(coefficients, cell.v[k], of_lane);
-    for (int i = 0; i < 4; ++i) c[i].v[k] = of_lane[i];
+  static_assert(W == 2 || W == 4 || W == 8);
+  const double* at[W];
+  for (int k = 0; k < W; ++k) at[k] = coefficients + static_cast<std::int64_t>(cell.v[k]) - 1;
+  if constexpr (W == 2) {
+    for (int i = 0; i < 4; ++i) c[i].v = VectorOf<W>::halves(at[0] + i, at[1] + i);
+  } else {
+    typename VectorOf<W>::Numbers r[4];
+    read_transposed<W>([&](int k) ENTS_LAMBDA_INLINE { return at[k]; }, r);
+    for (int i = 0; i < 4; ++i) c[i].v = r[i];
   }
 }
 template <int W>
 ENTS_INLINE void load_cell(const double* coefficients, std::int64_t row_stride, Lanes<W> cell_1, Lanes<W> cell_2, Lanes<W> (&c)[4][4]) {
-  for (int k = 0; k < W; ++k) {
-    double of_lane[4][4];
-    load_cell(coefficients, row_stride, cell_1.v[k], cell_2.v[k], of_lane);
-    for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i) c[j][i].v[k] = of_lane[j][i];
-  }
+  const Lanes<W> corner = cell_1 + (cell_2 - 1.0) * static_cast<double>(row_stride); // exact
+  for (int j = 0; j < 4; ++j) load_cell(coefficients + j * row_stride, corner, c[j]);
 }
 template <class S> ENTS_INLINE void load_cell(const double* coefficients, Twice<S> cell, Twice<S> (&c)[4]) {
   S low[4], high[4];

@@ -16,14 +16,19 @@ template <int D> ENTS_INLINE double where_component(double x, int row, int c) { 
 #if defined(ENTS_HAS_LANES)
 template <int D> struct ComponentPattern {
   long long of[D + 8]; // -1 where a row belongs to component 0
-  constexpr ComponentPattern() : of() {
+  std::uint8_t mask[D]; // of eight rows, bits
+  constexpr ComponentPattern() : of(), mask() {
     for (int i = 0; i < D + 8; ++i) of[i] = i % D == 0 ? -1 : 0;
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < 8; ++k) mask[i] = static_cast<std::uint8_t>(mask[i] | ((i + k) % D == 0) << k);
   }
 };
 template <int D> inline constexpr ComponentPattern<D> component_pattern{};
 template <int D, int W> ENTS_INLINE Lanes<W> where_component(const Lanes<W>& x, int row, int c) {
+  const int at = (row + D - c) % D;
   LaneTruth<W> mine;
-  std::memcpy(&mine, component_pattern<D>.of + (row + D - c) % D, sizeof mine);
+  if constexpr (has_masks<W>) mine.v = component_pattern<D>.mask[at];
+  else std::memcpy(&mine, component_pattern<D>.of + at, sizeof mine);
   return select(mine, x, Lanes<W>(0.0));
 }
 #endif
@@ -92,43 +97,12 @@ template <int N> struct KeptAt {
 };
 template <int N> inline constexpr KeptAt<N> kept_table{};
 
-// A square of W x W numbers. `First` 1: halves have been exchanged already.
-template <int W, int First = 0> ENTS_INLINE void transpose(typename VectorOf<W>::Numbers (&r)[W]) {
-  using V = typename VectorOf<W>::Numbers;
-  using I = typename VectorOf<W>::Integers;
-  unroll<(W == 8 ? 3 : W == 4 ? 2 : 1) - First>([&](auto stage) ENTS_LAMBDA_INLINE {
-    constexpr int distance = W >> (stage.value + First + 1);
-    I low, high;
-    for (int k = 0; k < W; ++k) {
-      low[k] = k & distance ? W + k - distance : k;
-      high[k] = k & distance ? W + k : k + distance;
-    }
-    unroll<W>([&](auto i) ENTS_LAMBDA_INLINE {
-      if constexpr ((i.value & distance) == 0) {
-        const V a = r[i], b = r[i + distance];
-        r[i] = __builtin_shuffle(a, b, low);
-        r[i + distance] = __builtin_shuffle(a, b, high);
-      }
-    });
-  });
-}
-
-// Rows of W numbers, row(k) where the k-th lies in memory, as columns.
-template <int W, class Row> ENTS_INLINE void read_transposed(Row&& row, typename VectorOf<W>::Numbers (&r)[W]) {
-  unroll<W / 2>([&](auto k) ENTS_LAMBDA_INLINE {
-    const double *a = row(k), *b = row(k + W / 2);
-    r[k] = VectorOf<W>::halves(a, b);
-    r[k + W / 2] = VectorOf<W>::halves(a + W / 2, b + W / 2);
-  });
-  transpose<W, 1>(r);
-}
-
 // Entries 0 .. Count - 1 of all lanes, entry(i) each (a reference: it lies in memory), to to[lane][0 .. Count - 1].
 template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* const (&to)[W], Entry&& entry) {
   typename VectorOf<W>::Numbers r[W];
   if constexpr (Count < W) {
     for (int i = 0; i < W; ++i) r[i] = entry(i < Count ? i : Count - 1).v;
-    transpose<W>(r);
+    transpose<W, W / 2>(r);
     for (int k = 0; k < W; ++k) std::memcpy(to[k], &r[k], sizeof(double) * Count);
   } else {
     for (int at = 0; at < Count; at += W) {
@@ -137,7 +111,7 @@ template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* co
         read_transposed<W>([&](int i) ENTS_LAMBDA_INLINE { return reinterpret_cast<const double*>(&entry(first + i)); }, r);
       } else {
         for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
-        transpose<W>(r);
+        transpose<W, W / 2>(r);
       }
       for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
     }
@@ -173,7 +147,7 @@ template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&num
     constexpr int p = piece.value, first = piece_at(N, W, p);
     typename VectorOf<W>::Numbers r[W];
     for (int i = 0; i < W; ++i) r[i] = numbers[first + i].v;
-    transpose<W>(r);
+    transpose<W, W / 2>(r);
     for (int k = 0; k < W; ++k) set_piece<p>(to(k), Lanes<W>(r[k], 0));
   });
 }
