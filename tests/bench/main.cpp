@@ -50,7 +50,8 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
                                   differs by more than 1e-9
-  --peers                         CalculiX's contact spring against a quad4; if it is built in, else how; fails if its forces are others
+  --peers                         CalculiX's contact spring against a quad4, the IPC Toolkit's pairs against tri3, quad4 and line2; those
+                                  that are built in, of the others how; fails if their forces are others
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only

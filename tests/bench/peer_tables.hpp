@@ -10,6 +10,7 @@ namespace bench {
 
 // False if the forces are not those of the library.
 bool print_calculix(std::ostream& out);
+bool print_ipc(std::ostream& out);
 
 // "compiled for this machine", or not
 extern const char peers_compiled[];

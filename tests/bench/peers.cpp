@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calculix.hpp"
+#include "ipc_pair.hpp"
 #include "peer_tables.hpp"
 
 namespace bench {
@@ -22,6 +23,14 @@ constexpr char how_to_get_calculix[] =
 CMake is told where the sources of ccx are:
   sh adapters/calculix/run.sh --only-build     (or: apt-get source calculix-ccx)
   cmake -S . -B build -DENTS_CCX_SOURCE="$(dirname "$(find build/calculix -name springforc_n2f.f)")"
+  cmake --build build --target ents-bench
+)help";
+
+constexpr char how_to_get_ipc[] =
+    R"help(The IPC Toolkit is not in this program. Its barrier and friction potentials (MIT, not part of this project) are built in when CMake is
+told where a checkout is; they need Eigen and the headers of TBB (libeigen3-dev, libtbb-dev):
+  git clone https://github.com/ipc-sim/ipc-toolkit && git -C ipc-toolkit checkout b40e9c07
+  cmake -S . -B build -DENTS_IPC_SOURCE="$PWD/ipc-toolkit"
   cmake --build build --target ents-bench
 )help";
 
@@ -50,11 +59,17 @@ void print_peer_row(std::ostream& out, const std::string& name, double single, d
 }
 
 int run_peers(std::ostream& out) {
-  if (!CalculixSpring::available()) {
-    out << how_to_get_calculix;
-    return 2;
-  }
-  return print_calculix(out) ? 0 : 1;
+  const bool calculix = CalculixSpring::available(), ipc = IpcPair::available();
+  bool same = true;
+  if (calculix) same = print_calculix(out);
+  if (calculix && ipc) out << "\n\n";
+  if (ipc) same = print_ipc(out) && same;
+  if (calculix != ipc) out << "\n";
+  if (!calculix) out << how_to_get_calculix;
+  if (!calculix && !ipc) out << "\n";
+  if (!ipc) out << how_to_get_ipc;
+  if (!calculix && !ipc) return 2;
+  return same ? 0 : 1;
 }
 
 } // namespace bench
