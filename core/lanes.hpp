@@ -12,6 +12,7 @@
 #include "core/scalar.hpp"
 #include "core/vec.hpp"
 
+// (Intrinsics of eight lanes with a mask of all of them: GCC 12 warns falsely of those without.)
 #if defined(__AVX__)
 #include <immintrin.h>
 #endif
@@ -70,7 +71,7 @@ template <> struct VectorOf<8> {
   typedef long long Integers __attribute__((vector_size(64)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x, x, x, x, x}; }
   static ENTS_INLINE Numbers halves(const double* low, const double* high) {
-    return (Numbers)_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+    return (Numbers)_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
   }
 };
 #endif
@@ -154,7 +155,7 @@ template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x
 // One instruction: as a loop over lanes GCC would make W scalar roots of it.
 template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
 #if defined(__AVX512F__)
-  if constexpr (W == 8) return Lanes<W>((typename Lanes<W>::Numbers)_mm512_sqrt_pd((__m512d)a.v), 0);
+  if constexpr (W == 8) return Lanes<W>((typename Lanes<W>::Numbers)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v), 0);
 #endif
 #if defined(__AVX__)
   if constexpr (W == 4) return Lanes<W>((typename Lanes<W>::Numbers)_mm256_sqrt_pd((__m256d)a.v), 0);
