@@ -307,8 +307,10 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pa
     tangent<F, Rigid>(plan, p, f, t);
     double* out[W];
     places(block.tangent, block.tangent_stride, out);
-    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries.
-    if constexpr (!TangentOf<F, Rigid, B, H, S>::turns && N >= W) {
+    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries, unless more than a
+    // quarter of eight lanes would be computed twice.
+    constexpr bool one_by_one = !TangentOf<F, Rigid, B, H, S>::turns && N >= W && (W < 8 || 4 * pieces(N, W) * W <= 5 * N);
+    if constexpr (one_by_one) {
       TangentOf<F, Rigid, B, H, double> one[W];
       t.hand_out_lanes(one);
       for (int k = 0; k < W; ++k)
