@@ -6,7 +6,8 @@
 
 #include "abi/element_block.hpp"
 #include "abi/guard.hpp"
-#include "abi/stream_copy.hpp"
+#include "core/pair_kernels.hpp"
+#include "core/past_caches.hpp"
 
 namespace ents {
 
@@ -312,15 +313,22 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
   const bool mixed = known == 0 || known != out->wanted;
   // Tangents that no cache holds are written block by block into one that does, and copied from there: an element per lane, they would
   // be written a piece here and a piece there.
-  constexpr std::int64_t cached = 8192, beyond_caches = std::int64_t{1} << 19; // numbers
+  constexpr std::int64_t room = 8192, nearest = 2304, beyond_caches = std::int64_t{1} << 19; // numbers: here, in the first cache, in all
   const std::int64_t entries = std::int64_t{plan->dofs} * plan->dofs;
-  double tangents[cached];
-  const std::int64_t staged = cached / entries & ~std::int64_t{7}; // whole registers
-  const bool copies = !mixed && (known & want::tangent) != 0 && staged > 0 && count > beyond_caches / entries &&
+  alignas(64) double tangents[room];
+  // whole registers; few, so that computing the next ones overlaps with what the memory still has to take of these
+  const std::int64_t staged = std::max<std::int64_t>(8, nearest / entries & ~std::int64_t{7});
+  const bool copies = !mixed && (known & want::tangent) != 0 && staged * entries <= room && count > beyond_caches / entries &&
                       leading_dimension(*model, *out) == plan->dofs;
   const std::int64_t most = mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, copies ? staged : count);
   BlockNodes nodes;
-  StreamCopy stream;
+  const auto copy_past_caches = best_pair_kernels().copy_past_caches;
+  struct Finish {
+    bool copies;
+    ~Finish() {
+      if (copies) portable::finish_past_caches();
+    }
+  } const finish{copies};
   std::int32_t result = ENTS_OK;
   PairBlock block = pair_block(*model, *in, *out, first);
   for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
@@ -333,7 +341,7 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
     }
     if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     const bool whole = copies && out->tangent_stride == entries && done == ~std::uint64_t{0} >> (64 - size);
-    if (whole) stream(tangents, size * entries, at(out->tangent, entries, first));
+    if (whole) copy_past_caches(tangents, size * entries, at(out->tangent, entries, first));
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
         if (copies && !whole) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));

@@ -223,6 +223,18 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
 }
 
 #if defined(ENTS_HAS_LANES)
+// `size` numbers of each of W elements will be read soon.
+template <int W> ENTS_INLINE void prefetch(const double* from, std::int64_t stride, std::int64_t size) {
+  constexpr std::int64_t line = 64 / sizeof(double);
+  const std::int64_t all = (W - 1) * stride + size;
+  if (all <= 2 * W * size) {
+    for (std::int64_t i = 0; i < all; i += line) __builtin_prefetch(from + i);
+  } else {
+    for (int k = 0; k < W; ++k)
+      for (std::int64_t i = 0; i < size; i += line) __builtin_prefetch(from + k * stride + i);
+  }
+}
+
 // Inputs of W elements from e on.
 template <class B, bool H, int W> struct PairLanes {
   static constexpr int D = B::dim, T = D - 1;
@@ -233,6 +245,7 @@ template <class B, bool H, int W> struct PairLanes {
 
   ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
     static const double centre[T] = {};
+    prefetch_inputs(plan, block, e + 2 * W);
     // nothing but a number to be looked at
     const bool plain_start = block.start && !block.state_begin && (H || !block.surface_coordinates);
     const double *start[W], *slave[W], *master[W];
@@ -262,6 +275,20 @@ template <class B, bool H, int W> struct PairLanes {
       if constexpr (T == 2) zero = zero + 0.0 * xi[1];
       known = bits_of(zero >= 0.0);
     }
+  }
+
+private:
+  // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight ends with every page.
+  static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
+    const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
+      if (data) prefetch<W>(data + e * stride, stride, size);
+    };
+    soon(block.slave, block.slave_stride, D);
+    soon(block.master, block.master_stride, D * B::nodes);
+    soon(block.surface_coordinates, block.surface_coordinates_stride, T * B::nodes);
+    soon(block.start, block.start_stride, T);
+    soon(block.area, block.area_stride, 1);
+    soon(block.state_begin, block.state_begin_stride, plan.state.size);
   }
 };
 

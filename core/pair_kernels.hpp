@@ -17,6 +17,7 @@ struct PairKernelsOfBasis {
 struct PairKernels {
   const char* instruction_set;
   const PairKernelsOfBasis& (*of_basis)(Basis);
+  void (*copy_past_caches)(const double* from, std::int64_t count, double* to); // see past_caches.hpp
 };
 namespace portable {
 extern const PairKernels pair_kernels;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ordinary elements of segments. Compiled once per instruction set.
 #include "core/pair_table.hpp"
+#include "core/past_caches.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -21,6 +22,7 @@ extern const PairKernels pair_kernels = {
       case Basis::quad9: return pair_kernels_of<Quad9>;
       default: return pair_kernels_of_patch(basis);
       }
-    }};
+    },
+    copy_past_caches};
 
 } // namespace ents::ENTS_ISA

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copies to memory that nobody reads soon: past the caches where the processor can, so that what is overwritten need not be read first.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "core/scalar.hpp"
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#elif defined(__SSE2__) || defined(_M_X64)
+#include <emmintrin.h>
+#endif
+
+namespace ents::ENTS_ISA {
+
+#if defined(__AVX512F__)
+inline constexpr int past_caches_width = 8;
+ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm512_stream_pd(to, _mm512_loadu_pd(from)); }
+#elif defined(__AVX__)
+inline constexpr int past_caches_width = 4;
+ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm256_stream_pd(to, _mm256_loadu_pd(from)); }
+#elif defined(__SSE2__) || defined(_M_X64)
+inline constexpr int past_caches_width = 2;
+ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm_stream_pd(to, _mm_loadu_pd(from)); }
+#else
+inline constexpr int past_caches_width = 1;
+ENTS_INLINE void store_past_caches(double* to, const double* from) { *to = *from; }
+#endif
+
+// Another thread sees what is copied after finish_past_caches() of the copying one.
+inline void copy_past_caches(const double* from, std::int64_t count, double* to) {
+  constexpr std::int64_t line = 64 / sizeof(double); // a part of a line costs more than a store through the caches
+  const auto copy = [=](std::int64_t begin, std::int64_t end) { std::memcpy(to + begin, from + begin, sizeof(double) * static_cast<std::size_t>(end - begin)); };
+  const std::int64_t before = static_cast<std::int64_t>(-reinterpret_cast<std::uintptr_t>(to) % 64 / sizeof(double));
+  const std::int64_t first = before < count ? before : count, last = first + (count - first) / line * line;
+  copy(0, first);
+  for (std::int64_t i = first; i < last; i += past_caches_width) store_past_caches(to + i, from + i);
+  copy(last, count);
+}
+inline void finish_past_caches() {
+#if defined(__SSE2__) || defined(_M_X64)
+  _mm_sfence();
+#endif
+}
+
+} // namespace ents::ENTS_ISA
