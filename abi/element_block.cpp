@@ -85,10 +85,10 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
   if (first < 0 || count < 1 || first > most || count > most) return false;
   if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin)) return false;
   const bool one = first + count == 1; // its strides are of no meaning
-  const auto shared = [one](const void* data, std::int64_t stride, std::int64_t size) {
+  const auto shared = [one](const void* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
     return !data || one || stride == 0 || (stride >= size && stride < most);
   };
-  const auto own = [wanted, one](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size) {
+  const auto own = [wanted, one](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
     return (wanted & bit) == 0 || (data && (one || (stride >= size && stride < most)));
   };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, n = plan.dofs;

@@ -89,19 +89,14 @@ template <> struct LaneTruth<8> {
 #endif
 template <int W> inline constexpr bool has_masks = sizeof(LaneTruth<W>) == 1;
 
-template <int W> ENTS_INLINE LaneTruth<W> less(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
+// a < b, or a <= b
+template <int W, bool OrEqual> ENTS_INLINE LaneTruth<W> is_less(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
 #if defined(ENTS_HAS_MASKS)
-  if constexpr (has_masks<W>) return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OS)};
+  if constexpr (has_masks<W>) return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, OrEqual ? _CMP_LE_OS : _CMP_LT_OS)};
   else
 #endif
-  return {a < b};
-}
-template <int W> ENTS_INLINE LaneTruth<W> less_or_equal(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
-#if defined(ENTS_HAS_MASKS)
-  if constexpr (has_masks<W>) return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LE_OS)};
-  else
-#endif
-  return {a <= b};
+  if constexpr (OrEqual) return {a <= b};
+  else return {a < b};
 }
 template <int W> ENTS_INLINE typename VectorOf<W>::Numbers chosen(LaneTruth<W> c, typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
 #if defined(ENTS_HAS_MASKS)
@@ -140,10 +135,10 @@ template <int W> struct Lanes {
   friend ENTS_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v, 0); }
   friend ENTS_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v, 0); }
   friend ENTS_INLINE Lanes operator-(Lanes a) { return Lanes(-a.v, 0); }
-  friend ENTS_INLINE LaneTruth<W> operator<(Lanes a, Lanes b) { return less<W>(a.v, b.v); }
-  friend ENTS_INLINE LaneTruth<W> operator>(Lanes a, Lanes b) { return less<W>(b.v, a.v); }
-  friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return less_or_equal<W>(a.v, b.v); }
-  friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return less_or_equal<W>(b.v, a.v); }
+  friend ENTS_INLINE LaneTruth<W> operator<(Lanes a, Lanes b) { return is_less<W, false>(a.v, b.v); }
+  friend ENTS_INLINE LaneTruth<W> operator>(Lanes a, Lanes b) { return is_less<W, false>(b.v, a.v); }
+  friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return is_less<W, true>(a.v, b.v); }
+  friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return is_less<W, true>(b.v, a.v); }
 };
 template <int W> inline constexpr int lane_count<Lanes<W>> = W;
 

@@ -250,12 +250,7 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
   template <class One, int W>
     requires(!turns)
   ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
-    double* of_lane[W];
-    for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[0];
-    write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return weights[0][i]; });
-    for (int a = 0; a < T; ++a) hand_out(v[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].v[a]; });
-    if (curved_law) hand_out(g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
-    for (int k = 0; k < W; ++k) one[k].curved_law = curved_law;
+    hand_out_tangent(*this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.v; });
   }
 
   // k + all but the weights and g g^T; row(array) is the array's entry of the row

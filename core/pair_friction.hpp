@@ -131,18 +131,9 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   template <class One, int W>
     requires(!turns)
   ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
-    for (int r = 0; r < 2; ++r) {
-      double* of_lane[W];
-      for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[r];
-      write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return weights[r][i]; });
-    }
-    for (int a = 0; a < T; ++a) {
-      hand_out(x[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].x[a]; });
-      hand_out(Y[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].Y[a]; });
-      hand_out(P[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].P[a]; });
-    }
-    if (curved_law) hand_out(g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
-    for (int k = 0; k < W; ++k) one[k].curved_law = curved_law;
+    hand_out_tangent(
+        *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.x; }, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.Y; },
+        [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.P; });
   }
 
   // k + all but the weights and g g^T; row(array) is the array's entry of the row

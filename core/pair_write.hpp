@@ -152,6 +152,22 @@ template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&num
   });
 }
 
+// The same of a tangent: its weights, g and the arrays that pick(tangent) names, one of each natural coordinate
+template <class Tangent, class One, int W, class... Pick> ENTS_INLINE void hand_out_tangent(const Tangent& t, One (&one)[W], Pick... pick) {
+  constexpr int M = std::extent_v<decltype(t.weights), 1>;
+  for (std::size_t r = 0; r < std::extent_v<decltype(t.weights)>; ++r) {
+    double* of_lane[W];
+    for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[r];
+    write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return t.weights[r][i]; });
+  }
+  const auto each = [&](auto of) ENTS_LAMBDA_INLINE {
+    for (int a = 0; a < Tangent::T; ++a) hand_out(of(t)[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return of(one[k])[a]; });
+  };
+  (each(pick), ...);
+  if (t.curved_law) hand_out(t.g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
+  for (int k = 0; k < W; ++k) one[k].curved_law = t.curved_law;
+}
+
 // Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.
 template <int D, class Tangent, int W>
 ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used) {
