@@ -155,6 +155,7 @@ template <class B, bool H, class S> struct PairProjector {
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
   S r[T], metric[K], f2[K], twice_merit;
+  S inverse_area2; // enriched
 
   ENTS_INLINE explicit PairProjector(const PairNodes<B, S>& p) : nodes(p), rho(p) {}
 
@@ -164,8 +165,10 @@ template <class B, bool H, class S> struct PairProjector {
       AreaVector<S, D> v;
       rho.area_vector(s, v);
       nodes.template evaluate_height<2>(xi, N, s.height);
-      s.area = square_root(dot(v.m, v.m));
-      const S q = unchecked_inverse(s.area);
+      const S area2 = dot(v.m, v.m);
+      s.area = square_root(area2);
+      inverse_area2 = unchecked_inverse(area2);
+      const S q = s.area * inverse_area2;
       s.n = q * v.m;
       S along[T];
       for (int a = 0; a < T; ++a) {
@@ -215,10 +218,9 @@ template <class B, bool H, class S> struct PairProjector {
     if constexpr (H) {
       S base[K];
       for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
-      const S area2 = s.area * s.area;
-      invert_metric(base, unchecked_inverse(area2), s.dual_metric);
+      invert_metric(base, inverse_area2, s.dual_metric);
       set_dual_tangents(s);
-      return area2;
+      return s.area * s.area;
     } else {
       const Vec<S, D> m = normal_of_tangents(s.a);
       return dot(m, m);
@@ -255,10 +257,11 @@ struct PairProjector<B, H, S> {
     }
     const Vec<S, D> m = normal_of_tangents(s.a);
     area2 = dot(m, m);
-    invert_metric(base, unchecked_inverse(area2), s.dual_metric);
+    const S inverse_area2 = unchecked_inverse(area2);
+    invert_metric(base, inverse_area2, s.dual_metric);
     if constexpr (H) {
       s.area = square_root(area2);
-      s.n = unchecked_inverse(s.area) * m;
+      s.n = (s.area * inverse_area2) * m;
       zeta = dot(s.n, offset);
     }
     S along[T];
@@ -352,7 +355,7 @@ template <bool H, class S> struct QuadDescent {
       nodes.template evaluate_height<2>(xi, N, h);
       const S half_1 = m01 + x * m11 + y * m12, half_2 = m02 + x * m12 + y * m22; // (m . m)_,a / 2
       const S area2 = (m00 + x * m01 + y * m02) + x * half_1 + y * half_2;
-      const S q = unchecked_inverse(square_root(area2)), q2 = q * q;
+      const S q2 = unchecked_inverse(area2), q = square_root(area2) * q2; // neither waits for the other
       const S P1 = y * px - p1, P2 = x * px - p2, P = (y * P2 - p0) - x * p1;
       const S w = q * P, l1 = q2 * half_1, l2 = q2 * half_2;
       const S u1 = q * P1, u2 = q * P2, w1 = u1 - w * l1, w2 = u2 - w * l2;
