@@ -392,8 +392,8 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
       const auto far_of = [&](const PairLanes<B, H, W>& lanes, const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
         return block.wanted & forces_only ? lanes.known & bits_of(pair.is_clearly_open(plan)) : 0u;
       };
-      // flat segments leave registers free for two projections at once
-      constexpr bool in_pairs = is_flat<B> && H;
+      // a line's few numbers leave registers free for two projections at once
+      constexpr bool in_pairs = std::is_same_v<B, Line2> && H;
       const bool two = in_pairs && k + 2 * W <= count;
       const std::int64_t e = block.first + k;
       const PairLanes<B, H, W> a(plan, block, e);
