@@ -147,7 +147,7 @@ template <int W> ENTS_INLINE Lanes<W> minus_value(Lanes<W> a, Lanes<W> b) { retu
 template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(chosen(c, a.v, b.v), 0); }
 template <int W> ENTS_INLINE double lane(const Lanes<W>& x, int k) { return x.v[k]; }
 template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x.v[k] = value; }
-// One instruction: as a loop over lanes GCC would make W scalar roots of it.
+// One instruction, whether or not the compiler is told that roots do not set errno.
 template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
 #if defined(__AVX512F__)
   if constexpr (W == 8) return Lanes<W>((typename Lanes<W>::Numbers)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v), 0);
