@@ -2,12 +2,14 @@
 // Work-precision diagrams: fronts, sentences and masters, each against what is known beforehand.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <regex>
 
 #include <gtest/gtest.h>
 
 #include "chart/automatic_tangent.hpp"
+#include "chart/following.hpp"
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
 #include "chart/work.hpp"
@@ -107,6 +109,24 @@ TEST(WorkPrecision, ErrorIsWeighted) {
 
 const Problem& problem(const std::vector<Problem>& problems, const std::string& name) {
   return *std::find_if(problems.begin(), problems.end(), [&](const Problem& at) { return at.name == name; });
+}
+
+// A cosine's chord is off by 1 - cos(pi / n) of the amplitude at a crest between two nodes, n in a wave; in 3D the product of two is off by
+// sin^2(pi / n) beside a crest at a node.
+TEST(WorkPrecision, SegmentsThatFollowASine) {
+  const std::vector<Problem> problems = work_problems(EXAMPLES, true);
+  const Scene line = scene_of(problem(problems, "westergaard"), {}), sheet = scene_of(problem(problems, "wavy3d"), {});
+  for (const double share : {0.05, 0.01, 0.002}) {
+    const double per_wave = std::numbers::pi / std::acos(1 - share), per_wave_3d = std::numbers::pi / std::asin(std::sqrt(share));
+    const auto found = static_cast<double>(segments_that_follow(library(), line, share));
+    EXPECT_NEAR(found, 1.5 * per_wave, 1.5) << share;
+    const double found_3d = std::sqrt(static_cast<double>(segments_that_follow(library(), sheet, share)));
+    EXPECT_NEAR(found_3d, per_wave_3d, 1.5) << share;
+    EXPECT_EQ(found_3d, std::round(found_3d));
+  }
+  Scene flat = line;
+  flat.contact->model["height"] = nullptr;
+  EXPECT_EQ(segments_that_follow(library(), flat, 0.01), 0u);
 }
 
 /// rho_e at xi of a segment of a master.

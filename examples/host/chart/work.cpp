@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "chart/automatic_tangent.hpp"
+#include "chart/following.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -178,7 +179,7 @@ Scene scene_of(const Problem& problem, const Way& way) {
 
 Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
              const std::function<void(const std::string&)>& progress) {
-  Work work{problem, {}};
+  Work work{problem, {}, segments_that_follow(library, scene_of(problem, problem.ways.front()), equal_error)};
   std::vector<Solution> solutions(problem.ways.size());
   std::vector<double> truth;
   for (std::size_t i = 0; i < problem.ways.size(); ++i)

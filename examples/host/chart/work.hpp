@@ -98,7 +98,11 @@ struct WorkRun {
 struct Work {
   Problem problem;
   std::vector<WorkRun> runs; ///< in the order of problem.ways
+  std::size_t following = 0; ///< plain segments that follow the surface itself to equal_error of its amplitude; 0: not known
 };
+
+/// The error at which enriched and explicit segments are compared.
+inline constexpr double equal_error = 0.01;
 
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.
 /// @param repetitions  of runs that take less than 1.5 s (if more than one: two more below 0.3 s); longer

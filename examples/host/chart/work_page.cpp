@@ -94,6 +94,9 @@ std::string equal_accuracy_table(const std::vector<Work>& works) {
       notes += " For 1 % of the " + std::string(work.problem.forces ? "forces" : "master's motion") +
                " instead, " + std::to_string(at.global_facets->segments) + " plain segments do (" +
                (coarsest(work, *at.global_facets) ? "the fewest here; " : "") + "against the finest ones).";
+    if (work.following > 0)
+      notes += " To follow the surface itself to 1 % of its amplitude, " + std::to_string(work.following) +
+               " plain segments are needed.";
     notes += "</li>";
   }
   return html + "</table></div><ul>" + notes + "</ul>";
@@ -213,6 +216,7 @@ Json work_json(const std::vector<Work>& works) {
                     {"advice", advice(work, advised_errors)},
                     {"equal_accuracy",
                      {{"error", equal_error},
+                      {"plain_following", work.following > 0 ? Json(work.following) : Json()},
                       {"enriched", index(at.enriched)},
                       {"fewest_plain", index(at.fewest_facets)},
                       {"cheapest_plain", index(at.cheapest_facets)},

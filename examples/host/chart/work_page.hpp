@@ -16,7 +16,4 @@ std::string work_section(const std::vector<Work>& works);
 
 Json work_json(const std::vector<Work>& works);
 
-/// The error at which enriched and explicit segments are compared.
-inline constexpr double equal_error = 0.01;
-
 } // namespace host::chart
