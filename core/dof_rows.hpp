@@ -26,14 +26,22 @@ inline constexpr int register_width = 2;
 inline constexpr int register_width = 1;
 #endif
 
-// Offsets of the pieces of `width` that cover n numbers; the last one overlaps the one before.
-constexpr int pieces(int n, int width) { return (n + width - 1) / width; }
-constexpr int piece_at(int n, int width, int piece) { return piece * width + width <= n ? piece * width : n - width; }
 // The widest register that is not longer than n.
 constexpr int width_for(int n) {
   int width = register_width;
   while (width > n) width /= 2;
   return width;
+}
+// Pieces that cover n numbers: of `width`, the last one of half of it where that is enough and four; if it would reach beyond the end
+// it overlaps the one before.
+constexpr int pieces(int n, int width) { return (n + width - 1) / width; }
+constexpr int piece_width(int n, int width, int piece) {
+  const int left = n - piece * width;
+  return width >= 8 && 2 * left <= width ? width / 2 : width;
+}
+constexpr int piece_at(int n, int width, int piece) {
+  const int at = piece * width, last = n - piece_width(n, width, piece);
+  return at < last ? at : last;
 }
 
 template <int W> struct Register {
@@ -50,12 +58,22 @@ template <class R> ENTS_INLINE R load(const double* from) {
 }
 template <class R> ENTS_INLINE void store(double* to, const R& r) { std::memcpy(to, &r, sizeof r); }
 
+template <int N, int Piece> using PieceOf = typename Register<piece_width(N, width_for(N), Piece)>::type;
+template <int N> struct Pieces {
+  static constexpr int count = pieces(N, width_for(N)), whole = count - (piece_width(N, width_for(N), count - 1) < width_for(N));
+  PieceOf<N, 0> of[whole];
+  PieceOf<N, count - 1> half; // where the last piece is one
+  template <int Piece> ENTS_INLINE auto& at() {
+    if constexpr (Piece < whole) return of[Piece];
+    else return half;
+  }
+  template <int Piece> ENTS_INLINE const auto& at() const { return const_cast<Pieces*>(this)->template at<Piece>(); }
+};
+
 // Numbers of N dofs of one element: as columns, and as pieces of rows.
 template <int N> struct DofRow {
-  static constexpr int W = width_for(N), P = pieces(N, W);
-  using R = typename Register<W>::type;
   double column[N];
-  R row[P];
+  Pieces<N> row;
   ENTS_INLINE const double& operator[](int dof) const { return column[dof]; }
 };
 
@@ -72,19 +90,22 @@ template <class S, int N> using DofArray = typename DofNumbers<S, N>::type;
 
 template <int Piece, int N, class R> ENTS_INLINE void set_piece(double (&out)[N], const R& r) { store(out + piece_at(N, width_for(N), Piece), r); }
 template <int Piece, int N, class R> ENTS_INLINE void set_piece(DofRow<N>& out, const R& r) {
-  out.row[Piece] = r;
+  out.row.template at<Piece>() = r;
   set_piece<Piece>(out.column, r);
 }
-template <int Piece, class R, int N> ENTS_INLINE R piece_of(const double (&numbers)[N]) { return load<R>(numbers + piece_at(N, width_for(N), Piece)); }
-template <int Piece, class R, int N> ENTS_INLINE R piece_of(const DofRow<N>& numbers) { return numbers.row[Piece]; }
+template <int Piece, int N> ENTS_INLINE auto piece_of(const double (&numbers)[N]) {
+  return load<PieceOf<N, Piece>>(numbers + piece_at(N, width_for(N), Piece));
+}
+template <int Piece, int N> ENTS_INLINE auto piece_of(const DofRow<N>& numbers) { return numbers.row.template at<Piece>(); }
 
 // out = f(in ...) of each dof
 template <class S, int N, class F, class... In> ENTS_INLINE void for_each_dof(S (&out)[N], F&& f, const In&... in) {
   for (int i = 0; i < N; ++i) out[i] = f(in[i]...);
 }
 template <int N, class F, class... In> ENTS_INLINE void for_each_dof(DofRow<N>& out, F&& f, const In&... in) {
-  using R = typename DofRow<N>::R;
-  unroll<DofRow<N>::P>([&](auto piece) ENTS_LAMBDA_INLINE { set_piece<piece.value>(out, R(f(in.row[piece.value]...))); });
+  unroll<Pieces<N>::count>([&](auto piece) ENTS_LAMBDA_INLINE {
+    set_piece<piece.value>(out, PieceOf<N, piece.value>(f(piece_of<piece.value>(in)...)));
+  });
 }
 
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
@@ -130,6 +151,8 @@ private:
     }
   }
 };
+template <class B, bool Rigid, int Piece, int N = dof_count<B, Rigid>>
+using PieceOfDofs = DofPiece<B::dim, piece_width(N, width_for(N), Piece), piece_at(N, width_for(N), Piece)>;
 #endif
 
 // expand() to numbers of dofs; that of the slave may be left out
@@ -142,11 +165,10 @@ ENTS_INLINE void expand_to_dofs(const Form<B, S>& f, const Shape<S, B::dim - 1, 
       for (int c = 0; c < D; ++c) out[c] = S(0.0);
   } else {
 #if defined(ENTS_HAS_DOF_ROWS)
-    constexpr int T = D - 1, count = dof_count<B, Rigid>, W = width_for(count);
-    using R = Lanes<W>;
-    unroll<pieces(count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
-      constexpr int at = piece_at(count, W, piece.value);
-      using Piece = DofPiece<D, W, at>;
+    constexpr int T = D - 1, count = dof_count<B, Rigid>;
+    unroll<pieces(count, width_for(count))>([&](auto piece) ENTS_LAMBDA_INLINE {
+      using Piece = PieceOfDofs<B, Rigid, piece.value>;
+      using R = typename Piece::R;
       R slave(0.0), v(0.0);
       if constexpr ((Parts & on_position) != 0) {
         const R x = Piece::components(f.x);
@@ -177,12 +199,11 @@ template <class B, class S, class Out> ENTS_INLINE void expand_to_nodes(const S 
       for (int c = 0; c < D; ++c) out[D * (i + 1) + c] = weights[i] * v[c];
   } else {
 #if defined(ENTS_HAS_DOF_ROWS)
-    constexpr int count = dof_count<B, false>, W = width_for(count);
-    unroll<pieces(count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
-      constexpr int at = piece_at(count, W, piece.value);
-      using Piece = DofPiece<D, W, at>;
-      Lanes<W> r = Piece::template weights<0>(weights) * Piece::components(v);
-      if constexpr (Piece::has_slave) r = Piece::where_slave(Lanes<W>(0.0), r);
+    constexpr int count = dof_count<B, false>;
+    unroll<pieces(count, width_for(count))>([&](auto piece) ENTS_LAMBDA_INLINE {
+      using Piece = PieceOfDofs<B, false, piece.value>;
+      typename Piece::R r = Piece::template weights<0>(weights) * Piece::components(v);
+      if constexpr (Piece::has_slave) r = Piece::where_slave(0.0, r);
       set_piece<piece.value>(out, r);
     });
 #endif

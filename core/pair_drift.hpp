@@ -206,7 +206,7 @@ private:
     U base[K];
     for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
     const S q2 = q * q;
-    invert_metric(base, U(q2, -2.0 * (area_rate * q) * q2), s.dual_metric);
+    invert_with(base, U(q2, -2.0 * (area_rate * q) * q2), s.dual_metric);
     set_dual_tangents(s);
   }
 };

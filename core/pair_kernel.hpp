@@ -334,9 +334,9 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pa
     tangent<F, Rigid>(plan, p, f, t);
     double* out[W];
     places(block.tangent, block.tangent_stride, out);
-    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries, unless more than a
-    // quarter of eight lanes would be computed twice.
-    constexpr bool one_by_one = !TangentOf<F, Rigid, B, H, S>::turns && N >= W && (W < 8 || 4 * pieces(N, W) * W <= 5 * N);
+    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries; not those of a tri3
+    // with friction in eight lanes, which are more.
+    constexpr bool one_by_one = !TangentOf<F, Rigid, B, H, S>::turns && N >= W && (W < 8 || !F || N != 12);
     if constexpr (one_by_one) {
       TangentOf<F, Rigid, B, H, double> one[W];
       t.hand_out_lanes(one);

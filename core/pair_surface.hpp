@@ -129,13 +129,6 @@ template <class S> struct Rho<Quad4, S> {
   }
 };
 
-// The inverse of a metric, with that of its determinant
-template <class S> ENTS_INLINE void invert_metric(const S (&)[1], const S& inverse_area2, S (&inverse)[1]) { inverse[0] = inverse_area2; }
-template <class S> ENTS_INLINE void invert_metric(const S (&m)[3], const S& inverse_area2, S (&inverse)[3]) {
-  inverse[0] = m[2] * inverse_area2;
-  inverse[1] = -m[1] * inverse_area2;
-  inverse[2] = m[0] * inverse_area2;
-}
 // a^a
 template <class B, bool H, class S> ENTS_INLINE void set_dual_tangents(Surface<B, H, S>& s) {
   constexpr int T = B::dim - 1;
@@ -218,7 +211,7 @@ template <class B, bool H, class S> struct PairProjector {
     if constexpr (H) {
       S base[K];
       for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
-      invert_metric(base, inverse_area2, s.dual_metric);
+      invert_with(base, inverse_area2, s.dual_metric);
       set_dual_tangents(s);
       return s.area * s.area;
     } else {
@@ -258,7 +251,7 @@ struct PairProjector<B, H, S> {
     const Vec<S, D> m = normal_of_tangents(s.a);
     area2 = dot(m, m);
     const S inverse_area2 = unchecked_inverse(area2);
-    invert_metric(base, inverse_area2, s.dual_metric);
+    invert_with(base, inverse_area2, s.dual_metric);
     if constexpr (H) {
       s.area = square_root(area2);
       s.n = (s.area * inverse_area2) * m;

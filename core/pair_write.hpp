@@ -57,10 +57,10 @@ template <int D, int W, int At, int M> ENTS_INLINE auto row_of_weights(const dou
 template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N), P = pieces(N, W);
   constexpr int weights = std::extent_v<decltype(t.weights)>;
-  using R = typename Register<W>::type;
-  R of_row[P][weights];
+  Pieces<N> of_row[weights];
   unroll<P>([&](auto piece) ENTS_LAMBDA_INLINE {
-    for (int k = 0; k < weights; ++k) of_row[piece][k] = row_of_weights<D, W, piece_at(N, W, piece.value)>(t.weights[k]);
+    constexpr int p = piece.value;
+    for (int k = 0; k < weights; ++k) of_row[k].template at<p>() = row_of_weights<D, piece_width(N, W, p), piece_at(N, W, p)>(t.weights[k]);
   });
   for (int n = 0; n < M; ++n) {
     double of_column[weights];
@@ -70,8 +70,11 @@ template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t,
       double* column = out + j * leading;
       unroll<P>([&](auto piece) ENTS_LAMBDA_INLINE {
         constexpr int p = piece.value, i = piece_at(N, W, p);
-        const R k = where_component<D>(product_of_weights(of_row[p], of_column), i, c);
-        const auto row = [](const auto& numbers) ENTS_LAMBDA_INLINE { return piece_of<p, R>(numbers); };
+        using R = PieceOf<N, p>;
+        R of_piece[weights];
+        for (int w = 0; w < weights; ++w) of_piece[w] = of_row[w].template at<p>();
+        const R k = where_component<D>(product_of_weights(of_piece, of_column), i, c);
+        const auto row = [](const auto& numbers) ENTS_LAMBDA_INLINE { return piece_of<p>(numbers); };
         store(column + i, t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j));
       });
     });
@@ -132,10 +135,10 @@ template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&fr
     for (int i = 0; i < Count; ++i) out[i] = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k][i]; });
   } else {
     unroll<pieces(Count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
-      constexpr int first = piece_at(Count, W, piece.value);
-      typename VectorOf<W>::Numbers r[W];
+      constexpr int first = piece_at(Count, W, piece.value), width = piece_width(Count, W, piece.value);
+      typename VectorOf<W>::Numbers r[width];
       read_transposed<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k] + first; }, r);
-      for (int i = 0; i < W; ++i) out[first + i].v = r[i];
+      for (int i = 0; i < width; ++i) out[first + i].v = r[i];
     });
   }
 }
@@ -145,10 +148,20 @@ template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&num
   static_assert(width_for(N) == W);
   unroll<pieces(N, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
     constexpr int p = piece.value, first = piece_at(N, W, p);
-    typename VectorOf<W>::Numbers r[W];
-    for (int i = 0; i < W; ++i) r[i] = numbers[first + i].v;
-    transpose<W, W / 2>(r);
-    for (int k = 0; k < W; ++k) set_piece<p>(to(k), Lanes<W>(r[k], 0));
+    if constexpr (piece_width(N, W, p) == W) {
+      typename VectorOf<W>::Numbers r[W];
+      for (int i = 0; i < W; ++i) r[i] = numbers[first + i].v;
+      transpose<W, W / 2>(r);
+      for (int k = 0; k < W; ++k) set_piece<p>(to(k), Lanes<W>(r[k], 0));
+    } else { // four numbers of eight lanes: two of their squares
+      unroll<2>([&](auto part) ENTS_LAMBDA_INLINE {
+        typename VectorOf<W / 2>::Numbers r[W / 2];
+        for (int i = 0; i < W / 2; ++i)
+          r[i] = load<typename VectorOf<W / 2>::Numbers>(reinterpret_cast<const double*>(&numbers[first + i]) + part * (W / 2));
+        transpose<W / 2, W / 4>(r);
+        for (int k = 0; k < W / 2; ++k) set_piece<p>(to(part * (W / 2) + k), Lanes<W / 2>(r[k], 0));
+      });
+    }
   });
 }
 

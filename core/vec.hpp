@@ -98,14 +98,14 @@ ENTS_INLINE constexpr int symmetric_index(int a, int b) { return a + b; }  // T 
 template <class S> ENTS_INLINE S determinant(const S (&m)[1]) { return m[0]; }
 template <class S> ENTS_INLINE S determinant(const S (&m)[3]) { return m[0] * m[2] - m[1] * m[1]; }
 
-// inverse[] of a symmetric matrix whose determinant is known and not zero
-template <class S> ENTS_INLINE void invert(const S (&)[1], S det, S (&inverse)[1]) { inverse[0] = 1.0 / det; }
-template <class S> ENTS_INLINE void invert(const S (&m)[3], S det, S (&inverse)[3]) {
-  const S r = 1.0 / det;
-  inverse[0] = m[2] * r;
-  inverse[1] = -m[1] * r;
-  inverse[2] = m[0] * r;
+// inverse[] of a symmetric matrix, from the inverse of its determinant or from the determinant, which is not zero
+template <class S> ENTS_INLINE void invert_with(const S (&)[1], const S& inverse_det, S (&inverse)[1]) { inverse[0] = inverse_det; }
+template <class S> ENTS_INLINE void invert_with(const S (&m)[3], const S& inverse_det, S (&inverse)[3]) {
+  inverse[0] = m[2] * inverse_det;
+  inverse[1] = -m[1] * inverse_det;
+  inverse[2] = m[0] * inverse_det;
 }
+template <int K, class S> ENTS_INLINE void invert(const S (&m)[K], const S& det, S (&inverse)[K]) { invert_with(m, S(1.0 / det), inverse); }
 
 // Compile-time loop: f(Index<0>{}), f(Index<1>{}), ...
 template <int I> struct Index {
