@@ -111,7 +111,7 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
   const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach > 0.0) || !(io->reach < 1e100))
     return report_message(report, ENTS_BAD_VALUE, -1,
-                          "detection.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
+                          "detection.reach is %g; a length above 0 and below 1e100 is needed", io->reach);
   if (count > 0 && (!io->slave || !io->segment || !io->xi))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "detection.%s is null",
                           !io->slave     ? "slave"

@@ -22,7 +22,7 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   b.wanted = pair_results(model, out.wanted);
   b.residual = out.residual, b.residual_stride = out.residual_stride;
   b.tangent = out.tangent, b.tangent_stride = out.tangent_stride;
-  b.leading = out.tangent_leading_dimension == 0 ? model.plan.dofs : out.tangent_leading_dimension;
+  b.leading = leading_dimension(model, out);
   if (only_forces(b.wanted)) return b;
   b.xi = out.xi, b.xi_stride = out.xi_stride;
   b.gap = out.gap, b.gap_stride = out.gap_stride;
@@ -92,7 +92,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
     return (wanted & bit) == 0 || (data && (one || (stride >= size && stride < most)));
   };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, n = plan.dofs;
-  const std::int64_t leading = out->tangent_leading_dimension == 0 ? n : out->tangent_leading_dimension;
+  const std::int64_t leading = leading_dimension(*model, *out);
   if (!(shared(in->slave, in->slave_stride, d) && shared(in->master, in->master_stride, m * d) &&
         shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) && shared(in->start, in->start_stride, t) &&
         shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, plan.state.size) &&

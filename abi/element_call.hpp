@@ -3,11 +3,16 @@
 #pragma once
 
 #include "abi/mesh.hpp"
+#include "abi/patch.hpp"
 
 namespace ents {
 
 template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
   return data ? data + stride * element : nullptr;
+}
+
+inline std::int64_t leading_dimension(const ents_model& model, const ents_output& out) noexcept {
+  return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
 struct ElementCall {
@@ -30,6 +35,12 @@ struct ElementCall {
   std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
   std::int32_t refuse_segment(std::int64_t e, ents_report* report) const;
 
+  // nodes: of its segment, if the input has a mesh
+  ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;
+  Status evaluate_one(const ElementInput& element, const ElementOutput& results) const {
+    return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results);
+  }
+
   // What an element without a segment gives: zeros, a fresh state, ENTS_FLAG_OUTSIDE.
   void write_open(std::int64_t e) const;
 
@@ -50,7 +61,7 @@ struct ElementCall {
   };
   bool gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, PairBlock& block) const;
 
-  // Name the entry that a kernel refused.
+  // Name the entry that a kernel refused, or how deep the slave is.
   std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;
 
   // What an element's status makes of that of the call: negative ends it; of the recoverable ones the first is told.
@@ -61,6 +72,8 @@ struct ElementCall {
   }
 
 private:
+  std::int32_t explain_penetration(std::int64_t e, ents_report* report) const;
+
   ents_input input_copy; // of an older caller's
   ents_output output_copy;
 };

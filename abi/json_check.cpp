@@ -54,8 +54,6 @@ std::string list(const std::vector<std::string_view>& names, std::string_view la
   return result;
 }
 
-std::string shown(double value) { return json(value).dump(); }
-
 bool within(const json& value, Range range) {
   if (!value.is_number()) return false;
   const double number = value.get<double>();
@@ -67,6 +65,8 @@ bool within(const json& value, Range range) {
 void fail(std::int32_t status, const std::string& path, const std::string& message) {
   throw ModelError(status, (path.empty() ? "model" : path) + ": " + message);
 }
+
+std::string shown(double value) { return json(value).dump(); }
 
 std::string member(const std::string& path, std::string_view key) {
   std::string escaped;

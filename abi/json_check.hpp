@@ -19,6 +19,9 @@ namespace ents {
 std::string member(const std::string& path, std::string_view key);
 std::string item(const std::string& path, std::size_t index);
 
+// The number as JSON writes it, whatever the locale
+std::string shown(double value);
+
 // "\"a\", \"b\" or \"c\""
 std::string alternatives(const std::vector<std::string_view>& names);
 

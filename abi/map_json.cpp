@@ -128,9 +128,10 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
   else if (data)
     check_keys(value, path, {"type", "data", "boundary", "size"}, {"origin", "scale"});
   else {
-    check_keys(value, path, {"type", "boundary"},
-               {"file", "values", "data", "size", "origin", "scale", "length_unit"});
-    fail(ENTS_UNKNOWN_KEY, path, "the heights are missing; write one of \"file\", \"values\" and \"data\"");
+    check_keys(value, path, {"type"}, {"boundary", "file", "values", "data", "size", "origin", "scale", "length_unit"});
+    fail(ENTS_UNKNOWN_KEY, path,
+         "the heights are missing; write one of \"file\", \"values\" and \"data\"" +
+             std::string(value.contains("boundary") ? "" : ", and \"boundary\""));
   }
 
   HeightMap map;

@@ -104,7 +104,7 @@ void read_normal(const json& normal, const std::string& path, ContactLaw& law) {
     law.stiffness = read_double(normal, path, "coefficient", Range::positive);
     const double exponent = read_double(normal, path, "exponent", Range::positive);
     if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
-      fail(ENTS_BAD_VALUE, member(path, "exponent"), "is not among 1, 1.5, 2, 2.5 .. 20; write one of them");
+      fail(ENTS_BAD_VALUE, member(path, "exponent"), "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
     law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
     return;
   }
@@ -189,7 +189,7 @@ PatchedModel read_model(std::string_view text, const std::filesystem::path& dire
   if (root.contains("border")) {
     model.border = read_double(root, "", "border", Range::positive);
     if (model.border < 1e-9 || model.border > 0.5)
-      fail(ENTS_BAD_VALUE, "/border", "is not in 1e-9 .. 0.5; it is a length in natural coordinates");
+      fail(ENTS_BAD_VALUE, "/border", "is " + shown(model.border) + ", not in 1e-9 .. 0.5; it is a length in natural coordinates");
   }
 
   if (!model.patch.empty() && model.law.multiplier_in_state() && model.law.has_friction())

@@ -33,6 +33,14 @@ void keep_smaller(Worst& worst, double value, const double* xi) {
   if (value < worst.value) worst = {value, {xi[0], xi[1]}};
 }
 
+// Has rho itself a normal?
+bool has_base_normal(Basis basis, const double* master, const double* xi) {
+  Model model;
+  model.basis = basis;
+  const Plan plan = make_plan(model);
+  return plan.surface(plan, master, nullptr, xi, {}) == Status::ok;
+}
+
 }  // namespace
 
 double cosine_of_ray(const Plan& plan, const double* point, const double* normal) {
@@ -61,7 +69,7 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
       double point[3], normal[3], height, curvature, base_curvature;
       const SurfacePoint out = {point, normal, &height, nullptr, nullptr, &curvature, &base_curvature};
       const Status status = plan.surface(plan, master, surface_coordinates, xi, out);
-      if (status == Status::degenerate_segment && plan.height) {  // a fold of rho_e, if rho itself has a normal
+      if (status == Status::degenerate_segment && plan.height && has_base_normal(model.basis, master, xi)) { // a fold of rho_e
         keep_larger(result.fold, infinity, xi);
         keep_smaller(result.reach, 0.0, xi);
         continue;

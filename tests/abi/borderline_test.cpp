@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "support/pose.hpp"
@@ -214,10 +216,16 @@ TEST(Borderline, DeepPenetrationIsRecoverable) {
         EXPECT_GT(report.step_factor, 0.0);
         EXPECT_LT(report.step_factor, 1.0);
         EXPECT_NE(std::string(report.message).find("penetration_limit"), std::string::npos) << report.message;
+        const char* gap = std::strstr(report.message, "gap = ");
+        ASSERT_NE(gap, nullptr) << report.message;
+        if (p == "normal") {
+          EXPECT_NEAR(std::strtod(gap + 6, nullptr), -0.055 * pose.size, 1e-6 * pose.size); // six digits are shown
+        }
         EXPECT_EQ(status_at(own, 0.5), ENTS_OK);
         // flat segments are at most 2 sqrt 2 large; a ray that is not vertical ends beside the segment
         if (p == "normal") {
           EXPECT_EQ(status_at(own, 3.0), ENTS_DEEP_PENETRATION);
+          EXPECT_NE(std::strstr(report.message, "deeper than the segment is long"), nullptr) << report.message;
           EXPECT_EQ(status_at(own, -3.0), ENTS_OK) << "open by the same distance";
         }
       }

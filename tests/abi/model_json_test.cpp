@@ -340,6 +340,7 @@ TEST_F(MapFiles, MistakesWithMaps) {
          "/height/size/1: ", "1e-100");
   expect("quad4", R"("boundary": "periodic")", ENTS_UNKNOWN_KEY,
          "/height: ", "\"file\", \"values\" and \"data\"");
+  expect("quad4", R"("size": [1, 1])", ENTS_UNKNOWN_KEY, "/height: ", "\"data\", and \"boundary\"");
   expect("quad4", R"("data": "bad", "values": [[1]], )" + p, ENTS_UNKNOWN_KEY, "/height: ", "more than one");
   expect("quad4", R"("data": "bad", )" + p, ENTS_NON_FINITE,
          "/height/data: ", "\"bad\" is NaN or infinite in row 1, column 1");
@@ -493,14 +494,14 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
       {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"friction":{}}})",
        ENTS_UNKNOWN_KEY, "/contact/friction: the key \"type\" is missing", "\"coulomb\""},
       {R"({"segment":"line2","contact":{"normal":{"type":"power","coefficient":1,"exponent":1.3}}})",
-       ENTS_BAD_VALUE, "/contact/normal/exponent: is not among", ""},
+       ENTS_BAD_VALUE, "/contact/normal/exponent: is 1.3, not one of", ""},
       {R"({"segment":"line2","contact":{"normal":{"type":"penalty","stiffness":1},"symmetrised":1}})",
        ENTS_BAD_VALUE, "/contact/symmetrised: is a number; write true or false", ""},
       {R"({"segment":"line2","tangent":"exact"})", ENTS_BAD_VALUE, "/tangent: is \"exact\"",
        "\"consistent\""},
       {R"({"segment":"line2","master":"stiff"})", ENTS_BAD_VALUE, "/master: is \"stiff\"", "\"rigid\""},
       {R"({"segment":"line2","penetration_limit":0})", ENTS_BAD_VALUE, "/penetration_limit: is 0.0", ""},
-      {R"({"segment":"line2","border":0.6})", ENTS_BAD_VALUE, "/border: is not in 1e-9 .. 0.5", ""},
+      {R"({"segment":"line2","border":0.6})", ENTS_BAD_VALUE, "/border: is 0.6, not in 1e-9 .. 0.5", ""},
   });
 }
 

@@ -195,6 +195,21 @@ TEST(Admissibility, AFoldedSurfaceRunsBackwards) {
       0.0);
 }
 
+// A segment without a normal of its own is degenerate, and no height can mend that; nor is it the height's fault.
+TEST(Admissibility, ADegenerateSegmentIsNoFold) {
+  const std::vector<double> point = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}, bow_tie = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
+  for (const json& height : {json(), waves(0.1, 0.5)}) {
+    json sheet = height;
+    if (!sheet.is_null()) sheet["wave_vector"] = {0.5, 0.5};
+    const Model m = model("quad4", sheet);
+    for (const auto& nodes : {point, bow_tie}) {
+      ents_admissibility result{};
+      result.struct_size = sizeof result;
+      EXPECT_EQ(ents_model_check(m.handle(), nodes.data(), nullptr, &result, nullptr), ENTS_DEGENERATE_SEGMENT) << sheet;
+    }
+  }
+}
+
 // samples = 0: as fine as the height asks for. On 40 waves, the reach is found within the error of four
 // samples per feature (a quarter of a wave): a crest is missed by at most 1/32 of a wave, where the curvature
 // is down by 1 - cos(2 pi / 32) = 2 %, and the slope adds 1.5 h'^2 = 4 %.

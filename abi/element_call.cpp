@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a call of elements checks of its arguments, once, and what it says of elements that were refused.
+#include "abi/element_call.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace ents {
+
+namespace {
+
+// An array of an input or output struct, as the checks and messages need it.
+struct Array {
+  const char* name;
+  const void* data;
+  std::int64_t stride;
+  std::int64_t size; // of one element
+};
+
+Array output_array(const ents_model& model, const ents_output& out, int bit) noexcept {
+  const Plan& plan = model.plan;
+  const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs, n = all - plan.multipliers;
+  switch (1 << bit) {
+  case ENTS_XI:
+    return {"xi", out.xi, out.xi_stride, t};
+  case ENTS_GAP:
+    return {"gap", out.gap, out.gap_stride, 1};
+  case ENTS_NORMAL_GAP:
+    return {"normal_gap", out.normal_gap, out.normal_gap_stride, 1};
+  case ENTS_NORMAL:
+    return {"normal", out.normal, out.normal_stride, d};
+  case ENTS_POINT:
+    return {"point", out.point, out.point_stride, d};
+  case ENTS_GAP_GRADIENT:
+    return {"gap_gradient", out.gap_gradient, out.gap_gradient_stride, n};
+  case ENTS_GAP_HESSIAN:
+    return {"gap_hessian", out.gap_hessian, out.gap_hessian_stride, n * n};
+  case ENTS_XI_GRADIENT:
+    return {"xi_gradient", out.xi_gradient, out.xi_gradient_stride, t * n};
+  case ENTS_XI_HESSIAN:
+    return {"xi_hessian", out.xi_hessian, out.xi_hessian_stride, t * n * n};
+  case ENTS_ENERGY:
+    return {"energy", out.energy, out.energy_stride, 1};
+  case ENTS_PRESSURE:
+    return {"pressure", out.pressure, out.pressure_stride, 1};
+  case ENTS_RESIDUAL:
+    return {"residual", out.residual, out.residual_stride, all};
+  case ENTS_TANGENT:
+    return {"tangent", out.tangent, out.tangent_stride, (all - 1) * leading_dimension(model, out) + all};
+  case ENTS_STATE:
+    return {"state_end", out.state_end, out.state_end_stride, model.sizes.state};
+  case ENTS_FLAGS:
+    return {"flags", out.flags, out.flags_stride, 1};
+  case ENTS_ITERATIONS:
+    return {"iterations", out.iterations, out.iterations_stride, 1};
+  case ENTS_TRACTION:
+    return {"traction", out.traction, out.traction_stride, d};
+  case ENTS_SLIP:
+    return {"slip", out.slip, out.slip_stride, 1};
+  default:
+    return {"age", out.age, out.age_stride, 1};
+  }
+}
+
+// The distance of elements of an array that has elements 0 .. last; 0 is `smallest` where elements may share values.
+std::int32_t check_stride(const char* group, const Array& a, std::int64_t smallest, std::int64_t last,
+                          ents_report* report) {
+  if (a.stride < smallest)
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; %sat least %lld is needed", group,
+                          a.name, static_cast<long long>(a.stride), group[0] == 'i' ? "0 (shared) or " : "",
+                          static_cast<long long>(smallest));
+  const auto width = [](std::int64_t n) { return std::bit_width(static_cast<std::uint64_t>(n)); };
+  if (width(a.stride) + width(last) > most_bits)
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; element %lld would lie beyond any memory",
+                          group, a.name, static_cast<long long>(a.stride), static_cast<long long>(last));
+  return ENTS_OK;
+}
+
+std::int32_t check_output(const ents_model& model, std::int64_t first, std::int64_t count,
+                          const ents_output& out, ents_report* report) {
+  if ((out.wanted & ~want::all) != 0)
+    return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
+                          static_cast<unsigned>(out.wanted & ~want::all));
+  if ((out.wanted & want::needs_law) != 0 && model.model.law.normal == NormalKind::none)
+    return report_status(
+        report, ENTS_BAD_MASK, -1,
+        "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
+        "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
+  if (count == 0) return ENTS_OK;
+  const std::int64_t last = first + count - 1;
+  if (const std::int64_t leading = leading_dimension(model, out);
+      (out.wanted & ENTS_TANGENT) != 0 && (leading < model.sizes.dofs || leading > INT32_MAX))
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "output.tangent_leading_dimension is %lld; 0 or %d .. %d is needed",
+                          static_cast<long long>(leading), model.sizes.dofs, INT32_MAX);
+  for (std::uint32_t bits = static_cast<std::uint32_t>(out.wanted); bits != 0; bits &= bits - 1) {
+    const Array a = output_array(model, out, std::countr_zero(bits));
+    if (!a.data)
+      return report_message(report, ENTS_NULL_ARGUMENT, -1,
+                            "output.%s is null but its bit is set in output.wanted", a.name);
+    if (last > 0)
+      if (const std::int32_t status = check_stride("output", a, a.size, last, report); status != ENTS_OK)
+        return status;
+  }
+  if (out.status && last > 0)
+    return check_stride("output", {"status", out.status, out.status_stride, 1}, 1, last, report);
+  return ENTS_OK;
+}
+
+constexpr int input_arrays = 7;
+Array input_array(const ents_model& model, const ents_input& in, int index) noexcept {
+  const Plan& plan = model.plan;
+  const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes;
+  switch (index) {
+  case 0:
+    return {"slave", in.slave, in.slave_stride, d};
+  case 1:
+    return {"master", in.master, in.master_stride, m * d};
+  case 2:
+    return {"surface_coordinates", in.surface_coordinates, in.surface_coordinates_stride, m * t};
+  case 3:
+    return {"start", in.start, in.start_stride, t};
+  case 4:
+    return {"area", in.area, in.area_stride, 1};
+  case 5:
+    return {"state_begin", in.state_begin, in.state_begin_stride, model.sizes.state};
+  default:
+    return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
+  }
+}
+
+std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64_t count, const ents_input& in,
+                         ents_report* report) {
+  constexpr std::int64_t most = std::int64_t{1} << 50;
+  if (first < 0 || count < 0 || first > most - count)
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "first = %lld, count = %lld: both must be >= 0 and end before element 2^50",
+                          static_cast<long long>(first), static_cast<long long>(count));
+  if (const std::int32_t status = check_reserved(in.reserved, "input", report); status != ENTS_OK) return status;
+  if (count == 0) return ENTS_OK;
+  if (!in.slave) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.slave is null");
+  if (in.mesh && !in.segment) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.segment is null, but input.mesh is not");
+  if (in.mesh && (in.master || in.surface_coordinates))
+    return report_message(report, ENTS_BAD_VALUE, -1, "input.%s and input.mesh are both given; one must be null",
+                          in.master ? "master" : "surface_coordinates");
+  if (!in.mesh && !in.master)
+    return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.master is null (and input.mesh, too)");
+  if (in.mesh && !model.model.patch.empty())
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.mesh is given, but the model has a \"patch\": its elements bring their own nodes in input.master");
+  if (model.plan.multipliers > 0 && !in.multiplier)
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
+                          model.plan.multipliers);
+  const std::int64_t last = first + count - 1;
+  if (in.mesh && last > 0 && in.segment_stride != 0)
+    if (const std::int32_t status = check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
+        status != ENTS_OK)
+      return status;
+  if (last > 0)
+    for (int i = 0; i < input_arrays; ++i) {
+      const Array a = input_array(model, in, i);
+      if (!a.data || a.stride == 0) continue;
+      if (const std::int32_t status = check_stride("input", a, a.size, last, report); status != ENTS_OK)
+        return status;
+    }
+  return ENTS_OK;
+}
+
+} // namespace
+
+std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count, const ents_input* input,
+                               const ents_output* output, ents_report* report) {
+  std::int32_t status = check_handle(handle, report);
+  if (status != ENTS_OK) return status;
+  model = handle, plan = &handle->plan;
+  in = known_struct(input, input_copy, "input", status, report);
+  if (!in) return status;
+  out = known_struct(output, output_copy, "output", status, report);
+  if (!out) return status;
+  if ((status = check_input(*handle, first, count, *in, report)) != ENTS_OK) return status;
+  if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
+  return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
+}
+
+std::int32_t ElementCall::refuse_segment(std::int64_t e, ents_report* report) const {
+  return report_message(report, ENTS_BAD_VALUE, e, "input.segment of element %lld is %lld; 0 .. %lld",
+                        static_cast<long long>(e), static_cast<long long>(segment(e)),
+                        static_cast<long long>(mesh.segments - 1));
+}
+
+void ElementCall::write_open(std::int64_t e) const {
+  for (std::uint32_t bits = static_cast<std::uint32_t>(out->wanted); bits != 0; bits &= bits - 1) {
+    const int bit = std::countr_zero(bits);
+    const Array a = output_array(*model, *out, bit);
+    if (bit >= std::countr_zero(std::uint32_t{ENTS_FLAGS}) && (1 << bit) <= ENTS_ITERATIONS)
+      *at(static_cast<std::int32_t*>(const_cast<void*>(a.data)), a.stride, e) = (1 << bit) == ENTS_FLAGS ? ENTS_FLAG_OUTSIDE : 0;
+    else
+      std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
+  }
+  if ((out->wanted & ENTS_STATE) != 0) at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
+  if (out->status) *at(out->status, out->status_stride, e) = ENTS_OK;
+}
+
+ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) const {
+  return {at(in->slave, in->slave_stride, e),
+          in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
+          in->mesh ? nodes.surface_coordinates : at(in->surface_coordinates, in->surface_coordinates_stride, e),
+          at(in->start, in->start_stride, e),
+          at(in->area, in->area_stride, e),
+          at(in->state_begin, in->state_begin_stride, e),
+          at(in->multiplier, in->multiplier_stride, e)};
+}
+
+std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* report) const {
+  SegmentNodes nodes;
+  if (in->mesh) gather(*plan, mesh, segment(e), nodes);
+  double gap = 0.0;
+  ElementOutput result{};
+  result.wanted = want::gap;
+  result.gap = &gap;
+  evaluate_one(element(e, nodes), result);
+  const long long number = e;
+  if (plan->penetration_limit > 0.0)
+    return report_message(report, ENTS_DEEP_PENETRATION, e,
+                          "element %lld: gap = %g, deeper than \"penetration_limit\" (%g); take a smaller step", number, gap,
+                          plan->penetration_limit);
+  return report_message(report, ENTS_DEEP_PENETRATION, e,
+                        "element %lld: gap = %g, deeper than the segment is long; take a smaller step, or look on which side of the "
+                        "segment the slave should be, or give \"penetration_limit\"",
+                        number, gap);
+}
+
+std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {
+  const long long number = e;
+  if (status == ENTS_NON_FINITE)
+    for (int i = 0; i < input_arrays; ++i) {
+      const Array a = input_array(*model, *in, i);
+      const double* v = at(static_cast<const double*>(a.data), a.stride, e);
+      const std::int64_t k = first_non_finite(v, a.size);
+      if (k >= 0)
+        return report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name, static_cast<long long>(k), number,
+                              std::isnan(v[k]) ? "NaN" : "infinite");
+    }
+  if (status == ENTS_BAD_VALUE) return report_message(report, status, e, "input.area of element %lld is negative", number);
+  if (status == ENTS_BAD_STATE)
+    return report_message(report, status, e,
+                          "input.state_begin of element %lld is not a state of this model and version; fill it with ents_state_init",
+                          number);
+  if (status == ENTS_DEEP_PENETRATION && report) return explain_penetration(e, report);
+  return report_message(report, status, e, "element %lld: %s", number, ents_status_text(status));
+}
+
+} // namespace ents
