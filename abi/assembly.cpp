@@ -34,7 +34,7 @@ private:
 // An element without a segment: its multipliers are zero, scaled like those of elements that are open.
 void Assembly::open_element(std::int64_t e, double* residual, double* tangent) const {
   const ents_input& in = *call_.in;
-  const double area = in.area ? *at(in.area, in.area_stride, e) : 1.0;
+  const double given = in.area ? *at(in.area, in.area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
   const int nodes = plan_.dofs - plan_.multipliers;
   for (int a = 0; a < plan_.multipliers; ++a) {
     const double slope = -area / (a == 0 ? plan_.law.stiffness : plan_.law.friction_stiffness);
@@ -79,6 +79,7 @@ std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, d
   ElementCall::BlockNodes nodes;
   PairBlock block = pair_block(*call_.model, *call_.in, *call_.out, first);
   if (!call_.gather_block(first, count, nodes, block)) return 0;
+  block.start_first = call_.start_first;
   block.wanted = wanted | (call_.out->wanted == 0 ? forces_only : 0);
   block.residual = residuals, block.residual_stride = plan_.dofs;
   block.tangent = tangents, block.tangent_stride = std::int64_t{plan_.dofs} * plan_.dofs;
@@ -111,11 +112,12 @@ std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
 
 std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
                       const ents_input* input, const ents_output* output, const ents_system* system,
-                      ents_report* report) {
+                      bool start_first, ents_report* report) {
   const FloatingPointGuard guard;
   ents_output none{};
   none.struct_size = sizeof none;
   ElementCall call;
+  call.start_first = start_first;
   std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
   if (status != ENTS_OK) return status;
   Assembly assembly(call, report);
@@ -129,6 +131,7 @@ std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::in
                             const ents_input* input, const ents_output* output, ents_report* report) {
   const FloatingPointGuard guard;
   ElementCall call;
+  call.start_first = true;
   if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
     return status;
   report_ok(report);
@@ -138,8 +141,7 @@ std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::in
     for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
     if (!found)
       for (std::int64_t e = first; e < end; ++e) call.write_open(e);
-    else if (const std::int32_t status = call.evaluate_range(first, end - first, report); status < 0) return status;
-    else if (status > 0 && result == ENTS_OK) result = status;
+    else if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
   }
   return result;
 }
@@ -153,7 +155,7 @@ extern "C" {
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
   return ents::at_the_door(
-      report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
+      report, [&] { return ents::assemble(model, first, count, input, output, system, false, report); });
 }
 
 int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
@@ -170,26 +172,29 @@ int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, cons
           report, ENTS_BAD_VALUE, -1,
           "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
           "takes them from the detection");
-    if ((status = ents_detect(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK)
-      return status;
+    // before anything is written: what would be refused later
+    if ((status = ents::check_handle(model, report)) != ENTS_OK) return status;
     if (model->model.law.has_friction() && known->state_begin)
       return ents::report_status(
           report, ENTS_BAD_VALUE, -1,
           "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
-    if (!detection->flags)
+    ents_detection older{};
+    const ents_detection* found = ents::known_struct(detection, older, "detection", status, report);
+    if (!found) return status;
+    if (!found->flags)
       return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "detection.flags is null; ents_iterate tells lost slaves by them");
+    if ((status = ents_detect(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
     for (std::int64_t i = first; i < first + count; ++i)
-        if ((detection->flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0)
-          return ents::report_message(report, ENTS_NO_PROJECTION, i,
-                                      "slave %lld is behind an edge between segments and ahead of none",
-                                      static_cast<long long>(i));
+      if ((found->flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0)
+        return ents::report_message(report, ENTS_NO_PROJECTION, i, "slave %lld is behind an edge between segments and ahead of none",
+                                    static_cast<long long>(i));
     ents_input in = *known;
     in.struct_size = sizeof in;
     in.mesh = mesh;
-    in.slave = detection->slave, in.slave_stride = model->plan.dimension;
-    in.segment = detection->segment, in.segment_stride = 1;
-    in.start = detection->xi, in.start_stride = model->plan.parameters;
-    if (system) return ents::assemble(model, first, count, &in, output, system, report);
+    in.slave = found->slave, in.slave_stride = model->plan.dimension;
+    in.segment = found->segment, in.segment_stride = 1;
+    in.start = found->xi, in.start_stride = model->plan.parameters;
+    if (system) return ents::assemble(model, first, count, &in, output, system, true, report);
     return ents::evaluate_found(model, first, count, &in, output, report);
   });
 }

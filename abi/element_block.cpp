@@ -105,7 +105,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
          own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) &&
          own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) &&
          own(want::energy, out->energy, out->energy_stride, 1) && own(want::pressure, out->pressure, out->pressure_stride, 1) &&
-         own(want::state, out->state_end, out->state_end_stride, plan.state.size) &&
+         own(want::state, out->state_end, out->state_end_stride, plan.state.size) && !states_overlap(*model, *in, *out, first, count) &&
          own(want::slip, out->slip, out->slip_stride, 1) && own(want::age, out->age, out->age_stride, 1) &&
          own(want::flags, out->flags, out->flags_stride, 1) && own(want::iterations, out->iterations, out->iterations_stride, 1);
 }

@@ -180,6 +180,8 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   if (!out) return status;
   if ((status = check_input(*handle, first, count, *in, report)) != ENTS_OK) return status;
   if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
+  if (states_overlap(*handle, *in, *out, first, count))
+    return report_status(report, ENTS_BAD_VALUE, -1, "output.state_end overlaps input.state_begin; give it an array of its own");
   return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
 }
 
@@ -193,7 +195,10 @@ void ElementCall::write_open(std::int64_t e) const {
   for (std::uint32_t bits = static_cast<std::uint32_t>(out->wanted); bits != 0; bits &= bits - 1) {
     const int bit = std::countr_zero(bits);
     const Array a = output_array(*model, *out, bit);
-    if (bit >= std::countr_zero(std::uint32_t{ENTS_FLAGS}) && (1 << bit) <= ENTS_ITERATIONS)
+    if ((1 << bit) == ENTS_TANGENT) // the padding is the caller's
+      for (std::int64_t j = 0; j < model->sizes.dofs; ++j)
+        std::fill_n(at(out->tangent, out->tangent_stride, e) + j * leading_dimension(*model, *out), model->sizes.dofs, 0.0);
+    else if (bit >= std::countr_zero(std::uint32_t{ENTS_FLAGS}) && (1 << bit) <= ENTS_ITERATIONS)
       *at(static_cast<std::int32_t*>(const_cast<void*>(a.data)), a.stride, e) = (1 << bit) == ENTS_FLAGS ? ENTS_FLAG_OUTSIDE : 0;
     else
       std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
@@ -209,7 +214,8 @@ ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) con
           at(in->start, in->start_stride, e),
           at(in->area, in->area_stride, e),
           at(in->state_begin, in->state_begin_stride, e),
-          at(in->multiplier, in->multiplier_stride, e)};
+          at(in->multiplier, in->multiplier_stride, e),
+          start_first};
 }
 
 std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* report) const {

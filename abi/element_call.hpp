@@ -15,12 +15,24 @@ inline std::int64_t leading_dimension(const ents_model& model, const ents_output
   return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
+// Do the states at the end of elements first .. lie on those at the begin? An element may be evaluated twice: they must not.
+inline bool states_overlap(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
+  if ((out.wanted & ENTS_STATE) == 0 || !in.state_begin || !out.state_end || count < 1) return false;
+  const auto begin = [first](const double* data, std::int64_t stride) {
+    return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * sizeof(double);
+  };
+  const auto size = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + model.sizes.state) * sizeof(double); };
+  const std::uintptr_t from = begin(in.state_begin, in.state_begin_stride), to = begin(out.state_end, out.state_end_stride);
+  return from < to + size(out.state_end_stride) && to < from + size(in.state_begin_stride);
+}
+
 struct ElementCall {
   const ents_model* model;
   const Plan* plan; // of one segment
   const ents_input* in;
   const ents_output* out;
   MasterMesh mesh; // if the input has one
+  bool start_first = false; // input.start comes before the history's xi
 
   // What an assembly wants of an element, beside what the caller does; each or null.
   struct Wanted {
@@ -47,8 +59,8 @@ struct ElementCall {
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
 
-  // All elements of a range: ordinary ones in blocks, the others one by one; ends as `settle` says.
-  std::int32_t evaluate_range(std::int64_t first, std::int64_t count, ents_report* report) const;
+  // All elements of a range: ordinary ones in blocks, the others one by one. `result` is settled with them; negative: the call ends.
+  std::int32_t evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const;
 
   // Both, for any call; apart, so that the way of plain calls stays short.
   ENTS_NOINLINE static std::int32_t evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,

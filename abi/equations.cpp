@@ -46,6 +46,11 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
     return report_message(report_, ENTS_BAD_COUNT, -1,
                           "system.master has %lld points; the mesh has %lld nodes",
                           static_cast<long long>(master_.points), static_cast<long long>(call_.mesh.nodes));
+  for (std::int64_t e = first; plan_.multipliers > 0 && e < first + count; ++e)
+    for (int a = 0; a < plan_.multipliers; ++a)
+      if (const std::int64_t equation = s.multiplier_equations[e * plan_.multipliers + a]; equation >= s.rows)
+        return report_message(report_, ENTS_BAD_VALUE, e, "system.multiplier_equations of element %lld is %lld; there are %lld rows",
+                              static_cast<long long>(e), static_cast<long long>(equation), static_cast<long long>(s.rows));
   const std::int64_t places = std::int64_t{plan_.dimension} * nodes() * nodes() + 1;
   if (s.places && !s.slave && !s.master && s.places_size < places)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.places_size is %lld; at least %lld is needed",

@@ -89,7 +89,7 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
   return true;
 }
 
-std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, ents_report* report) const {
+std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const {
   // Some results may be the element kernel's alone: then it does all of the element, but for what the block kernel writes otherwise.
   const std::int32_t known = pair_results(*model, out->wanted);
   const bool mixed = known == 0 || known != out->wanted;
@@ -111,8 +111,8 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
       if (copies) portable::finish_past_caches();
     }
   } const finish{copies};
-  std::int32_t result = ENTS_OK;
   PairBlock block = pair_block(*model, *in, *out, first);
+  block.start_first = start_first;
   for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
     size = std::min(count, most);
     std::uint64_t done = 0;
@@ -143,7 +143,9 @@ std::int32_t ElementCall::evaluate_call(const ents_model* model, std::int64_t fi
   ElementCall call;
   if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK) return status;
   report_ok(report);
-  return call.evaluate_range(first, count, report);
+  std::int32_t result = ENTS_OK;
+  const std::int32_t end = call.evaluate_range(first, count, result, report);
+  return end < 0 ? end : result;
 }
 
 } // namespace ents

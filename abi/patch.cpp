@@ -85,7 +85,7 @@ private:
   bool has_history() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] != 0.0; }
   bool known_state() const {
     const double segment = in_.state_begin[plan_.state.size];
-    return in_.state_begin[StateLayout::tag_at] == plan_.state.tag && segment >= 0.0 &&
+    return is_state(plan_.state, in_.state_begin) && segment >= 0.0 &&
            segment < static_cast<double>(segments_) && segment == std::floor(segment);
   }
 

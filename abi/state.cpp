@@ -50,7 +50,7 @@ int32_t ents_state_augment(const ents_model* model, int64_t count, double* state
       return report_status(report, ENTS_BAD_STATE, -1,
                            "this model keeps no multipliers in the state; use contact.normal.type \"augmented\"");
     for (int64_t e = 0; e < count; ++e)
-      if (state_begin[e * begin_stride] != layout.tag || state_end[e * end_stride] != layout.tag)
+      if (!is_state(layout, state_begin + e * begin_stride) || !is_state(layout, state_end + e * end_stride))
         return report_message(report, ENTS_BAD_STATE, e, "block %lld is not a state of this model and version",
                               static_cast<long long>(e));
     for (int64_t e = 0; e < count; ++e)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
@@ -55,7 +56,7 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller, ents
   const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach >= 0.0) || !(io->reach < 1e100))
     return report_message(report, ENTS_BAD_VALUE, -1, "result.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
-  if (!(io->kink >= 0.0) || !(io->kink < 10.0))
+  if (!(io->kink >= 0.0) || !(io->kink <= std::numbers::pi))
     return report_message(report, ENTS_BAD_VALUE, -1, "result.kink is %g; an angle in 0 .. pi is needed", io->kink);
   SurfaceAdmissibility a;
   std::int64_t segment = -1;

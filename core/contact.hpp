@@ -177,7 +177,7 @@ ENTS_INLINE void end_state(const Plan& plan, const ElementInput& in, const Proje
   end[StateLayout::tag_at] = s.tag;
   end[StateLayout::history_at] = static_cast<double>(now);
   end[StateLayout::age_at] =
-      in.state_begin && before == static_cast<double>(now) ? in.state_begin[StateLayout::age_at] + 1.0 : 0.0;
+      in.state_begin && same_status(before, static_cast<double>(now)) ? in.state_begin[StateLayout::age_at] + 1.0 : 0.0;
   for (int a = 0; a < T; ++a) end[StateLayout::xi_at + a] = escaped ? 0.0 : p.xi[a];
   if (s.anchor_at >= 0) {
     double anchor[T];

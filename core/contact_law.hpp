@@ -105,7 +105,7 @@ ENTS_INLINE NormalForce normal_force(const ContactLaw& law, double gap, double m
       return {-p, law.stiffness, 0.5 * p * p / law.stiffness - before, true};
     }
     case NormalKind::multiplier:
-      if (!(multiplier - law.stiffness * gap > 0.0)) return open;
+      if (!(multiplier - law.stiffness * gap > 0.0)) return {0.0, 0.0, -0.5 * multiplier * multiplier / law.stiffness, false};
       return {-multiplier, 0.0, -multiplier * gap, true};
   }
   return open;

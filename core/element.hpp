@@ -37,15 +37,6 @@ template <int N> ENTS_INLINE void copy(const double (&from)[N], double* to) {
 
 inline constexpr int largest_state = 16;
 
-// A block of this layout, with finite numbers and a known history?
-ENTS_INLINE bool is_state(const StateLayout& layout, const double* state) {
-  double zero = 0.0;
-  for (int i = 0; i < layout.size; ++i) zero += 0.0 * state[i];
-  const double history = state[StateLayout::history_at];
-  return zero == 0.0 && state[StateLayout::tag_at] == layout.tag &&
-         (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
-}
-
 // The model's limit, or the size of the segment.
 template <class B, bool H> ENTS_INLINE double penetration_limit(const Plan& plan, const Projection<B, H>& p) {
   if (plan.penetration_limit > 0.0) return plan.penetration_limit;
@@ -112,7 +103,8 @@ template <class B, bool H, bool Rigid>
 Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
   constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>;
   const std::int32_t wanted = out.wanted;
-  const bool element = (wanted & want::element) != 0;
+  // what is in contact is the law's question, too
+  const bool element = (wanted & want::element) != 0 || ((wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
   if (!inputs_finite<B>(plan, in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
   if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
@@ -131,7 +123,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   History history = History::none;
   if (in.state_begin) {
     history = static_cast<History>(static_cast<int>(in.state_begin[StateLayout::history_at]));
-    if (history != History::none) start = in.state_begin + StateLayout::xi_at;
+    if (history != History::none && !(in.start_first && start)) start = in.state_begin + StateLayout::xi_at;
   }
   std::int32_t flags = 0;
   Found found = Found::not_converged;
@@ -161,7 +153,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   ContactForce<T> c{};
   c.area = in.area ? *in.area : 1.0;
   if (element) c.normal = normal_force(plan.law, k.gap, normal_multiplier(plan, in));
-  const bool pair = element && c.normal.contact && !(flags & flag::outside);
+  const bool holds_multipliers = plan.multipliers > 0 && c.area == 0.0; // a slave without area holds them at zero
+  if (holds_multipliers) c.area = 1.0;
+  const bool outside = (flags & flag::outside) || holds_multipliers;
+  const bool pair = element && c.normal.contact && !outside;
   if (pair) {
     flags |= flag::contact;
     if (flags & flag::far_side) return Status::singular_projection;
@@ -171,8 +166,8 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     if (-k.gap > penetration_limit(plan, p)) return Status::deep_penetration;
     // a pair that has just come into contact has no anchor yet: it gets one at the end
     c.friction = plan.law.has_friction() && (history == History::stick || history == History::slip);
-  } else if (element && flags & flag::outside) {
-    c.normal.energy = 0.0;
+  } else if (element && outside) {
+    c.normal.energy = plan.law.multiplier_is_dof() ? -0.5 * in.multiplier[0] * in.multiplier[0] / plan.law.stiffness : 0.0;
   }
 
   const bool forces = pair && (wanted & (want::residual | want::tangent));
@@ -211,8 +206,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
       double size = 0.0;
       for (int i = 0; i < plan.state.size; ++i) size += absolute(end[i]);
       if (!(size < largest_result)) return Status::out_of_range;
-      if (in.state_begin && end[StateLayout::history_at] != in.state_begin[StateLayout::history_at])
-        flags |= flag::changed;
+      if (in.state_begin && !same_status(in.state_begin[StateLayout::history_at], end[StateLayout::history_at])) flags |= flag::changed;
     }
   }
   ContactTangent<B, H, Rigid> tangent;

@@ -33,7 +33,7 @@ template <class B, bool H> ENTS_INLINE const double* start_of(const Plan& plan, 
     const double* state = block.state_begin + e * block.state_begin_stride;
     if (state[StateLayout::tag_at] != plan.state.tag || !is_finite(state, plan.state.size)) return nullptr;
     const double history = state[StateLayout::history_at];
-    if (history == 1.0 || history == 2.0 || history == 3.0) return state + StateLayout::xi_at;
+    if (history == 1.0 || history == 2.0 || history == 3.0) return block.start_first && start ? start : state + StateLayout::xi_at;
     if (history != 0.0) return nullptr;
   }
   return start;
@@ -98,10 +98,10 @@ ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const P
     sheared = bits_of(f.at_shear_limit) >> k & 1;
   }
   const double now = static_cast<double>(!pair ? History::open : slips ? History::slip : History::stick);
-  const bool changed = begin && begin[StateLayout::history_at] != now;
+  const bool changed = begin && !same_status(begin[StateLayout::history_at], now);
   const double age = begin && !changed ? begin[StateLayout::age_at] + 1.0 : 0.0;
   if (wanted & want::flags)
-    block.flags[e * block.flags_stride] = (pair && wanted & want::element ? flag::contact : 0) | (beyond ? flag::outside : 0) | (changed ? flag::changed : 0) |
+    block.flags[e * block.flags_stride] = (pair ? flag::contact : 0) | (beyond ? flag::outside : 0) | (changed ? flag::changed : 0) |
                                           (active ? (slips ? flag::slip : flag::stick) : 0) | (sheared ? flag::shear_limit : 0);
   if (wanted & want::age) block.age[e * block.age_stride] = age;
   double anchor[T], slipped = 0.0;
@@ -208,7 +208,7 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
     const double* at = anchor_of<T>(plan, block, e, history);
     for (int a = 0; a < T; ++a) anchor[a] = at[a];
   }
-  if (block.wanted & forces_only && p.is_clearly_open(plan)) {
+  if (block.wanted & forces_only && p.has_area() && p.is_clearly_open(plan)) {
     write_open(block, e);
     return true;
   }
@@ -240,7 +240,7 @@ template <class B, bool H, int W> struct PairLanes {
   static constexpr int D = B::dim, T = D - 1;
   using S = Lanes<W>;
   PairNodes<B, S> nodes;
-  S xi[T];
+  S xi[T], area;
   std::uint32_t known; // bit k: element e + k has a start
 
   ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
@@ -269,6 +269,8 @@ template <class B, bool H, int W> struct PairLanes {
       read_lanes<W>(coordinates, nodes.coordinates);
     }
     nodes.height = plan.height;
+    area = S(1.0);
+    if (block.area) area = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return block.area[(e + k) * block.area_stride]; });
     read_lanes<W>(start, xi);
     if (plain_start) {
       S zero = 0.0 * xi[0];
@@ -354,8 +356,6 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
   constexpr int D = B::dim, T = D - 1;
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
-  p.area = S(1.0);
-  if (block.area) p.area = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return block.area[(e + k) * block.area_stride]; });
   S anchor[T], history;
   if constexpr (F) {
     const double* at[W];
@@ -390,7 +390,7 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
     for (constexpr int W = register_width; k + W <= count;) {
       constexpr std::uint32_t all = (1u << W) - 1;
       const auto far_of = [&](const PairLanes<B, H, W>& lanes, const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
-        return block.wanted & forces_only ? lanes.known & bits_of(pair.is_clearly_open(plan)) : 0u;
+        return block.wanted & forces_only ? lanes.known & bits_of(both(pair.has_area(), pair.is_clearly_open(plan))) : 0u;
       };
       // a line's few numbers leave registers free for two projections at once
       constexpr bool in_pairs = std::is_same_v<B, Line2> && H;
@@ -398,6 +398,7 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
       const std::int64_t e = block.first + k;
       const PairLanes<B, H, W> a(plan, block, e);
       Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
+      p.area = a.area;
       const std::uint32_t far = far_of(a, p);
       if (far == all) {
         for (int i = 0; i < W; ++i) write_open(block, e + i);
@@ -408,6 +409,7 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
       if (two) {
         const PairLanes<B, H, W> b(plan, block, e + W);
         Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
+        q.area = b.area;
         if constexpr (in_pairs) project_both(p, q);
         done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, far_of(b, q), e + W)} << (k + W);
       } else {

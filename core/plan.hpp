@@ -74,6 +74,7 @@ struct ElementInput {
   const double* area;                 // or null: 1
   const double* state_begin;          // or null
   const double* multiplier;           // [multipliers] if the law has multiplier dofs
+  bool start_first = false;           // before the history's xi
 };
 
 struct ElementOutput {
@@ -92,6 +93,8 @@ struct SurfacePoint {
 
 // State block of an element: where its parts are; -1: not part of it.
 enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 };  // stick: also without friction
+// Is the element what it was? One without a history is open.
+constexpr bool same_status(double before, double now) { return before == now || (before <= 1.0 && now <= 1.0); }
 struct StateLayout {
   static constexpr std::int32_t version = 1;
   static constexpr std::int32_t tag_at = 0, history_at = 1;
@@ -104,6 +107,14 @@ struct StateLayout {
   double tag;  // "ents", version and layout in one exactly representable number
 };
 StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law);
+// A block of this layout, with finite numbers and a known history?
+inline bool is_state(const StateLayout& layout, const double* state) {
+  double zero = 0.0;
+  for (int i = 0; i < layout.size; ++i) zero += 0.0 * state[i];
+  const double history = state[StateLayout::history_at];
+  return zero == 0.0 && state[StateLayout::tag_at] == layout.tag &&
+         (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
+}
 
 // The best projection of a slave on a segment.
 struct SegmentProjection {
@@ -147,6 +158,7 @@ struct PairBlock {
   std::int64_t xi_stride, gap_stride, normal_gap_stride, normal_stride, point_stride, energy_stride, pressure_stride, residual_stride,
       tangent_stride, state_end_stride, traction_stride, slip_stride, age_stride, flags_stride, iterations_stride;
   std::int64_t leading, first;
+  bool start_first = false; // before the history's xi
 };
 // Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the others are left to the element kernel.
 using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t count);

@@ -60,19 +60,21 @@ Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const
   using namespace ENTS_ISA;
   constexpr int T = B::dim - 1, M = B::nodes;
   const std::vector<Point> points = rule<B>(n);
-  for (facet = 0; facet < count; ++facet)
-    for (const Point& point : points) {
-      double xi[T];
-      for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
-      Shape<double, T, M> N;
-      const double area = point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
-      if (!(area > 0.0) || !(area < 1e300)) return Status::degenerate_segment;
-      for (int i = 0; i < M; ++i) {
-        *nodes++ = connectivity[facet * M + i];
-        *weights++ = N.n[i];
+  for (const bool writes : {false, true}) // nothing, unless all facets are good
+    for (facet = 0; facet < count; ++facet)
+      for (const Point& point : points) {
+        double xi[T];
+        for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
+        Shape<double, T, M> N;
+        const double area = point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
+        if (!(area > 0.0) || !(area < 1e300)) return Status::degenerate_segment;
+        if (!writes) continue;
+        for (int i = 0; i < M; ++i) {
+          *nodes++ = connectivity[facet * M + i];
+          *weights++ = N.n[i];
+        }
+        *areas++ = area;
       }
-      *areas++ = area;
-    }
   return Status::ok;
 }
 

@@ -50,6 +50,7 @@ template <class B> bool add_facet(const std::int64_t* nodes, const double* posit
     for (int a = 0; a < T; ++a) xi[a] = points[q].xi[a];
     Shape<double, T, M> N;
     const double w = points[q].weight * facet_density<B>(nodes, positions, thickness, xi, N);
+    if (!(w > 0.0)) return false; // folded, or beyond the axis
     area += w;
     for (int i = 0; i < M; ++i) {
       share[i] += w * N.n[i];

@@ -305,6 +305,50 @@ TEST_F(Arguments, StaleHandles) {
 }
 #endif
 
+// An element may be evaluated twice, so that its state must not be written over.
+TEST_F(Arguments, StatesDoNotOverlap) {
+  const int64_t size = model.layout.state_size;
+  std::vector<double> states(static_cast<std::size_t>(4 * size));
+  call::state_init(model.get(), int64_t{4}, states.data(), size, nullptr);
+  for (const int32_t wanted : {int32_t{ENTS_STATE}, want_all}) {
+    input.state_begin = states.data(), input.state_begin_stride = size;
+    output.wanted = wanted;
+    output.state_end_stride = size;
+    for (const int64_t apart : {int64_t{0}, int64_t{1}, size - 1}) {
+      output.state_end = states.data() + apart;
+      const ents_input in = input;
+      const ents_output out = output;
+      refused(ENTS_BAD_VALUE, "output.state_end overlaps input.state_begin");
+      input = in, output = out;
+    }
+    output.state_end = states.data() + size;
+    EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK) << report.message;
+    reset();
+  }
+}
+
+TEST_F(Arguments, SlaveSurfaces) {
+  // turned about the axis of r = 0, a facet must not cross it
+  const double crossing[] = {0.1, 0.0, 1.0, 0.0, -0.9, 1.0};
+  const int64_t line[] = {0, 1, 1, 2};
+  double areas[3] = {7, 7, 7};
+  EXPECT_EQ(call::tributary_areas("line2", int64_t{2}, line, int64_t{3}, crossing, 0.0, areas, &report), ENTS_DEGENERATE_SEGMENT);
+  for (const double a : areas) EXPECT_EQ(a, 7.0);
+  int64_t begin[5] = {7, 7, 7, 7, 7}, nodes[8] = {7, 7, 7, 7, 7, 7, 7, 7};
+  double weights[8] = {7, 7, 7, 7, 7, 7, 7, 7}, of_points[4] = {7, 7, 7, 7};
+  EXPECT_EQ(ents_sampling_points("line2", 2, 2, line, 3, crossing, 0.0, begin, nodes, weights, of_points, &report), ENTS_DEGENERATE_SEGMENT);
+  for (const double w : weights) EXPECT_EQ(w, 7.0);
+  for (const double a : of_points) EXPECT_EQ(a, 7.0);
+  ents_combination combination{};
+  combination.struct_size = sizeof combination;
+  const int64_t from[] = {1, 2}, of[] = {0, 1};
+  const double factors[] = {5, 1};
+  double point[2] = {7, 7};
+  combination.points = 1, combination.begin = from, combination.nodes = of, combination.weights = factors;
+  EXPECT_EQ(ents_combine(&combination, 2, 3, crossing, point, &report), ENTS_BAD_VALUE);
+  EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
+}
+
 TEST_F(Arguments, CountsOfTheOtherFunctions) {
   std::vector<double> state(100);
   const int64_t size = model.layout.state_size;

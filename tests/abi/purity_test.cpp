@@ -146,6 +146,9 @@ TEST(Purity, WantedOutputsDoNotChangeEachOther) {
       ASSERT_EQ(test::evaluate(model, e, outputs[i].bit, one), ENTS_OK);
       ASSERT_TRUE(same_bits(one[i], all[i])) << outputs[i].name << " " << text(kind);
     }
+    Results flags(model.layout);
+    ASSERT_EQ(test::evaluate(model, e, ENTS_FLAGS, flags), ENTS_OK);
+    ASSERT_EQ(flags.flags, all.flags) << text(kind);
   }
 }
 

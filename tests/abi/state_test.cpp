@@ -163,6 +163,51 @@ TEST_F(State, TransferAndAugmentRefuseForeignBlocks) {
   EXPECT_EQ(call::state_augment(model.get(), 1, state.data(), stride, good.data(), stride, &report),
             ENTS_BAD_STATE);
   for (const double v : state) EXPECT_EQ(v, 0.0);
+  const Model augmented(R"({"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 100}}})");
+  const auto length = int64_t{augmented.layout.state_size};
+  std::vector<double> begin(static_cast<std::size_t>(length)), end;
+  call::state_init(augmented.get(), int64_t{1}, begin.data(), length, nullptr);
+  end = begin;
+  end.back() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(call::state_augment(augmented.get(), int64_t{1}, begin.data(), length, end.data(), length, &report), ENTS_BAD_STATE);
+  EXPECT_EQ(begin.back(), 0.0);
+}
+
+// Open near the segment, open so far away that no projection is found, open as a new state: one status.
+TEST_F(State, OpenIsOpenWherever) {
+  const Model model(R"({"segment": "line3", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  Element e;
+  e[master] = {-1, 0, 1, 0, 0, 0.05};
+  e[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
+  call::state_init(model.get(), int64_t{1}, e[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
+  Results results(model.layout);
+  double age = 0.0;
+  for (const double x : {0.1, 30.0, 0.1, 0.2, 30.0}) {
+    e[slave] = {x, 0.5};
+    ASSERT_EQ(test::evaluate(model, e, want_element | ENTS_FLAGS, results), ENTS_OK);
+    EXPECT_FALSE(results.flags & (ENTS_FLAG_CHANGED | ENTS_FLAG_CONTACT)) << x;
+    EXPECT_EQ(results.of(ENTS_AGE)[0], ++age) << x;
+    e[state_begin] = results.of(ENTS_STATE);
+  }
+  e[slave] = {0.1, 0.0};
+  ASSERT_EQ(test::evaluate(model, e, want_element | ENTS_FLAGS, results), ENTS_OK);
+  EXPECT_EQ(results.flags & (ENTS_FLAG_CHANGED | ENTS_FLAG_CONTACT), ENTS_FLAG_CHANGED | ENTS_FLAG_CONTACT);
+  EXPECT_EQ(results.of(ENTS_AGE)[0], 0.0);
+}
+
+// A patch keeps the kernel's state and its segment.
+TEST_F(State, PatchesRefuseWhatIsNotFinite) {
+  const Model model(R"({"segment": "line2", "patch": [[0, 1], [1, 2]], "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  Element e;
+  e[master] = {0, 0, 1, 0, 2, 0}, e[slave] = {0.5, -0.01};
+  e[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
+  call::state_init(model.get(), int64_t{1}, e[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
+  Results results(model.layout);
+  EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_OK);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    e[state_begin][3] = bad;
+    EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_BAD_STATE);
+  }
 }
 
 } // namespace

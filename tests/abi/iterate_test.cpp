@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents_iterate and ents_assemble at the door: what is the caller's stays so, what is said is what is done.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/model.hpp"
+
+namespace {
+
+using namespace test;
+
+std::string model_text(const std::string& law, const std::string& more = "") {
+  return R"({"segment": "line2", "contact": {"normal": )" + law + "}" + more + "}";
+}
+const std::string penalty = R"({"type": "penalty", "stiffness": 100})", multiplier = R"({"type": "augmented_multiplier", "stiffness": 100})";
+
+// Slaves above two segments along x, each 2 long.
+struct Iteration {
+  explicit Iteration(const std::string& text, std::vector<double> where) : model(text), slave(std::move(where)) {
+    mesh.struct_size = sizeof mesh;
+    mesh.segments = 2, mesh.nodes = 3, mesh.connectivity = connectivity, mesh.positions = positions;
+    int64_t size = 0;
+    EXPECT_EQ(ents_tree_size(model.get(), 2, &size, nullptr), ENTS_OK);
+    tree.resize(static_cast<std::size_t>(size));
+    EXPECT_EQ(ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr), ENTS_OK);
+    const std::size_t count = slave.size() / 2;
+    segment.assign(count, -1), xi.assign(count, 0.0), found.assign(count, 0), equations.resize(2 * count);
+    for (std::size_t i = 0; i < equations.size(); ++i) equations[i] = 6 + static_cast<int64_t>(i);
+    detection.struct_size = sizeof detection;
+    detection.slave = slave.data(), detection.reach = 0.5, detection.segment = segment.data(), detection.xi = xi.data();
+    detection.flags = found.data();
+    input.struct_size = sizeof input, output.struct_size = sizeof output, system.struct_size = sizeof system;
+    system.index_size = 8, system.slave_nodes = static_cast<int64_t>(count), system.master_nodes = 3;
+    system.slave_equations = equations.data(), system.master_equations = of_master;
+    system.rows = 6 + static_cast<int64_t>(equations.size());
+    residual.assign(64, 0.0);
+    system.residual = residual.data();
+  }
+  int64_t count() const { return static_cast<int64_t>(segment.size()); }
+  int32_t iterate(const ents_system* into) {
+    return ents_iterate(model.get(), &mesh, tree.data(), static_cast<int64_t>(tree.size()), 0, count(), &detection, &input, &output, into,
+                        &report);
+  }
+
+  Model model;
+  int64_t connectivity[4] = {0, 1, 1, 2}, of_master[6] = {0, 1, 2, 3, 4, 5};
+  double positions[6] = {0, 0, 2, 0, 4, 0};
+  ents_master_mesh mesh{};
+  std::vector<double> tree, slave, xi, residual;
+  std::vector<int64_t> segment, equations;
+  std::vector<int32_t> found;
+  ents_detection detection{};
+  ents_input input{};
+  ents_output output{};
+  ents_system system{};
+  ents_report report = new_report();
+};
+
+TEST(Iterate, MultiplierEquationsBeyondTheRowsAreRefused) {
+  Iteration it(model_text(multiplier), {0.5, -0.01});
+  const double lambda = 1.0;
+  int64_t equation = 9; // of 8
+  it.input.multiplier = &lambda;
+  it.system.multiplier_equations = &equation;
+  EXPECT_EQ(it.iterate(&it.system), ENTS_BAD_VALUE);
+  EXPECT_NE(std::strstr(it.report.message, "multiplier_equations of element 0 is 9; there are 8 rows"), nullptr) << it.report.message;
+  for (const double r : it.residual) EXPECT_EQ(r, 0.0);
+  equation = -1; // prescribed
+  EXPECT_EQ(it.iterate(&it.system), ENTS_OK);
+}
+
+// A texture under a slave that crosses the border of two segments: its xi on the old one says nothing about the new one.
+TEST(Iterate, StartsFromWhatItFinds) {
+  for (const char* law : {"penalty", "augmented"}) {
+    Iteration it(model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})",
+                            R"(, "height": {"type": "sine", "amplitude": 0.01875, "wave_vector": [8], "phase": 1.9})"),
+                 {2.04649, -0.02464});
+    std::vector<double> begin(static_cast<std::size_t>(it.model.layout.state_size)), end = begin;
+    ASSERT_EQ(ents_state_init(it.model.get(), 1, begin.data(), it.model.layout.state_size, nullptr), ENTS_OK);
+    double gap = 0.0, detected = 0.0;
+    int32_t flags = 0;
+    it.detection.gap = &detected;
+    it.input.state_begin = begin.data();
+    it.output.wanted = ENTS_GAP | ENTS_STATE | ENTS_FLAGS;
+    it.output.gap = &gap, it.output.state_end = end.data(), it.output.flags = &flags;
+    ASSERT_EQ(it.iterate(nullptr), ENTS_OK);
+    ASSERT_EQ(it.segment[0], 1);
+    begin = end;
+    it.slave[0] = 1.98378;
+    ASSERT_EQ(it.iterate(nullptr), ENTS_OK);
+    ASSERT_EQ(it.segment[0], 0);
+    EXPECT_NEAR(gap, detected, 1e-12) << law;
+    EXPECT_LT(gap, -0.03);
+    EXPECT_TRUE(flags & ENTS_FLAG_CONTACT);
+    // summed up, too
+    it.output.wanted = ENTS_FLAGS;
+    ASSERT_EQ(it.iterate(&it.system), ENTS_OK);
+    EXPECT_LT(it.residual[7], -1.0);
+  }
+}
+
+TEST(Iterate, PaddingOfTangentsIsTheCallers) {
+  Iteration it(model_text(penalty), {50.0, 50.0, 0.5, -0.01});
+  std::vector<double> tangent(120, -7.0);
+  it.output.wanted = ENTS_TANGENT;
+  it.output.tangent = tangent.data(), it.output.tangent_stride = 60, it.output.tangent_leading_dimension = 10;
+  ASSERT_EQ(it.iterate(nullptr), ENTS_OK);
+  ASSERT_EQ(it.segment[0], -1);
+  for (std::size_t e = 0; e < 2; ++e)
+    for (std::size_t j = 0; j < 6; ++j)
+      for (std::size_t i = 0; i < 10; ++i) {
+        const double k = tangent[60 * e + 10 * j + i];
+        EXPECT_EQ(k == -7.0, i >= 6) << e << " " << j << " " << i;
+      }
+}
+
+TEST(Iterate, TellsTheFirstOfTheRefused) {
+  Iteration it(model_text(penalty, R"(, "penetration_limit": 0.05)"), {0.5, -0.1, 50.0, 50.0, 1.5, -0.2});
+  std::vector<double> energy(3);
+  std::vector<int32_t> status(3, -9);
+  it.output.wanted = ENTS_ENERGY;
+  it.output.energy = energy.data(), it.output.energy_stride = 1, it.output.status = status.data(), it.output.status_stride = 1;
+  EXPECT_EQ(it.iterate(nullptr), ENTS_DEEP_PENETRATION);
+  EXPECT_EQ(it.report.status, ENTS_DEEP_PENETRATION);
+  EXPECT_EQ(it.report.element, 0);
+  EXPECT_EQ(status, (std::vector<int32_t>{ENTS_DEEP_PENETRATION, ENTS_OK, ENTS_DEEP_PENETRATION}));
+  EXPECT_NE(std::strstr(it.report.message, "gap = -0.1"), nullptr) << it.report.message;
+}
+
+// An older caller's detection ends before `flags`, which ents_iterate needs; nothing is read beyond it, and nothing has been written.
+TEST(Iterate, RefusesBeforeItWrites) {
+  Iteration it(model_text(penalty), {0.5, -0.01});
+  it.detection.struct_size = offsetof(ents_detection, flags);
+  EXPECT_EQ(it.iterate(nullptr), ENTS_NULL_ARGUMENT);
+  EXPECT_NE(std::strstr(it.report.message, "detection.flags"), nullptr) << it.report.message;
+  EXPECT_EQ(it.segment[0], -1);
+  Iteration rough(R"({"segment": "line2", "contact": {"normal": )" + penalty + R"(, "friction": {"type": "rough", "stiffness": 10}}})",
+                  {0.5, -0.01});
+  const std::vector<double> state(static_cast<std::size_t>(rough.model.layout.state_size));
+  rough.input.state_begin = state.data();
+  EXPECT_EQ(rough.iterate(nullptr), ENTS_BAD_VALUE);
+  EXPECT_EQ(rough.segment[0], -1);
+}
+
+// Nobody asks for a result of the element, and it is clearly open: its area is looked at all the same.
+TEST(Assemble, AreasOfOpenElementsAreChecked) {
+  for (const char* height : {"", R"(, "height": {"type": "sine", "amplitude": 0.01, "wave_vector": [1]})"}) {
+    for (const std::size_t count : {1u, 9u}) { // one by one, and in lanes
+      std::vector<double> where;
+      for (std::size_t i = 0; i < count; ++i) where.insert(where.end(), {0.5, 0.3});
+      Iteration it(model_text(penalty, height), where);
+      for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        std::vector<double> area(count, 1.0);
+        it.input.area = area.data(), it.input.area_stride = 1;
+        EXPECT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;
+        area[0] = bad;
+        EXPECT_EQ(it.iterate(&it.system), bad < 0.0 && std::isfinite(bad) ? ENTS_BAD_VALUE : ENTS_NON_FINITE) << bad;
+        EXPECT_NE(std::strstr(it.report.message, "input.area"), nullptr) << it.report.message;
+      }
+    }
+  }
+}
+
+// A slave without area carries no force; its multiplier is zero, and its row of the system is not.
+TEST(Assemble, SlavesWithoutAreaHoldTheirMultiplier) {
+  for (const char* law : {"augmented_multiplier", "multiplier"})
+    for (const double gap : {-0.01, 0.01}) {
+      Iteration it(model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})"), {0.5, gap, 50.0, 50.0});
+      const double lambda[] = {3.0, 3.0}, area[] = {0.0, 0.0};
+      const int64_t equation[] = {10, 11};
+      it.input.multiplier = lambda, it.input.multiplier_stride = 1, it.input.area = area, it.input.area_stride = 1;
+      it.system.multiplier_equations = equation;
+      it.system.rows = 12;
+      ASSERT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;
+      for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(it.residual[i], 0.0);
+      EXPECT_DOUBLE_EQ(it.residual[10], -3.0 / 100);
+      EXPECT_DOUBLE_EQ(it.residual[11], -3.0 / 100);
+    }
+}
+
+} // namespace
