@@ -7,6 +7,7 @@
 !   - types start zeroed and with null pointers; `call ents_init(x)` does the same again and sets x%struct_size;
 !   - arrays go into ents_input, ents_output ... as c_loc(array) of arrays with the target attribute; ENTS_XI | ENTS_GAP is
 !     ior(ENTS_XI, ENTS_GAP), or ENTS_XI + ENTS_GAP. A C array [m][d] is a Fortran array (d, m);
+!   - order of a segment's nodes, and which way its normal points: "Segments" at the top of ents.h, where nodes are counted from 0;
 !   - a model is a type(c_ptr); element numbers (`first`, report%element) are 0-based as in C;
 !   - text arguments are ordinary character values with their length; ents_string turns C texts and report%message into one;
 !   - ents_version is called ents_library_version here: Fortran cannot tell it from the status value ENTS_VERSION.
