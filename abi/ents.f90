@@ -227,13 +227,13 @@ module ents
     integer(c_int64_t) :: normal_stride = 0
     type(c_ptr) :: point = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: point_stride = 0
-    type(c_ptr) :: gap_gradient = c_null_ptr ! (dofs, elements)
+    type(c_ptr) :: gap_gradient = c_null_ptr ! (n, elements), n = dofs - multipliers
     integer(c_int64_t) :: gap_gradient_stride = 0
-    type(c_ptr) :: gap_hessian = c_null_ptr ! (dofs, dofs, elements)
+    type(c_ptr) :: gap_hessian = c_null_ptr ! (n, n, elements)
     integer(c_int64_t) :: gap_hessian_stride = 0
-    type(c_ptr) :: xi_gradient = c_null_ptr ! (dofs, d-1, elements)
+    type(c_ptr) :: xi_gradient = c_null_ptr ! (n, d-1, elements)
     integer(c_int64_t) :: xi_gradient_stride = 0
-    type(c_ptr) :: xi_hessian = c_null_ptr ! (dofs, dofs, d-1, elements)
+    type(c_ptr) :: xi_hessian = c_null_ptr ! (n, n, d-1, elements)
     integer(c_int64_t) :: xi_hessian_stride = 0
     type(c_ptr) :: energy = c_null_ptr ! (elements)
     integer(c_int64_t) :: energy_stride = 0

@@ -233,7 +233,7 @@ typedef struct ents_detection {
   double reach;                      /* [L], > 0: a projection with a larger |gap| is none */
   int64_t *segment;                  /* [count] in: the segment of before, or -1; out: the segment, -1: nothing within reach */
   double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
-  double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow) */
+  double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow); 0 where segment is -1 */
   int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE */
   int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or -1 */
 } ents_detection;
@@ -279,7 +279,7 @@ typedef struct ents_input {
   int64_t multiplier_stride;
   const ents_master_mesh *mesh;      /* with `segment`: nodes and surface coordinates come from here instead of `master`
                                         and `surface_coordinates`, which are then null */
-  const int64_t *segment;            /* [1] index of the segment in `mesh`; as ents_detect gives it, but never -1 */
+  const int64_t *segment;            /* [1] index of the segment in `mesh`; as ents_detect gives it, but never -1. Not read without `mesh` */
   int64_t segment_stride;
 } ents_input;
 
@@ -315,7 +315,8 @@ typedef struct ents_input {
 #define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: ahead of no segment, but behind an edge between segments: not open, but lost */
 #define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
 
-/* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one. A
+/* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
+ * BAD_COUNT): 0 is not "shared" as with inputs. With first = 0 and count = 1 alone strides are not read and may be 0. A
  * pointer may be null unless its bit is set in `wanted`. */
 typedef struct ents_output {
   int32_t struct_size;
