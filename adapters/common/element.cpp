@@ -245,11 +245,15 @@ Result evaluate(const Element& e) {
   double start[2];
   if (find_start(model, input, start)) input.start = start;
   int32_t flags = 0;
+  const bool checked = (arguments.options & option_selfcheck) && e.tangent;
+  double gap = 0, normal[3] = {};
   ents_output output{};
   output.struct_size = sizeof output;
   output.wanted = ENTS_FLAGS | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) | (e.energy ? ENTS_ENERGY : 0) |
-                  (e.history_end ? ENTS_STATE : 0);
+                  (e.history_end ? ENTS_STATE : 0) | (checked ? ENTS_GAP | ENTS_NORMAL : 0);
   output.flags = &flags;
+  output.gap = &gap;
+  output.normal = normal;
   output.residual = residual;
   output.tangent = tangent;
   output.energy = &energy;
@@ -265,9 +269,12 @@ Result evaluate(const Element& e) {
   if (e.energy) *e.energy = energy;
   if (e.history_end)
     for (int i = 0; i < layout.state_size; ++i) e.history_end(i) = state_end[i];
-  if ((arguments.options & option_selfcheck) && e.tangent && result.contact) {
+  if (checked) {
     char text[512];
-    selfcheck(model.model, layout, input, unknowns, tangent, text, sizeof text);
+    if (result.contact)
+      selfcheck(model.model, layout, input, unknowns, tangent, text, sizeof text);
+    else
+      say_open((flags & ENTS_FLAG_OUTSIDE) == 0, gap, normal, text, sizeof text);
     say(result, e, text);
   }
   return result;

@@ -65,4 +65,15 @@ bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_in
   return good;
 }
 
+void say_open(bool projected, double gap, const double* normal, char* text, std::size_t size) {
+  if (projected)
+    std::snprintf(
+        text, size,
+        "selfcheck: open, gap %.3e, the segment's normal is (%.3f, %.3f, %.3f). If the bodies overlap "
+        "here, the normal points into the master: turn the order of the segment's nodes round",
+        gap, normal[0], normal[1], normal[2]);
+  else
+    std::snprintf(text, size, "selfcheck: open, the slave node is not ahead of this segment");
+}
+
 } // namespace ents_adapter

@@ -16,4 +16,10 @@ namespace ents_adapter {
 bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_input& input, double* unknowns,
                const double* tangent, char* text, std::size_t size);
 
+/// Why is there no contact? What a user needs to see that a segment is the wrong way round.
+/// @param projected  the slave node has a projection on the segment; else `gap` and `normal` [3] are not
+/// looked at
+/// @param text       [size] out
+void say_open(bool projected, double gap, const double* normal, char* text, std::size_t size);
+
 } // namespace ents_adapter

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -175,6 +177,31 @@ TEST_F(Uel, SelfcheckReportsIntoTheMessageFile) {
   EXPECT_LT(errors[2], 1e-8);             // and roundings over the step, 1e-16 / 1e-6 times a few
   UelCall silent = dragged({33, 0.5});
   EXPECT_TRUE(same(c.amatrx, silent.amatrx, c.amatrx.size()));
+}
+
+// A master that is the wrong way round takes what penetrates for open, and nothing else tells its user.
+TEST_F(Uel, SelfcheckSaysWhyThereIsNoContact) {
+  UelCall c = request(1);
+  c.props = {14, 0.5, 1};
+  c();
+  EXPECT_NE(only_message(1).find("K is the slope of R"), std::string::npos);
+  UelCall reversed = request(1);
+  reversed.props = {14, 0.5, 1};
+  for (int i = 0; i < 3; ++i) { // nodes 1 4 3 2
+    std::swap(reversed.coords[static_cast<std::size_t>(6 + i)],
+              reversed.coords[static_cast<std::size_t>(12 + i)]);
+    std::swap(reversed.u[static_cast<std::size_t>(6 + i)], reversed.u[static_cast<std::size_t>(12 + i)]);
+  }
+  reversed();
+  EXPECT_TRUE(zero(reversed.rhs, static_cast<std::size_t>(reversed.ndofel)));
+  const std::string text = only_message(1);
+  EXPECT_NE(text.find("open, gap "), std::string::npos) << text;
+  EXPECT_NE(text.find("turn the order"), std::string::npos) << text;
+  UelCall beside = request(1);
+  beside.props = {14, 0.5, 1};
+  beside.u[0] += 50;
+  beside();
+  EXPECT_NE(only_message(1).find("not ahead of this segment"), std::string::npos);
 }
 
 TEST_F(Uel, SelfcheckFindsAnApproximateTangent) {
