@@ -18,6 +18,7 @@ namespace {
 /// What the library needs to know of one element.
 struct Arguments {
   const LoadedModel* model = nullptr;
+  const ElementRow* row = nullptr; ///< of the table, if it has one for this element
   double area = 0;
   int options = 0;
   const double* surface_coordinates = nullptr; ///< null: the model's own, else s = xi
@@ -71,26 +72,14 @@ std::string read_properties(const Element& e, Arguments& arguments) {
   const LoadedModel& model = model_number(static_cast<int>(number), e.host->directory);
   if (!model.model) return model.error;
   arguments.model = &model;
-  const int coordinates = model.layout.nodes * model.layout.parameters;
   arguments.area = area;
-  if (e.property_count >= 3 + coordinates) {
-    for (int i = 0; i < coordinates; ++i)
-      if (arguments.own_coordinates[i] = e.properties(3 + i); !std::isfinite(e.properties(3 + i)))
-        return entry(4 + i) + ", a surface coordinate, is not finite";
-    // Hosts with a fixed number of properties fill up with zeros: a segment without extent is none given.
-    if (std::any_of(arguments.own_coordinates, arguments.own_coordinates + coordinates,
-                    [](double s) { return s != 0; }))
-      arguments.surface_coordinates = arguments.own_coordinates;
-  }
-  const ElementRow* row = model.row(e.number);
-  if (row && !row->surface_coordinates.empty())
-    arguments.surface_coordinates = row->surface_coordinates.data();
+  arguments.row = model.row(e.number);
   if (area == 0) {
-    if (!row)
+    if (!arguments.row)
       return entry(2) + ", the area, is 0 and there is no line for this element in " +
              model.file.substr(0, model.file.size() - 4) +
              "txt; write \"ELEMENT AREA\" there, or the area in the deck";
-    arguments.area = row->area;
+    arguments.area = arguments.row->area;
   }
   return "";
 }
@@ -120,6 +109,41 @@ std::string check_sizes(const Element& e, const LoadedModel& model) {
            " history variables, the element has " + std::to_string(e.history_size) + ". Write " +
            e.host->history + std::to_string(layout.state_size);
   return "";
+}
+
+/// Surface coordinates of the deck, or of the table, which goes before.
+/// @return what is wrong with them; "" if nothing
+std::string read_coordinates(const Element& e, Arguments& arguments) {
+  const LoadedModel& model = *arguments.model;
+  const int wanted = model.layout.nodes * model.layout.parameters;
+  // Hosts with a fixed number of properties fill up with zeros: a segment without extent is none given.
+  int count = e.property_count;
+  while (count > 3 && e.properties(count - 1) == 0) --count;
+  if (count > 3) {
+    const auto entry = [&](int i) { return e.host->properties + std::to_string(i); };
+    const bool too_few = e.property_count < 3 + wanted;
+    if (too_few || count > 3 + wanted)
+      return entry(4) + " and the following are " + std::to_string((too_few ? e.property_count : count) - 3) +
+             " surface coordinates, " + model.file + " needs " + std::to_string(wanted) + ", " +
+             std::to_string(model.layout.parameters) + " for each of its " +
+             std::to_string(model.layout.nodes) + " master nodes. Write " + std::to_string(3 + wanted) +
+             " properties, or 3";
+    for (int i = 0; i < wanted; ++i)
+      if (arguments.own_coordinates[i] = e.properties(3 + i); !std::isfinite(e.properties(3 + i)))
+        return entry(4 + i) + ", a surface coordinate, is not finite";
+    arguments.surface_coordinates = arguments.own_coordinates;
+  }
+  if (arguments.row && !arguments.row->surface_coordinates.empty())
+    arguments.surface_coordinates = arguments.row->surface_coordinates.data();
+  return "";
+}
+
+/// @return what is wrong with the element's description; "" if nothing
+std::string read(const Element& e, Arguments& arguments) {
+  std::string wrong = read_properties(e, arguments);
+  if (wrong.empty()) wrong = check_sizes(e, *arguments.model);
+  if (wrong.empty()) wrong = read_coordinates(e, arguments);
+  return wrong;
 }
 
 /// Current positions of slave and master nodes, then multipliers. @return all finite
@@ -199,10 +223,8 @@ void negative_product(const Grid<const double>& matrix, int n, const double* vec
 
 Result check(const Element& e) {
   Arguments arguments;
-  std::string wrong = read_properties(e, arguments);
-  if (wrong.empty()) wrong = check_sizes(e, *arguments.model);
   Result result;
-  if (!wrong.empty()) {
+  if (const std::string wrong = read(e, arguments); !wrong.empty()) {
     result = fail(e, wrong);
   } else {
     result.message[0] = 0;
@@ -213,10 +235,9 @@ Result check(const Element& e) {
 
 Result evaluate(const Element& e) {
   Arguments arguments;
-  if (const std::string wrong = read_properties(e, arguments); !wrong.empty()) return fail(e, wrong);
+  if (const std::string wrong = read(e, arguments); !wrong.empty()) return fail(e, wrong);
   const LoadedModel& model = *arguments.model;
   const ents_layout& layout = model.layout;
-  if (const std::string wrong = check_sizes(e, model); !wrong.empty()) return fail(e, wrong);
 
   double unknowns[largest_dofs], state_begin[largest_state], state_end[largest_state];
   double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0;

@@ -37,7 +37,7 @@ struct Host {
 ///   1  k, whole number: the model is ents_k.json
 ///   2  tributary area of the slave node [A], > 0; 0: from ents_k.txt
 ///   3  options, a sum: 1 selfcheck; others are a host's own. May be absent
-///   4 ..  surface coordinates [m][d-1] of the master nodes. May be absent
+///   4 ..  surface coordinates [m][d-1] of the master nodes. May be absent; zeros at the end do not count
 enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative_tangent = 4 };
 
 struct Element {

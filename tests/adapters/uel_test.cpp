@@ -235,6 +235,28 @@ TEST_F(Uel, AreasAndSurfaceCoordinatesFromTheTable) {
   EXPECT_FALSE(same(stretched.rhs, in_deck.rhs, static_cast<std::size_t>(in_deck.ndofel)));
 }
 
+TEST_F(Uel, ZerosAfterThePropertiesAreNoSurfaceCoordinates) {
+  const auto with = [&](std::vector<double> more) {
+    UelCall c = request(1);
+    c.props = {14, 0.5, 0};
+    c.props.insert(c.props.end(), more.begin(), more.end());
+    c();
+    return c;
+  };
+  const std::vector<double> s = {0, 0, 3, 0, 3, 2, 0, 2};
+  std::vector<double> padded = s;
+  padded.resize(37);
+  UelCall none = with({}), given = with(s), given_padded = with(padded);
+  const auto n = static_cast<std::size_t>(none.ndofel);
+  for (const std::size_t zeros : {1u, 5u, 8u, 37u}) {
+    UelCall filled = with(std::vector<double>(zeros));
+    EXPECT_TRUE(same(filled.rhs, none.rhs, n)) << zeros;
+  }
+  EXPECT_FALSE(same(given.rhs, none.rhs, n));
+  EXPECT_TRUE(same(given.rhs, given_padded.rhs, n));
+  EXPECT_TRUE(abaqus_messages().empty());
+}
+
 struct Mistake {
   const char* name;
   std::function<void(UelCall&)> make;

@@ -2,7 +2,6 @@
 // LS-DYNA user element usld_e101: blocks of elements, the block index first. It is an eight-node solid; nodes
 // that the contact element does not need repeat others. What facts are known of the interface, README.md
 // says.
-#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -60,7 +59,7 @@ usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, dou
     e.dofs = e.coordinates = 3;
     e.position = {position, 1, 3};
     e.properties = {cm};
-    e.property_count = std::min(*lmc, 3 + 2 * (nodes - 1));
+    e.property_count = *lmc;
     e.history = {hsv + b, nlq};
     e.history_size = *nhsv;
     e.residual = {force + b, nlq, 3 * nlq};
