@@ -5,6 +5,7 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <mutex>
@@ -32,8 +33,13 @@ bool read_numbers(const std::string& line, std::vector<double>& numbers) {
 
 /// @throws std::string what is wrong, with the line
 void read_rows(const std::string& file, LoadedModel& loaded) {
+  std::error_code error;
+  if (std::filesystem::symlink_status(file, error).type() == std::filesystem::file_type::not_found)
+    return; // the file is optional
+  const std::string advice = "; make it a text file with lines ELEMENT AREA, or remove it";
+  if (!std::filesystem::is_regular_file(file, error)) throw file + " is not a file" + advice;
   std::ifstream in(file, std::ios::binary);
-  if (!in) return; // the file is optional
+  if (!in) throw file + " cannot be opened for reading" + advice;
   const auto coordinates = static_cast<std::size_t>(loaded.layout.nodes * loaded.layout.parameters);
   std::string line;
   std::vector<double> numbers;
@@ -46,10 +52,13 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
           " surface coordinates of the master nodes";
     if (numbers[0] < 1 || numbers[0] > 9e15 || numbers[0] != std::floor(numbers[0]))
       throw where + "the first number is the element's, a whole number > 0";
-    if (numbers[1] < 0) throw where + "the area is negative";
+    if (numbers[1] <= 0)
+      throw where + "the area is " + (numbers[1] < 0 ? "negative" : "0") +
+          "; write the tributary area of the slave node, > 0";
     loaded.rows.push_back(
         {static_cast<std::int64_t>(numbers[0]), numbers[1], {numbers.begin() + 2, numbers.end()}});
   }
+  if (in.bad()) throw file + " cannot be read to its end";
   const auto earlier = [](const ElementRow& a, const ElementRow& b) { return a.element < b.element; };
   std::sort(loaded.rows.begin(), loaded.rows.end(), earlier);
   for (std::size_t i = 1; i < loaded.rows.size(); ++i)

@@ -17,7 +17,7 @@ inline constexpr int largest_model_number = 9999;
 /// A line of ents_k.txt: "ELEMENT AREA [S ...]", # starts a comment.
 struct ElementRow {
   std::int64_t element = 0;                ///< the host's number
-  double area = 0;                         ///< [A] tributary area of the slave node, >= 0
+  double area = 0;                         ///< [A] tributary area of the slave node, > 0
   std::vector<double> surface_coordinates; ///< [m][d-1] of the master nodes; or empty
 };
 

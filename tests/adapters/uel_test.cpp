@@ -269,11 +269,17 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
   write("ents_42.json", R"({"segment": "quad4", "hight": null})");
   write("ents_43.json", R"({"segment": "quad4"})");
   const char* good = R"({"segment": "quad4", "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
-  for (const char* file : {"ents_44.json", "ents_45.json", "ents_46.json", "ents_47.json"}) write(file, good);
+  for (const char* file : {"ents_44.json", "ents_45.json", "ents_46.json", "ents_47.json", "ents_48.json",
+                           "ents_49.json", "ents_50.json"})
+    write(file, good);
   write("ents_44.txt", "90001 0.5\n90002 0.5 much\n");
   write("ents_45.txt", "90001 0.5 1 2 3\n");
   write("ents_46.txt", "90001 0.5\n90001 0.6\n");
   write("ents_47.txt", "90002 0.5\n");
+  write("ents_48.txt", "90002 0.5\n90001 0\n");
+  std::filesystem::create_directory("ents_49.txt");
+  std::filesystem::remove("ents_50.txt");
+  std::filesystem::create_symlink("no_such_file", "ents_50.txt");
   const Mistake mistakes[] = {
       {"no properties", [](UelCall& c) { c.props = {}; }, "write *UEL PROPERTY, entry 1 and 2"},
       {"no file",
@@ -334,6 +340,19 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
          c.props = {47, 0};
        },
        "ents_47.txt"},
+      {"area 0 in the table",
+       [](UelCall& c) {
+         c.props = {48, 0};
+       },
+       "ents_48.txt, line 2: the area is 0; write"},
+      {"the table is a folder", [](UelCall& c) { c.props[0] = 49; }, "ents_49.txt is not a file"},
+      {"the table is a link to nothing", [](UelCall& c) { c.props[0] = 50; }, "ents_50.txt is not a file"},
+      {"a surface coordinate missing", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, 2, 1}; },
+       "*UEL PROPERTY, entry 4 and the following are 7 surface coordinates, "},
+      {"half of them", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 3, 3, 0}; },
+       "ents_14.json needs 8, 2 for each of its 4 master nodes. Write 11 properties, or 3"},
+      {"two too many", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, 2, 0, 2, 0, 5, 0}; },
+       "are 10 surface coordinates"},
       {"surface coordinate", [](UelCall& c) { c.props = {14, 0.5, 0, 0, 0, 3, 0, 3, std::nan(""), 0, 2}; },
        "entry 9"},
       {"too few nodes", [](UelCall& c) { c.nnode = 4, c.ndofel = 12; }, "Write *USER ELEMENT, NODES=5"},
