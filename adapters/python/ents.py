@@ -7,7 +7,7 @@
 
 Conventions are those of ents.h: current positions, indices from 0, dofs node by node (slave, then master nodes, then multipliers), units of
 the host. Matrices here are ordinary ones: tangent[e, i, j] = dR_i / du_j of element e. Arrays are converted to float64 / int64 and copied where they are
-not so already. Calls release the interpreter's lock: threads that evaluate the same model run at the same time.
+not so already; indices may be floating point numbers if they are whole. Calls release the interpreter's lock: threads that evaluate the same model run at the same time.
 
 Mistakes raise ents.Error with the library's own message. What a cut of the step can cure (0 < status < 100) is no exception: "status" of
 the result holds it for every element, "step_factor" and "message" say what to do.
@@ -94,8 +94,21 @@ def _address(array):
     return None if array is None else array.ctypes.data
 
 
+def _whole(name, value):
+    """`value` as an array of whole numbers. 2.0 is one; 2.7 is a mistake, which a conversion to integers would hide."""
+    array = np.asarray(value)
+    if array.dtype.kind == "f":
+        wrong = np.argwhere(~((np.abs(array) < 2.0 ** 63) & (array == np.floor(array))))
+        if len(wrong):
+            place = tuple(wrong[0])
+            raise Error(Status.BAD_VALUE, f"{name}[{', '.join(map(str, place))}] is {array[place]}: give a whole number")
+    return array
+
+
 def _array(name, value, shape, dtype=np.float64):
     """`value` as a contiguous array; None in `shape` stands for any size."""
+    if dtype is np.int64:
+        value = _whole(name, value)
     array = np.ascontiguousarray(value, dtype)
     if array.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, array.shape)):
         raise Error(Status.BAD_COUNT, f"{name}: the shape is {array.shape}, wanted is {tuple('n' if s is None else s for s in shape)}")
@@ -103,8 +116,11 @@ def _array(name, value, shape, dtype=np.float64):
 
 
 def _combination(combination):
-    begin, of, weights = combination
-    return _new(Combination, points=len(begin) - 1, begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data)
+    begin, of = (_array("combination: " + name, value, (None,), np.int64) for name, value in zip(("begin", "nodes"), combination))
+    weights = _array("combination: weights", combination[2], of.shape)
+    block = _new(Combination, points=len(begin) - 1, begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data)
+    block.arrays = begin, of, weights  # they live as long as the addresses
+    return block
 
 
 # ---- the library --------------------------------------------------------------------------------------------------------------
@@ -159,7 +175,7 @@ class Library:
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
         and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
         connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        head = (facet.encode(), basis.encode(), ctypes.c_int32(ends), len(connectivity), connectivity, int(nodes))
+        head = (facet.encode(), basis.encode(), ctypes.c_int32(ends), len(connectivity), connectivity, *_array("nodes", [nodes], (1,), np.int64))
         points, terms = ctypes.c_int64(), ctypes.c_int64()
         self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms))
         digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
@@ -480,12 +496,12 @@ class System:
         if matrix is None and rows is None:
             raise Error(Status.NULL_ARGUMENT, "rows: say how many there are, or give a matrix")
         self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else rows)
-        self._combinations = [None if points is None else (_combination(points), points) for points in (slave, master)]
+        self._combinations = [None if points is None else _combination(points) for points in (slave, master)]
         self._places = None
 
     def _struct(self, model, elements):
         lay = model.layout
-        slave, master = (None if points is None else ctypes.addressof(points[0]) for points in self._combinations)
+        slave, master = (None if points is None else ctypes.addressof(points) for points in self._combinations)
         out = _new(SystemOfHost, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
                    rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
         if self.slave_equations.shape[1] != lay.dimension:

@@ -3,9 +3,14 @@
 LAYOUT-PROGRAM prints constants, sizes and offsets of ents.h (abi/header_layout.sh), FIRST-PROGRAM is clients/first.c. The library is the one of
 the environment's ENTS_LIBRARY. Exit status 3: no NumPy here, nothing was tested.
 """
+import contextlib
 import ctypes
+import os
+import pathlib
+import re
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 
@@ -26,6 +31,16 @@ FRICTION = {"segment": "line2", "height": {"type": "sine", "amplitude": 0.04, "w
             "contact": {"normal": {"type": "penalty", "stiffness": 1000},
                         "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 900}}}
 LINE = np.array([[-1.0, 0.1], [1.1, -0.2]])
+
+
+@contextlib.contextmanager
+def inside(folder):
+    before = os.getcwd()
+    os.chdir(folder)
+    try:
+        yield
+    finally:
+        os.chdir(before)
 
 
 def printed(program):
@@ -307,6 +322,24 @@ class Surfaces(unittest.TestCase):
         np.testing.assert_allclose(areas, [1, 3, 2], rtol=1e-15)
 
 
+    def test_combinations_of_other_integers(self):
+        """scipy.sparse has 32-bit indices: what ents_combine reads is 64-bit all the same."""
+        x = np.array([[0.0, 0], [1, 0.2], [2, -0.1], [3, 0]])
+        _, (begin, of, weights) = ents.library().smooth("line2", "bspline4", [[0, 1], [1, 2], [2, 3]], 4.0)
+        narrow = begin.astype(np.int32), list(of), weights.tolist()
+        np.testing.assert_array_equal(ents.library().combine(narrow, x), ents.library().combine((begin, of, weights), x))
+
+    def test_table_of_areas_as_adapters_readme_makes_it(self):
+        """The block of Python in adapters/README.md, run as it stands, gives the areas of a sheet of 2 x 1 quadrilaterals."""
+        readme = (pathlib.Path(__file__).resolve().parents[2] / "adapters" / "README.md").read_text()
+        code, = re.findall(r"```python\n(.*?)```", readme, re.S)
+        with tempfile.TemporaryDirectory() as job, inside(job):
+            exec(code, {})
+            table = np.loadtxt("ents_7.txt")
+        np.testing.assert_array_equal(table[:, 0], [90001, 90002, 90003, 90004, 90005, 90006])
+        np.testing.assert_allclose(table[:, 1], [0.25, 0.5, 0.25, 0.25, 0.5, 0.25], rtol=1e-15)
+
+
 class Errors(unittest.TestCase):
     def caught(self, status, words, call):
         with self.assertRaises(ents.Error) as caught:
@@ -335,6 +368,30 @@ class Errors(unittest.TestCase):
         self.caught(ents.Status.BAD_COUNT, ["out: tangent"], lambda: model.evaluate(
             [[0, 0, 0]] * 2, QUAD, "gap tangent", out={**two, "tangent": np.zeros((2, 15, 15))}))  # its memory is the other way round
         self.caught(ents.Status.NON_FINITE, ["slave"], lambda: model.evaluate([[0, np.nan, 0]], QUAD))
+
+    def test_indices_are_whole_numbers(self):
+        model = ents.Model(FIRST)
+        tree = ents.Tree(model, [[0.0, 1, 2, 3]], QUAD)
+        self.assertEqual(tree.connectivity.tolist(), [[0, 1, 2, 3]])
+        slave, rows = [[0, 0, -0.1]], np.arange(15).reshape(5, 3)
+        library = ents.library()
+        combination = np.array([0, 1]), np.array([0.5]), np.array([1.0])
+        for words, call in (
+                ("connectivity[0, 3] is 3.7", lambda: ents.Tree(model, [[0, 1, 2, 3.7]], QUAD)),
+                ("connectivity[0, 1] is nan", lambda: ents.Tree(model, [[0, np.nan, 2, 3]], QUAD)),
+                ("connectivity[0, 1] is 1e+300", lambda: ents.Tree(model, [[0, 1e300, 2, 3]], QUAD)),
+                ("segment[0] is 0.5", lambda: tree.detect(slave, 1, segment=[0.5], xi=[[0, 0]])),
+                ("segment[0] is 0.5", lambda: model.evaluate(slave, None, "gap", tree=tree, segment=[0.5])),
+                ("segment[0] is 0.5", lambda: model.blocks(slave, tree, [0.5], rows[:1], rows[1:], 15)),
+                ("slave_equations[0, 0] is 0.5", lambda: model.blocks(slave, tree, [0], rows[:1] + 0.5, rows[1:], 15)),
+                ("master_equations[0, 0] is 3.5", lambda: ents.System(rows[:1], rows[1:] + 0.5, rows=15)),
+                ("old[0] is 0.5", lambda: tree.state_transfer(model.state_init(1), [0.5], [0])),
+                ("connectivity[0, 0] is 0.5", lambda: library.tributary_areas("line2", [[0.5, 1]], [[0, 0], [1, 0]])),
+                ("connectivity[0, 0] is 0.5", lambda: library.sampling_points("line2", 2, [[0.5, 1]], [[0, 0], [1, 0]])),
+                ("connectivity[0, 0] is 0.5", lambda: library.smooth("line2", "bspline4", [[0.5, 1]], 2)),
+                ("nodes[0] is 2.5", lambda: library.smooth("line2", "bspline4", [[0, 1]], 2.5)),
+                ("nodes[0] is 0.5", lambda: library.combine(combination, [[0, 0], [1, 0]]))):
+            self.caught(ents.Status.BAD_VALUE, [words, "whole number"], call)
 
     def test_recoverable_statuses_are_results(self):
         model = ents.Model({**FIRST, "contact": {"normal": {"type": "penalty", "stiffness": 1000}}, "penetration_limit": 0.01})
