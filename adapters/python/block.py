@@ -12,6 +12,7 @@ compare  OUTPUT is what a host printed: lines with "iterations N" and "force on 
          ents-host for the same scene
 
 exit status: 0 done; 1 other forces; 2 wrong command line"""
+import argparse
 import json
 import pathlib
 import re
@@ -20,6 +21,19 @@ import sys
 # Both programs stop when |r| <= 1e-12 |reactions|; what is left is a load on the 132 free dofs, which by statics the two supports share: it
 # moves a force on a support by sqrt(132) * 1e-12 = 1.2e-11 at most, in each program.
 SAME_FORCE = 2.4e-11
+
+
+def arguments(description):
+    """The command line of getfem_block.py and dolfinx_block.py."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", nargs="?", default=pathlib.Path(__file__).with_name("block.json"), type=pathlib.Path)
+    parser.add_argument("--variant")
+    parser.add_argument("--compare", type=pathlib.Path)
+    parser.add_argument("--refine", type=int, default=1)
+    given = parser.parse_args()
+    if given.compare and given.refine != 1:
+        parser.error("--compare is for the scene's own meshes: leave out --refine")
+    return given
 
 
 def merged(value, patch):
@@ -66,6 +80,9 @@ def printed(file):
 
 
 def main():
+    if sys.argv[1:] in (["-h"], ["--help"]):
+        print(__doc__)
+        return
     if len(sys.argv) in (3, 4) and sys.argv[1] == "model":
         print(json.dumps(variant_of(sys.argv[2], sys.argv[3] if len(sys.argv) == 4 else None)["contact"]["model"], indent=1))
         return

@@ -12,12 +12,14 @@ SCENE      a scene of ents-host with two blocks, quad4 or tri3, "neo_hooke" or "
 --refine   N times as many elements in each direction (not with --compare)
 
 A contact element belongs to the process that owns its slave node. Positions of the two surfaces are known to all.
-exit status: 0 done; 1 no convergence, or other forces; 3 a package is missing (Debian: python3-dolfinx-real python3-scipy)"""
-import argparse
+exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 a package is missing (Debian: python3-dolfinx-real python3-scipy)"""
 import pathlib
 import sys
 import traceback
 
+import block
+
+ARGUMENTS = block.arguments(__doc__) if __name__ == "__main__" else None  # before the imports: --help needs none of them
 try:
     import dolfinx
     import numpy as np
@@ -28,9 +30,8 @@ try:
     from mpi4py import MPI
     from petsc4py import PETSc
 except ModuleNotFoundError as error:
-    print(f"dolfinx_block.py: {error}; Debian has it in python3-dolfinx-real, python3-scipy, for /usr/bin/python3")
+    print(f"{pathlib.Path(sys.argv[0]).name}: {error}; Debian has it in python3-dolfinx-real, python3-scipy, for /usr/bin/python3")
     sys.exit(3)
-import block
 import ents
 
 # SNES stops when |r| <= 1e-10, which is 3e-13 of a force of 329: stricter than block.SAME_FORCE takes it to be.
@@ -257,15 +258,7 @@ class Host:
         return np.array(forces), iterations
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", nargs="?", default=pathlib.Path(__file__).with_name("block.json"), type=pathlib.Path)
-    parser.add_argument("--variant")
-    parser.add_argument("--compare", type=pathlib.Path)
-    parser.add_argument("--refine", type=int, default=1)
-    arguments = parser.parse_args()
-    if arguments.compare and arguments.refine != 1:
-        parser.error("--compare is for the scene's own meshes: leave out --refine")
+def main(arguments):
     scene = block.variant_of(arguments.scene, arguments.variant)
     host = Host(scene, arguments.refine)
     forces, iterations = host.solve(scene["steps"]["values"][0]["count"])
@@ -274,4 +267,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(ARGUMENTS)

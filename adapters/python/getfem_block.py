@@ -11,19 +11,20 @@ SCENE      a scene of ents-host with two blocks, quad4 or tri3, "neo_hooke" or "
 --refine   N times as many elements in each direction (not with --compare)
 
 exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 GetFEM, NumPy or SciPy is missing (Debian: python3-getfem++ python3-scipy)"""
-import argparse
 import pathlib
 import sys
 
+import block
+
+ARGUMENTS = block.arguments(__doc__) if __name__ == "__main__" else None  # before the imports: --help needs none of them
 try:
     import getfem as gf
     import numpy as np
     import scipy.sparse as sparse
     from scipy.sparse.linalg import spsolve
 except ModuleNotFoundError as error:
-    print(f"getfem_block.py: {error}; Debian has it in python3-getfem++, python3-numpy, python3-scipy, for /usr/bin/python3")
+    print(f"{pathlib.Path(sys.argv[0]).name}: {error}; Debian has it in python3-getfem++, python3-numpy, python3-scipy, for /usr/bin/python3")
     sys.exit(3)
-import block
 import ents
 
 ITERATIONS = 25
@@ -173,19 +174,11 @@ def solve(scene, refine=1, report=print):
     return np.array(forces), iterations
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene", nargs="?", default=pathlib.Path(__file__).with_name("block.json"), type=pathlib.Path)
-    parser.add_argument("--variant")
-    parser.add_argument("--compare", type=pathlib.Path)
-    parser.add_argument("--refine", type=int, default=1)
-    arguments = parser.parse_args()
-    if arguments.compare and arguments.refine != 1:
-        parser.error("--compare is for the scene's own meshes: leave out --refine")
+def main(arguments):
     forces, iterations = solve(block.variant_of(arguments.scene, arguments.variant), arguments.refine)
     if arguments.compare:
         block.compare(forces, iterations, arguments.compare)
 
 
 if __name__ == "__main__":
-    main()
+    main(ARGUMENTS)

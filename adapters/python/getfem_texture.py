@@ -12,6 +12,8 @@ exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 
 import argparse
 import time
 
+if __name__ == "__main__":  # before the imports: --help needs none of them
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
 import getfem_block
 from getfem_block import gf, np, sparse, spsolve
 
@@ -101,7 +103,6 @@ def own_contact(problem):
 
 
 def main():
-    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     print("contact       slave  master   master's  unknowns  time [s]  iterations  force on the support, all steps")
     print("              cells  cells    segments")
     found = {}
