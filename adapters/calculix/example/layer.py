@@ -70,7 +70,7 @@ def write(scene, out):
     lines += ["*NSET, NSET=FLOOR", *(f"{node + k * side}," for k in (0, 1) for node in below[0]),
               "*NSET, NSET=TOP", *(f"{node + k * upper_side}," for k in (0, 1) for node in above[-1]),
               "*MATERIAL, NAME=CONTACT", "*ELASTIC", "1., 0.", "*DEPVAR", "16", "*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=3", "1., 0., 0.",
-              "*STEP, NLGEOM, INC=100", "*STATIC, DIRECT", f"{1 / steps!r}, 1.", "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
+              "*STEP, NLGEOM, INC=100", "*STATIC", f"{1 / steps!r}, 1., 1e-5, {1 / steps!r}", "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
               "*BOUNDARY", "ALL, 3, 3", "FLOOR, 1, 2", f"TOP, 1, 1, {float(push['x'])!r}", f"TOP, 2, 2, {push['y']!r}",
               "*NODE PRINT, NSET=FLOOR, TOTALS=ONLY", "RF", "*END STEP"]
     (out / "job.inp").write_text("\n".join(lines) + "\n")

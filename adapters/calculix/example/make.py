@@ -72,7 +72,7 @@ def main():
              "*MATERIAL, NAME=CONTACT", "*ELASTIC", "1., 0.", "*DEPVAR", "16",
              *(["*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=3", "1., 0., 0."] if element == "U1E" else
                ["*USER SECTION, ELSET=CONTACT, MATERIAL=CONTACT, CONSTANTS=5", f"3., {1 if friction else 0}., 1., 0., 0."]),
-             f"*STEP, NLGEOM, INC=100", "*STATIC, DIRECT", f"{1 / STEPS!r}, 1.",
+             f"*STEP, NLGEOM, INC=100", "*STATIC", f"{1 / STEPS!r}, 1., 1e-5, {1 / STEPS!r}",
              "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
              "*BOUNDARY", "BOTTOM, 1, 3", *[f"MASTER, {i}, {i}, {u!r}" for i, u in enumerate(travel, 1)],
              "*NODE PRINT, NSET=BOTTOM, TOTALS=ONLY", "RF", "*NODE PRINT, NSET=ALL", "U", "*END STEP"]

@@ -70,7 +70,7 @@ def deck(penalty, native):
         row, column = lower.shape[0], lower.shape[0] - 1
         patch = [[i + row * j, i + 1 + row * j, i + 1 + row * (j + 1), i + row * (j + 1)] for j in range(lower.shape[1] - 1) for i in range(column)]
         model = {"segment": "quad4", "patch": patch, "border": 0.05, "contact": {"normal": {"type": "penalty", "stiffness": penalty}}}
-    lines += ["*STEP, NLGEOM, INC=100", "*STATIC, DIRECT", f"{1 / INCREMENTS!r}, 1.", "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
+    lines += ["*STEP, NLGEOM, INC=100", "*STATIC", f"{1 / INCREMENTS!r}, 1., 1e-5, {1 / INCREMENTS!r}", "*CONTROLS, PARAMETERS=FIELD", "1.e-9, 1.e-9",
               "*BOUNDARY", "FLOOR, 1, 3", *(f"TOP, {i}, {i}, {u!r}" for i, u in enumerate(PUSH, 1)),
               "*NODE PRINT, NSET=FLOOR, TOTALS=ONLY", "RF", "*END STEP"]
     return lines, model, areas
