@@ -5,7 +5,8 @@
 !
 ! usage: fortran_host SCENE
 program host
-  use, intrinsic :: iso_c_binding, only: real64 => c_double
+  use, intrinsic :: iso_c_binding, only: c_int, real64 => c_double
+  use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use bodies, only: rectangle, mesh_rectangle, add_stiffness
   use contact, only: start_contact, add_contact, accept_contact
   implicit none
@@ -25,6 +26,10 @@ program host
       real(real64), intent(inout) :: a(lda, *), b(ldb, *)
       integer, intent(out) :: ipiv(*), info
     end subroutine dgesv
+    subroutine c_exit(status) bind(c, name="exit") ! of the C library: stop would print, and error stop a backtrace
+      import :: c_int
+      integer(c_int), value :: status
+    end subroutine c_exit
   end interface
 
   count = 0
@@ -82,29 +87,59 @@ contains
   function argument() result(text)
     character(:), allocatable :: text
     integer :: length
-    if (command_argument_count() /= 1) error stop "usage: fortran_host SCENE"
+    if (command_argument_count() /= 1) then
+      call usage(error_unit)
+      call quit(2)
+    end if
     call get_command_argument(1, length=length)
     allocate (character(length) :: text)
     call get_command_argument(1, text)
+    if (text == "-h" .or. text == "--help") then
+      call usage(output_unit)
+      call quit(0)
+    end if
   end function argument
+
+  subroutine usage(unit)
+    integer, intent(in) :: unit
+    write (unit, '(a)') "usage: fortran_host SCENE", "", &
+      "Two elastic blocks, the upper one slides on the textured surface of the lower one, with friction.", &
+      "SCENE: examples/fortran_host/scene.json. Its contact model is read, the rest is written in host.f90.", "", &
+      "exit status: 0 done; 1 no convergence, or a wrong model; 2 no scene, or a wrong command line"
+  end subroutine usage
+
+  ! A mistake in the command line or the scene.
+  subroutine mistake(message)
+    character(*), intent(in) :: message
+    write (error_unit, '(a)') "fortran_host: " // message
+    call quit(2)
+  end subroutine mistake
+
+  subroutine quit(status)
+    integer, intent(in) :: status
+    flush (output_unit)
+    flush (error_unit)
+    call c_exit(int(status, c_int))
+  end subroutine quit
 
   ! The object behind "model": in a JSON file.
   function model_of(file) result(text)
     character(*), intent(in) :: file
     character(:), allocatable :: text
-    character(1000) :: line
+    character(1000) :: line, reason
     integer :: unit, status, depth, from, to
-    open (newunit=unit, file=file, status="old", action="read", iostat=status)
-    if (status /= 0) error stop "the scene cannot be read"
+    open (newunit=unit, file=file, status="old", action="read", iostat=status, iomsg=reason)
+    if (status /= 0) call mistake("the scene " // file // " cannot be read: " // trim(reason))
     text = ""
     do
-      read (unit, '(a)', iostat=status) line
-      if (status /= 0) exit
+      read (unit, '(a)', iostat=status, iomsg=reason) line
+      if (is_iostat_end(status)) exit
+      if (status /= 0) call mistake("the scene " // file // " cannot be read: " // trim(reason))
       text = text // trim(line) // new_line("a")
     end do
     close (unit)
     from = index(text, '"model"')
-    if (from == 0) error stop "the scene has no model"
+    if (from == 0) call mistake(file // ' has no key "model": give a scene of ents-host')
     from = from + index(text(from:), "{") - 1
     depth = 0
     do to = from, len(text)

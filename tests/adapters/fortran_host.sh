@@ -10,7 +10,19 @@ cat "$out/forces"
 "$python" -B "$compare" compare "$out/forces" "$out/host/result.json"
 
 # Mistakes end it with a message.
-if "$fortran" "$out/no_such_scene.json" >"$out/mistake" 2>&1; then echo "no error for a scene that is not there"; exit 1; fi
+mistake() { # STATUS TEXT ARGUMENT...: the program ends with STATUS and says TEXT on stderr, without a backtrace
+  wanted=$1 text=$2 status=0
+  shift 2
+  "$fortran" "$@" >"$out/forces" 2>"$out/mistake" || status=$?
+  [ $status -eq "$wanted" ] || { echo "exit status $status instead of $wanted: fortran_host $*"; exit 1; }
+  grep -qF "$text" "$out/mistake" || { echo "fortran_host $* does not say '$text' but:"; cat "$out/mistake"; exit 1; }
+  if grep -i 'backtrace' "$out/mistake"; then exit 1; fi
+}
+mistake 2 'no_such_scene.json cannot be read: ' "$out/no_such_scene.json"
+echo '{"title": "no contact"}' >"$out/no_model.json"
+mistake 2 'no_model.json has no key "model"' "$out/no_model.json"
+mistake 2 'usage: fortran_host SCENE'
+"$fortran" --help | grep -q 'usage: fortran_host SCENE'
 sed 's/"bspline4"/"bspline4", "wrong": 1/' "$scene" >"$out/wrong.json"
 if "$fortran" "$out/wrong.json" >"$out/mistake" 2>&1; then echo "no error for a wrong model"; exit 1; fi
 grep 'ents: /wrong' "$out/mistake"
