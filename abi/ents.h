@@ -19,20 +19,20 @@
  *
  * Segments: order of the master nodes, counted from 0, and natural coordinates xi. "line": -1 .. 1; "square": -1 .. 1 in both;
  * "triangle": xi_1 >= 0, xi_2 >= 0, xi_1 + xi_2 <= 1
- *   line2          line      ends, at xi = -1, 1
- *   line3          line      ends, then the middle
- *   tri3           triangle  corners, at (0,0) (1,0) (0,1)
- *   tri6           triangle  corners as tri3, then the middles of the sides 01, 12, 20
- *   quad4          square    corners, at (-1,-1) (1,-1) (1,1) (-1,1)
- *   quad8, quad9   square    corners as quad4, then the middles of the sides 01, 12, 23, 30; quad9: then the centre
- *   catmull_rom4, bspline4    line      four points in a row. The segment lies between the middle two: catmull_rom4 begins in point 1 and ends
- *                             in point 2, bspline4 at (x_0 + 4 x_1 + x_2) / 6 and (x_1 + 4 x_2 + x_3) / 6
- *   catmull_rom16, bspline16  square    four rows of four points: point 4 j + i, i grows with xi_1, j with xi_2. The segment lies between the
- *                             middle four: the corners of catmull_rom16 are points 5, 6, 10, 9, in the order of quad4
- *   bezier15       triangle  control points: corners as tri3, then three on each of the sides 01, 12, 20, in its direction, then the
- *                            three inner ones, each next to its corner
+ *   line2                     line      ends, at xi = -1, 1
+ *   line3                     line      ends, then the middle
+ *   tri3                      triangle  corners, at (0,0) (1,0) (0,1)
+ *   tri6                      triangle  corners as tri3, then the middles of the sides 01, 12, 20
+ *   quad4                     square    corners, at (-1,-1) (1,-1) (1,1) (-1,1)
+ *   quad8, quad9              square    corners as quad4, then the middles of the sides 01, 12, 23, 30; quad9: then the centre
+ *   catmull_rom4, bspline4    line      four points in a row. The segment lies between the middle two: catmull_rom4 begins in point 1
+ *                                       and ends in 2, bspline4 at (x_0 + 4 x_1 + x_2) / 6 and (x_1 + 4 x_2 + x_3) / 6
+ *   catmull_rom16, bspline16  square    four rows of four: point 4 j + i, i grows with xi_1, j with xi_2. The segment lies between the
+ *                                       middle four: the corners of catmull_rom16 are points 5, 6, 10, 9, in the order of quad4
+ *   bezier15                  triangle  control points: corners as tri3, then three on each of the sides 01, 12, 20, in its direction,
+ *                                       then the three inner ones, each next to its corner
  * The normal has to point out of the master's body, to the slave nodes. 2D: it is on the left hand of who walks from the first end of the
- * line to the last (to +y if that is to +x). 3D: it points at who sees the corners go round counter-clockwise (to +z if they do
+ * line to the other (to +y if that is to +x). 3D: it points at who sees the corners go round counter-clockwise (to +z if they do
  * so in the plane of x and y). The library cannot see a wrong order: a segment the other way round takes open nodes for
  * penetrating ones and the reverse, one with its middles between the corners is another surface.
  *
