@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Adapters broken on purpose, mostly by two indices swapped, one at a time: does a test fail?
 
-    python3 tests/adapters/mutations.py BUILD        one to four minutes; nothing of BUILD is changed
+    python3 tests/adapters/mutations.py BUILD        one to five minutes; nothing of BUILD is changed
 
 Each mutant is a shared library in a temporary folder that is put before the real one (LD_PRELOAD). Exit status 1 if one survives.
 """
