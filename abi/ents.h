@@ -269,7 +269,8 @@ typedef struct ents_input {
   int64_t surface_coordinates_stride;
   const double *start;               /* [d-1] start of the projection, natural coordinates; null: search the whole segment */
   int64_t start_stride;
-  const double *area;                /* [1] tributary area of the slave node, [A], >= 0; null: 1 */
+  const double *area;                /* [1] tributary area of the slave node, [A], >= 0; null: 1. Without area there is no force, and
+                                        multiplier dofs are held at zero */
   int64_t area_stride;
   const double *state_begin;         /* [state_size] begin of increment, read only; null: no history.
                                         A state that has seen a projection overrides `start` */
@@ -297,13 +298,14 @@ typedef struct ents_input {
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
 #define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
 #define ENTS_TANGENT       (1 << 12) /* tangent       [dofs][tangent_leading_dimension] [F/L]  K = dR/du */
-#define ENTS_STATE         (1 << 13) /* state_end     [state_size] */
+#define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin */
 #define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
 #define ENTS_ITERATIONS    (1 << 15) /* iterations    [1] int32: surface evaluations the projection took */
 #define ENTS_TRACTION      (1 << 16) /* traction      [d]    [F/A]   tangential traction on the master, spatial vector */
 #define ENTS_SLIP          (1 << 17) /* slip          [1]    [L]     accumulated slip of the state, end of increment */
 #define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
 
+/* Of a model with "contact", flags are those of the element, whatever else is wanted. */
 #define ENTS_FLAG_CONTACT  1   /* the element carries pressure */
 #define ENTS_FLAG_OUTSIDE  2   /* the projection lies outside the segment: open, R = 0, K = 0 */
 #define ENTS_FLAG_FAR_SIDE 4   /* slave beyond a centre of curvature: the projection is not a minimum of the distance */
@@ -313,7 +315,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
 #define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
 #define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: ahead of no segment, but behind an edge between segments: not open, but lost */
-#define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment */
+#define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment; a new state is open */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
  * BAD_COUNT): 0 is not "shared" as with inputs. With first = 0 and count = 1 alone strides are not read and may be 0. A
@@ -348,10 +350,13 @@ typedef struct ents_output {
 /* Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges). count = 1 is the single
  * element; n elements give the same bits as n single calls. All levels are here: kinematics (ENTS_XI .. ENTS_XI_HESSIAN) to
  * build any method of eq. (3)-(4) with, and the element (ENTS_ENERGY .. ENTS_STATE), which needs "contact" in the model.
- * For a kinematic quantity alone the segment has no border: xi may lie outside.
+ * For a kinematic quantity alone the segment has no border: xi may lie outside. An element whose slave is so far beside the segment
+ * that there is no projection is open (ENTS_FLAG_OUTSIDE): its xi, gap, normal and point are where the iteration left off.
  * A model with a "patch" has elements of several segments (for hosts whose elements have fixed nodes): m is then the number of the
  * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does, from the one in `state_begin` on; xi and its
- * variations are those of that segment. A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
+ * variations are those of that segment. In the increment in which a slave with friction changes its segment, the anchor moves over in the
+ * current positions, whose change the tangent leaves out (up to a third of its largest entry; exact with "surface_coordinates" or a rigid
+ * master). A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
  * functions of whole surfaces take such a model's segments one by one.
  * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
  * visited, the recoverable status of the first element that has one. */
@@ -505,7 +510,7 @@ ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t c
 
 /* All of an iteration in one call: ents_detect, then ents_assemble of the elements found (system null: results per element only,
  * residual and tangent among them if wanted). `input` gives areas, states and multipliers; its slave, master, mesh, segment
- * and start must be null: they come from the detection. A slave that is lost (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. With friction use the two
+ * and start must be null: they come from the detection, the start even where input.state_begin has one. A slave that is lost (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. With friction use the two
  * calls: a state has to follow its slave to another segment in between (ents_state_transfer). */
 ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
                               int64_t count, const ents_detection *detection, const ents_input *input, const ents_output *output,
@@ -513,7 +518,8 @@ ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *m
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 
-/* Points of the surface, for pictures, meshes and checks. Pointers that are null are skipped. */
+/* Points of the surface, for pictures, meshes and checks. Pointers that are null are skipped. Those before a point that is refused
+ * (report.element) are written. */
 typedef struct ents_surface {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
