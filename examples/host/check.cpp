@@ -12,6 +12,7 @@
 #include "ents_library.hpp"
 #include "json_reader.hpp"
 #include "output/table.hpp"
+#include "output_folder.hpp"
 
 namespace host {
 namespace {
@@ -170,6 +171,7 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
     throw InputError(options.model.string() + ": /patch: the segments are those of --mesh here; leave the key out");
   const std::string name = text.at("segment").get<std::string>();
   const MasterSurface surface = read_surface(options.mesh, name, model.layout());
+  make_output_folder(options.out);
   const Answer answer(model, surface, options);
   if (common.json) {
     Json result{{"model", options.model.string()},

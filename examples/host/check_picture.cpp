@@ -70,7 +70,6 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
     picture.wrong.push_back(violations[s] != 0);
   }
   picture.places = places;
-  std::filesystem::create_directories(folder);
   return draw(picture, folder, "check");
 }
 

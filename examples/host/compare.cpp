@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
+#include "output_folder.hpp"
 #include "result.hpp"
 
 namespace host {
@@ -126,6 +127,7 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   const std::vector<int>& divisions =
       options.compare_divisions.empty() ? scene.compare.divisions : options.compare_divisions;
   if (divisions.empty()) throw InputError("--compare: give N1,N2,...; the scene has no list of its own");
+  make_output_folder(options.out);
   const EntsLibrary library(common.library);
   RunObserver observer;
   if (!common.json) observer.line = [](const std::string& line) {
@@ -174,7 +176,6 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   for (const CompareRow& row : comparison.equal_error)
     result["explicit_at_equal_error"].push_back(row_json(row));
   if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
     write_text(options.out / "compare.json", result.dump(2) + "\n");
     write_text(options.out / "compare.md", table.markdown());
     if (options.pictures) draw_comparison(scene, comparison, options.out);

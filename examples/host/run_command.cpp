@@ -6,6 +6,7 @@
 
 #include "adapter.hpp"
 #include "commands.hpp"
+#include "output_folder.hpp"
 #include "result.hpp"
 
 namespace host {
@@ -65,9 +66,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   if (observer.line) observer.line(headline(simulation));
   std::unique_ptr<vtu::Series> series;
   if (!options.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw InputError("--out: " + options.out.string() + ": " + error.message());
+    make_output_folder(options.out);
     series = std::make_unique<vtu::Series>(options.out, "result");
     observer.step_done = [&](const Simulation&, const StepRecord& record) {
       write_step(*series, simulation, record);

@@ -13,6 +13,7 @@
 #include "chart/wrong_heights.hpp"
 #include "commands.hpp"
 #include "output/table.hpp"
+#include "output_folder.hpp"
 #include "stopwatch.hpp"
 
 namespace host {
@@ -118,6 +119,7 @@ const Work* named(const std::vector<Work>& works, const std::string& name) {
 
 int chart_command(const CommonOptions& common, const ChartOptions& options) {
   const Stopwatch watch;
+  make_output_folder(options.out);
   const EntsLibrary library(common.library);
   const std::vector<Work> works = measure_all(library, options);
   std::vector<Map> maps = stability_maps(options.quick);
@@ -159,7 +161,6 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   }
 
   if (!options.out.empty()) {
-    std::filesystem::create_directories(options.out);
     write_text(options.out / "chart.json", json.dump() + "\n");
     write_text(options.out / "chart.html",
                page({{"work", "Speed against accuracy", work_section(works)},

@@ -177,7 +177,7 @@ Outcome render(const Job& job, const std::filesystem::path& directory, const std
     return {{},
             "no pictures: gnuplot is missing (Debian package gnuplot-nox); data and scripts are in " +
                 directory.string()};
-  const std::string command = "cd " + shell_quoted(directory.empty() ? "." : directory.string()) +
+  const std::string command = "cd -- " + shell_quoted(directory.empty() ? "." : directory.string()) +
                               " && gnuplot " + shell_quoted(name + ".gp") + " 2> " +
                               shell_quoted(name + ".log");
   const bool failed = std::system(command.c_str()) != 0;
