@@ -72,27 +72,27 @@ public:
   Deck deck;
 
   void build() {
-    for (const Statement& s : statements_.list)
-      if (s.keyword == "NODE") nodes(s);
     for (const Statement& s : statements_.list) {
-      if (s.keyword == "ELEMENT")
-        elements(s);
+      if (s.keyword == "NODE")
+        nodes(s);
       else if (s.keyword == "HEADING")
         heading(s);
       else if (contains(mesh_changing, s.keyword))
         error(s.place,
               "*" + s.keyword + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT");
-      else if (!contains({"NODE", "NSET", "ELSET", "SURFACE"}, s.keyword))
+      else if (!contains({"ELEMENT", "NSET", "ELSET", "SURFACE"}, s.keyword))
         deck.ignored.push_back({s.keyword, deck.files[static_cast<std::size_t>(s.place.file)], s.place.line});
     }
+    if (deck.node_ids.empty()) no_mesh();
+    for (const Statement& s : statements_.list)
+      if (s.keyword == "ELEMENT") elements(s);
     for (const Statement& s : statements_.list) {
       if (s.keyword == "NSET") set(s, "NSET", "node", deck.node_sets, node_index_);
       if (s.keyword == "ELSET") set(s, "ELSET", "element", deck.element_sets, element_index_);
     }
     for (const Statement& s : statements_.list)
       if (s.keyword == "SURFACE") surface(s);
-    if (deck.node_ids.empty() || deck.elements.empty())
-      throw Error(deck.files[0] + ": no mesh; expected *NODE and *ELEMENT with data lines");
+    if (deck.elements.empty()) no_mesh();
     for (auto* sets : {&deck.node_sets, &deck.element_sets})
       for (auto& [name, members] : *sets) unique(members);
   }
@@ -102,6 +102,15 @@ private:
   Index node_index_, element_index_;
 
   [[noreturn]] void error(Place place, const string& what) const { fail(deck.files, place, what); }
+
+  /// A keyword with a letter wrong is skipped like a material: say where.
+  [[noreturn]] void no_mesh() const {
+    string text = deck.files[0] + ": no mesh; expected *NODE and *ELEMENT with data lines";
+    for (std::size_t i = 0; i < deck.ignored.size() && i < 4; ++i)
+      text += (i == 0 ? "; not understood and skipped: *" : ", *") + deck.ignored[i].keyword + " (" + deck.ignored[i].file + ":" +
+              std::to_string(deck.ignored[i].line) + ")";
+    throw Error(text + (deck.ignored.size() > 4 ? " ..." : ""));
+  }
 
   static bool contains(const Names& names, string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace host::inp {
@@ -39,10 +40,10 @@ Statement keyword_line(std::string_view text, Place place) {
 }
 
 std::optional<std::string> content_of(const Path& file) {
+  std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) return std::nullopt;
-  return text.str();
+  if (!stream || std::filesystem::is_directory(file, ignored)) return std::nullopt;
+  return std::string{std::istreambuf_iterator<char>(stream), {}}; // an empty file is one, too
 }
 
 void add_text(Statements& out, const std::string& name, const Path& folder, std::vector<Path>& open);

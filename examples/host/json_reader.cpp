@@ -43,8 +43,9 @@ Json parse_json(std::string_view text, const std::string& name) {
 
 Json parse_json_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(file.string() + ": cannot be opened for reading");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) throw InputError(file.string() + ": this is a folder; name a file in it");
+  if (!stream) throw InputError(file.string() + ": cannot be opened for reading (does it exist?)");
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_json(text.str(), file.string());

@@ -66,6 +66,7 @@ PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& 
   part.setup.material = found->second;
   if (object.has("deck")) {
     part.deck = scene.file.parent_path() / object.at("deck").string();
+    part.deck_where = object.at("deck").where();
     part.element_set = object.string_or("element_set", "");
   } else {
     static const std::map<std::string, ElementType> types{{"tri3", ElementType::tri3},
@@ -207,6 +208,16 @@ ExactSpec read_exact(const JsonValue& value) {
   return exact;
 }
 
+/// Lines and profiles are of the plane, points and sheets of space.
+void check_exact_dimension(const ExactSpec& exact, const JsonValue& type, int dimension) {
+  using Type = ExactSpec::Type;
+  const bool plane = exact.type == Type::hertz_line || exact.type == Type::westergaard || exact.type == Type::cattaneo;
+  const bool space = exact.type == Type::hertz_point || exact.type == Type::double_sine;
+  if ((plane && dimension != 2) || (space && dimension != 3))
+    type.fail("this exact solution is one in " + std::string(plane ? "the plane" : "space") + ", and /dimension is " +
+              std::to_string(dimension) + "; take another one, or leave \"exact\" out");
+}
+
 void read_steps(const JsonValue& value, Scene& scene) {
   static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
                                                        {"approach", Control::approach},
@@ -238,10 +249,12 @@ void read_steps(const JsonValue& value, Scene& scene) {
   object.finish();
 }
 
-Scene read(const Json& json, const std::filesystem::path& file) {
+/// @param variant  its name, for messages; empty: the scene as it is
+Scene read(const Json& json, const std::filesystem::path& file, const std::string& variant = {}) {
   Scene scene;
   scene.file = file;
-  JsonObject object(JsonValue(json, file.string() + ": "));
+  scene.definition = json;
+  JsonObject object(JsonValue(json, file.string() + ": " + (variant.empty() ? "" : "/variants/" + variant)));
   scene.title = object.string_or("title", file.parent_path().filename().string());
   scene.dimension = object.at("dimension").integer(2, 3);
   ElementSetup common;
@@ -309,6 +322,7 @@ Scene read(const Json& json, const std::filesystem::path& file) {
     using Type = ExactSpec::Type;
     scene.exact = read_exact(object.at("exact"));
     if (!scene.contact) object.at("exact").fail("the exact solutions are for contact");
+    check_exact_dimension(scene.exact, JsonObject(object.at("exact")).at("type"), scene.dimension);
     if (scene.exact.type == Type::cattaneo) {
       if (scene.dimension != 2 || !scene.contact->rigid.empty())
         object.at("exact").fail("\"cattaneo\" is for two elastic bodies in the plane");
@@ -325,6 +339,8 @@ Scene read(const Json& json, const std::filesystem::path& file) {
   if (object.has("solver")) {
     JsonObject solver(object.at("solver"));
     scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
+    if (!(scene.solver.tolerance < 1))
+      solver.at("tolerance").fail("a number < 1 is expected: the residual relative to the forces present, 1e-10 say");
     scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
     scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
     scene.solver.segment_choices = solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
@@ -358,21 +374,23 @@ Scene read(const Json& json, const std::filesystem::path& file) {
 } // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::string& variant) {
-  Json json = parse_json_file(file);
-  if (variant.empty()) return read(json, file);
-  const Scene plain = read(json, file);
+  const Json json = parse_json_file(file);
+  Scene wanted = read(json, file);
+  bool found = variant.empty();
   std::string names;
-  for (const Variant& candidate : plain.variants) {
-    if (candidate.name == variant) {
-      json.merge_patch(candidate.patch);
-      Scene scene = read(json, file);
-      scene.title += ", " + variant;
-      return scene;
-    }
+  const std::vector<Variant> variants = wanted.variants;
+  for (const Variant& candidate : variants) { // all are read: a mistake in one shall not wait until it is asked for
+    Json changed = json;
+    changed.merge_patch(candidate.patch);
+    Scene scene = read(changed, file, candidate.name);
+    scene.title += ", " + candidate.name;
+    if (candidate.name == variant) wanted = std::move(scene), found = true;
     names += (names.empty() ? "" : ", ") + candidate.name;
   }
-  throw InputError(file.string() + ": no variant \"" + variant + "\" in /variants; there are: " +
-                   (names.empty() ? "none" : names));
+  if (!found)
+    throw InputError(file.string() + ": no variant \"" + variant + "\" in /variants; there are: " +
+                     (names.empty() ? "none" : names));
+  return wanted;
 }
 
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file) {

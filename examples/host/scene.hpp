@@ -21,6 +21,7 @@ struct PartSpec {
   ElementType type = ElementType::quad4; ///< block
   std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
   std::filesystem::path deck;
+  std::string deck_where; ///< file and path, for messages
   std::string element_set;
 };
 
@@ -135,6 +136,7 @@ struct Scene {
   SolverSpec solver;
   CompareSpec compare;
   std::vector<Variant> variants;
+  Json definition; ///< the file's text, changed by the variant: what a checkpoint is held against
 };
 
 /// @param variant  one of the scene's own, or empty: the scene as it is

@@ -100,7 +100,11 @@ void Simulation::build_mesh() {
   for (const PartSpec& part : scene_->parts) {
     const int index = static_cast<int>(setups.size());
     if (part.lines.empty())
-      add_deck(mesh_, part.name, part.deck, part.element_set, index);
+      try {
+        add_deck(mesh_, part.name, part.deck, part.element_set, index);
+      } catch (const InputError& error) { // names the deck, and not who asked for it
+        throw InputError(part.deck_where + ": " + error.what());
+      }
     else
       add_block(mesh_, part.name, part.type, part.lines, index);
     setups.push_back(part.setup);
@@ -153,6 +157,9 @@ void Simulation::build_equations() {
     springs_.resize(total, 0.0);
     add_by_area(spring.faces, spring.where, spring.stiffness, springs_);
   }
+  if (prescribed_.empty() && half_space_.empty() && springs_.empty())
+    throw InputError(scene_->file.string() + ": /supports: nothing holds the bodies, which can move as they like; "
+                                             "give supports, springs or a half_space");
   dofs_->number();
   if (dofs_->size() == 0) throw InputError(scene_->file.string() + ": /supports leave nothing to solve for");
 }
