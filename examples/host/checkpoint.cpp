@@ -25,10 +25,56 @@ std::vector<double> read_numbers_with_gaps(const JsonValue& value) {
   return numbers;
 }
 
+/// What decides whether a checkpoint fits: the scene without what a user may well change before the run goes on, be it words, be
+/// it how it is solved. Steps are compared where they are known, see restart.cpp.
+Json physics_of(const Scene& scene) {
+  Json json = scene.definition;
+  for (const char* key : {"title", "units", "exact", "compare", "variants", "solver"}) json.erase(key);
+  if (json.contains("steps")) json["steps"].erase("values");
+  if (scene.contact)
+    for (const char* key : {"tangent", "penetration_limit"}) json["contact"]["model"].erase(key);
+  return json;
+}
+
+/// @throws InputError naming the first thing that differs
+void check_same_scene(const JsonValue& theirs, const Scene& scene) {
+  const nlohmann::json there = theirs.json(), here = physics_of(scene); // sorted: the order of keys does not matter
+  const nlohmann::json changes = nlohmann::json::diff(there, here);
+  if (changes.empty()) return;
+  const auto text = [&](const nlohmann::json& json) {
+    const nlohmann::json::json_pointer place(changes[0].at("path").get<std::string>());
+    if (!json.contains(place)) return std::string("not");
+    const std::string value = json.at(place).dump();
+    return value.size() > 60 ? value.substr(0, 60) + "..." : value;
+  };
+  theirs.fail("the checkpoint is of another scene: " + changes[0].at("path").get<std::string>() + " is " + text(there) +
+              " there and " + text(here) +
+              " here; later steps, solver, exact, words, and the model's tangent and penetration_limit may change");
+}
+
+class Hash { // FNV-1a
+public:
+  template <class Values> void add_all(const Values& values) { add(values.data(), values.size() * sizeof(values[0])); }
+  void add(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211u;
+  }
+  std::string text() const {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_));
+    return text;
+  }
+
+private:
+  std::uint64_t hash_ = 14695981039346656037u;
+};
+
 } // namespace
 
 Json Simulation::checkpoint() const {
-  Json json{{"scene", scene_->file.filename().string()},
+  Json json{{"scene", physics_of(*scene_)},
+            {"mesh", mesh_fingerprint()},
+            {"master_segments", sizes().master_segments},
             {"load_factor", now_.load_factor},
             {"motion", now_.motion},
             {"force", now_.force},
@@ -49,7 +95,13 @@ Json Simulation::checkpoint() const {
 void Simulation::restore(const Json& checkpoint) {
   JsonObject object(JsonValue(checkpoint, "checkpoint: "));
   Configuration at;
-  object.at("scene");
+  check_same_scene(object.at("scene"), *scene_);
+  if (object.at("mesh").string() != mesh_fingerprint())
+    object.at("mesh").fail("the checkpoint is of another mesh: a deck has changed");
+  if (object.at("master_segments").number() != static_cast<double>(sizes().master_segments))
+    object.at("master_segments")
+        .fail("the checkpoint is of another master surface, of " + object.at("master_segments").json().dump() + " segments, here are " +
+              std::to_string(sizes().master_segments) + "; see --explicit");
   at.load_factor = object.at("load_factor").number();
   at.motion = object.at("motion").number();
   at.force = object.at("force").number();
@@ -81,27 +133,27 @@ void Simulation::restore(const Json& checkpoint) {
   factors_fit_ = false;
 }
 
+std::string Simulation::mesh_fingerprint() const {
+  Hash hash;
+  hash.add_all(mesh_.coordinates);
+  for (const ElementGroup& group : mesh_.groups) hash.add_all(group.nodes);
+  return hash.text();
+}
+
 std::string Simulation::fingerprint() const {
-  std::uint64_t hash = 14695981039346656037u;
-  const auto add = [&](const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211u;
-  };
-  const auto add_all = [&](const auto& values) { add(values.data(), values.size() * sizeof(values[0])); };
-  add_all(now_.displacement);
-  add_all(now_.multiplier);
-  add_all(rate_);
-  for (const double value : {now_.motion, now_.force, now_.load_factor}) add(&value, sizeof value);
+  Hash hash;
+  hash.add_all(now_.displacement);
+  hash.add_all(now_.multiplier);
+  hash.add_all(rate_);
+  for (const double value : {now_.motion, now_.force, now_.load_factor}) hash.add(&value, sizeof value);
   if (contact_) {
     const ContactHistory history = contact_->history();
-    add_all(history.segment);
-    add_all(history.state);
-    add_all(history.pressure);
-    add_all(history.traction);
+    hash.add_all(history.segment);
+    hash.add_all(history.state);
+    hash.add_all(history.pressure);
+    hash.add_all(history.traction);
   }
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
+  return hash.text();
 }
 
 } // namespace host

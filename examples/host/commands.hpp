@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct RunOptions {
   std::string variant;  ///< of the scene; empty: the scene as it is
   bool nodes = false;   ///< fields of the slave nodes in the JSON result
   std::string cut;      ///< "", "halves", "random"
-  unsigned seed = 1;    ///< of random cuts
+  std::optional<unsigned> seed; ///< of random cuts
   bool discard = false; ///< try other increments first and throw them away
   int last_step = 0;    ///< 0: all
   std::filesystem::path restart; ///< checkpoint to continue from

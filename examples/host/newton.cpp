@@ -164,6 +164,14 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
   return ok;
 }
 
+std::string Simulation::advice_if_singular(const Configuration& at) {
+  if (!contact_ || !contact_->master().rigid) return "";
+  const std::vector<char> closed = contact_->fields(at).closed;
+  if (std::any_of(closed.begin(), closed.end(), [](char c) { return c != 0; })) return "";
+  return "no slave node is in contact with the rigid master: do its normal (order of its nodes) and its direction point to "
+         "the slave surface?";
+}
+
 NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   if (scene_->solver.extrapolate && !rate_.empty()) {
     NewtonOutcome outcome = attempt(target, keep, true);
@@ -220,7 +228,10 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   if (!extrapolate) {
     state = evaluate(at, jump, factorize);
     if (!state.ok) return fail(state.reason, state.step_factor);
-    if (!solve(state, factorize, motion_step, error_of(state), next)) return fail("the tangent is singular", 0.5);
+    if (!solve(state, factorize, motion_step, error_of(state), next)) {
+      outcome.advice = advice_if_singular(at);
+      return fail("the tangent is singular", 0.5);
+    }
   }
 
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
@@ -271,7 +282,10 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
       factors_fit_ = !contact_ || !contact_->has_history();
       return outcome;
     }
-    if (!solve(state, true, 0, error_of(state), next)) return fail("the tangent is singular", 0.5);
+    if (!solve(state, true, 0, error_of(state), next)) {
+      outcome.advice = advice_if_singular(next);
+      return fail("the tangent is singular", 0.5);
+    }
   }
   // The last residuals tell a flip-flop (they come back) from a divergence (they grow).
   std::string last;

@@ -90,7 +90,8 @@ int status_number(std::int32_t flags) {
   return (flags & ENTS_FLAG_SHEAR_LIMIT) == 0 ? 2 : 3;
 }
 
-Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes) {
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes,
+                 const StepFailure* failure) {
   const Scene& scene = simulation.scene();
   const Sizes sizes = simulation.sizes();
   const Timings& timings = simulation.timings();
@@ -116,6 +117,7 @@ Json result_json(const Simulation& simulation, const std::vector<StepRecord>& re
                 {"solver", timings.solver},
                 {"total", timings.total}}}};
   result["fingerprint"] = simulation.fingerprint();
+  result["failure"] = failure == nullptr ? Json() : Json{{"step", failure->step}, {"reason", failure->what()}};
   result["steps"] = Json::array();
   for (const StepRecord& record : records) result["steps"].push_back(step_json(record, nodes));
   return result;

@@ -15,8 +15,10 @@
 namespace host {
 
 /// The whole run. examples/host/README.md describes the keys.
-/// @param nodes  with the fields of every slave node in every step
-Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes = false);
+/// @param nodes    with the fields of every slave node in every step
+/// @param failure  of the step after these; null: the run came to its end
+Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes = false,
+                 const StepFailure* failure = nullptr);
 
 /// 0 open, 1 stick (without friction: closed), 2 slip, 3 slip at the shear limit.
 int status_number(std::int32_t flags);

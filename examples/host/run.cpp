@@ -205,25 +205,35 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     StepRecord record;
     record.step = step;
     record.value = to;
-    double done = 0, size = parts.size(done);
-    while (done < 1) {
-      for (const double other : parts.discarded(done)) simulation.advance(target_at(other), false);
-      const double part = done + size;
-      const NewtonOutcome outcome = simulation.advance(target_at(part));
-      if (outcome.converged) {
-        record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
-        done = part >= 1 - 1e-12 ? 1 : part;
-        size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
-        continue;
+    Json begin; // of the step, once a part of it is tried
+    const auto take = [&] {
+      double done = 0, size = parts.size(done);
+      while (done < 1) {
+        for (const double other : parts.discarded(done)) simulation.advance(target_at(other), false);
+        const double part = done + size;
+        if (done == 0 && part < 1 && begin.is_null()) begin = simulation.checkpoint();
+        const NewtonOutcome outcome = simulation.advance(target_at(part));
+        if (outcome.converged) {
+          record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
+          done = part >= 1 - 1e-12 ? 1 : part;
+          size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
+          continue;
+        }
+        record.cuts.push_back(outcome.reason);
+        size *= outcome.step_factor;
+        say("step " + std::to_string(record.step) + ": " + outcome.reason + "; cut to " + format_number(size, 3) +
+            " of the step");
+        if (size < scene.solver.min_step)
+          throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason +
+                         " even in parts of " + format_number(size / outcome.step_factor, 3) +
+                         "; " + (outcome.advice.empty() ? "take smaller steps, or see /solver/min_step" : outcome.advice));
       }
-      record.cuts.push_back(outcome.reason);
-      size *= outcome.step_factor;
-      say("step " + std::to_string(record.step) + ": " + outcome.reason + "; cut to " + format_number(size, 3) +
-          " of the step");
-      if (size < scene.solver.min_step)
-        throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason +
-                       " even in parts of " + format_number(size / outcome.step_factor, 3) +
-                       "; take smaller steps, or see /solver/min_step");
+    };
+    try {
+      take();
+    } catch (const JobError& error) {
+      if (!begin.is_null()) simulation.restore(begin);
+      throw StepFailure(step, error.what(), std::move(records));
     }
     fill_contact_results(simulation, touch, record);
     record.wall_time = watch.seconds();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "error.hpp"
 #include "exact.hpp"
 #include "simulation.hpp"
 
@@ -70,8 +71,17 @@ struct StepPlan {
   int last = 0;         ///< 0: the scene's last
 };
 
+/// A step that cannot be cut any further, or has no way to begin. What was solved before it is kept, and the
+/// simulation stands where the last of these steps ended.
+struct StepFailure : JobError {
+  StepFailure(int failed, const std::string& message, std::vector<StepRecord> before)
+      : JobError(message), step(failed), solved(std::move(before)) {}
+  int step;
+  std::vector<StepRecord> solved;
+};
+
 /// Solve all steps, cutting those that fail.
-/// @throws JobError when a step cannot be cut any further
+/// @throws StepFailure
 std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer, const StepPlan& plan = {});
 
 /// The state of the slave surface, for the exact solutions.

@@ -6,8 +6,8 @@
 
 #include "adapter.hpp"
 #include "commands.hpp"
-#include "output_folder.hpp"
-#include "result.hpp"
+#include "restart.hpp"
+#include "run_files.hpp"
 
 namespace host {
 namespace {
@@ -22,20 +22,29 @@ std::string headline(const Simulation& simulation) {
   return text;
 }
 
-/// @return the step it was written after
-int read_checkpoint(const std::filesystem::path& file, Simulation& simulation) {
-  Json json = parse_json_file(file);
-  const std::string where = file.string() + ": ";
-  const int step = JsonObject(JsonValue(json, where)).at("step").integer(1, static_cast<int>(simulation.scene().steps.size()));
-  json.erase("step");
-  try {
-    simulation.restore(json);
-  } catch (const InputError& error) {
-    throw InputError(where + error.what());
-  }
-  if (step == static_cast<int>(simulation.scene().steps.size()))
-    throw InputError(where + "the run is finished: this is the checkpoint of its last step");
-  return step;
+/// Table, exact quantities and time; what failed, if something did.
+void print_report(const Simulation& simulation, const std::vector<StepRecord>& records, const StepFailure* failure) {
+  const Scene& scene = simulation.scene();
+  if (!records.empty()) std::printf("\n%s", result_table(scene, records).text().c_str());
+  if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
+  const Timings& timings = simulation.timings();
+  std::printf("\nwall time %s s: setup %s, bulk %s, contact %s, solver %s\n",
+              format_number(timings.total, 3).c_str(), format_number(timings.setup, 3).c_str(),
+              format_number(timings.bulk, 3).c_str(), format_number(timings.contact, 3).c_str(),
+              format_number(timings.solver, 3).c_str());
+  if (failure != nullptr)
+    std::printf("FAILED at step %d of %zu; %s\n", failure->step, scene.steps.size(),
+                records.empty() ? "nothing is solved" : "results are those of the steps before it");
+}
+
+/// What was asked for and has no effect.
+void note_ignored(const RunOptions& options, const Scene& scene) {
+  const std::size_t steps = scene.steps.size();
+  if (options.last_step > static_cast<int>(steps))
+    std::fprintf(stderr, "ents-host: --last-step %d: the scene has %zu %s; the run ends with its last\n", options.last_step, steps,
+                 steps == 1 ? "step" : "steps");
+  if (options.seed && options.cut != "random")
+    std::fprintf(stderr, "ents-host: --seed %u has no effect: only --cut random draws numbers\n", *options.seed);
 }
 
 } // namespace
@@ -52,10 +61,15 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   plan.cut = options.cut == "halves" ? StepPlan::Cut::halves
              : options.cut == "random" ? StepPlan::Cut::random
                                        : StepPlan::Cut::none;
-  plan.seed = options.seed;
+  plan.seed = options.seed.value_or(plan.seed);
   plan.discard = options.discard;
   plan.last = std::min(options.last_step, static_cast<int>(scene.steps.size()));
   if (!options.restart.empty()) plan.first = read_checkpoint(options.restart, simulation) + 1;
+  if (plan.last > 0 && plan.first > plan.last)
+    throw InputError("--last-step " + std::to_string(plan.last) + ": the checkpoint was written after step " +
+                     std::to_string(plan.first - 1) + "; there is nothing left to solve");
+  note_ignored(options, scene);
+  RunFiles files(options.out, options.restart, plan.first);
 
   RunObserver observer;
   if (!common.json)
@@ -64,39 +78,35 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
       std::fflush(stdout); // progress shall be seen while the next step runs, also through a pipe
     };
   if (observer.line) observer.line(headline(simulation));
-  std::unique_ptr<vtu::Series> series;
-  if (!options.out.empty()) {
-    make_output_folder(options.out);
-    series = std::make_unique<vtu::Series>(options.out, "result");
-    observer.step_done = [&](const Simulation&, const StepRecord& record) {
-      write_step(*series, simulation, record);
-      Json checkpoint = simulation.checkpoint();
-      checkpoint["step"] = record.step;
-      write_text(options.out / "checkpoint.json", checkpoint.dump() + "\n");
-    };
+  observer.step_done = [&](const Simulation&, const StepRecord& record) { files.add(simulation, record); };
+  std::vector<StepRecord> records;
+  std::unique_ptr<StepFailure> failure;
+  try {
+    records = solve(simulation, observer, plan);
+  } catch (const StepFailure& caught) { // what was solved before is told all the same
+    failure = std::make_unique<StepFailure>(caught);
+    records = failure->solved;
   }
-  const std::vector<StepRecord> records = solve(simulation, observer, plan);
-  const Json result = result_json(simulation, records, options.nodes);
+  Json result = result_json(simulation, records, options.nodes, failure.get());
+  if (plan.first > 1) {
+    result["restarted_after"] = plan.first - 1;
+    result["steps"].insert(result["steps"].begin(), files.earlier().begin(), files.earlier().end());
+  }
+  files.finish(result);
   std::vector<std::string> problems;
-  if (!options.out.empty()) {
-    write_text(options.out / "result.json", result.dump(2) + "\n");
-    if (options.pictures) problems = draw_pictures(simulation, records, options.out);
-  }
+  if (!options.out.empty() && options.pictures && !records.empty())
+    problems = draw_pictures(simulation, records, options.out);
   if (common.json) {
     std::printf("%s\n", result.dump(2).c_str());
-    return 0;
+  } else {
+    print_report(simulation, records, failure.get());
+    for (const std::string& problem : problems) std::printf("%s\n", problem.c_str());
+    if (!options.out.empty() && files.problem().empty()) std::printf("%s\n", files.names().c_str());
   }
-  std::printf("\n%s", result_table(scene, records).text().c_str());
-  if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
-  const Timings& timings = simulation.timings();
-  std::printf("\nwall time %s s: setup %s, bulk %s, contact %s, solver %s\n",
-              format_number(timings.total, 3).c_str(), format_number(timings.setup, 3).c_str(),
-              format_number(timings.bulk, 3).c_str(), format_number(timings.contact, 3).c_str(),
-              format_number(timings.solver, 3).c_str());
-  for (const std::string& problem : problems) std::printf("%s\n", problem.c_str());
-  if (series)
-    std::printf("%s and %s\n", series->file().string().c_str(), (options.out / "result.json").string().c_str());
-  return 0;
+  std::fflush(stdout); // before what is told on stderr
+  for (const std::string& message : {failure ? std::string(failure->what()) : std::string(), files.problem()})
+    if (!message.empty()) std::fprintf(stderr, "ents-host: %s\n", message.c_str());
+  return failure || !files.problem().empty() ? 1 : 0;
 }
 
 } // namespace host

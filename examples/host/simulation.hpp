@@ -50,6 +50,7 @@ struct NewtonOutcome {
   std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
   std::vector<Augmentation> augmentations;
   std::string reason;            ///< why it failed
+  std::string advice;            ///< what to look at, if smaller steps will not help
   double step_factor = 0.5;      ///< suggested for the next try
 };
 
@@ -78,6 +79,8 @@ public:
   Json checkpoint() const;
   /// @throws InputError if the checkpoint is of another scene, or damaged
   void restore(const Json& checkpoint);
+  /// A number that differs whenever a node of the mesh or an element does (FNV-1a, hexadecimal).
+  std::string mesh_fingerprint() const;
   /// A number that differs whenever a bit of the configuration or the history does (FNV-1a, hexadecimal).
   std::string fingerprint() const;
 
@@ -117,6 +120,8 @@ private:
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
+  /// Most tangents are singular because there is no contact to hold the master. Empty: that is not it.
+  std::string advice_if_singular(const Configuration& at);
   /// Move the master until it touches: Newton's iteration for a given force needs a contact to start from.
   void find_contact(Configuration& at);
   bool force_controlled() const;

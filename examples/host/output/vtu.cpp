@@ -200,6 +200,31 @@ void write(const std::filesystem::path& file, const Grid& grid) { write_text(fil
 Series::Series(std::filesystem::path directory, std::string name)
     : directory_(std::move(directory)), name_(std::move(name)) {}
 
+void Series::list(Entry entry) {
+  if (std::find(parts_.begin(), parts_.end(), entry.part) == parts_.end()) parts_.push_back(entry.part);
+  entries_.push_back(std::move(entry));
+}
+
+void Series::resume(int first_step) {
+  std::ifstream stream(file());
+  for (std::string line; std::getline(stream, line);) { // our own file: one DataSet a line, nothing escaped
+    const auto value = [&](const std::string& key) {
+      const auto begin = line.find(key + "=\"");
+      if (begin == line.npos) return std::string{};
+      const auto first = begin + key.size() + 2;
+      return line.substr(first, line.find('"', first) - first);
+    };
+    const std::string vtu = value("file"), time = value("timestep");
+    int step = first_step;
+    const auto digits = vtu.rfind('_') + 1;
+    std::from_chars(vtu.data() + digits, vtu.data() + vtu.size(), step);
+    if (step >= first_step) continue;
+    Entry entry{0, value("name"), vtu};
+    std::from_chars(time.data(), time.data() + time.size(), entry.time);
+    list(std::move(entry));
+  }
+}
+
 std::filesystem::path Series::file() const { return directory_ / (name_ + ".pvd"); }
 
 void Series::add(int step, double time, std::string_view part, const Grid& grid) {
@@ -207,8 +232,7 @@ void Series::add(int step, double time, std::string_view part, const Grid& grid)
   digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
   const std::string vtu = name_ + "_" + std::string(part) + "_" + digits + ".vtu";
   write(directory_ / vtu, grid);
-  entries_.push_back({time, std::string(part), vtu});
-  if (std::find(parts_.begin(), parts_.end(), part) == parts_.end()) parts_.emplace_back(part);
+  list({time, std::string(part), vtu});
 
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "

@@ -72,6 +72,9 @@ public:
   /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
   void add(int step, double time, std::string_view part, const Grid& grid);
 
+  /// A run that goes on: what the .pvd file there is says of earlier steps stays in it.
+  void resume(int first_step);
+
   /// The .pvd file, for the message to the user.
   std::filesystem::path file() const;
 
@@ -80,6 +83,8 @@ private:
     double time;
     std::string part, file;
   };
+  void list(Entry entry);
+
   std::filesystem::path directory_;
   std::string name_;
   std::vector<std::string> parts_; ///< in order of first appearance: the block number in ParaView

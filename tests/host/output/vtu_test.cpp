@@ -194,6 +194,33 @@ TEST(VtuSeries, ListsEveryStepWithItsTimeAndPart) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
+  const auto folder = std::filesystem::temp_directory_path() / "ents_vtu_resume_test";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](vtu::Series& series, int first, int last, double time) {
+    for (int step = first; step <= last; ++step) {
+      series.add(step, time * step, "bulk", plane_grid());
+      series.add(step, time * step, "slave", vtu::point_cloud(2, {0, 0}));
+    }
+  };
+  vtu::Series series(folder, "result"), rest(folder, "result");
+  write(series, 1, 3, 0.25);
+  rest.resume(3);
+  write(rest, 3, 4, 0.5);
+  std::ifstream stream(rest.file());
+  std::stringstream text;
+  text << stream.rdbuf();
+  std::vector<std::string> found;
+  for (const Tag& tag : parse_xml(text.str()))
+    if (tag.name == "DataSet")
+      found.push_back(tag.attributes.at("timestep") + " " + tag.attributes.at("part") + " " + tag.attributes.at("file"));
+  const std::vector<std::string> expected{
+      "0.25 0 result_bulk_0001.vtu", "0.25 1 result_slave_0001.vtu", "0.5 0 result_bulk_0002.vtu", "0.5 1 result_slave_0002.vtu",
+      "1.5 0 result_bulk_0003.vtu", "1.5 1 result_slave_0003.vtu", "2 0 result_bulk_0004.vtu", "2 1 result_slave_0004.vtu"};
+  EXPECT_EQ(found, expected);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(VtuSeries, NamesTheFileThatCannotBeWritten) {
   vtu::Series series("/no/such/folder", "result");
   try {
