@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "commands.hpp"
 #include "output_folder.hpp"
@@ -13,6 +14,9 @@ namespace {
 
 /// Finest explicit mesh that is solved for the price at equal error, segments per direction.
 constexpr double finest_line = 20000, finest_patch = 1024;
+
+/// By so much a mesh may miss the difference that the fit has promised.
+constexpr double within_fit = 4. / 3;
 
 struct Solution {
   CompareRow row;
@@ -62,6 +66,8 @@ void measure_difference(const Scene& scene, const Solution& enriched, Solution& 
 
 /// Least squares of log difference over log divisions.
 void fit_order(Comparison& comparison) {
+  comparison.order = comparison.constant = std::numeric_limits<double>::quiet_NaN();
+  if (comparison.explicit_meshes.size() < 2) return; // one mesh shows no order
   const double n = static_cast<double>(comparison.explicit_meshes.size());
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const CompareRow& row : comparison.explicit_meshes) {
@@ -111,19 +117,18 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
     measure_difference(scene, enriched, other);
     comparison.explicit_meshes.push_back(other.row);
   }
-  if (comparison.explicit_meshes.size() < 2) return comparison;
   fit_order(comparison);
   if (!equal_error || !(comparison.order > 0)) return comparison;
   const double needed = std::pow(comparison.constant / comparison.error, 1 / comparison.order);
   if (needed > (scene.dimension == 2 ? finest_line : finest_patch)) return comparison;
   Solution other = solve_once(scene, library, std::max(1, static_cast<int>(std::ceil(needed))), observer);
   measure_difference(scene, enriched, other);
-  comparison.equal_error.push_back(other.row);
+  (other.row.difference <= within_fit * comparison.error ? comparison.equal_error : comparison.missed).push_back(other.row);
   return comparison;
 }
 
 int compare_command(const CommonOptions& common, const RunOptions& options) {
-  const Scene scene = read_scene(options.scene);
+  const Scene scene = read_scene(options.scene, options.variant);
   const std::vector<int>& divisions =
       options.compare_divisions.empty() ? scene.compare.divisions : options.compare_divisions;
   if (divisions.empty()) throw InputError("--compare: give N1,N2,...; the scene has no list of its own");
@@ -165,16 +170,19 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   add(comparison.enriched, "one enriched segment");
   for (const CompareRow& row : comparison.explicit_meshes) add(row, label(row));
   for (const CompareRow& row : comparison.equal_error) add(row, label(row) + ", equal error");
+  for (const CompareRow& row : comparison.missed) add(row, label(row) + ", from the fit");
 
   Json result{{"title", scene.title},
-              {"order", comparison.order},
+              {"order", std::isnan(comparison.order) ? Json() : Json(comparison.order)},
               {"equal_error", comparison.error},
               {"enriched", row_json(comparison.enriched)},
               {"explicit", Json::array()},
-              {"explicit_at_equal_error", Json::array()}};
+              {"explicit_at_equal_error", Json::array()},
+              {"explicit_from_fit", Json::array()}};
   for (const CompareRow& row : comparison.explicit_meshes) result["explicit"].push_back(row_json(row));
   for (const CompareRow& row : comparison.equal_error)
     result["explicit_at_equal_error"].push_back(row_json(row));
+  for (const CompareRow& row : comparison.missed) result["explicit_from_fit"].push_back(row_json(row));
   if (!options.out.empty()) {
     write_text(options.out / "compare.json", result.dump(2) + "\n");
     write_text(options.out / "compare.md", table.markdown());
@@ -185,11 +193,23 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
     return 0;
   }
   std::printf("\n%s\n", table.text().c_str());
+  const std::string wanted = format_number(comparison.error, 2);
+  if (std::isnan(comparison.order)) {
+    std::printf("one mesh shows no order of convergence; give two or more\n");
+    return 0;
+  }
+  if (!(comparison.order > 0)) {
+    std::printf("the differences do not fall with the segment length: there is no order of convergence\n");
+    return 0;
+  }
   std::printf("the explicit meshes converge to the enriched segment with order %s in their segment length\n",
               format_number(comparison.order, 3).c_str());
-  if (comparison.equal_error.empty())
-    std::printf("an explicit mesh that comes within %s of it is out of reach here\n",
-                format_number(comparison.error, 2).c_str());
+  if (!comparison.missed.empty())
+    std::printf("a difference of %s is not reached: the fit asks for %d segments per direction, and these come within %s; "
+                "finer meshes in the list make a better fit\n",
+                wanted.c_str(), comparison.missed[0].divisions, format_number(comparison.missed[0].difference, 2).c_str());
+  else if (comparison.equal_error.empty())
+    std::printf("an explicit mesh that comes within %s of it is out of reach here\n", wanted.c_str());
   return 0;
 }
 

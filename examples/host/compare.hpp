@@ -23,10 +23,11 @@ struct CompareRow {
 struct Comparison {
   CompareRow enriched;
   std::vector<CompareRow> explicit_meshes;
-  double order = 0;    ///< fitted: difference ~ divisions^-order
+  double order = 0;    ///< fitted: difference ~ divisions^-order; one mesh: NaN
   double constant = 0; ///< fitted: difference = constant * divisions^-order
   double error = 0;    ///< at which the prices are compared
   std::vector<CompareRow> equal_error; ///< the explicit mesh that reaches it, solved; empty if out of reach
+  std::vector<CompareRow> missed; ///< the same, where the fit has promised too much
 };
 
 /// @param equal_error  also solve the explicit mesh that the fit says reaches the scene's /compare/error

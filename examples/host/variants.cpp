@@ -45,6 +45,8 @@ VariantRow solve_variant(const Scene& scene, const std::string& name, const Ents
 int variants_command(const CommonOptions& common, const VariantsOptions& options) {
   const Scene scene = read_scene(options.scene);
   if (!scene.contact) throw InputError(options.scene.string() + ": variants are compared by their contact; here is none");
+  if (scene.variants.empty())
+    throw InputError(options.scene.string() + ": the scene has no key \"variants\", so there is nothing to compare; solve it with ents-host run");
   const EntsLibrary library(common.library);
   std::vector<VariantRow> rows{solve_variant(scene, "as it is", library)};
   for (const Variant& variant : scene.variants)
