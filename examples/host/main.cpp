@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host: the command line.
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -9,7 +15,62 @@
 #include "commands.hpp"
 #include "error.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+// CLI11's own ranges print their bounds with 300 digits and accept what is no number.
+CLI::Validator number_check(const std::string& wanted, const std::function<bool(double)>& good) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool number = error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+        return number && good(value) ? std::string() : wanted + " is expected, this is \"" + text + "\"";
+      },
+      "");
+}
+
+CLI::Validator positive() {
+  return number_check("a number > 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator integer(std::int64_t low, std::int64_t high) {
+  return number_check("an integer from " + std::to_string(low) + " to " + std::to_string(high), [=](double value) {
+    return value == std::floor(value) && value >= static_cast<double>(low) && value <= static_cast<double>(high);
+  });
+}
+
+constexpr const char* own_list = "own"; // of the scene
+
+/// Does a word after --compare belong to it? A scene may stand there, too.
+bool is_list(const std::string& word) {
+  return !word.empty() && word.find_first_not_of("0123456789,") == std::string::npos;
+}
+
+/// Arguments in the order in which CLI11 wants them, the last first.
+std::vector<std::string> arguments(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i] == "--compare" && (i + 1 == words.size() || !is_list(words[i + 1]))) words[i] += std::string("=") + own_list;
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+std::vector<int> divisions_of(const std::string& list) {
+  std::vector<int> divisions;
+  std::istringstream words(list);
+  for (std::string word; list != own_list && std::getline(words, word, ',');) {
+    int n = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
+    if (error != std::errc{} || end != word.data() + word.size() || n < 1 || n > 100000)
+      throw host::InputError("--compare: integers from 1 to 100000 with commas between them are expected, this is \"" + list + "\"");
+    divisions.push_back(n);
+  }
+  return divisions;
+}
+
+constexpr const char* command_names = "run, variants, verify, check or chart, or --help";
+
+int run_program(int argc, char** argv) {
   using namespace host;
   CLI::App app{"Reference finite element host of ents, enriched node-to-segment contact.\n"
                "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n"};
@@ -47,32 +108,31 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run_app->add_option("--explicit", run.explicit_divisions,
                       "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")
-      ->check(CLI::Range(1, 100000))
+      ->check(integer(1, 100000))
       ->type_name("N");
+  std::string compare_list;
   CLI::Option* compare = run_app
-                             ->add_option("--compare", run.compare_divisions,
+                             ->add_option("--compare", compare_list,
                                           "solve the scene as it is and with explicit meshes of N1,N2,... segments per "
                                           "direction [the scene's own list]; print how they converge and what they cost")
-                             ->delimiter(',')
-                             ->check(CLI::Range(1, 100000))
                              ->type_name("N1,N2,...")
-                             ->expected(0, 1000)
                              ->excludes("--explicit");
   run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
   run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
   run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status and segment of every slave node in the JSON result");
   run_app->add_option("--cut", run.cut, "take every step in two halves, or in one to four increments of random sizes")
       ->check(CLI::IsMember({"halves", "random"}));
-  run_app->add_option("--seed", run.seed, "of --cut random")->capture_default_str();
+  run_app->add_option("--seed", run.seed, "of --cut random [1]")->check(integer(0, 4294967295));
   run_app->add_flag("--discard", run.discard,
                     "before the increments solve others (the whole step; with --cut random now and then some parts) and "
                     "throw them away: the result must not change by a bit, see \"fingerprint\" in it");
-  run_app->add_option("--last-step", run.last_step, "stop after this step")->check(CLI::PositiveNumber);
+  run_app->add_option("--last-step", run.last_step, "stop after this step")->check(integer(1, 1000000));
   run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
       ->check(CLI::ExistingFile);
   add_common(*run_app);
   run_app->footer("Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
-                  "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1.\n\n"
+                  "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1;\n"
+                  "what was solved before is told and written all the same.\n\n"
                   "Examples:\n"
                   "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface on ONE segment\n"
                   "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 plain segments\n"
@@ -90,7 +150,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("verify", "Hold the library against golden vectors (100-digit references)");
   verify_app->add_option("files", verify.files, "golden files")->required()->check(CLI::ExistingFile);
   verify_app->add_option("--tolerance", verify.tolerance, "largest relative error that passes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_check("a number >= 0", [](double value) { return value >= 0; }))
       ->capture_default_str();
   add_common(*verify_app);
 
@@ -103,13 +163,13 @@ int main(int argc, char** argv) {
                         "or an Abaqus/CalculiX deck whose elements are the segments [one segment whose nodes lie "
                         "at their natural coordinates]");
   check_app->add_option("--samples", check.samples, "grid points per direction of a segment [as the height asks for]")
-      ->check(CLI::Range(2, 4096));
+      ->check(integer(2, 4096));
   check_app->add_option("--reach", check.reach,
                         "a slave node this far from the surface shall have one normal projection [the model's \"penetration_limit\"; "
                         "without one: for information]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   check_app->add_option("--kink", check.kink, "largest angle of the normals where segments meet, degrees [for information]")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(number_check("an angle from 0 to 180", [](double value) { return value >= 0 && value <= 180; }));
   check_app->add_option("--out", check.out, "folder for a picture of the enriched surface with the offending places marked");
   add_common(*check_app);
   check_app->footer("\"this scene needs: ...\" is what the library computes for this model, \"it does not need: ...\" what it leaves out, and why: its own\n"
@@ -132,18 +192,24 @@ int main(int argc, char** argv) {
                     "Example:\n"
                     "  ents-host chart --out out/chart && xdg-open out/chart/chart.html");
 
+  for (const char* other : {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes", "--adapter"})
+    compare->excludes(other); // each mesh is solved in one go, by the library itself
+
   try {
-    app.parse(argc, argv);
+    app.parse(arguments(argc, argv));
     run.compare = compare->count() > 0;
-    std::erase(run.compare_divisions, 0); // what CLI11 makes of --compare without a list
   } catch (const CLI::ParseError& error) {
-    if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write run, variants, verify, check or chart, or --help\n", argv[1]);
-      return 2;
-    }
-    return app.exit(error) == 0 ? 0 : 2; // 0: --help
+    if (error.get_exit_code() == 0 || !app.get_subcommands().empty()) return app.exit(error) == 0 ? 0 : 2; // 0: --help
+    if (argc < 2)
+      std::fprintf(stderr, "ents-host: a command is missing; write ents-host with %s\n", command_names);
+    else if (argv[1][0] == '-')
+      std::fprintf(stderr, "ents-host: \"%s\" is not an option here, options follow a command; write %s\n", argv[1], command_names);
+    else
+      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write %s\n", argv[1], command_names);
+    return 2;
   }
   try {
+    run.compare_divisions = divisions_of(compare_list);
     if (run_app->parsed()) return run_command(common, run);
     if (variants_app->parsed()) return variants_command(common, variants);
     if (verify_app->parsed()) return verify_command(common, verify);
@@ -156,4 +222,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "ents-host: %s\n", error.what());
     return 1;
   }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_program(argc, argv);
+  // Answers that never arrived shall not look like success.
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::fprintf(stderr, "ents-host: stdout cannot be written: %s\n", std::strerror(errno));
+  return code == 0 ? 1 : code;
 }

@@ -1,16 +1,267 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host as typed in a shell.
+// ents-host as typed in a shell: what goes wrong is told before work is lost, and by its name.
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
 
 #include "program.hpp"
 
 namespace host::test {
 namespace {
 
-TEST(Program, NamesACommandItDoesNotKnow) {
-  const ProgramOutput output = ents_host("rum scene.json");
-  EXPECT_EQ(output.exit_code, 2);
-  EXPECT_NE(output.text.find("\"rum\" is not a command; write run"), std::string::npos) << output.text;
+namespace fs = std::filesystem;
+
+std::string quoted(const fs::path& file) { return std::string("'").append(file.string()).append("'"); }
+
+class Program : public testing::Test {
+protected:
+  Program() : folder_(fs::temp_directory_path() / (std::string("ents_program_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return quoted(folder_ / name); }
+  std::string write(const std::string& name, const Json& json) const { return write_text(name, json.dump()); }
+  std::string write_text(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return path(name);
+  }
+  Json read(const std::string& name) const { return parse_json_file(folder_ / name); }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(folder_ / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  /// hertz2d on a coarse mesh: a run takes some hundredths of a second.
+  static Json small() {
+    Json json = parse_json_file(fs::path(EXAMPLES) / "hertz2d" / "scene.json");
+    for (const char* axis : {"x", "y"})
+      for (Json& piece : json["parts"][0][axis]["pieces"]) piece["divisions"] = 6;
+    json["parts"][0]["y"]["pieces"][1]["divisions"] = 2;
+    json["steps"]["values"] = {0.25};
+    return json;
+  }
+  /// Three approaches, of which the last goes deeper than the model lets it.
+  static Json failing() {
+    Json json = small();
+    json["steps"] = {{"control", "approach"}, {"values", {0.0005, 0.001, 0.05}}};
+    json["contact"]["model"]["penetration_limit"] = 1e-2;
+    json["solver"]["min_step"] = 0.9;
+    return json;
+  }
+  static Json three() {
+    Json json = small();
+    json["steps"]["values"] = {0.25, 0.5, 0.75};
+    return json;
+  }
+  static void expect(const ProgramOutput& output, int exit_code, const std::vector<std::string>& words) {
+    EXPECT_EQ(output.exit_code, exit_code) << output.text;
+    for (const std::string& word : words) EXPECT_NE(output.text.find(word), std::string::npos) << word << "\n" << output.text;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Program, NamesACommandItDoesNotKnow) {
+  expect(ents_host("rum scene.json"), 2, {"\"rum\" is not a command; write run"});
+  expect(ents_host("--foo"), 2, {"\"--foo\"", "run, variants, verify"});
+  expect(ents_host(""), 2, {"a command is missing", "run, variants, verify"});
+  expect(ents_host("--help"), 0, {"Exit codes", "variants"});
+}
+
+// An --out that is no folder is told before anything is computed: with a scene of hours it would be too late.
+TEST_F(Program, AnOutputFolderThatCannotBeIsToldFirst) {
+  const std::string scene = write("small.json", small()), file = write_text("afile", "");
+  const std::string model = write("model.json", {{"segment", "line2"}});
+  for (const std::string& command : {"run " + scene, "run " + scene + " --compare 3,6", "check " + model, std::string("chart")}) {
+    const ProgramOutput output = ents_host(command + " --out " + file);
+    expect(output, 2, {"--out", "afile is a file; name a folder"});
+    EXPECT_EQ(output.text.find("enriched segment"), std::string::npos) << output.text; // nothing was computed
+    EXPECT_EQ(output.text.find("step 1"), std::string::npos) << output.text;
+  }
+  expect(ents_host("run " + scene + " --out --json"), 2, {"--out", "--json is no name of a folder"});
+  EXPECT_FALSE(fs::exists("--json"));
+}
+
+TEST_F(Program, AFailedStepLeavesWhatWasSolvedBefore) {
+  const std::string scene = write("scene.json", failing()), out = " --no-pictures --out " + path("out");
+  write("whole.json", small());
+  ASSERT_EQ(ents_host("run " + path("whole.json") + out).exit_code, 0); // an older run in the same folder
+  EXPECT_EQ(read("out/result.json").at("failure"), nullptr);
+  expect(ents_host("run " + scene + out), 1, {"mean pressure", "FAILED at step 3 of 3", "step 3 cannot be solved"});
+  const Json result = read("out/result.json");
+  EXPECT_EQ(result.at("steps").size(), 2u);
+  EXPECT_EQ(result.at("failure").at("step"), 3);
+  EXPECT_NE(result.at("failure").at("reason").get<std::string>().find("penetration"), std::string::npos);
+  EXPECT_EQ(read("out/checkpoint.json").at("step"), 2);
+  // also on stdout; and where a part of the third step was taken before the next one failed, the state is still that after the second
+  Json partly = failing();
+  partly["steps"]["values"][2] = 0.2;
+  const std::string command = "run " + write("partly.json", partly) + " --json --cut random --seed 12";
+  const ProgramOutput output = ents_host(command + " 2>/dev/null; exit $?; :");
+  EXPECT_EQ(output.exit_code, 1);
+  const Json told = Json::parse(output.text);
+  EXPECT_EQ(told.at("steps").size(), 2u);
+  const Json before = Json::parse(ents_host(command + " --last-step 2").text);
+  EXPECT_EQ(told.at("fingerprint"), before.at("fingerprint"));
+  // nothing solved: files of the older run must not look like this one's
+  Json hopeless = failing();
+  hopeless["steps"]["values"] = {0.05};
+  expect(ents_host("run " + write("scene.json", hopeless) + out), 1, {"FAILED at step 1 of 1", "nothing is solved"});
+  EXPECT_EQ(read("out/result.json").at("steps").size(), 0u);
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "result.pvd"));
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "checkpoint.json"));
+}
+
+TEST_F(Program, ARestartKeepsTheStepsBefore) {
+  const std::string out = " --no-pictures --out " + path("out"), restart = " --restart " + path("out/checkpoint.json");
+  const std::string scene = write("scene.json", three());
+  ASSERT_EQ(ents_host("run " + scene + out + " --last-step 1").exit_code, 0);
+  fs::copy(folder_ / "out", folder_ / "kept");
+  expect(ents_host("run " + scene + out + restart), 0, {});
+  const Json result = read("out/result.json");
+  ASSERT_EQ(result.at("steps").size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(result.at("steps")[static_cast<std::size_t>(i)].at("step"), i + 1);
+  EXPECT_EQ(result.at("restarted_after"), 1);
+  const Json whole = Json::parse(ents_host("run " + scene + " --json").text);
+  EXPECT_EQ(result.at("fingerprint"), whole.at("fingerprint"));
+  for (const char* file : {"result_bulk_0001.vtu", "result_bulk_0002.vtu", "result_bulk_0003.vtu"})
+    EXPECT_NE(text("out/result.pvd").find(file), std::string::npos) << file;
+  // elsewhere: the later steps alone
+  ASSERT_EQ(ents_host("run " + scene + " --no-pictures --out " + path("other") + " --restart " + path("kept/checkpoint.json")).exit_code, 0);
+  EXPECT_EQ(read("other/result.json").at("steps").size(), 2u);
+  expect(ents_host("run " + scene + restart), 2, {"the run is finished"});
+}
+
+// What a user changes after a failure is taken; another scene is not.
+TEST_F(Program, ACheckpointOfAnotherSceneIsRefused) {
+  const std::string scene = write("scene.json", three()), restart = " --restart " + path("out/checkpoint.json");
+  ASSERT_EQ(ents_host("run " + scene + " --last-step 2 --no-pictures --out " + path("out")).exit_code, 0);
+  const auto go_on = [&](const std::function<void(Json&)>& edit) {
+    Json json = three();
+    edit(json);
+    return ents_host("run " + write("changed.json", json) + restart);
+  };
+  expect(go_on([](Json& j) { j["materials"]["block"]["young"] = 5000; }), 2,
+         {"checkpoint.json", "/materials/block/young is 1000 there and 5000 here"});
+  expect(go_on([](Json& j) { j["contact"]["model"]["height"]["coefficients"][2] = -0.06; }), 2,
+         {"/contact/model/height/coefficients/2 is -0.05 there and -0.06 here"});
+  expect(go_on([](Json& j) { j["thickness"] = 2; }), 2, {"/thickness is not there and 2 here"});
+  expect(go_on([](Json& j) { j["steps"]["values"] = {0.25, 0.6, 0.75}; }), 2, {"/steps/values: step 2 is 0.5000 there and 0.6000"});
+  expect(go_on([](Json& j) { j["steps"]["values"] = {0.25}; }), 2, {"after step 2, the scene has 1"});
+  expect(ents_host("run " + scene + " --explicit 8" + restart), 2, {"another master surface"});
+  expect(go_on([](Json& j) { j["steps"]["values"] = {0.25, 0.5, 0.6, 0.7, 0.75}; }), 0, {"step 5/5"});
+  expect(go_on([](Json& j) {
+           j["solver"] = {{"max_iterations", 50}, {"min_step", 1e-4}};
+           j["contact"]["model"]["penetration_limit"] = 0.1;
+           j["contact"]["model"]["tangent"] = "small_gap";
+           j["title"] = "again";
+           j.erase("compare");
+         }), 0, {"step 3/3"});
+  expect(ents_host("run " + scene + " --restart " + scene), 2, {"this is no checkpoint", "checkpoint.json that a run leaves"});
+}
+
+// Files on a full disk: the table all the same, then what could not be written.
+TEST_F(Program, AFileThatCannotBeWrittenDoesNotCostTheTable) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string scene = write("small.json", small());
+  for (const char* file : {"result.json", "result.pvd", "checkpoint.json"}) {
+    const fs::path out = folder_ / (std::string("full_") + file);
+    fs::create_directories(out);
+    fs::create_symlink("/dev/full", out / file);
+    const ProgramOutput output = ents_host("run " + scene + " --no-pictures --out " + quoted(out));
+    expect(output, 1, {"mean pressure", "wall time", std::string(file) + ": cannot be written"});
+    EXPECT_LT(output.text.find("mean pressure"), output.text.rfind("cannot be written"));
+  }
+}
+
+TEST_F(Program, AnAnswerThatCannotBeWrittenIsAFailure) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
+  for (const std::string& command : {"run " + scene, "run " + scene + " --json", "check " + model, std::string("--help")})
+    expect(ents_host(command + " >/dev/full 2>" + path("errors") + "; code=$?; cat " + path("errors") + "; exit $code; :"), 1,
+           {"stdout cannot be written"});
+}
+
+TEST_F(Program, NumbersOfOptionsAreNamedWithWhatIsWanted) {
+  const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
+  for (const char* value : {"-1", "inf", "nan", "0", "x"})
+    expect(ents_host("check " + model + " --reach " + value), 2, {"--reach: a number > 0 is expected, this is \"" + std::string(value) + "\""});
+  for (const char* value : {"0", "1.5", "99999999999"})
+    expect(ents_host("run " + scene + " --last-step " + value), 2, {"--last-step: an integer from 1 to 1000000 is expected"});
+  expect(ents_host("run " + scene + " --cut random --seed -1"), 2, {"--seed: an integer from 0"});
+  expect(ents_host("run " + scene + " --compare 3,0"), 2, {"--compare: integers from 1 to 100000"});
+}
+
+TEST_F(Program, OptionsWithoutEffectSaySo) {
+  const std::string scene = write("small.json", small());
+  expect(ents_host("run " + scene + " --last-step 99"), 0, {"--last-step 99: the scene has 1 step"});
+  expect(ents_host("run " + scene + " --seed 5"), 0, {"--seed 5 has no effect: only --cut random"});
+  Json plain = small();
+  plain.erase("variants");
+  expect(ents_host("variants " + write("plain.json", plain)), 2, {"plain.json", "no key \"variants\""});
+}
+
+TEST_F(Program, CompareLeavesTheSceneItsPlace) {
+  Json json = small();
+  json["compare"] = {{"divisions", {3, 6}}, {"error", 0.5}};
+  const std::string scene = write("small.json", json);
+  expect(ents_host("run --compare " + scene), 0, {"explicit 3", "explicit 6", "with order"});
+  expect(ents_host("run --compare 4,8 " + scene), 0, {"explicit 4", "explicit 8"});
+  const ProgramOutput one = ents_host("run " + scene + " --compare 3");
+  expect(one, 0, {"one mesh shows no order"});
+  EXPECT_EQ(one.text.find("with order"), std::string::npos) << one.text;
+  EXPECT_EQ(Json::parse(ents_host("run " + scene + " --compare 3 --json").text).at("order"), nullptr);
+}
+
+// On few slave nodes the difference scatters, and the fit may promise too much.
+TEST_F(Program, EqualErrorIsOnlySaidWhereItHolds) {
+  Json json = small();
+  json["compare"] = {{"divisions", {23, 47, 95, 191}}, {"error", 5e-6}};
+  for (const double force : {0.25, 0.5}) {
+    json["steps"]["values"] = {force};
+    const std::string command = "run " + write("small.json", json) + " --compare";
+    const Json result = Json::parse(ents_host(command + " --json").text);
+    const Json &reached = result.at("explicit_at_equal_error"), &missed = result.at("explicit_from_fit");
+    ASSERT_EQ(reached.size(), force < 0.3 ? 1u : 0u);
+    ASSERT_EQ(missed.size(), force < 0.3 ? 0u : 1u);
+    for (const Json& row : reached) EXPECT_LT(row.at("difference").get<double>(), 1.34 * 5e-6);
+    for (const Json& row : missed) EXPECT_GT(row.at("difference").get<double>(), 1.33 * 5e-6);
+    const ProgramOutput text = ents_host(command);
+    EXPECT_EQ(text.text.find(", equal error") != std::string::npos, !reached.empty()) << text.text;
+    EXPECT_EQ(text.text.find("is not reached: the fit asks for") != std::string::npos, reached.empty()) << text.text;
+  }
+}
+
+TEST_F(Program, MistakesInFilesAreNamed) {
+  Json json = small();
+  json["variants"] = {{"a", {{"solvr", Json::object()}}}};
+  const std::string scene = write("badvar.json", json);
+  for (const std::string& command : {"run " + scene, "variants " + scene, "run " + scene + " --variant a"})
+    expect(ents_host(command), 2, {"badvar.json: /variants/a: unknown key \"solvr\""});
+  json = small();
+  json["parts"][0] = {{"name", "block"}, {"material", "block"}, {"deck", "nope.inp"}};
+  json.erase("variants");
+  expect(ents_host("run " + write("scene.json", json)), 2, {"scene.json: /parts/0/deck: ", "nope.inp: cannot be read"});
+  expect(ents_host("run " + path("")), 2, {"this is a folder"});
+  const std::string model = write("model.json", {{"segment", "line2"}});
+  expect(ents_host("check " + model + " --mesh " + write_text("empty.inp", "")), 2, {"empty.inp: no mesh; expected *NODE"});
+  expect(ents_host("check " + model + " --mesh " + write_text("typo.inp", "*NOED\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n")), 2,
+         {"not understood and skipped: *NOED (", "typo.inp:1)"});
+}
+
+TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
+  Json json = small();
+  json["supports"] = Json::array();
+  expect(ents_host("run " + write("scene.json", json)), 2, {"/supports: nothing holds the bodies"});
+  json = small();
+  json["contact"]["master"]["nodes"] = {{-1, 0.05}, {1, 0.05}};
+  expect(ents_host("run " + write("scene.json", json)), 1, {"no slave node", "order of its nodes"});
+  json = small();
+  json["contact"]["master"]["direction"] = {0, 1};
+  expect(ents_host("run " + write("scene.json", json)), 1, {"no slave node", "direction"});
 }
 
 } // namespace
