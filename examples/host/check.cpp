@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "check_extent.hpp"
 #include "check_mesh.hpp"
 #include "check_needs.hpp"
 #include "check_picture.hpp"
@@ -173,20 +174,23 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
   const MasterSurface surface = read_surface(options.mesh, name, model.layout());
   make_output_folder(options.out);
   const Answer answer(model, surface, options);
+  const SurfaceExtent extent = extent_of(model, text, options.model.parent_path(), surface);
+  const bool law = text.contains("contact");
   if (common.json) {
     Json result{{"model", options.model.string()},
                 {"segments", surface.segments()},
                 {"admissible", answer.admissible()},
                 {"conditions", Json::array()},
                 {"failing_segments", Json::array()}};
-    result.update(needs_json(model.layout()));
+    result.update(needs_json(model.layout(), law));
+    result.update(extent_json(extent));
     for (const Condition& c : conditions)
       if (answer.known(c)) result["conditions"].push_back(answer.json(c));
     for (std::size_t s = 0; s < surface.segments(); ++s)
       if (answer.violations()[s] != 0) result["failing_segments"].push_back(s);
     std::printf("%s\n", result.dump(2).c_str());
   } else {
-    std::printf("%s", describe_needs(model.layout()).c_str());
+    std::printf("%s%s", describe_needs(model.layout(), law).c_str(), describe(extent).c_str());
     print(answer, surface.segments());
   }
   if (!options.out.empty()) {

@@ -25,7 +25,7 @@ bool has(const ents_layout& layout, const Need& need) { return (layout.needs & n
 
 } // namespace
 
-std::string describe_needs(const ents_layout& layout) {
+std::string describe_needs(const ents_layout& layout, bool law) {
   std::string needed, left_out;
   for (const Need& need : all_needs) {
     if (need.what == nullptr) continue;
@@ -38,16 +38,17 @@ std::string describe_needs(const ents_layout& layout) {
   std::string text = "this scene needs: ";
   text.append(needed.empty() ? "positions alone" : needed).append("\n");
   if (!left_out.empty()) text.append("it does not need: ").append(left_out).append("\n");
+  if (!law) return text + "kernels: no contact law in the model (its key \"contact\"), so there is no element to choose one for\n";
   text.append("kernels: ").append(layout.instruction_set);
   text.append(one_by_one ? ", elements one by one (the fast kernels do not know all of this model)\n"
                          : ", those of ordinary elements\n");
   return text;
 }
 
-Json needs_json(const ents_layout& layout) {
+Json needs_json(const ents_layout& layout, bool law) {
   Json json{{"needs", Json::array()},
             {"does_not_need", Json::array()},
-            {"instruction_set", layout.instruction_set}};
+            {"instruction_set", law ? Json(layout.instruction_set) : Json()}};
   for (const Need& need : all_needs) json[has(layout, need) ? "needs" : "does_not_need"].push_back(need.key);
   return json;
 }

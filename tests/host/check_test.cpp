@@ -185,6 +185,48 @@ TEST_F(Check, SaysWhatTheSceneNeeds) {
   }
 }
 
+// Without a law of contact there is no element, and no kernel that could be too slow for it.
+TEST_F(Check, AModelWithoutContactHasNoKernel) {
+  const std::string model = write("model.json", {{"segment", "line2"}});
+  const ProgramOutput text = check(model, "");
+  EXPECT_NE(text.text.find("kernels: no contact law in the model"), std::string::npos) << text.text;
+  EXPECT_EQ(result(model, "", 0).at("instruction_set"), nullptr);
+}
+
+// Ten micrometres on a segment of ten lengths: right with "length_unit" 1e-6, and a speck in its corner without.
+TEST_F(Check, AMapThatCoversLessThanTheSegmentsIsAWarning) {
+  {
+    std::ofstream file(folder_ / "map.txt");
+    file << "# Channel: z\n# Width: 10.00 \xC2\xB5m\n# Height: 5 um\n# Value units: m\n";
+    for (int j = 0; j < 41; ++j, file << "\n")
+      for (int i = 0; i < 41; ++i) file << (i + j) * 1e-9 << " ";
+  }
+  const auto model = [&](const Json& more) {
+    Json map = {{"type", "map"}, {"file", "map.txt"}, {"boundary", "clamped"}};
+    map.update(more);
+    return write("model.json", {{"segment", "quad4"},
+                                {"surface_coordinates", {{0, 0}, {10, 0}, {10, 5}, {0, 5}}},
+                                {"height", {{"type", "sum"}, {"of", {{{"type", "constant"}, {"value", 1}}, map}}}}});
+  };
+  const std::string mesh = " --samples 9 --mesh " + write("mesh.json", {{"nodes", {{0, 0, 0}, {10, 0, 0}, {10, 5, 0}, {0, 5, 0}}}, {"segments", {{0, 1, 2, 3}}}});
+  const std::string good = model({{"length_unit", 1e-6}});
+  EXPECT_EQ(check(good, mesh).text.find("warning"), std::string::npos);
+  const Json right = result(good, mesh, check(good, mesh).exit_code);
+  EXPECT_NEAR(right.at("height_range")[0].get<double>(), 1, 1e-12);
+  EXPECT_NEAR(right.at("height_range")[1].get<double>(), 1.08, 1e-3);
+  EXPECT_EQ(right.at("maps")[0].at("path"), "/height/of/1");
+  EXPECT_EQ(right.at("maps")[0].at("high"), Json({10.0, 5.0}));
+  EXPECT_TRUE(right.at("maps")[0].at("covers_segments").get<bool>());
+  for (const Json& more : {Json(Json::object()), Json{{"length_unit", 1e-6}, {"origin", {3, 0}}}}) {
+    const std::string bad = model(more);
+    const ProgramOutput text = check(bad, mesh);
+    for (const char* words : {"warning: the map /height/of/1", "length_unit", "over s1 = 0 .. 10.00"})
+      EXPECT_NE(text.text.find(words), std::string::npos) << words << "\n" << text.text;
+    EXPECT_FALSE(result(bad, mesh, text.exit_code).at("maps")[0].at("covers_segments").get<bool>());
+  }
+  EXPECT_EQ(check(model({{"size", {0.1, 0.1}}, {"boundary", "periodic"}}), mesh).text.find("warning"), std::string::npos);
+}
+
 TEST_F(Check, WrongInputIsExitCodeTwo) {
   const std::string good = write("good.json", {{"segment", "line2"}});
   EXPECT_EQ(check(good, "").exit_code, 0);

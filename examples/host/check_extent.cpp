@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check_extent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+
+#include "output/table.hpp"
+
+namespace host {
+namespace {
+
+constexpr double most_points = 100000; // on all segments
+constexpr double missing_share = 0.05; // of a direction; a clamped map ends a pixel before its width
+
+Extent nothing(std::size_t directions) {
+  return {std::vector<double>(directions, std::numeric_limits<double>::infinity()),
+          std::vector<double>(directions, -std::numeric_limits<double>::infinity())};
+}
+
+void include(Extent& extent, std::size_t direction, double value) {
+  extent.low[direction] = std::min(extent.low[direction], value);
+  extent.high[direction] = std::max(extent.high[direction], value);
+}
+
+/// Surface coordinates at the nodes a segment lies between; the outer ones of smoothed segments are its
+/// neighbours'.
+Extent coordinates_of(const MasterSurface& surface, const Json& text, bool triangles) {
+  const std::size_t directions = surface.d - 1;
+  const std::string name = text.at("segment").get<std::string>();
+  const bool smoothed = name.starts_with("catmull_rom") || name.starts_with("bspline");
+  const auto between = [&](std::size_t node) {
+    const auto middle = [](std::size_t i) { return i == 1 || i == 2; };
+    return !smoothed || (directions == 1 ? middle(node) : middle(node % 4) && middle(node / 4));
+  };
+  Extent extent = nothing(directions);
+  const bool given = !surface.surface_coordinates.empty(), of_model = text.contains("surface_coordinates");
+  for (std::size_t i = 0; i < directions; ++i) {
+    if (!given && !of_model) include(extent, i, triangles ? 0 : -1), include(extent, i, 1);
+    for (std::size_t k = 0; given && k < surface.surface_coordinates.size() / directions; ++k)
+      if (between(k % surface.m)) include(extent, i, surface.surface_coordinates[k * directions + i]);
+    for (std::size_t a = 0; !given && of_model && a < surface.m; ++a)
+      if (between(a)) include(extent, i, text.at("surface_coordinates").at(a).at(i).get<double>());
+  }
+  return extent;
+}
+
+/// "# Width: 10.00 um" of Gwyddion's text export, metres; the library has read the file before and found
+/// nothing wrong.
+std::map<std::string, double> stated_lengths(const std::filesystem::path& file) {
+  static const std::map<std::string, double> units{
+      {"m", 1},     {"dm", 1e-1},    {"cm", 1e-2}, {"mm", 1e-3},  {"\xC2\xB5m", 1e-6}, {"\xCE\xBCm", 1e-6},
+      {"um", 1e-6}, {"\xB5m", 1e-6}, {"nm", 1e-9}, {"pm", 1e-12}, {"fm", 1e-15},       {"\xC3\x85", 1e-10},
+      {"km", 1e3}};
+  std::map<std::string, double> lengths;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line) && line.starts_with('#');) {
+    if (line.ends_with('\r')) line.pop_back();
+    const auto colon = line.find(':'), key = line.find_first_not_of(" \t", 1);
+    if (colon == line.npos || key == line.npos) continue;
+    char* end = nullptr;
+    const double number = std::strtod(line.c_str() + colon + 1, &end);
+    std::string unit = end;
+    unit.erase(0, unit.find_first_not_of(" \t"));
+    unit.erase(unit.find_last_not_of(" \t") + 1);
+    if (const auto found = units.find(unit); found != units.end() && number > 0)
+      lengths[line.substr(key, colon - key)] = number * found->second;
+  }
+  return lengths;
+}
+
+/// Empty: the file does not say, and the model does not, either.
+std::vector<double> size_of(const Json& map, const std::filesystem::path& folder, std::size_t directions) {
+  std::vector<double> size;
+  if (map.contains("size")) {
+    for (const Json& length : map.at("size")) size.push_back(length.get<double>());
+  } else if (map.contains("file")) {
+    const auto lengths = stated_lengths(folder / map.at("file").get<std::string>());
+    const double unit = map.value("length_unit", 1.);
+    for (const char* key : {"Width", "Height"})
+      if (const auto found = lengths.find(key); found != lengths.end() && size.size() < directions)
+        size.push_back(found->second / unit);
+  }
+  return size.size() == directions ? size : std::vector<double>{};
+}
+
+void find_maps(const Json& height, const std::string& where, const std::filesystem::path& folder,
+               SurfaceExtent& out) {
+  const std::size_t directions = out.coordinates.low.size();
+  if (height.is_object() && height.contains("type") && height.at("type") == "map") {
+    const std::vector<double> size = size_of(height, folder, directions);
+    if (size.empty()) return;
+    MapExtent map{where, height.value("boundary", "") == "clamped", nothing(directions)};
+    for (std::size_t i = 0; i < directions; ++i) {
+      const double origin = height.contains("origin") ? height.at("origin").at(i).get<double>() : 0;
+      const double low = out.coordinates.low[i], high = out.coordinates.high[i];
+      map.covers.low[i] = origin, map.covers.high[i] = origin + size[i];
+      const double covered = std::min(high, origin + size[i]) - std::max(low, origin);
+      map.too_small = map.too_small || (map.clamped && covered < (1 - missing_share) * (high - low));
+    }
+    out.maps.push_back(std::move(map));
+    return;
+  }
+  if (height.is_structured())
+    for (const auto& item : height.items()) find_maps(item.value(), where + "/" + item.key(), folder, out);
+}
+
+std::string text_of(const Extent& extent) {
+  std::string text;
+  for (std::size_t i = 0; i < extent.low.size(); ++i)
+    text += (i == 0 ? "s1 = " : ", s2 = ") + format_number(extent.low[i]) + " .. " +
+            format_number(extent.high[i]);
+  return text;
+}
+
+} // namespace
+
+SurfaceExtent extent_of(const EntsModel& model, const Json& text, const std::filesystem::path& folder,
+                        const MasterSurface& surface) {
+  const bool triangles = text.at("segment").get<std::string>().starts_with("tri");
+  SurfaceExtent extent;
+  extent.coordinates = coordinates_of(surface, text, triangles);
+  if (text.contains("height")) find_maps(text.at("height"), "/height", folder, extent);
+
+  const double each = most_points / static_cast<double>(surface.segments());
+  const int n =
+      static_cast<int>(surface.d == 2 ? std::clamp(each, 5., 2001.) : std::clamp(std::sqrt(each), 3., 257.));
+  std::vector<double> xi;
+  for (int j = 0; j < (surface.d == 2 ? 1 : n); ++j)
+    for (int i = 0; i < n; ++i) {
+      const double s = static_cast<double>(i) / (n - 1), t = static_cast<double>(j) / (n - 1);
+      xi.push_back(triangles ? s * (1 - t) : 2 * s - 1);
+      if (surface.d == 3) xi.push_back(triangles ? t : 2 * t - 1);
+    }
+  extent.low = std::numeric_limits<double>::infinity(), extent.high = -extent.low;
+  for (std::size_t s = 0; s < surface.segments(); ++s)
+    for (const double height : sample_surface(model, surface.master(s), surface.coordinates(s), xi).height)
+      extent.low = std::min(extent.low, height), extent.high = std::max(extent.high, height);
+  return extent;
+}
+
+std::string describe(const SurfaceExtent& extent) {
+  std::string text;
+  if (extent.low != 0 || extent.high != 0)
+    text = "height: " + format_number(extent.low) + " .. " + format_number(extent.high) + " over " +
+           text_of(extent.coordinates) + " (sampled)\n";
+  for (const MapExtent& map : extent.maps)
+    text += "map " + map.where + (map.clamped ? ": covers " : ": repeats ") + text_of(map.covers) + "\n";
+  for (const MapExtent& map : extent.maps)
+    if (map.too_small)
+      text += "warning: the map " + map.where +
+              " covers only a part of the segments, beyond it the heights of its border go on; look at "
+              "\"size\", \"origin\" "
+              "and \"length_unit\" (metres in one unit of length)\n";
+  return text;
+}
+
+Json extent_json(const SurfaceExtent& extent) {
+  Json json{{"height_range", {extent.low, extent.high}},
+            {"surface_coordinates", {{"low", extent.coordinates.low}, {"high", extent.coordinates.high}}},
+            {"maps", Json::array()}};
+  for (const MapExtent& map : extent.maps)
+    json["maps"].push_back({{"path", map.where},
+                            {"boundary", map.clamped ? "clamped" : "periodic"},
+                            {"low", map.covers.low},
+                            {"high", map.covers.high},
+                            {"covers_segments", !map.too_small}});
+  return json;
+}
+
+} // namespace host
