@@ -13,6 +13,7 @@
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
 #include "chart/work.hpp"
+#include "chart/work_page.hpp"
 #include "support.hpp"
 
 namespace host::chart {
@@ -75,6 +76,18 @@ TEST(WorkPrecision, AdviceFollowsTheRuns) {
   EXPECT_TRUE(advice(work, {0.001}).empty());                    // nothing reaches it
   ASSERT_EQ(advice(work, {0.05, 0.02, 0.01, 0.001}).size(), 1u); // one answer for all that have it
   EXPECT_EQ(advice(work, {0.05, 0.02, 0.01, 0.001}).at(0).substr(0, 32), "For an error of 5 % to 1 % take ");
+}
+
+// An elastic master has a few enriched segments: the legend must not call them one.
+TEST(WorkPrecision, LegendsCountEnrichedSegments) {
+  const Work one = made({made(Family::enriched, 1, 0.009, 2), made(Family::facets, 8, 0.1, 1)});
+  const Work some = made({made(Family::enriched, 1, 0.009, 2), made(Family::enriched, 4, 0.01, 2)});
+  EXPECT_EQ(family_name({&one}, Family::enriched), "enriched, one segment");
+  EXPECT_EQ(family_name({&one, &some}, Family::enriched), "enriched, 1-4 segments");
+  EXPECT_EQ(family_name({&one, &some}, Family::facets), "plain segments");
+  EXPECT_EQ(family_name({&one, &some}, Family::smoothed), "");
+  EXPECT_NE(work_picture({&one, &some}, {Price::time}).find("enriched, 1-4 segments"), std::string::npos);
+  EXPECT_EQ(work_json({some})[0].at("runs")[1].at("way"), "enriched, 4 segments");
 }
 
 // Times that differ by less than their repetitions do are not told apart.

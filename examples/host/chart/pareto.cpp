@@ -58,6 +58,18 @@ const WorkRun* cheapest(const std::vector<WorkRun>& runs, double error,
   return best;
 }
 
+std::string family_name(const std::vector<const Work*>& works, Family family) {
+  std::size_t least = 0, most = 0;
+  for (const Work* work : works)
+    for (const WorkRun& run : work->runs) {
+      if (run.way.family != family || !charted(run)) continue;
+      least = most == 0 ? run.segments : std::min(least, run.segments), most = std::max(most, run.segments);
+    }
+  if (most == 0) return "";
+  if (family != Family::enriched || most == 1) return word(family);
+  return "enriched, " + (least == most ? "" : std::to_string(least) + "-") + std::to_string(most) + " segments";
+}
+
 std::string name_of(const Problem& problem, const WorkRun& run) {
   std::string text = word(run.way.family);
   if (run.way.family == Family::enriched && run.segments > 1)

@@ -251,12 +251,10 @@ std::string work_picture(const std::vector<const Work*>& works, const std::vecto
   double x = left;
   for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed,
                               Family::on_facets, Family::on_smoothed}) {
-    bool any = false;
-    for (const Work* work : works)
-      for (const WorkRun& run : work->runs) any = any || (run.way.family == family && charted(run));
-    if (!any) continue;
-    svg += marker(family, x + 6, 18, "") + text(x + 17, 22.5, "start", word(family));
-    x += 48 + 6.6 * static_cast<double>(std::string(word(family)).size());
+    const std::string name = family_name(works, family);
+    if (name.empty()) continue;
+    svg += marker(family, x + 6, 18, "") + text(x + 17, 22.5, "start", name);
+    x += 48 + 6.6 * static_cast<double>(name.size());
   }
   svg += line(x, 18, x + 26, 18, "class=\"f\"") + text(x + 36, 22.5, "start", "Pareto front");
   for (std::size_t j = 0; j < works.size(); ++j)

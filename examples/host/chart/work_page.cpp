@@ -134,12 +134,8 @@ std::string legend_of(const Work& work) {
   std::string html = "<div class=\"key\">";
   for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed,
                               Family::on_facets, Family::on_smoothed}) {
-    bool any = false, one = true;
-    for (const WorkRun& run : work.runs)
-      if (run.way.family == family && charted(run)) any = true, one = one && run.segments == 1;
-    if (!any) continue;
-    const std::string name =
-        family == Family::enriched && !one ? "enriched, one or a few segments" : word(family);
+    const std::string name = family_name({&work}, family);
+    if (name.empty()) continue;
     html += "<span><svg class=\"k\" viewBox=\"0 0 14 14\">" + marker(family, 7, 7, "") + "</svg>" + name +
             "</span>";
   }
@@ -149,7 +145,8 @@ std::string legend_of(const Work& work) {
 
 Json run_json(const Problem& problem, const WorkRun& run) {
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
-  Json json{{"way", word(run.way.family)},
+  const bool several = run.way.family == Family::enriched && run.way.divisions > 1;
+  Json json{{"way", several ? "enriched, " + std::to_string(run.way.divisions) + " segments" : word(run.way.family)},
             {"divisions", run.way.divisions},
             {"slave_mesh", problem.levels[run.way.level].name},
             {"tangent", run.way.tangent}};
