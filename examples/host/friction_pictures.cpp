@@ -30,7 +30,7 @@ Chart partial_slip_profile(Simulation& simulation, const StepRecord& record) {
                    std::to_string(state.place.size()) + " slave nodes";
   chart.x = {"x", scene.units.length};
   chart.y = {"traction", scene.units.pressure, false, 0};
-  Curve pressure{"μ p, exact", {}, {}, Style::exact}, traction{"q, exact", {}, {}, Style::exact};
+  Curve pressure{"μ p, exact", {}, {}, Style::exact}, traction{"q, exact", {}, {}, Style::exact_dashed};
   for (int i = -400; i <= 400; ++i) {
     const double x = a * i / 400;
     const double p = mu * hertz.peak_pressure * ellipse(x, a);

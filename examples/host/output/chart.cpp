@@ -153,18 +153,22 @@ std::string free_corner(const Chart& chart, const Scale& x, const Scale& y, std:
   return "";
 }
 
+bool is_reference(Style style) { return style == Style::exact || style == Style::exact_dashed; }
+
 std::string style_of(const Curve& curve, std::size_t index, std::size_t count) {
   static constexpr const char* markers[] = {"7", "5", "9", "13", "11", "15"}; // filled: circle, square ...
   static constexpr const char* open_markers[] = {"6", "4", "8", "12", "10", "14"};
   const std::string color =
       " linecolor rgb '" +
-      (curve.style == Style::exact ? std::string(gnuplot::ink) : gnuplot::curve_color(index, count)) + "'";
+      (is_reference(curve.style) ? std::string(gnuplot::ink) : gnuplot::curve_color(index, count)) + "'";
   std::string marker = " pointtype ";
   marker += markers[count > std::size(markers) ? 0 : index % std::size(markers)];
   marker += curve.x.size() > 60 && curve.style == Style::points ? " pointsize 0.6" : " pointsize 0.85";
   switch (curve.style) {
   case Style::exact:
     return "with lines linewidth 1.2" + color;
+  case Style::exact_dashed:
+    return "with lines linewidth 1.2 dashtype (10,5)" + color;
   case Style::line:
     return "with lines linewidth 1.8" + color;
   case Style::points:
@@ -253,7 +257,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
   std::string computed, exact; // the exact line lies on top: dense markers do not hide it
   std::size_t block = 0, entries = 0, letters = 0, colored = 0;
   const auto colors = static_cast<std::size_t>(std::count_if(
-      chart.curves.begin(), chart.curves.end(), [](auto& c) { return c.style != Style::exact && c.style != Style::wrong_line; }));
+      chart.curves.begin(), chart.curves.end(), [](auto& c) { return !is_reference(c.style) && c.style != Style::wrong_line; }));
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
     if (curve.fit_order && !std::isnan(fitted_order(curve)))
@@ -261,7 +265,7 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
     job.data += "\n\n# " + label + "\n";
     for (std::size_t i = 0; i < curve.x.size(); ++i)
       job.data += number(curve.x[i]) + " " + number(curve.y[i]) + "\n";
-    const bool on_top = curve.style == Style::exact || curve.style == Style::wrong_line;
+    const bool on_top = is_reference(curve.style) || curve.style == Style::wrong_line;
     std::string& plot = on_top ? exact : computed;
     plot += ", \\\n data index " + std::to_string(block++);
     plot += " using ($1*" + number(x.unit) + "):($2*" + number(y.unit) + ") ";

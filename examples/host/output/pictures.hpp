@@ -30,6 +30,7 @@ struct Axis {
 
 enum class Style {
   exact,  ///< solid dark line: the reference
+  exact_dashed, ///< dashed dark line: another one
   line,   ///< coloured line
   points, ///< coloured markers: a computed result
   both,   ///< markers joined by a thin line
