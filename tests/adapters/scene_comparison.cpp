@@ -66,8 +66,13 @@ std::vector<std::string> scene_adapters() {
 }
 
 std::string write_scene(const std::string& name, Mesh mesh, const fs::path& folder, bool symmetrised) {
-  const SceneKind& kind =
-      *std::find_if(std::begin(kinds), std::end(kinds), [&](const SceneKind& k) { return k.name == name; });
+  const auto found = std::find_if(std::begin(kinds), std::end(kinds), [&](const SceneKind& k) { return k.name == name; });
+  if (found == std::end(kinds)) {
+    std::string names;
+    for (const SceneKind& k : kinds) names += (names.empty() ? "" : ", ") + std::string(k.name);
+    throw std::invalid_argument("no scene \"" + name + "\"; there are: " + names);
+  }
+  const SceneKind& kind = *found;
   const fs::path source = fs::path(ENTS_EXAMPLES) / kind.folder;
   Json scene = read(source / "scene.json");
   make_paths_absolute(scene, source);

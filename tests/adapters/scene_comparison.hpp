@@ -18,6 +18,7 @@ enum class Mesh { coarse, shipped }; ///< coarse: half the divisions or less, fe
 /// The scene as a file of its own in `folder`.
 /// @param name  of the list above, or cattaneo_soft: softer than the bodies, for symmetrised tangents
 /// @param symmetrised  (K + K^T)/2 for the tangent of the contact, as hosts with symmetric matrices need it
+/// @throws std::invalid_argument for another name
 std::string write_scene(const std::string& name, Mesh mesh, const std::filesystem::path& folder,
                         bool symmetrised = false);
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -164,6 +165,16 @@ TEST_F(Scenes, MultipliersAreUnknownsOfTheirOwnNode) {
   ASSERT_EQ(direct.refusal, "");
   for (const char* adapter : {"abaqus", "ansys", "feap", "marc", "opensees"})
     EXPECT_TRUE(compare(direct, run_scene(file, adapter, variant)).bits) << adapter;
+}
+
+TEST_F(Scenes, AnUnknownNameIsToldWithTheList) {
+  try {
+    write_scene("hertz4d", Mesh::coarse, folder_);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    for (const char* words : {"hertz4d", "hertz2d, hertz3d"})
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
 }
 
 } // namespace
