@@ -35,18 +35,18 @@ void RunFiles::attempt(const std::function<void()>& write) {
   try {
     write();
   } catch (const std::exception& error) {
-    if (!problem_.empty()) return;
-    problem_ = error.what();
-    std::fprintf(stderr, "ents-host: %s; the run goes on\n", error.what());
+    if (problem_.empty()) problem_ = error.what();
   }
 }
 
 void RunFiles::add(Simulation& simulation, const StepRecord& record) {
   if (!series_) return;
+  const bool well = problem_.empty();
   attempt([&] { write_step(*series_, simulation, record); });
   attempt([&] {
     write_text(folder_ / "checkpoint.json", checkpoint_after(simulation, record.step).dump() + "\n");
   });
+  if (well && !problem_.empty()) std::fprintf(stderr, "ents-host: %s; the run goes on\n", problem_.c_str());
 }
 
 void RunFiles::finish(const Json& result) {
