@@ -103,8 +103,9 @@ template <class B, bool H, bool Rigid>
 Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
   constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>;
   const std::int32_t wanted = out.wanted;
-  // what is in contact is the law's question, too
-  const bool element = (wanted & want::element) != 0 || ((wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
+  const bool element = (wanted & want::element) != 0;
+  // flags are those of the element; alone, or with kinematics, they refuse nothing
+  const bool judged = element || ((wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
   if (!inputs_finite<B>(plan, in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
   if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
@@ -152,23 +153,23 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
 
   ContactForce<T> c{};
   c.area = in.area ? *in.area : 1.0;
-  if (element) c.normal = normal_force(plan.law, k.gap, normal_multiplier(plan, in));
+  if (judged) c.normal = normal_force(plan.law, k.gap, normal_multiplier(plan, in));
   const bool holds_multipliers = plan.multipliers > 0 && c.area == 0.0; // a slave without area holds them at zero
   if (holds_multipliers) c.area = 1.0;
   const bool outside = (flags & flag::outside) || holds_multipliers;
-  const bool pair = element && c.normal.contact && !outside;
-  if (pair) {
-    flags |= flag::contact;
+  const bool pair = judged && c.normal.contact && !outside;
+  if (pair) flags |= flag::contact;
+  if (pair && element) {
     if (flags & flag::far_side) return Status::singular_projection;
     if (ambiguous) return Status::ambiguous_projection;
     // a ray that leaves the surface from behind would push the slave further in
     if (t.kind != ProjectionKind::normal && !(dot(k.normal, k.ray) > 1e-6)) return Status::grazing_ray;
     if (-k.gap > penetration_limit(plan, p)) return Status::deep_penetration;
-    // a pair that has just come into contact has no anchor yet: it gets one at the end
-    c.friction = plan.law.has_friction() && (history == History::stick || history == History::slip);
   } else if (element && outside) {
     c.normal.energy = plan.law.multiplier_is_dof() ? -0.5 * in.multiplier[0] * in.multiplier[0] / plan.law.stiffness : 0.0;
   }
+  // a pair that has just come into contact has no anchor yet: it gets one at the end
+  c.friction = pair && plan.law.has_friction() && (history == History::stick || history == History::slip);
 
   const bool forces = pair && (wanted & (want::residual | want::tangent));
   const bool second = pair && (wanted & want::tangent) && plan.tangent != TangentKind::first_variation;
@@ -185,8 +186,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   }
   if (c.friction &&
       !evaluate_friction(plan.law, p, in.state_begin + plan.state.anchor_at, tangential_multiplier(plan, in),
-                         -c.area * c.normal.force, c.area, c.tangential))
-    return Status::degenerate_segment;
+                         -c.area * c.normal.force, c.area, c.tangential)) {
+    if (element) return Status::degenerate_segment;
+    c.friction = false;
+  }
   if (c.friction) flags |= c.tangential.slip ? flag::slip : flag::stick;
   if (c.friction && c.tangential.at_shear_limit) flags |= flag::shear_limit;
   if (!(k.magnitude < largest_ingredient)) return Status::out_of_range;
@@ -194,8 +197,8 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   // all that may go out of range first: after it everything is written
   const double energy = c.area * c.normal.energy;
   double traction[D] = {}, end[largest_state];
-  if (element) {
-    if (!law_in_range(plan, in, c, k.gap)) return Status::out_of_range;
+  if (judged) {
+    if (element && !law_in_range(plan, in, c, k.gap)) return Status::out_of_range;
     if ((wanted & want::energy) && !(absolute(energy) < largest_result)) return Status::out_of_range;
     if (wanted & want::traction) {
       evaluate_traction(p, c, traction);
@@ -205,7 +208,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
       end_state(plan, in, p, c, pair, escaped, end);
       double size = 0.0;
       for (int i = 0; i < plan.state.size; ++i) size += absolute(end[i]);
-      if (!(size < largest_result)) return Status::out_of_range;
+      if (element && !(size < largest_result)) return Status::out_of_range;
       if (in.state_begin && !same_status(in.state_begin[StateLayout::history_at], end[StateLayout::history_at])) flags |= flag::changed;
     }
   }
