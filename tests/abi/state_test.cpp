@@ -204,6 +204,8 @@ TEST_F(State, PatchesRefuseWhatIsNotFinite) {
   call::state_init(model.get(), int64_t{1}, e[state_begin].data(), int64_t{model.layout.state_size}, nullptr);
   Results results(model.layout);
   EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_OK);
+  e[state_begin] = results.of(ENTS_STATE);
+  EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_OK);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     e[state_begin][3] = bad;
     EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_BAD_STATE);
