@@ -231,6 +231,29 @@ TEST(Borderline, DeepPenetrationIsRecoverable) {
       }
 }
 
+// The energy of an open element with a multiplier dof is the potential of its row, beside the segment as well as above it. It is a
+// parabola: the central difference is exact.
+TEST(Borderline, MultipliersOfOpenElementsHaveAPotential) {
+  for (const char* law : {"augmented_multiplier", "multiplier"})
+    for (const double x : {0.1, 1.7})
+      for (const double lambda : {-3.0, -1.5}) {
+        const Model model(std::string(R"({"segment": "line2", "contact": {"normal": {"type": ")") + law + R"(", "stiffness": 100}}})");
+        Results results(model.layout);
+        Element e;
+        e[master] = {-1, 0, 1, 0}, e[slave] = {x, 0.01};
+        const auto energy = [&](double at) {
+          e[multiplier] = {at};
+          EXPECT_EQ(test::evaluate(model, e, want_element | ENTS_FLAGS, results), ENTS_OK);
+          EXPECT_FALSE(results.flags & ENTS_FLAG_CONTACT);
+          return results.of(ENTS_ENERGY)[0];
+        };
+        const double slope = energy(lambda + 0.5) - energy(lambda - 0.5);
+        energy(lambda);
+        EXPECT_NEAR(results.of(ENTS_RESIDUAL)[6], slope, 1e-15) << law << " " << x;
+        EXPECT_DOUBLE_EQ(slope, -lambda / 100);
+      }
+}
+
 // Friction and no slip: the direction of the traction is 0/0, the branch is stick, the tangent is that of
 // stick.
 TEST(Borderline, NoSlipSticks) {
