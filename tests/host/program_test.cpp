@@ -165,7 +165,7 @@ TEST_F(Program, ACheckpointOfAnotherSceneIsRefused) {
 
 // Files on a full disk: the table all the same, then what could not be written.
 TEST_F(Program, AFileThatCannotBeWrittenDoesNotCostTheTable) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full, the file of Linux that is always full";
   const std::string scene = write("small.json", small());
   for (const char* file : {"result.json", "result.pvd", "checkpoint.json"}) {
     const fs::path out = folder_ / (std::string("full_") + file);
@@ -178,7 +178,7 @@ TEST_F(Program, AFileThatCannotBeWrittenDoesNotCostTheTable) {
 }
 
 TEST_F(Program, AnAnswerThatCannotBeWrittenIsAFailure) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full, the file of Linux that is always full";
   const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
   for (const std::string& command : {"run " + scene, "run " + scene + " --json", "check " + model, std::string("--help")})
     expect(ents_host(command + " >/dev/full 2>" + path("errors") + "; code=$?; cat " + path("errors") + "; exit $code; :"), 1,
