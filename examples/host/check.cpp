@@ -166,8 +166,11 @@ void print(const Answer& answer, std::size_t segments) {
 
 int check_command(const CommonOptions& common, const CheckOptions& options) {
   const EntsLibrary library(common.library);
-  const EntsModel model(library, options.model);
   const Json text = parse_json_file(options.model);
+  if (text.is_object() && text.contains("parts"))
+    throw InputError(options.model.string() + ": this is a scene; check takes a model: save what stands under /contact/model as a file "
+                                              "beside it");
+  const EntsModel model(library, options.model);
   if (text.contains("patch"))
     throw InputError(options.model.string() + ": /patch: the segments are those of --mesh here; leave the key out");
   const std::string name = text.at("segment").get<std::string>();

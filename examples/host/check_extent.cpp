@@ -149,13 +149,7 @@ SurfaceExtent extent_of(const EntsModel& model, const Json& text, const std::fil
   const double each = most_points / static_cast<double>(surface.segments());
   const int n =
       static_cast<int>(surface.d == 2 ? std::clamp(each, 5., 2001.) : std::clamp(std::sqrt(each), 3., 257.));
-  std::vector<double> xi;
-  for (int j = 0; j < (surface.d == 2 ? 1 : n); ++j)
-    for (int i = 0; i < n; ++i) {
-      const double s = static_cast<double>(i) / (n - 1), t = static_cast<double>(j) / (n - 1);
-      xi.push_back(triangles ? s * (1 - t) : 2 * s - 1);
-      if (surface.d == 3) xi.push_back(triangles ? t : 2 * t - 1);
-    }
+  const std::vector<double> xi = even_grid(model.layout().parameters, static_cast<std::size_t>(n - 1), triangles);
   extent.low = std::numeric_limits<double>::infinity(), extent.high = -extent.low;
   for (std::size_t s = 0; s < surface.segments(); ++s)
     for (const double height : sample_surface(model, surface.master(s), surface.coordinates(s), xi).height)

@@ -32,19 +32,6 @@ std::vector<std::size_t> shown(const MasterSurface& surface, const std::vector<p
   return segments;
 }
 
-/// Natural coordinates of a grid on a segment; a triangle: the square collapsed on it.
-std::vector<double> grid(int columns, int rows, bool triangles) {
-  std::vector<double> xi;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const double s = static_cast<double>(i) / (columns - 1);
-      const double t = rows == 1 ? 0 : static_cast<double>(j) / (rows - 1);
-      xi.push_back(triangles ? s * (1 - t) : 2 * s - 1);
-      if (rows > 1) xi.push_back(triangles ? t : 2 * t - 1);
-    }
-  return xi;
-}
-
 } // namespace
 
 pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surface,
@@ -61,7 +48,7 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
   picture.subtitle = std::to_string(surface.segments()) + (surface.segments() == 1 ? " segment" : " segments");
   if (segments.size() < surface.segments())
     picture.subtitle += ", " + std::to_string(segments.size()) + " of them drawn, around the first place";
-  const std::vector<double> xi = grid(picture.columns, picture.rows, triangles);
+  const std::vector<double> xi = even_grid(model.layout().parameters, static_cast<std::size_t>(picture.columns - 1), triangles);
   for (const std::size_t s : segments) {
     const SurfaceSample sample = sample_surface(model, surface.master(s), surface.coordinates(s), xi);
     picture.enriched.insert(picture.enriched.end(), sample.point.begin(), sample.point.end());

@@ -146,4 +146,15 @@ SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& 
   return sample;
 }
 
+std::vector<double> even_grid(int parameters, std::size_t n, bool triangle) {
+  std::vector<double> xi;
+  for (std::size_t j = 0; j <= (parameters == 1 ? 0 : n); ++j)
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double s = even_xi(i, n), t = even_xi(j, n);
+      xi.push_back(triangle ? 0.25 * (1 + s) * (1 - t) : s);
+      if (parameters == 2) xi.push_back(triangle ? 0.5 * (1 + t) : t);
+    }
+  return xi;
+}
+
 } // namespace host

@@ -106,4 +106,11 @@ struct SurfaceSample {
 SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& master,
                              const std::vector<double>& surface_coordinates, const std::vector<double>& xi);
 
+/// Place i of n equal steps from -1 to 1.
+inline double even_xi(std::size_t i, std::size_t n) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; }
+
+/// Those places in each direction of a segment, the first direction's one after the other; a triangle: the square collapsed on it.
+/// @return [(n + 1)^parameters][parameters]
+std::vector<double> even_grid(int parameters, std::size_t n, bool triangle = false);
+
 } // namespace host

@@ -87,15 +87,8 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   const auto d = static_cast<std::size_t>(scene.dimension);
   check_sizes(scene, enriched, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
 
-  const auto n = static_cast<std::size_t>(divisions), row = n + 1, rows = d == 2 ? 1 : n + 1;
-  const auto natural = [&](std::size_t i) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; };
-  std::vector<double> xi;
-  for (std::size_t j = 0; j < rows; ++j)
-    for (std::size_t i = 0; i < row; ++i) {
-      xi.push_back(natural(i));
-      if (d == 3) xi.push_back(natural(j));
-    }
-  const SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, xi);
+  const auto n = static_cast<std::size_t>(divisions), row = n + 1;
+  const SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, even_grid(enriched.layout().parameters, n));
   const auto point = [&](std::size_t i, std::size_t j, std::size_t c) {
     return sample.point[(j * row + i) * d + c];
   };

@@ -61,13 +61,7 @@ vtu::Grid surface_grid(Simulation& simulation) {
   std::vector<double> positions = master.positions;
   for (std::size_t i = 0; i < positions.size(); ++i)
     positions[i] += simulation.now().motion * master.direction[i % static_cast<std::size_t>(d)];
-  std::vector<double> xi;
-  for (int j = 0; j < n2; ++j)
-    for (int i = 0; i < n1; ++i) {
-      xi.push_back(2. * i / (n1 - 1) - 1);
-      if (d == 3) xi.push_back(2. * j / (n2 - 1) - 1);
-    }
-  const SurfaceSample sample = sample_surface(*master.model, positions, {}, xi);
+  const SurfaceSample sample = sample_surface(*master.model, positions, {}, even_grid(d - 1, static_cast<std::size_t>(n1 - 1)));
   vtu::Grid grid = vtu::sampled_surface(d, n1, n2, sample.point);
   grid.point_data.push_back({with_unit("height", scene.units.length), 1, sample.height});
   grid.point_data.push_back({"normal", d, sample.normal});

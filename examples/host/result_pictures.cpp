@@ -159,12 +159,7 @@ pictures::Map height_map(const Simulation& simulation, const Contact& contact, p
   pictures::Map map;
   const Master& master = contact.master();
   if (!master.rigid || master.segments != 1 || master.triangles || simulation.mesh().dimension != 3) return map;
-  constexpr int points = 513;
-  std::vector<double> xi;
-  for (int j = 0; j < points; ++j)
-    for (int i = 0; i < points; ++i)
-      for (const int k : {i, j}) xi.push_back(2. * k / (points - 1) - 1);
-  const SurfaceSample sample = sample_surface(*master.model, master.positions, {}, xi);
+  const SurfaceSample sample = sample_surface(*master.model, master.positions, {}, even_grid(2, 512));
   // xi_1 may run along either axis: the points' own coordinates sort them.
   const auto grid_line = [&](double position) { return std::llround(position / (1e-6 * (frame.x_max - frame.x_min))); };
   std::map<std::pair<long long, long long>, double> heights; // by y, then x

@@ -47,6 +47,14 @@ void note_ignored(const RunOptions& options, const Scene& scene) {
     std::fprintf(stderr, "ents-host: --seed %u has no effect: only --cut random draws numbers\n", *options.seed);
 }
 
+/// A run that converged because nothing touched.
+void note_without_contact(const Scene& scene, const std::vector<StepRecord>& records) {
+  const auto touched = [](const StepRecord& record) { return record.contact_fraction > 0; };
+  if (!scene.contact || records.empty() || std::any_of(records.begin(), records.end(), touched)) return;
+  std::fprintf(stderr, "ents-host: no slave node was in contact at the end of a step: do the master's normal (order of its nodes) and "
+                       "the motion bring the surfaces together?\n");
+}
+
 } // namespace
 
 int run_command(const CommonOptions& common, const RunOptions& options) {
@@ -104,6 +112,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     if (!options.out.empty() && files.problem().empty()) std::printf("%s\n", files.names().c_str());
   }
   std::fflush(stdout); // before what is told on stderr
+  note_without_contact(scene, records);
   for (const std::string& message : {failure ? std::string(failure->what()) : std::string(), files.problem()})
     if (!message.empty()) std::fprintf(stderr, "ents-host: %s\n", message.c_str());
   return failure || !files.problem().empty() ? 1 : 0;

@@ -246,6 +246,7 @@ TEST_F(Program, MistakesInFilesAreNamed) {
   json.erase("variants");
   expect(ents_host("run " + write("scene.json", json)), 2, {"scene.json: /parts/0/deck: ", "nope.inp: cannot be read"});
   expect(ents_host("run " + path("")), 2, {"this is a folder"});
+  expect(ents_host("check " + write("scene.json", small())), 2, {"this is a scene", "/contact/model"});
   const std::string model = write("model.json", {{"segment", "line2"}});
   expect(ents_host("check " + model + " --mesh " + write_text("empty.inp", "")), 2, {"empty.inp: no mesh; expected *NODE"});
   expect(ents_host("check " + model + " --mesh " + write_text("typo.inp", "*NOED\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n")), 2,
@@ -262,6 +263,12 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   json = small();
   json["contact"]["master"]["direction"] = {0, 1};
   expect(ents_host("run " + write("scene.json", json)), 1, {"no slave node", "direction"});
+  json["steps"] = {{"control", "approach"}, {"values", {0.0005}}}; // solved, for nothing is in the way
+  expect(ents_host("run " + write("scene.json", json)), 0, {"no slave node was in contact", "order of its nodes"});
+  json["contact"]["master"]["direction"] = {0, -1};
+  const ProgramOutput good = ents_host("run " + write("scene.json", json));
+  expect(good, 0, {});
+  EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
 }
 
 } // namespace

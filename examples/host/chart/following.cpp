@@ -9,18 +9,6 @@ namespace {
 
 constexpr std::size_t most = 1024;
 
-/// Points of the surface at equal distances in xi, n + 1 in each direction.
-SurfaceSample sample_evenly(const EntsModel& model, const Scene& scene, std::size_t n) {
-  const auto natural = [n](std::size_t i) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; };
-  std::vector<double> xi;
-  for (std::size_t j = 0; j <= (scene.dimension == 2 ? 0 : n); ++j)
-    for (std::size_t i = 0; i <= n; ++i) {
-      xi.push_back(natural(i));
-      if (scene.dimension == 3) xi.push_back(natural(j));
-    }
-  return sample_surface(model, scene.contact->rigid, {}, xi);
-}
-
 /// Where place i of `fine` steps lies among n: the segment and how far along it, 0 .. 1.
 struct Place {
   std::size_t segment;
@@ -58,12 +46,13 @@ std::size_t segments_that_follow(const EntsLibrary& library, const Scene& scene,
   if (contact.rigid.empty()) return 0;
   const EntsModel model(library, contact.model.dump(), scene.file.parent_path(), contact.model_where);
   const auto d = static_cast<std::size_t>(scene.dimension);
+  const auto sample = [&](std::size_t n) { return sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, n)); };
   const std::size_t fine = d == 2 ? 8 * most : most;
-  const SurfaceSample points = sample_evenly(model, scene, fine);
+  const SurfaceSample points = sample(fine);
   const auto [lowest, highest] = std::minmax_element(points.height.begin(), points.height.end());
   const double distance = share * 0.5 * (*highest - *lowest);
   if (!(distance > 0)) return 0;
-  const auto enough = [&](std::size_t n) { return follow(sample_evenly(model, scene, n), n, points, fine, d, distance); };
+  const auto enough = [&](std::size_t n) { return follow(sample(n), n, points, fine, d, distance); };
   std::size_t n = 1;
   while (!enough(n))
     if ((n *= 2) > most) return 0;

@@ -35,16 +35,7 @@ PointGrid sample_grid(const EntsLibrary& library, const Scene& scene, int divisi
   grid.components = grid.d + (base ? 1 : 0);
   const std::size_t rows = grid.d == 2 ? 1 : grid.row();
   grid.values.resize(rows * grid.row() * grid.components);
-  std::vector<double> xi;
-  const auto natural = [&](std::size_t i) {
-    return 2 * static_cast<double>(i) / static_cast<double>(grid.n) - 1;
-  };
-  for (std::size_t j = 0; j <= (grid.d == 2 ? 0 : grid.n); ++j)
-    for (std::size_t i = 0; i <= grid.n; ++i) {
-      xi.push_back(natural(i));
-      if (grid.d == 3) xi.push_back(natural(j));
-    }
-  const SurfaceSample sample = sample_surface(model, contact.rigid, {}, xi);
+  const SurfaceSample sample = sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, grid.n));
   const std::vector<double>& points = base ? sample.base_point : sample.point;
   for (std::size_t j = 0; j <= (grid.d == 2 ? 0 : grid.n); ++j)
     for (std::size_t i = 0; i <= grid.n; ++i) {
@@ -55,7 +46,7 @@ PointGrid sample_grid(const EntsLibrary& library, const Scene& scene, int divisi
       // In the plane, with the two ends' coordinates: linear in xi, as the scene's segment has it.
       const Json& ends = contact.model.at("surface_coordinates");
       const double first = ends[0][0].get<double>(), last = ends[1][0].get<double>();
-      to[grid.d] = first + (last - first) * 0.5 * (1 + natural(i));
+      to[grid.d] = first + (last - first) * 0.5 * (1 + even_xi(i, grid.n));
     }
   const std::size_t n = grid.n, c = grid.components;
   for (std::size_t j = 0; j < rows; ++j) {
