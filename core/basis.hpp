@@ -23,7 +23,8 @@ struct Shape {
   S d3[T == 1 ? 1 : 4][M];
 };
 
-// One-dimensional families: values and derivatives [order][function] at x in -1 .. 1.
+// One-dimensional families: values and derivatives [order][function] at x in -1 .. 1; powers: sum_i f_i v_i as factors of 1, x, x^2 ...,
+// for vectors v.
 struct Linear1D {
   static constexpr int count = 2, degree = 1;
   template <int Order, class S> static ENTS_INLINE void eval(S x, S (&f)[4][count]) {
@@ -46,6 +47,11 @@ struct Quadratic1D {  // ends, then middle
     f[2][1] = S(1.0);
     f[2][2] = S(-2.0);
   }
+  template <class S, class V> static ENTS_INLINE void powers(const V (&v)[count], V (&p)[3]) {
+    p[0] = v[2];
+    p[1] = S(0.5) * (v[1] - v[0]);
+    p[2] = S(0.5) * (v[1] + v[0]) - v[2];
+  }
 };
 // Cubics in t = (x + 1) / 2 on the middle one of three spans of four nodes.
 template <class Coefficients> struct Cubic1D {
@@ -61,6 +67,22 @@ template <class Coefficients> struct Cubic1D {
       f[2][i] = 0.25 * (2.0 * c2 + t * (6.0 * c3));
       if constexpr (Order > 2) f[3][i] = S(0.125 * 6.0 * c3);
     }
+  }
+  // of function i, times x^k: t^l = (1 + x)^l / 2^l
+  static constexpr double power(int i, int k) {
+    constexpr double binomial[4][4] = {{1, 1, 1, 1}, {0, 1, 2, 3}, {0, 0, 1, 3}, {0, 0, 0, 1}};
+    double sum = 0.0;
+    for (int l = 3; l >= k; --l) sum = 0.5 * sum + Coefficients::c[i][l] * binomial[k][l];
+    for (int l = 0; l < k; ++l) sum *= 0.5;
+    return Coefficients::scale * sum;
+  }
+  template <class S, class V> static ENTS_INLINE void powers(const V (&v)[count], V (&p)[4]) {
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      p[k] = S(power(0, k)) * v[0];
+      unroll<3>([&](auto i) ENTS_LAMBDA_INLINE {
+        if constexpr (power(i + 1, k) != 0.0) add_scaled(p[k], S(power(i + 1, k)), v[i + 1]);
+      });
+    });
   }
 };
 // Overhauser 1968; Catmull & Rom 1974, tension 1/2: interpolating, C1

@@ -3,131 +3,16 @@
 // the basis does not have is not computed.
 //
 //   flat (line2, tri3)   n and A are constant: the iteration knows xi, h and the distance from the plane only
-//   quad4                rho and a_1 x a_2 are bilinear and linear in xi
-//   others               shape functions
+//   others               rho as a polynomial of xi (pair_rho.hpp)
 //
 // n_,a and n_,ab follow from m = a_1 x a_2 (2D: the tangent turned by 90 degrees), n = m / |m|:
 //   |m| n_,a  = m_,a - n (n . m_,a)
 //   |m| n_,ab = m_,ab - n_,a (n . m_,b) - n_,b (n . m_,a) - n (n_,a . m_,b + n . m_,ab)
 #pragma once
 
-#include "core/lanes.hpp"
-#include "core/surface.hpp"
+#include "core/pair_rho.hpp"
 
 namespace ents::ENTS_ISA {
-
-// Positions are relative to the slave node.
-template <class B, class S> struct PairNodes {
-  static constexpr int T = B::dim - 1;
-  Vec<S, B::dim> y[B::nodes];
-  S coordinates[(B::dim - 1) * B::nodes];
-  bool has_coordinates;     // else s = xi
-  const HeightNode* height; // enriched
-
-  template <int Order>
-  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, HeightJet<T, S>& h) const {
-    if (has_coordinates) {
-      evaluate_height_by_xi<B, Order>(*height, coordinates, xi, N, h);
-    } else { // number by number: as a whole it would go through memory
-      const HeightJet<T, S> jet = evaluate_height_here(*height, xi);
-      h.h = jet.h;
-      for (int a = 0; a < T; ++a) h.h1[a] = jet.h1[a];
-      for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = jet.h2[k];
-    }
-  }
-  // `at`, in `d` its derivative along a direction
-  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const Shape<Dual<S>, T, B::nodes>& N, const HeightJet<T, S>& at,
-                                HeightJet<T, Dual<S>>& h) const {
-    if (!has_coordinates) {
-      h = jet_along(*height, xi, direction, at);
-      return;
-    }
-    Dual<S> moving[T];
-    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
-    evaluate_height_by_xi<B, 2>(*height, coordinates, moving, N, h);
-  }
-};
-
-template <class S, int D, int M> ENTS_INLINE Vec<S, D> weighted_sum(const S (&w)[M], const Vec<S, D> (&y)[M]) {
-  Vec<S, D> v = w[0] * y[0];
-  for (int i = 1; i < M; ++i) add_scaled(v, w[i], y[i]);
-  return v;
-}
-
-// m = normal_of_tangents(a) and its derivatives
-template <class S, int D> struct AreaVector {
-  Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>];
-};
-
-// rho - x_s and its derivatives
-template <class B, class S> struct Rho {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  static constexpr bool linear_area = false; // m_,ab = 0?
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>&) {}
-
-  // s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[T], Shape<S, T, B::nodes>& N, Surface<B, H, S>& s) const {
-    B::template shape<Order>(xi, N);
-    s.d = -weighted_sum(N.n, nodes.y);
-    for (int a = 0; a < T; ++a) s.a[a] = weighted_sum(N.d1[a], nodes.y);
-    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) s.a2[k] = weighted_sum(N.d2[k], nodes.y);
-      else s.a2[k] = Vec<S, D>::zero();
-    });
-    if constexpr (Order > 2)
-      unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k]) s.a3[k] = weighted_sum(N.d3[k], nodes.y);
-        else s.a3[k] = Vec<S, D>::zero();
-      });
-  }
-  template <bool H> static ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) {
-    v.m = normal_of_tangents(s.a);
-    if constexpr (T == 1) {
-      v.m1[0] = normal_of_tangents(s.a2);
-      const Vec<S, D> third[1] = {s.a3[0]};
-      v.m2[0] = normal_of_tangents(third);
-    } else {
-      v.m1[0] = cross(s.a2[0], s.a[1]) + cross(s.a[0], s.a2[1]);
-      v.m1[1] = cross(s.a2[1], s.a[1]) + cross(s.a[0], s.a2[2]);
-      v.m2[0] = (cross(s.a3[0], s.a[1]) + cross(s.a[0], s.a3[1])) + S(2.0) * cross(s.a2[0], s.a2[1]);
-      v.m2[1] = (cross(s.a3[1], s.a[1]) + cross(s.a[0], s.a3[2])) + cross(s.a2[0], s.a2[2]);
-      v.m2[2] = (cross(s.a3[2], s.a[1]) + cross(s.a[0], s.a3[3])) + S(2.0) * cross(s.a2[1], s.a2[2]);
-    }
-  }
-};
-
-template <class S> struct Rho<Quad4, S> {
-  static constexpr bool linear_area = true;
-  Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
-  ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
-    const auto& y = nodes.y;
-    const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0], difference_2 = y[2] - y[3];
-    const S quarter(0.25);
-    c = quarter * (sum_1 + sum_2);
-    c1 = quarter * (difference_1 + difference_2);
-    c2 = quarter * (sum_2 - sum_1);
-    c12 = quarter * (difference_2 - difference_1);
-  }
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N, Surface<Quad4, H, S>& s) const {
-    if (H && nodes.has_coordinates) Quad4::shape<2>(xi, N);
-    s.a[0] = c1;
-    s.a[1] = c2;
-    add_scaled(s.a[0], xi[1], c12);
-    add_scaled(s.a[1], xi[0], c12);
-    s.d = -c;
-    add_scaled(s.d, -xi[0], c1);
-    add_scaled(s.d, -xi[1], s.a[1]);
-    s.a2[0] = s.a2[2] = Vec<S, 3>::zero();
-    s.a2[1] = c12;
-  }
-  template <bool H> ENTS_INLINE void area_vector(const Surface<Quad4, H, S>& s, AreaVector<S, 3>& v) const {
-    v.m = cross(s.a[0], s.a[1]);
-    v.m1[0] = cross(c1, c12); // + xi_2 c12 x c12
-    v.m1[1] = cross(c12, c2);
-  }
-};
 
 // a^a
 template <class B, bool H, class S> ENTS_INLINE void set_dual_tangents(Surface<B, H, S>& s) {
