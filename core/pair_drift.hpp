@@ -17,32 +17,24 @@ template <class B> constexpr bool has_third_derivatives() {
 
 template <class B, bool H, class S> struct PairDrift {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  static constexpr bool is_cubic = has_third_derivatives<B>();
+  static constexpr bool bend_changes = has_third_derivatives<B>(); // y^c rho_,abc
   using U = Dual<S>;
   using V = Vec<S, D>;
 
   const PairProjector<B, H, S>& p;
   S y[T];
-  Surface<B, H, U> s;      // plain: d and e only
-  S f2[K];                 // F_,xixi'
-  Shape<U, T, B::nodes> N; // of cubic bases, or where the height asks for it
+  Surface<B, H, U> s; // plain: d and e only
+  S f2[K];            // F_,xixi'
 
   ENTS_INLINE PairDrift(const PairProjector<B, H, S>& projector, const S (&xi)[T], const S (&direction)[T]) : p(projector) {
-    U moving[T];
-    for (int a = 0; a < T; ++a) {
-      y[a] = direction[a];
-      moving[a] = U(xi[a], y[a]);
-    }
-    if constexpr (is_cubic) B::template shape<3>(moving, N);
+    for (int a = 0; a < T; ++a) y[a] = direction[a];
     if constexpr (!H) {
       if constexpr (is_flat<B>) move_flat();
-      else move_plain();
+      else move_plain(xi);
     } else {
-      if constexpr (!is_cubic)
-        if (p.nodes.has_coordinates) B::template shape<2>(moving, N);
-      p.nodes.height_along(xi, y, N, p.s.height, s.height);
+      p.nodes.height_along(xi, y, p.s.height, s.height);
       if constexpr (is_flat<B>) move_height();
-      else move_enriched();
+      else move_enriched(xi);
     }
   }
 
@@ -59,6 +51,13 @@ private:
     else if constexpr (!B::second[0]) return y[1 - A] * p.s.a2[1];
     else return y[0] * p.s.a2[A] + y[1] * p.s.a2[A + 1];
   }
+  // y^c rho_,abc
+  template <int I> ENTS_INLINE V along_third(const V (&third)[T == 1 ? 1 : 4]) const {
+    if constexpr (T == 1) return y[0] * third[0];
+    else if constexpr (!B::third[I]) return y[1] * third[I + 1];
+    else if constexpr (!B::third[I + 1]) return y[0] * third[I];
+    else return y[0] * third[I] + y[1] * third[I + 1];
+  }
   static ENTS_INLINE S rate_of_product(const V& a, const V& a1, const V& b, const V& b1) { return dot(a1, b) + dot(a, b1); }
 
   ENTS_INLINE void move_flat() {
@@ -67,8 +66,10 @@ private:
     for (S& f : f2) f = S(0.0);
   }
 
-  ENTS_INLINE void move_plain() {
+  ENTS_INLINE void move_plain(const S (&xi)[T]) {
     const V d1 = -along(p.s.a);
+    V third[T == 1 ? 1 : 4];
+    if constexpr (bend_changes) p.rho.thirds(p.nodes, xi, third);
     V e1[T];
     set_dual(s.d, p.s.d, d1);
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
@@ -79,11 +80,7 @@ private:
       constexpr int a = k / 2, b = (k + 1) / 2;
       f2[k] = rate_of_product(p.s.a[a], e1[a], p.s.a[b], e1[b]);
       if constexpr (B::second[k]) f2[k] = f2[k] - dot(d1, p.s.a2[k]);
-      if constexpr (is_cubic && B::second[k]) {
-        S w[B::nodes];
-        for (int i = 0; i < B::nodes; ++i) w[i] = N.d2[k][i].d;
-        f2[k] = f2[k] - dot(p.s.d, weighted_sum(w, p.nodes.y));
-      }
+      if constexpr (bend_changes && B::second[k]) f2[k] = f2[k] - dot(p.s.d, along_third<k.value>(third));
     });
   }
 
@@ -106,7 +103,7 @@ private:
   }
 
   // rho_,a, rho_,ab and the area vector m
-  ENTS_INLINE void move_base(AreaVector<U, D>& v) {
+  ENTS_INLINE void move_base(const S (&xi)[T], AreaVector<U, D>& v) {
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE { set_dual(s.a[a], p.s.a[a], along_curvature<a.value>()); });
     if constexpr (Rho<B, S>::linear_area) {
       for (int k = 0; k < K; ++k) set_constant(s.a2[k], p.s.a2[k]);
@@ -115,28 +112,23 @@ private:
       set_dual(v.m, at.m, along(at.m1));
       for (int a = 0; a < T; ++a) set_constant(v.m1[a], at.m1[a]);
     } else {
-      const auto sum = [&](const U(&w)[B::nodes]) ENTS_LAMBDA_INLINE {
-        S value[B::nodes], change[B::nodes];
-        for (int i = 0; i < B::nodes; ++i) value[i] = w[i].v, change[i] = w[i].d;
-        Vec<U, D> of;
-        set_dual(of, weighted_sum(value, p.nodes.y), weighted_sum(change, p.nodes.y));
-        return of;
-      };
+      V rate[T == 1 ? 1 : 4]; // y^d rho_,abcd
+      if constexpr (bend_changes) p.rho.third_rates(p.nodes, xi, y, rate);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (is_cubic && B::second[k]) s.a2[k] = sum(N.d2[k]);
+        if constexpr (bend_changes && B::second[k]) set_dual(s.a2[k], p.s.a2[k], along_third<k.value>(p.s.a3));
         else set_constant(s.a2[k], p.s.a2[k]);
       });
       unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k]) s.a3[k] = sum(N.d3[k]);
+        if constexpr (B::third[k]) set_dual(s.a3[k], p.s.a3[k], rate[k]);
         else s.a3[k] = Vec<U, D>::zero();
       });
       Rho<B, U>::area_vector(s, v);
     }
   }
 
-  ENTS_INLINE void move_enriched() {
+  ENTS_INLINE void move_enriched(const S (&xi)[T]) {
     AreaVector<U, D> v;
-    move_base(v);
+    move_base(xi, v);
     const auto& h = s.height;
     const auto& at = p.s;
     const S q = unchecked_inverse(at.area);
@@ -198,7 +190,7 @@ private:
       S bend = h.h2[k].d * d_n + h.h2[k].v * d_n_rate + h.h.d * d_n2 + h.h.v * (q * third);
       if constexpr (a == b) bend = bend + 2.0 * (h.h1[a].d * d_n1[a] + h.h1[a].v * d_n1_rate[a]);
       else bend = bend + (h.h1[a].d * d_n1[b] + h.h1[a].v * d_n1_rate[b]) + (h.h1[b].d * d_n1[a] + h.h1[b].v * d_n1_rate[a]);
-      if constexpr (is_cubic && B::second[k]) bend = bend + dot(d, derivative_of(s.a2[k]));
+      if constexpr (bend_changes && B::second[k]) bend = bend + dot(d, derivative_of(s.a2[k]));
       f2[k] = rate_of_product(at.e[a], e1[a], at.e[b], e1[b]) - (dot(d1, at.e2[k]) + bend);
     });
 

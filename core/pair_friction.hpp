@@ -155,7 +155,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
 private:
   using Drift = PairDrift<B, H, S>;
   static constexpr int parts = parts_of_f<B, H>, parts_of_rate = is_flat<B> ? parts : parts | on_curvatures;
-  static constexpr bool by_third = H && Drift::is_cubic; // do forms of second derivatives change?
+  static constexpr bool by_third = H && !Rigid && Drift::bend_changes; // do forms of second derivatives change?
 
   // With a height, in parts that compilers digest.
   template <class Part> static ENTS_INLINE void in_part(Part&& part) {
@@ -178,15 +178,23 @@ private:
       }
   }
 
-  // - value of the part on second derivatives, whose expansion changes by third ones
-  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Drift& drift, DofArray<S, N>& from) {
-    Shape<S, T, B::nodes> third;
+  // d2: y^c N_,abc
+  static ENTS_INLINE void set_shape_rates(const S (&xi)[T], const S (&y)[T], Shape<S, T, B::nodes>& of) {
+    B::template shape<3>(xi, of);
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
       if constexpr (B::second[k])
-        for (int i = 0; i < B::nodes; ++i) third.d2[k][i] = drift.N.d2[k][i].d;
+        for (int i = 0; i < B::nodes; ++i) {
+          if constexpr (T == 1) of.d2[k][i] = y[0] * of.d3[0][i];
+          else if constexpr (!B::third[k]) of.d2[k][i] = y[1] * of.d3[k + 1][i];
+          else if constexpr (!B::third[k + 1]) of.d2[k][i] = y[0] * of.d3[k][i];
+          else of.d2[k][i] = y[0] * of.d3[k][i] + y[1] * of.d3[k + 1][i];
+        }
     });
+  }
+  // - value of the part on second derivatives, whose expansion changes by third ones
+  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Shape<S, T, B::nodes>& rates, DofArray<S, N>& from) {
     DofArray<S, N> of;
-    expand_to_dofs<B, Rigid, on_curvatures>(value, third, of);
+    expand_to_dofs<B, Rigid, on_curvatures>(value, rates, of);
     for_each_dof(from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
   }
 
@@ -204,6 +212,8 @@ private:
       expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
     }
     const ChangeOfForce change(plan, pair, friction);
+    Shape<S, T, B::nodes> shape_rates;
+    if constexpr (by_third) set_shape_rates(pair.xi, drift.y, shape_rates);
     for (int a = 0; a < T; ++a) {
       Form<B, S> rate, Yf, Pf;
       set_form_rate<parts>(f[a], drift.y, rate);
@@ -220,7 +230,7 @@ private:
       change.add_to(a, p.s, Pf);
       expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
       expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, p.N, P[a]);
-      if constexpr (by_third && !Rigid) subtract_third(value[a], drift, Y[a]);
+      if constexpr (by_third) subtract_third(value[a], shape_rates, Y[a]);
     }
   }
 

@@ -132,13 +132,16 @@ ENTS_INLINE void press(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p, 
   p.press(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
   if constexpr (F) f.evaluate(plan, p, anchor, history);
 }
+// Shape functions come as late as here, with as many derivatives as are asked for.
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void residual(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
+ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
+  if constexpr (!Rigid) B::template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
   if constexpr (F) friction_residual<Rigid>(p, f, out);
   else p.template residual<Rigid>(out);
 }
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void tangent(const Plan& plan, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, TangentOf<F, Rigid, B, H, S>& out) {
+ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const PairFriction<B, H, S>& f, TangentOf<F, Rigid, B, H, S>& out) {
+  if constexpr (!Rigid) B::template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
   if constexpr (F) out.evaluate(plan, p, f);
   else out.evaluate(plan, p);
 }
@@ -168,7 +171,7 @@ ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
 
 // Residual and tangent of an element in contact.
 template <bool F, bool Rigid, class B, bool H>
-ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pair<B, H, double>& p, const PairFriction<B, H, double>& f,
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, double>& p, const PairFriction<B, H, double>& f,
                               std::int64_t e) {
   constexpr int N = dof_count<B, Rigid>;
   if (block.wanted & want::residual) {
@@ -316,7 +319,7 @@ template <class B, bool H, int W> ENTS_INLINE void project_both(Pair<B, H, Lanes
 
 // Residuals and tangents of the elements e + k whose bit is set in `contact`.
 template <bool F, bool Rigid, class B, bool H, int W>
-ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, const Pair<B, H, Lanes<W>>& p,
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p,
                               const PairFriction<B, H, Lanes<W>>& f, std::int64_t e, std::uint32_t contact) {
   constexpr int N = dof_count<B, Rigid>;
   using S = Lanes<W>;

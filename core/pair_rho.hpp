@@ -33,14 +33,15 @@ template <class B, class S> struct PairNodes {
     }
   }
   // `at`, in `d` its derivative along a direction
-  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const Shape<Dual<S>, T, B::nodes>& N, const HeightJet<T, S>& at,
-                                HeightJet<T, Dual<S>>& h) const {
+  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const HeightJet<T, S>& at, HeightJet<T, Dual<S>>& h) const {
     if (!has_coordinates) {
       h = jet_along(*height, xi, direction, at);
       return;
     }
     Dual<S> moving[T];
     for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
+    Shape<Dual<S>, T, B::nodes> N;
+    B::template shape<2>(moving, N);
     evaluate_height_by_xi<B, 2>(*height, coordinates, moving, N, h);
   }
 };
@@ -69,14 +70,18 @@ template <class B, class S> struct BentArea {
     } else {
       v.m1[0] = cross(s.a2[0], s.a[1]) + cross(s.a[0], s.a2[1]);
       v.m1[1] = cross(s.a2[1], s.a[1]) + cross(s.a[0], s.a2[2]);
-      v.m2[0] = (cross(s.a3[0], s.a[1]) + cross(s.a[0], s.a3[1])) + S(2.0) * cross(s.a2[0], s.a2[1]);
-      v.m2[1] = (cross(s.a3[1], s.a[1]) + cross(s.a[0], s.a3[2])) + cross(s.a2[0], s.a2[2]);
-      v.m2[2] = (cross(s.a3[2], s.a[1]) + cross(s.a[0], s.a3[3])) + S(2.0) * cross(s.a2[1], s.a2[2]);
+      v.m2[0] = S(2.0) * cross(s.a2[0], s.a2[1]);
+      v.m2[1] = cross(s.a2[0], s.a2[2]);
+      v.m2[2] = S(2.0) * cross(s.a2[1], s.a2[2]);
+      unroll<3>([&](auto k) ENTS_LAMBDA_INLINE {
+        if constexpr (B::third[k]) v.m2[k] = v.m2[k] + cross(s.a3[k], s.a[1]);
+        if constexpr (B::third[k + 1]) v.m2[k] = v.m2[k] + cross(s.a[0], s.a3[k + 1]);
+      });
     }
   }
 };
 
-// rho - x_s and its derivatives
+// rho - x_s and its derivatives; thirds: rho_,abc; third_rates: how they change along y, y^d rho_,abcd
 template <class B, class S> struct Rho : BentArea<B, S> {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   ENTS_INLINE explicit Rho(const PairNodes<B, S>&) {}
@@ -96,6 +101,22 @@ template <class B, class S> struct Rho : BentArea<B, S> {
         if constexpr (B::third[k]) s.a3[k] = weighted_sum(N.d3[k], nodes.y);
         else s.a3[k] = Vec<S, D>::zero();
       });
+  }
+  ENTS_INLINE void thirds(const PairNodes<B, S>& nodes, const S (&xi)[T], Vec<S, D> (&a3)[T == 1 ? 1 : 4]) const {
+    Shape<S, T, B::nodes> N;
+    B::template shape<3>(xi, N);
+    for (int k = 0; k < (T == 1 ? 1 : 4); ++k) a3[k] = weighted_sum(N.d3[k], nodes.y);
+  }
+  ENTS_INLINE void third_rates(const PairNodes<B, S>& nodes, const S (&xi)[T], const S (&y)[T], Vec<S, D> (&rate)[T == 1 ? 1 : 4]) const {
+    Dual<S> moving[T];
+    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], y[a]);
+    Shape<Dual<S>, T, B::nodes> N;
+    B::template shape<3>(moving, N);
+    for (int k = 0; k < (T == 1 ? 1 : 4); ++k) {
+      S change[B::nodes];
+      for (int i = 0; i < B::nodes; ++i) change[i] = N.d3[k][i].d;
+      rate[k] = weighted_sum(change, nodes.y);
+    }
   }
 };
 
@@ -140,6 +161,8 @@ struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
     if constexpr (Order > 2 && F::degree > 2) s.a3[0] = P::third(c, xi[0]);
     else if constexpr (Order > 2) s.a3[0] = V::zero();
   }
+  ENTS_INLINE void thirds(const PairNodes<B, S>&, const S (&xi)[1], V (&a3)[1]) const { a3[0] = P::third(c, xi[0]); }
+  ENTS_INLINE void third_rates(const PairNodes<B, S>&, const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
 };
 
 // rho - x_s = sum c_ji xi_1^i xi_2^j
@@ -163,7 +186,7 @@ template <class F, class S> struct TensorPolynomial {
 
   template <int Order, class B, bool H> ENTS_INLINE void evaluate(const S (&xi)[2], Surface<B, H, S>& s) const {
     const S &x = xi[0], &y = xi[1];
-    V at[terms], by_1[terms], by_11[terms]; // at xi_1, factors of the powers of xi_2
+    V at[terms], by_1[terms], by_11[terms]; // at xi_1: factors of the powers of xi_2
     for (int j = 0; j < terms; ++j) {
       at[j] = P::value(c[j], x);
       by_1[j] = P::first(c[j], x);
@@ -175,41 +198,80 @@ template <class F, class S> struct TensorPolynomial {
     s.a2[0] = P::value(by_11, y);
     s.a2[1] = P::first(by_1, y);
     s.a2[2] = P::second(at, y);
-    if constexpr (Order > 2) {
-      s.a3[1] = P::first(by_11, y);
-      s.a3[2] = P::second(by_1, y);
-      if constexpr (F::degree > 2) {
-        V by_111[terms];
-        for (int j = 0; j < terms; ++j) by_111[j] = P::third(c[j], x);
-        s.a3[0] = P::value(by_111, y);
-        s.a3[3] = P::third(at, y);
-      } else {
-        s.a3[0] = s.a3[3] = V::zero();
+    if constexpr (Order > 2) set_thirds(xi, at, by_1, by_11, s.a3);
+  }
+  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const {
+    V at[terms], by_1[terms], by_11[terms];
+    for (int j = 0; j < terms; ++j) {
+      if constexpr (F::degree > 2) at[j] = P::value(c[j], xi[0]);
+      by_1[j] = P::first(c[j], xi[0]);
+      by_11[j] = P::second(c[j], xi[0]);
+    }
+    set_thirds(xi, at, by_1, by_11, a3);
+  }
+  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
+    V by_11[terms];
+    for (int j = 0; j < terms; ++j) by_11[j] = P::second(c[j], xi[0]);
+    const V by_1122 = P::second(by_11, xi[1]);
+    rate[1] = y[1] * by_1122;
+    rate[2] = y[0] * by_1122;
+    if constexpr (F::degree > 2) {
+      V by_1[terms], by_111[terms];
+      for (int j = 0; j < terms; ++j) {
+        by_1[j] = P::first(c[j], xi[0]);
+        by_111[j] = P::third(c[j], xi[0]);
       }
+      const V by_1112 = P::first(by_111, xi[1]), by_1222 = P::third(by_1, xi[1]);
+      rate[0] = y[1] * by_1112;
+      rate[3] = y[0] * by_1222;
+      add_scaled(rate[1], y[0], by_1112);
+      add_scaled(rate[2], y[1], by_1222);
+    } else {
+      rate[0] = rate[3] = V::zero();
+    }
+  }
+
+private:
+  ENTS_INLINE void set_thirds(const S (&xi)[2], const V (&at)[terms], const V (&by_1)[terms], const V (&by_11)[terms], V (&a3)[4]) const {
+    a3[1] = P::first(by_11, xi[1]);
+    a3[2] = P::second(by_1, xi[1]);
+    if constexpr (F::degree > 2) {
+      V by_111[terms];
+      for (int j = 0; j < terms; ++j) by_111[j] = P::third(c[j], xi[0]);
+      a3[0] = P::value(by_111, xi[1]);
+      a3[3] = P::third(at, xi[1]);
+    } else {
+      a3[0] = a3[3] = V::zero();
     }
   }
 };
 
-template <class F, class Numbering, class S>
-  requires(F::degree > 1)
-struct Rho<TensorBasis<F, Numbering>, S> : BentArea<TensorBasis<F, Numbering>, S> {
-  using B = TensorBasis<F, Numbering>;
+// of a basis that is one, or becomes one with a node more
+template <class B, class F, class S> struct TensorRho : BentArea<B, S> {
+  using V = Vec<S, 3>;
   TensorPolynomial<F, S> p;
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
-    Vec<S, 3> y[F::count][F::count];
-    for (int k = 0; k < B::nodes; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes.y[k];
-    p.contract(y);
-  }
 
   template <int Order, bool H>
   ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N, Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
     p.template evaluate<Order>(xi, s);
   }
+  ENTS_INLINE void thirds(const PairNodes<B, S>&, const S (&xi)[2], V (&a3)[4]) const { p.thirds(xi, a3); }
+  ENTS_INLINE void third_rates(const PairNodes<B, S>&, const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const { p.third_rates(xi, y, rate); }
 };
 
-template <class S> struct Rho<Quad8, S> : BentArea<Quad8, S> {
-  TensorPolynomial<Quadratic1D, S> p;
+template <class F, class Numbering, class S>
+  requires(F::degree > 1)
+struct Rho<TensorBasis<F, Numbering>, S> : TensorRho<TensorBasis<F, Numbering>, F, S> {
+  using B = TensorBasis<F, Numbering>;
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
+    Vec<S, 3> y[F::count][F::count];
+    for (int k = 0; k < B::nodes; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes.y[k];
+    this->p.contract(y);
+  }
+};
+
+template <class S> struct Rho<Quad8, S> : TensorRho<Quad8, Quadratic1D, S> {
   ENTS_INLINE explicit Rho(const PairNodes<Quad8, S>& nodes) {
     using N = CornersMidsidesCentre;
     Vec<S, 3> y[3][3], corners = nodes.y[0], sides = nodes.y[4];
@@ -219,12 +281,7 @@ template <class S> struct Rho<Quad8, S> : BentArea<Quad8, S> {
       sides = sides + nodes.y[k + 4];
     }
     y[2][2] = S(0.5) * sides - S(0.25) * corners;
-    p.contract(y);
-  }
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<Quad8, S>& nodes, const S (&xi)[2], Shape<S, 2, 8>& N, Surface<Quad8, H, S>& s) const {
-    if (H && nodes.has_coordinates) Quad8::shape<2>(xi, N);
-    p.template evaluate<Order>(xi, s);
+    this->p.contract(y);
   }
 };
 

@@ -90,9 +90,8 @@ template <class B, bool H, class S> struct PairProjector {
     twice_merit = dot(s.d, s.d);
   }
 
-  // The rest of the surface, for the variations. Returns |a|^2 or |a_1 x a_2|^2.
-  ENTS_INLINE S finish(const S (&xi)[T]) {
-    B::template shape<2>(xi, N);
+  // The rest of the surface, for the variations; N comes when they are asked for. Returns |a|^2 or |a_1 x a_2|^2.
+  ENTS_INLINE S finish(const S (&)[T]) {
     if constexpr (H) {
       S base[K];
       for (int k = 0; k < K; ++k) base[k] = dot(s.a[k / 2], s.a[(k + 1) / 2]);
@@ -172,7 +171,6 @@ struct PairProjector<B, H, S> {
   }
 
   ENTS_INLINE S finish(const S (&xi)[T]) {
-    B::template shape<2>(xi, N);
     s.d = offset;
     for (int a = 0; a < T; ++a) {
       add_scaled(s.d, -xi[a], s.a[a]);
