@@ -94,6 +94,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   static constexpr bool turns = H && !Rigid;          // w, Z: dofs of the master
   static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
   static constexpr bool symmetric = H && !is_flat<B>, has_rest = symmetric; // but for that rest, x_a P_a^T
+  static constexpr int products = T * (2 + (turns ? 2 : 0) + (bends ? 2 : 0) + (has_rest ? 1 : 0)); // that an entry is the sum of
   S weights[2][M]; // s, r
   DofArray<S, N> x[T], Y[T];
   DofArray<S, N> P[T]; // dt_a; Y_a + dt_a if not `symmetric`

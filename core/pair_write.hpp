@@ -67,7 +67,12 @@ template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t,
     for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
-      double* column = out + j * leading;
+      // of many products, a column is stored when all of it is computed: what is read for one piece serves the others
+      constexpr bool whole = Tangent::products > 2;
+      Pieces<N> column;
+      const auto write = [&](auto piece) ENTS_LAMBDA_INLINE {
+        store(out + j * leading + piece_at(N, W, piece.value), column.template at<piece.value>());
+      };
       unroll<P>([&](auto piece) ENTS_LAMBDA_INLINE {
         constexpr int p = piece.value, i = piece_at(N, W, p);
         using R = PieceOf<N, p>;
@@ -75,8 +80,10 @@ template <int D, class Tangent> ENTS_INLINE void write_tangent(const Tangent& t,
         for (int w = 0; w < weights; ++w) of_piece[w] = of_row[w].template at<p>();
         const R k = where_component<D>(product_of_weights(of_piece, of_column), i, c);
         const auto row = [](const auto& numbers) ENTS_LAMBDA_INLINE { return piece_of<p>(numbers); };
-        store(column + i, t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j));
+        column.template at<p>() = t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j);
+        if constexpr (!whole) write(piece);
       });
+      if constexpr (whole) unroll<P>(write);
     });
   }
   if (t.curved_law) // g g^T
