@@ -69,7 +69,7 @@ private:
   ENTS_INLINE void move_plain(const S (&xi)[T]) {
     const V d1 = -along(p.s.a);
     V third[T == 1 ? 1 : 4];
-    if constexpr (bend_changes) p.rho.thirds(p.nodes, xi, third);
+    if constexpr (bend_changes) p.rho.thirds(xi, third);
     V e1[T];
     set_dual(s.d, p.s.d, d1);
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
@@ -113,7 +113,7 @@ private:
       for (int a = 0; a < T; ++a) set_constant(v.m1[a], at.m1[a]);
     } else {
       V rate[T == 1 ? 1 : 4]; // y^d rho_,abcd
-      if constexpr (bend_changes) p.rho.third_rates(p.nodes, xi, y, rate);
+      if constexpr (bend_changes) p.rho.third_rates(xi, y, rate);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
         if constexpr (bend_changes && B::second[k]) set_dual(s.a2[k], p.s.a2[k], along_third<k.value>(p.s.a3));
         else set_constant(s.a2[k], p.s.a2[k]);

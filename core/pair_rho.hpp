@@ -4,12 +4,11 @@
 //
 //   quad4                     bilinear; a_1 x a_2 is linear in xi
 //   line3, tri6, quad8, quad9 quadratic in each direction (tri6: in all)
-//   smoothed                  cubic in each direction
-//   Bezier triangles          by shape functions
+//   smoothed                  cubic in each direction; Bezier triangles: of degree four
 #pragma once
 
 #include "core/lanes.hpp"
-#include "core/surface.hpp"
+#include "core/polynomial.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -46,12 +45,6 @@ template <class B, class S> struct PairNodes {
   }
 };
 
-template <class S, int D, int M> ENTS_INLINE Vec<S, D> weighted_sum(const S (&w)[M], const Vec<S, D> (&y)[M]) {
-  Vec<S, D> v = w[0] * y[0];
-  for (int i = 1; i < M; ++i) add_scaled(v, w[i], y[i]);
-  return v;
-}
-
 // m = normal_of_tangents(a) and its derivatives
 template <class S, int D> struct AreaVector {
   Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>];
@@ -81,67 +74,11 @@ template <class B, class S> struct BentArea {
   }
 };
 
-// rho - x_s and its derivatives; thirds: rho_,abc; third_rates: how they change along y, y^d rho_,abcd
-template <class B, class S> struct Rho : BentArea<B, S> {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>&) {}
-
-  // s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[T], Shape<S, T, B::nodes>& N, Surface<B, H, S>& s) const {
-    B::template shape<Order>(xi, N);
-    s.d = -weighted_sum(N.n, nodes.y);
-    for (int a = 0; a < T; ++a) s.a[a] = weighted_sum(N.d1[a], nodes.y);
-    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) s.a2[k] = weighted_sum(N.d2[k], nodes.y);
-      else s.a2[k] = Vec<S, D>::zero();
-    });
-    if constexpr (Order > 2)
-      unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k]) s.a3[k] = weighted_sum(N.d3[k], nodes.y);
-        else s.a3[k] = Vec<S, D>::zero();
-      });
-  }
-  ENTS_INLINE void thirds(const PairNodes<B, S>& nodes, const S (&xi)[T], Vec<S, D> (&a3)[T == 1 ? 1 : 4]) const {
-    Shape<S, T, B::nodes> N;
-    B::template shape<3>(xi, N);
-    for (int k = 0; k < (T == 1 ? 1 : 4); ++k) a3[k] = weighted_sum(N.d3[k], nodes.y);
-  }
-  ENTS_INLINE void third_rates(const PairNodes<B, S>& nodes, const S (&xi)[T], const S (&y)[T], Vec<S, D> (&rate)[T == 1 ? 1 : 4]) const {
-    Dual<S> moving[T];
-    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], y[a]);
-    Shape<Dual<S>, T, B::nodes> N;
-    B::template shape<3>(moving, N);
-    for (int k = 0; k < (T == 1 ? 1 : 4); ++k) {
-      S change[B::nodes];
-      for (int i = 0; i < B::nodes; ++i) change[i] = N.d3[k][i].d;
-      rate[k] = weighted_sum(change, nodes.y);
-    }
-  }
-};
-
-// a + x b
-template <class V, class S> ENTS_INLINE V raised(V a, const S& x, const V& b) {
-  add_scaled(a, x, b);
-  return a;
-}
-// p_0 + p_1 x + ... of vectors, and its derivatives
-template <int Degree> struct Polynomial;
-template <> struct Polynomial<2> {
-  template <class V, class S> static ENTS_INLINE V value(const V (&p)[3], const S& x) { return raised(p[0], x, raised(p[1], x, p[2])); }
-  template <class V, class S> static ENTS_INLINE V first(const V (&p)[3], const S& x) { return raised(p[1], 2.0 * x, p[2]); }
-  template <class V, class S> static ENTS_INLINE V second(const V (&p)[3], const S&) { return p[2] + p[2]; }
-};
-template <> struct Polynomial<3> {
-  template <class V, class S> static ENTS_INLINE V value(const V (&p)[4], const S& x) {
-    return raised(p[0], x, raised(p[1], x, raised(p[2], x, p[3])));
-  }
-  template <class V, class S> static ENTS_INLINE V first(const V (&p)[4], const S& x) {
-    return raised(p[1], 2.0 * x, raised(p[2], 1.5 * x, p[3]));
-  }
-  template <class V, class S> static ENTS_INLINE V second(const V (&p)[4], const S& x) { return raised(p[2] + p[2], 6.0 * x, p[3]); }
-  template <class V, class S> static ENTS_INLINE V third(const V (&p)[4], const S&) { return S(6.0) * p[3]; }
-};
+// rho - x_s and its derivatives. Every basis has
+//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the height needs it
+//   thirds            rho_,abc
+//   third_rates       how they change along y, y^d rho_,abcd
+template <class B, class S> struct Rho;
 
 template <class F, class S>
   requires(F::degree > 1)
@@ -161,108 +98,27 @@ struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
     if constexpr (Order > 2 && F::degree > 2) s.a3[0] = P::third(c, xi[0]);
     else if constexpr (Order > 2) s.a3[0] = V::zero();
   }
-  ENTS_INLINE void thirds(const PairNodes<B, S>&, const S (&xi)[1], V (&a3)[1]) const { a3[0] = P::third(c, xi[0]); }
-  ENTS_INLINE void third_rates(const PairNodes<B, S>&, const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
+  ENTS_INLINE void thirds(const S (&xi)[1], V (&a3)[1]) const { a3[0] = P::third(c, xi[0]); }
+  ENTS_INLINE void third_rates(const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
 };
 
-// rho - x_s = sum c_ji xi_1^i xi_2^j
-template <class F, class S> struct TensorPolynomial {
-  static constexpr int count = F::count, terms = F::degree + 1;
+// by one of the polynomials of xi_1 and xi_2
+template <class B, class P, class S> struct RhoInSpace : BentArea<B, S> {
   using V = Vec<S, 3>;
-  using P = Polynomial<F::degree>;
-  V c[terms][terms];
-
-  // y[j][i]: node of the i-th function of xi_1 and the j-th of xi_2
-  ENTS_INLINE void contract(const V (&y)[count][count]) {
-    V along[count][terms];
-    for (int j = 0; j < count; ++j) F::template powers<S>(y[j], along[j]);
-    for (int i = 0; i < terms; ++i) {
-      V column[count], powers[terms];
-      for (int j = 0; j < count; ++j) column[j] = along[j][i];
-      F::template powers<S>(column, powers);
-      for (int j = 0; j < terms; ++j) c[j][i] = powers[j];
-    }
-  }
-
-  template <int Order, class B, bool H> ENTS_INLINE void evaluate(const S (&xi)[2], Surface<B, H, S>& s) const {
-    const S &x = xi[0], &y = xi[1];
-    V at[terms], by_1[terms], by_11[terms]; // at xi_1: factors of the powers of xi_2
-    for (int j = 0; j < terms; ++j) {
-      at[j] = P::value(c[j], x);
-      by_1[j] = P::first(c[j], x);
-      by_11[j] = P::second(c[j], x);
-    }
-    s.d = -P::value(at, y);
-    s.a[0] = P::value(by_1, y);
-    s.a[1] = P::first(at, y);
-    s.a2[0] = P::value(by_11, y);
-    s.a2[1] = P::first(by_1, y);
-    s.a2[2] = P::second(at, y);
-    if constexpr (Order > 2) set_thirds(xi, at, by_1, by_11, s.a3);
-  }
-  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const {
-    V at[terms], by_1[terms], by_11[terms];
-    for (int j = 0; j < terms; ++j) {
-      if constexpr (F::degree > 2) at[j] = P::value(c[j], xi[0]);
-      by_1[j] = P::first(c[j], xi[0]);
-      by_11[j] = P::second(c[j], xi[0]);
-    }
-    set_thirds(xi, at, by_1, by_11, a3);
-  }
-  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
-    V by_11[terms];
-    for (int j = 0; j < terms; ++j) by_11[j] = P::second(c[j], xi[0]);
-    const V by_1122 = P::second(by_11, xi[1]);
-    rate[1] = y[1] * by_1122;
-    rate[2] = y[0] * by_1122;
-    if constexpr (F::degree > 2) {
-      V by_1[terms], by_111[terms];
-      for (int j = 0; j < terms; ++j) {
-        by_1[j] = P::first(c[j], xi[0]);
-        by_111[j] = P::third(c[j], xi[0]);
-      }
-      const V by_1112 = P::first(by_111, xi[1]), by_1222 = P::third(by_1, xi[1]);
-      rate[0] = y[1] * by_1112;
-      rate[3] = y[0] * by_1222;
-      add_scaled(rate[1], y[0], by_1112);
-      add_scaled(rate[2], y[1], by_1222);
-    } else {
-      rate[0] = rate[3] = V::zero();
-    }
-  }
-
-private:
-  ENTS_INLINE void set_thirds(const S (&xi)[2], const V (&at)[terms], const V (&by_1)[terms], const V (&by_11)[terms], V (&a3)[4]) const {
-    a3[1] = P::first(by_11, xi[1]);
-    a3[2] = P::second(by_1, xi[1]);
-    if constexpr (F::degree > 2) {
-      V by_111[terms];
-      for (int j = 0; j < terms; ++j) by_111[j] = P::third(c[j], xi[0]);
-      a3[0] = P::value(by_111, xi[1]);
-      a3[3] = P::third(at, xi[1]);
-    } else {
-      a3[0] = a3[3] = V::zero();
-    }
-  }
-};
-
-// of a basis that is one, or becomes one with a node more
-template <class B, class F, class S> struct TensorRho : BentArea<B, S> {
-  using V = Vec<S, 3>;
-  TensorPolynomial<F, S> p;
+  P p;
 
   template <int Order, bool H>
   ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N, Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
     p.template evaluate<Order>(xi, s);
   }
-  ENTS_INLINE void thirds(const PairNodes<B, S>&, const S (&xi)[2], V (&a3)[4]) const { p.thirds(xi, a3); }
-  ENTS_INLINE void third_rates(const PairNodes<B, S>&, const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const { p.third_rates(xi, y, rate); }
+  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const { p.thirds(xi, a3); }
+  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const { p.third_rates(xi, y, rate); }
 };
 
 template <class F, class Numbering, class S>
   requires(F::degree > 1)
-struct Rho<TensorBasis<F, Numbering>, S> : TensorRho<TensorBasis<F, Numbering>, F, S> {
+struct Rho<TensorBasis<F, Numbering>, S> : RhoInSpace<TensorBasis<F, Numbering>, TensorPolynomial<F, S>, S> {
   using B = TensorBasis<F, Numbering>;
   ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
     Vec<S, 3> y[F::count][F::count];
@@ -271,7 +127,12 @@ struct Rho<TensorBasis<F, Numbering>, S> : TensorRho<TensorBasis<F, Numbering>, 
   }
 };
 
-template <class S> struct Rho<Quad8, S> : TensorRho<Quad8, Quadratic1D, S> {
+template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, TrianglePolynomial<S>, S> {
+  ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) { this->p.contract(nodes.y); }
+};
+
+// a quad9 whose centre node follows from the others
+template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, TensorPolynomial<Quadratic1D, S>, S> {
   ENTS_INLINE explicit Rho(const PairNodes<Quad8, S>& nodes) {
     using N = CornersMidsidesCentre;
     Vec<S, 3> y[3][3], corners = nodes.y[0], sides = nodes.y[4];
