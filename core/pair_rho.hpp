@@ -9,6 +9,7 @@
 
 #include "core/lanes.hpp"
 #include "core/polynomial.hpp"
+#include "core/surface.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -74,6 +75,18 @@ template <class B, class S> struct BentArea {
   }
 };
 
+// c_kj of nodes y[j][i]: of the i-th function of xi_1 and the j-th of xi_2
+template <class F, class S, int N, int M> ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M]) {
+  Vec<S, 3> along[N][M];
+  for (int j = 0; j < N; ++j) F::template powers<S>(y[j], along[j]);
+  for (int i = 0; i < M; ++i) {
+    Vec<S, 3> column[N], powers[M];
+    for (int j = 0; j < N; ++j) column[j] = along[j][i];
+    F::template powers<S>(column, powers);
+    for (int k = 0; k < M; ++k) c[k][i] = powers[k];
+  }
+}
+
 // rho - x_s and its derivatives. Every basis has
 //   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the height needs it
 //   thirds            rho_,abc
@@ -85,54 +98,80 @@ template <class F, class S>
 struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
   using B = LineBasis<F>;
   using V = Vec<S, 2>;
-  using P = Polynomial<F::degree>;
-  V c[F::degree + 1]; // rho - x_s = sum c_i xi^i
+  V c[F::degree + 1];
   ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { F::template powers<S>(nodes.y, c); }
 
   template <int Order, bool H>
   ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N, Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
-    s.d = -P::value(c, xi[0]);
-    s.a[0] = P::first(c, xi[0]);
-    s.a2[0] = P::second(c, xi[0]);
-    if constexpr (Order > 2 && F::degree > 2) s.a3[0] = P::third(c, xi[0]);
-    else if constexpr (Order > 2) s.a3[0] = V::zero();
+    V d[4];
+    divide_by_powers<F::degree, 3>(c, xi[0], d);
+    s.d = -d[0];
+    s.a[0] = d[1];
+    s.a2[0] = d[2] + d[2];
+    if constexpr (Order > 2) s.a3[0] = F::degree > 2 ? S(6.0) * d[3] : V::zero();
   }
-  ENTS_INLINE void thirds(const S (&xi)[1], V (&a3)[1]) const { a3[0] = P::third(c, xi[0]); }
+  ENTS_INLINE void thirds(const S (&)[1], V (&a3)[1]) const { a3[0] = S(6.0) * c[3]; }
   ENTS_INLINE void third_rates(const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
 };
 
-// by one of the polynomials of xi_1 and xi_2
-template <class B, class P, class S> struct RhoInSpace : BentArea<B, S> {
+template <class B, int Degree, class S> struct RhoInSpace : BentArea<B, S> {
   using V = Vec<S, 3>;
-  P p;
+  using Powers = SurfacePolynomial<Degree, B::simplex, S>;
+  Powers p;
 
   template <int Order, bool H>
   ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N, Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
-    p.template evaluate<Order>(xi, s);
+    typename Powers::template Derivatives<Order> d;
+    p.differentiate(xi, d);
+    s.d = -d.of[0][0];
+    s.a[0] = d.of[1][0];
+    s.a[1] = d.of[0][1];
+    s.a2[0] = d.of[2][0] + d.of[2][0];
+    s.a2[1] = d.of[1][1];
+    s.a2[2] = d.of[0][2] + d.of[0][2];
+    if constexpr (Order > 2) set_thirds(d, s.a3);
   }
-  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const { p.thirds(xi, a3); }
-  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const { p.third_rates(xi, y, rate); }
+  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const {
+    typename Powers::template Derivatives<3> d;
+    p.differentiate(xi, d);
+    set_thirds(d, a3);
+  }
+  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
+    typename Powers::template Derivatives<4> d;
+    p.differentiate(xi, d);
+    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3], S(24.0) * d.of[0][4]};
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      constexpr bool by_1 = Powers::has(4 - k.value, k), by_2 = Powers::has(3 - k.value, k + 1);
+      rate[k] = by_1 ? y[0] * fourth[k] : by_2 ? y[1] * fourth[k + 1] : V::zero();
+      if constexpr (by_1 && by_2) add_scaled(rate[k], y[1], fourth[k + 1]);
+    });
+  }
+
+private:
+  template <class D> static ENTS_INLINE void set_thirds(const D& d, V (&a3)[4]) {
+    constexpr double factor[4] = {6.0, 2.0, 2.0, 6.0};
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (Powers::has(3 - k.value, k)) a3[k] = S(factor[k]) * d.of[3 - k][k];
+      else a3[k] = V::zero();
+    });
+  }
 };
 
 template <class F, class Numbering, class S>
   requires(F::degree > 1)
-struct Rho<TensorBasis<F, Numbering>, S> : RhoInSpace<TensorBasis<F, Numbering>, TensorPolynomial<F, S>, S> {
+struct Rho<TensorBasis<F, Numbering>, S> : RhoInSpace<TensorBasis<F, Numbering>, F::degree, S> {
   using B = TensorBasis<F, Numbering>;
   ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
     Vec<S, 3> y[F::count][F::count];
     for (int k = 0; k < B::nodes; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes.y[k];
-    this->p.contract(y);
+    tensor_powers<F, S>(y, this->p.c);
   }
 };
 
-template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, TrianglePolynomial<S>, S> {
-  ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) { this->p.contract(nodes.y); }
-};
-
 // a quad9 whose centre node follows from the others
-template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, TensorPolynomial<Quadratic1D, S>, S> {
+template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, 2, S> {
   ENTS_INLINE explicit Rho(const PairNodes<Quad8, S>& nodes) {
     using N = CornersMidsidesCentre;
     Vec<S, 3> y[3][3], corners = nodes.y[0], sides = nodes.y[4];
@@ -142,35 +181,38 @@ template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, TensorPolynomial<Qua
       sides = sides + nodes.y[k + 4];
     }
     y[2][2] = S(0.5) * sides - S(0.25) * corners;
-    this->p.contract(y);
+    tensor_powers<Quadratic1D, S>(y, this->p.c);
   }
 };
 
-template <class S> struct Rho<Tri6, S> : BentArea<Tri6, S> {
-  using V = Vec<S, 3>;
-  V c, c1, c2, c11, c12, c22; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c11 xi_1^2 / 2 + c12 xi_1 xi_2 + c22 xi_2^2 / 2
+template <class S> struct Rho<Tri6, S> : RhoInSpace<Tri6, 2, S> {
   ENTS_INLINE explicit Rho(const PairNodes<Tri6, S>& nodes) {
     const auto& y = nodes.y;
-    const S four(4.0);
-    c = y[0];
-    c1 = four * (y[3] - y[0]) - (y[1] - y[0]);
-    c2 = four * (y[5] - y[0]) - (y[2] - y[0]);
-    c11 = four * ((y[0] - y[3]) + (y[1] - y[3]));
-    c22 = four * ((y[0] - y[5]) + (y[2] - y[5]));
-    c12 = four * ((y[0] - y[3]) + (y[4] - y[5]));
+    auto& c = this->p.c;
+    const S two(2.0), four(4.0);
+    c[0][0] = y[0];
+    c[0][1] = four * (y[3] - y[0]) - (y[1] - y[0]);
+    c[1][0] = four * (y[5] - y[0]) - (y[2] - y[0]);
+    c[0][2] = two * ((y[0] - y[3]) + (y[1] - y[3]));
+    c[2][0] = two * ((y[0] - y[5]) + (y[2] - y[5]));
+    c[1][1] = four * ((y[0] - y[3]) + (y[4] - y[5]));
   }
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<Tri6, S>& nodes, const S (&xi)[2], Shape<S, 2, 6>& N, Surface<Tri6, H, S>& s) const {
-    if (H && nodes.has_coordinates) Tri6::shape<2>(xi, N);
-    const S &x = xi[0], &y = xi[1];
-    const V by_2 = raised(c2, x, c12);                // at xi_2 = 0
-    const V middle = raised(c1, 0.5 * x, c11);        // (rho - c) / xi_1 at xi_2 = 0
-    s.a[0] = raised(raised(c1, x, c11), y, c12);
-    s.a[1] = raised(by_2, y, c22);
-    s.d = -raised(raised(c, x, middle), y, raised(by_2, 0.5 * y, c22));
-    s.a2[0] = c11, s.a2[1] = c12, s.a2[2] = c22;
-    if constexpr (Order > 2)
-      for (V& third : s.a3) third = V::zero();
+};
+
+// With differences D_1, D_2 of neighbouring points along xi_1, xi_2: c_kj = 4! / (j! k! (4 - j - k)!) D_1^j D_2^k b
+template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
+  ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) {
+    auto& c = this->p.c;
+    for (int n = 0; n < Bezier15::nodes; ++n) c[Bezier15::power[n][2]][Bezier15::power[n][1]] = nodes.y[n];
+    for (int order = 1; order <= 4; ++order)
+      for (int k = 0; k <= 4 - order; ++k)
+        for (int j = 4 - k; j >= order; --j) c[k][j] = c[k][j] - c[k][j - 1];
+    for (int order = 1; order <= 4; ++order)
+      for (int j = 0; j <= 4 - order; ++j)
+        for (int k = 4 - j; k >= order; --k) c[k][j] = c[k][j] - c[k - 1][j];
+    constexpr double factorial[5] = {1.0, 1.0, 2.0, 6.0, 24.0};
+    for (int k = 0; k <= 4; ++k)
+      for (int j = k == 0; j <= 4 - k; ++j) c[k][j] = S(24.0 / (factorial[j] * factorial[k] * factorial[4 - j - k])) * c[k][j];
   }
 };
 
