@@ -69,9 +69,15 @@ std::int64_t count_of(const Case& c) {
 
 std::string Case::name() const { return basis + "/" + variant + "/" + level + "/" + call_name(call); }
 
+std::vector<std::string> basis_names() {
+  std::vector<std::string> names = mechanics::basis_names();
+  names.push_back("bezier15"); // the patches of smoothed triangles
+  return names;
+}
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
-  for (const std::string& basis : mechanics::basis_names())
+  for (const std::string& basis : basis_names())
     for (const char* variant : {"plain", "enriched", "plain_coulomb", "enriched_coulomb"}) {
       for (const Call call : {Call::single, Call::batch})
         for (const char* level : {"gap", "R", "RK", "kinematics1", "kinematics2"})

@@ -27,6 +27,9 @@ struct Case {
 // Of the variants with friction. The stiffness, per area, is such that some elements stick and some slip.
 inline constexpr double friction_coefficient = 0.3, friction_stiffness = 8.0;
 
+// Of all bases, those of the plane first.
+std::vector<std::string> basis_names();
+
 // The grid basis x {plain, enriched} x level x call, and what shows that absent things cost nothing.
 std::vector<Case> all_cases();
 

@@ -31,7 +31,7 @@ void print_help() {
        ents-bench --assembly | --differentiation | --peers | --streaming[=N]
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
-  BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16
+  BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16 bezier15
   VARIANT  plain (no height), enriched (a sine), plain_coulomb, enriched_coulomb (R and RK; some stick, some slip); for line2, quad4 and quad9 also constant, map, coordinates (a sine of surface
            coordinates), rigid (master), first_variation, small_gap (tangents; all with the sine)
   LEVEL    gap; R residual; RK residual and tangent; kinematics1 xi, gap and first variations; kinematics2 and second ones

@@ -3,7 +3,7 @@
 #include <iomanip>
 #include <ostream>
 
-#include "bases.hpp"
+#include "cases.hpp"
 
 namespace bench {
 
@@ -42,7 +42,7 @@ void print_summary(std::ostream& out, const Medians& medians) {
   out << "\n" << std::setw(14) << std::left << "basis" << std::right;
   for (int column = 0; column < 4; ++column) out << std::setw(9) << "R" << std::setw(9) << "R+K" << std::setw(9) << "R+K C";
   out << "\n" << std::fixed << std::setprecision(1);
-  for (const std::string& basis : mechanics::basis_names()) {
+  for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
     for (const char* call : calls)
       for (const char* variant : variants)
@@ -58,7 +58,7 @@ void print_summary(std::ostream& out, const Medians& medians) {
   out << "\n" << std::setw(14) << "";
   for (int i = 0; i < 2; ++i) out << std::setw(18) << "single" << std::setw(9) << "batch";
   out << std::setw(18) << "none" << std::setw(9) << "Coulomb" << "\n" << std::setprecision(2);
-  for (const std::string& basis : mechanics::basis_names()) {
+  for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
     out << std::setw(9) << "";
     for (const char* call : calls) print_ratio(out, medians, basis + "/enriched/RK/" + call, basis + "/plain/RK/" + call);
