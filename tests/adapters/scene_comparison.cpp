@@ -81,7 +81,7 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
     scene.merge_patch(Json(scene["variants"]["exponential"])); // the scene itself is made not to end
   if (name == "wavy3d_friction") { // its bottom is drawn along: most nodes slip, some stick
     model["contact"] = {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}},
-                        {"friction", {{"type", "coulomb"}, {"coefficient", 0.05}, {"stiffness", 3e4}}}};
+                        {"friction", {{"type", "coulomb"}, {"coefficient", 0.05}, {"stiffness", 1e4}}}};
     scene["supports"] = Json::array({{{"nodes", "block.z_min"}, {"x", 0.002}, {"y", 0.001}, {"z", 0}}});
     scene["symmetry_copies"] = 1;
     scene.erase("exact");
