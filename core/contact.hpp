@@ -188,7 +188,7 @@ ENTS_INLINE void end_state(const Plan& plan, const ElementInput& in, const Proje
       double moved[T], lowered[T];
       // with multipliers the anchor is where the increment began; the force is in the multiplier
       if (!plan.law.multiplier_in_state() && !plan.law.multiplier_is_dof())
-        dragged_anchor<T>(plan.law, p.xi, c.area, c.tangential, begin, anchor);
+        dragged_anchor<T>(p.xi, c.tangential, begin, anchor);
       if (c.tangential.slip) {
         for (int a = 0; a < T; ++a) moved[a] = anchor[a] - begin[a];
         multiply<T>(c.tangential.metric, moved, lowered);

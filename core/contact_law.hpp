@@ -111,5 +111,15 @@ ENTS_INLINE NormalForce normal_force(const ContactLaw& law, double gap, double m
   return open;
 }
 
+// The part of xi - xi_0 that a slipping element keeps as its elastic slip, L / |t|, and a little less, so that the next increment,
+// which begins at the limit, begins inside of it whatever rounding does to xi: or equal elements would stick here and slip there.
+template <int T> ENTS_INLINE double kept_elastic_slip(double limit, double trial_norm, const double (&moved)[T]) {
+  constexpr double rounding_of_xi = 4e-15;
+  double longest = absolute(moved[0]);
+  if (T == 2 && absolute(moved[T - 1]) > longest) longest = absolute(moved[T - 1]);
+  const double kept = limit / trial_norm * (1.0 - 1e-13) - rounding_of_xi / longest;
+  return kept > 0.0 ? kept : 0.0;
+}
+
 }  // namespace ENTS_ISA
 }  // namespace ents

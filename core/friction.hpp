@@ -80,18 +80,11 @@ ENTS_INLINE bool evaluate_friction(const ContactLaw& law, const Projection<B, H>
   return true;
 }
 
-// Where the anchor is at the end: the elastic slip that is left belongs to the force that is left.
+// Where the anchor is at the end (no multiplier): behind xi by the elastic slip that is left.
 template <int T>
-ENTS_INLINE void dragged_anchor(const ContactLaw& law, const double (&xi)[T], double area, const FrictionForce<T>& f,
-                                const double* anchor, double (&end)[T]) {
-  if (!f.slip) {
-    for (int a = 0; a < T; ++a) end[a] = anchor[a];
-    return;
-  }
-  double elastic[T];
-  multiply<T>(f.inverse_metric, f.force, elastic);
-  const double compliance = area > 0.0 ? 1.0 / (law.friction_stiffness * area) : 0.0;
-  for (int a = 0; a < T; ++a) end[a] = xi[a] - compliance * elastic[a];
+ENTS_INLINE void dragged_anchor(const double (&xi)[T], const FrictionForce<T>& f, const double* anchor, double (&end)[T]) {
+  const double kept = f.slip ? kept_elastic_slip(f.limit, f.trial_norm, f.moved) : 1.0;
+  for (int a = 0; a < T; ++a) end[a] = f.slip ? xi[a] - kept * f.moved[a] : anchor[a];
 }
 
 // D(rho_e,b) w^b for total variations D: out_a = rho_e,a . D(rho_e,b) w^b + W . D(rho_e,a) with

@@ -48,16 +48,10 @@ ENTS_INLINE double move_anchor(const Pair<B, H, S>& p, const PairFriction<B, H, 
     for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k);
     return 0.0;
   }
-  // dragged: the part of xi - xi_0 that the limit leaves, and a little less, so that the next increment, which begins at the limit,
-  // begins inside of it whatever rounding does to xi: or equal elements would stick here and slip there
-  double kept = 1.0;
-  if (bits_of(f.slip) >> k & 1) {
-    constexpr double rounding_of_xi = 4e-15;
-    double most = 0.0;
-    for (int a = 0; a < T; ++a) most = larger(most, absolute(lane(f.moved[a], k)));
-    kept = larger(lane(f.limit, k) / lane(f.norm, k) * (1.0 - 1e-13) - rounding_of_xi / most, 0.0);
-  }
-  for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k) - kept * lane(f.moved[a], k);
+  double moved[T];
+  for (int a = 0; a < T; ++a) moved[a] = lane(f.moved[a], k);
+  const double kept = bits_of(f.slip) >> k & 1 ? kept_elastic_slip(lane(f.limit, k), lane(f.norm, k), moved) : 1.0;
+  for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k) - kept * moved[a];
   const double scale = lane(f.scale, k);
   return kept < 1.0 && scale > 0.0 ? (1.0 - kept) * lane(f.norm, k) / scale : 0.0;
 }
