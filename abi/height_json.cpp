@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abi/height_json.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "abi/json_tree.hpp"
 #include "abi/map_json.hpp"
 #include "abi/model_error.hpp"
+#include "core/thread.hpp"
 
 namespace ents {
 
@@ -20,6 +22,8 @@ using nlohmann::json;
 constexpr std::string_view per_coordinate = "one per surface coordinate of the segment";
 constexpr std::size_t most_coefficients = 64; // per surface coordinate
 constexpr std::size_t most_parts = 1024;      // of a sum or product
+
+constexpr double pi = 3.14159265358979323846;
 
 std::vector<double> read_surface_vector(const json& value, const std::string& path, const char* key,
                                         const HeightSources& sources) {
@@ -64,6 +68,59 @@ Height read_polynomial(const json& value, const std::string& path, const HeightS
   return one ? Height::polynomial(std::move(line)) : Height::bivariate_polynomial(rows);
 }
 
+// A number within low .. high; `text` says so.
+double read_within(const json& value, const std::string& path, double low, double high, const std::string& text) {
+  const double number = read_double(value, path, Range::any);
+  if (!(number >= low && number <= high)) fail(ENTS_BAD_VALUE, path, "is " + shown(number) + "; write " + text);
+  return number;
+}
+
+ThreadProfile read_thread_profile(const json& value, const std::string& path) {
+  ThreadProfile p{};
+  p.pitch = read_double(value, path, "pitch", Range::positive);
+  const std::string angles = member(path, "flank_angles");
+  if (const json& flanks = value.at("flank_angles"); flanks.is_array() && flanks.size() == 2) {
+    constexpr double degree = pi / 180.0;
+    p.rising = degree * read_within(flanks[0], item(angles, 0), 0.1, 89.0, "degrees from 0.1 to 89");
+    p.falling = degree * read_within(flanks[1], item(angles, 1), 0.1, 89.0, "degrees from 0.1 to 89");
+  } else {
+    read_vector(flanks, angles, 2, Range::any, "degrees, of the flank that rises along the axis and of the one that falls");
+  }
+  const auto width = [&](const char* key) {
+    return read_within(value.at(key), member(path, key), 0.0, p.pitch, "a length from 0 to the pitch");
+  };
+  p.crest = width("crest");
+  p.root = width("root");
+  if (!(p.crest + p.root < p.pitch))
+    fail(ENTS_BAD_VALUE, path, "\"crest\" and \"root\" leave nothing of \"pitch\" for the flanks; make one of them narrower");
+  const std::string at = member(path, "rounding");
+  p.rounding = value.contains("rounding")
+                   ? read_within(value.at("rounding"), at, p.pitch / 2048.0, p.pitch / 4.0, "a length from pitch / 2048 to pitch / 4")
+                   : p.pitch / 16.0;
+  return p;
+}
+
+Height read_thread(const json& value, const std::string& path, const HeightSources& sources) {
+  check_keys(value, path, {"type", "pitch", "flank_angles", "crest", "root"}, {"rounding", "offset", "starts", "turn", "hand"});
+  const bool winds = sources.dimension == 2;
+  for (const char* key : {"starts", "turn", "hand"})
+    if (!winds && value.contains(key))
+      fail(ENTS_BAD_VALUE, member(path, key), "a line segment has no angle round the axis, only lengths along it; remove this key");
+  const ThreadProfile profile = read_thread_profile(value, path);
+  const double offset = read_double_or(value, path, "offset", Range::any, 0.0) / profile.pitch;
+  std::vector<double> wave_vector = {1.0 / profile.pitch};
+  if (winds) {
+    const double starts =
+        value.contains("starts") ? read_within(value.at("starts"), member(path, "starts"), 0.0, 64.0, "a whole number from 0 to 64") : 1.0;
+    if (starts != std::floor(starts))
+      fail(ENTS_BAD_VALUE, member(path, "starts"), "is " + shown(starts) + "; write a whole number: others do not close round the axis");
+    const bool left = value.contains("hand") && read_choice(value.at("hand"), member(path, "hand"), {"right", "left"}) == 1;
+    const double ridges_per_angle = starts / read_double_or(value, path, "turn", Range::positive, 2.0 * pi);
+    wave_vector.insert(wave_vector.begin(), left ? ridges_per_angle : -ridges_per_angle);
+  }
+  return Height::profile(thread_coefficients(profile), wave_vector, -offset);
+}
+
 Height read_at_depth(const json& value, const std::string& path, const HeightSources& sources,
                      std::int32_t depth);
 
@@ -87,10 +144,10 @@ std::vector<Height> read_parts(const json& value, const std::string& path, const
 Height read_at_depth(const json& value, const std::string& path, const HeightSources& sources,
                      std::int32_t depth) {
   constexpr HeightKind kinds[] = {HeightKind::constant, HeightKind::sine, HeightKind::polynomial,
-                                  HeightKind::gaussian, HeightKind::map,  HeightKind::sum,
-                                  HeightKind::product};
+                                  HeightKind::gaussian, HeightKind::map,  HeightKind::profile,
+                                  HeightKind::sum, HeightKind::product};
   switch (kinds[read_type(value, path,
-                          {"constant", "sine", "polynomial", "gaussian", "map", "sum", "product"})]) {
+                          {"constant", "sine", "polynomial", "gaussian", "map", "thread", "sum", "product"})]) {
   case HeightKind::sine:
     return read_sine(value, path, sources);
   case HeightKind::polynomial:
@@ -99,6 +156,8 @@ Height read_at_depth(const json& value, const std::string& path, const HeightSou
     return read_gaussian(value, path, sources);
   case HeightKind::map:
     return Height::map(read_map(value, path, sources));
+  case HeightKind::profile:
+    return read_thread(value, path, sources);
   case HeightKind::sum:
     return Height::sum(read_parts(value, path, sources, depth));
   case HeightKind::product:

@@ -6,6 +6,7 @@
 //   polynomial       sum c[i] s_1^i   or   sum c[i][j] s_1^i s_2^j
 //   gaussian         amplitude exp(-|s - center|^2 / (2 width^2))
 //   map              (bi)cubic B-spline through regular samples, see height_map.hpp
+//   profile          periodic cubic B-spline of wave_vector . s + phase, see thread.hpp
 //   sum, product     of other heights
 //
 // With S = Dual<double> every derivative carries, in its `d`, its exact derivative along s.d, so that
@@ -22,7 +23,7 @@
 
 namespace ents {
 
-enum class HeightKind : std::int32_t { none, constant, sine, polynomial, gaussian, map, sum, product };
+enum class HeightKind : std::int32_t { none, constant, sine, polynomial, gaussian, map, profile, sum, product };
 
 // Deepest nesting of sums and products: bounds the recursion of evaluate_height.
 inline constexpr std::int32_t max_height_depth = 8;
@@ -60,6 +61,13 @@ struct MapHeight {
   double bound; // of |h|
 };
 
+// The same along a direction: a map of turns, wave_vector . s + phase, with period 1.
+struct ProfileHeight {
+  MapHeight of_turns;
+  double wave_vector[2]; // turns per unit of s
+  double phase;          // turns
+};
+
 struct HeightNode {
   HeightKind kind;
   std::int32_t child_count; // sum, product
@@ -70,6 +78,7 @@ struct HeightNode {
     PolynomialHeight polynomial;
     GaussianHeight gaussian;
     MapHeight map;
+    ProfileHeight profile;
   };
 };
 
@@ -235,6 +244,20 @@ template <class S> ENTS_INLINE HeightJet<2, S> map_height(const MapHeight& map, 
   return jet;
 }
 
+template <int T, class S> ENTS_INLINE HeightJet<T, S> profile_height(const ProfileHeight& p, const S (&s)[T]) {
+  S turns[1] = {p.wave_vector[0] * s[0] + p.phase};
+  if constexpr (T == 2) turns[0] = turns[0] + p.wave_vector[1] * s[1];
+  const HeightJet<1, S> along = map_height(p.of_turns, turns);
+  HeightJet<T, S> jet;
+  jet.h = along.h;
+  int k = 0;
+  for (int a = 0; a < T; ++a) {
+    jet.h1[a] = p.wave_vector[a] * along.h1[0];
+    for (int b = a; b < T; ++b) jet.h2[k++] = (p.wave_vector[a] * p.wave_vector[b]) * along.h2[0];
+  }
+  return jet;
+}
+
 template <int T, class S> ENTS_INLINE void add_height(HeightJet<T, S>& total, const HeightJet<T, S>& term) {
   total.h = total.h + term.h;
   for (int a = 0; a < T; ++a) total.h1[a] = total.h1[a] + term.h1[a];
@@ -267,6 +290,8 @@ template <int T, class S> HeightJet<T, S> evaluate_height(const HeightNode& node
     return gaussian_height(node.gaussian, s);
   case HeightKind::map:
     return map_height(node.map, s);
+  case HeightKind::profile:
+    return profile_height(node.profile, s);
   case HeightKind::sum:
   case HeightKind::product: {
     const HeightNode* child = &node + node.first_child;

@@ -110,14 +110,41 @@ Height Height::map(const HeightMap& map) {
   if (map.values.size() != index(map.rows) * index(map.columns))
     throw std::invalid_argument("values of a height map: rows times columns");
 
-  Height height(map.dimension);
-  std::vector<double> c = map.values;
+  HeightMap coefficients = map;
+  double* c = coefficients.values.data();
   for (std::int64_t j = 0; j < map.rows; ++j)
-    solve_spline_coefficients(c.data() + j * map.columns, map.columns, 1, map.boundary);
+    solve_spline_coefficients(c + j * map.columns, map.columns, 1, map.boundary);
   if (map.dimension == 2)
     for (std::int64_t i = 0; i < map.columns; ++i)
-      solve_spline_coefficients(c.data() + i, map.rows, map.columns, map.boundary);
+      solve_spline_coefficients(c + i, map.rows, map.columns, map.boundary);
+  return spline(coefficients);
+}
 
+Height Height::profile(std::vector<double> coefficients, const std::vector<double>& wave_vector, double phase) {
+  Height height(dimension_of(wave_vector));
+  HeightMap turn; // of size 1
+  turn.rows = 1;
+  turn.columns = static_cast<std::int64_t>(coefficients.size());
+  turn.values = std::move(coefficients);
+  Height along = spline(turn);
+  ProfileHeight profile{along.nodes_[0].map, {0.0, 0.0}, phase - std::round(phase)};
+  for (std::size_t a = 0; a < wave_vector.size(); ++a) {
+    profile.wave_vector[a] = wave_vector[a];
+    if (wave_vector[a] != 0.0) height.feature_length_[a] = along.feature_length_[0] / std::fabs(wave_vector[a]);
+  }
+  height.bound_ = along.bound_;
+  height.continuity_ = along.continuity_;
+  height.tables_ = std::move(along.tables_);
+  height.nodes_[0].kind = HeightKind::profile;
+  height.nodes_[0].profile = profile;
+  return height;
+}
+
+// values: the coefficients
+Height Height::spline(const HeightMap& map) {
+  Height height(map.dimension);
+  const std::vector<double>& c = map.values;
+  const std::int64_t count[2] = {map.columns, map.rows};
   MapHeight view{};
   for (std::int32_t a = 0; a < map.dimension; ++a) {
     const bool periodic = map.boundary == MapBoundary::periodic;

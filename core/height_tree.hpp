@@ -32,6 +32,8 @@ public:
   bivariate_polynomial(const std::vector<std::vector<double>>& coefficients); // [of s_1][of s_2], ragged
   static Height gaussian(double amplitude, const std::vector<double>& center, double width);
   static Height map(const HeightMap& map);
+  // The cubic B-spline with these coefficients, at equal distances over one turn of wave_vector . s + phase; phase in turns.
+  static Height profile(std::vector<double> coefficients, const std::vector<double>& wave_vector, double phase);
   // At least one term, all of one dimension, depth below max_height_depth; else std::invalid_argument.
   static Height sum(std::vector<Height> terms);
   static Height product(std::vector<Height> factors);
@@ -55,6 +57,7 @@ public:
   double feature_length(std::int32_t a) const { return feature_length_[a]; }
 
 private:
+  static Height spline(const HeightMap& coefficients);
   static Height combine(HeightKind kind, std::vector<Height> parts);
 
   std::int32_t dimension_ = 1;

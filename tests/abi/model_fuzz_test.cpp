@@ -27,6 +27,7 @@ const std::vector<std::string> seeds = {
     R"({"segment": "quad4", "height": {"type": "map", "values": [[1, 2], [3, 4]], "boundary": "clamped", "size": [1, 2], "scale": 2}})",
     R"({"segment": "quad4", "height": {"type": "map", "data": "heights", "boundary": "periodic", "size": [1, 2], "origin": [0, 1]}})",
     R"({"segment": "line2", "height": {"type": "map", "file": "none.txt", "boundary": "periodic", "size": [1]}})",
+    R"({"segment": "quad4", "height": {"type": "thread", "pitch": 1.5, "flank_angles": [3, 30], "crest": 0.2, "root": 0.3, "starts": 2, "hand": "left"}})",
     R"({"segment": "line3", "surface_coordinates": [[0], [1], [2]], "projection": {"type": "shadow_point", "emitter": [1, 5]}})",
     R"({"segment": "tri6", "projection": {"type": "shadow_direction", "direction": [0, 0.1, 1]}, "height": null,
        "contact": {"normal": {"type": "penalty", "stiffness": 1e5}}, "penetration_limit": 0.25, "tangent": "first_variation"})"};

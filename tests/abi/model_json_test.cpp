@@ -198,6 +198,32 @@ TEST(ModelJson, HeightsIn3DFollowTheirDefinition) {
       0.05 * std::exp(-((s + 0.19) * (s + 0.19) + (t - 0.03) * (t - 0.03)) / (2 * 0.38 * 0.38)), bound);
 }
 
+// The basic profile of ISO 68-1 for a pitch of 1.5: H = 1.299, 3/8 H above the pitch line, H/4 below.
+TEST(ModelJson, ThreadIsThatOfIso68) {
+  const std::string iso = R"("pitch": 1.5, "flank_angles": [30, 30], "crest": 0.1875, "root": 0.375)";
+  const double bound = 1e-15, H = 1.5 * std::sqrt(0.75);
+  const Model grooves = read_model(with_height("line2", R"({"type": "thread", )" + iso + R"(, "offset": 0.25})"));
+  for (const double ridge : {-1.25, 0.25, 6.25}) {
+    EXPECT_NEAR(height_1(grooves, ridge), 0.375 * H, bound);
+    EXPECT_NEAR(height_1(grooves, ridge + 0.75), -0.25 * H, bound);
+    EXPECT_NEAR(height_1(grooves, ridge + 0.375), 0.0, bound) << "pitch line";
+    EXPECT_NEAR(height_1(grooves, ridge - 0.375), 0.0, bound) << "pitch line";
+    EXPECT_NEAR(height_1(grooves, ridge + 0.275), 0.1 * std::sqrt(3.0), bound) << "flank of 30 degrees";
+  }
+  // it climbs by starts x pitch in a turn, to the left or to the right
+  const std::string two = R"({"type": "thread", )" + iso + R"(, "starts": 2, )";
+  const Model right = read_model(with_height("quad4", two + R"("turn": 360})"));
+  const Model left = read_model(with_height("quad4", two + R"("hand": "left"})"));
+  const Model rings = read_model(with_height("quad4", R"({"type": "thread", )" + iso + R"(, "starts": 0})"));
+  for (const double axis : {-0.3, 0.1, 0.7})
+    for (const double turns : {0.0, 0.3, 0.9}) {
+      const double expected = height_1(grooves, axis + 0.25);
+      EXPECT_NEAR(height_2(right, 360 * turns, axis + 3 * turns), expected, 4 * bound);
+      EXPECT_NEAR(height_2(left, 2 * pi * turns, axis - 3 * turns), expected, 4 * bound);
+      EXPECT_NEAR(height_2(rings, turns, axis), expected, 4 * bound);
+    }
+}
+
 class MapFiles : public ::testing::Test {
 protected:
   void SetUp() override { std::filesystem::create_directories(directory_); }
@@ -459,6 +485,22 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
        "/height/coefficients/1: has 0 entries", ""},
       {R"({"segment":"line2","height":{"type":"sum","of":[{"type":"constant","value":1},{"type":"gaussian","amplitude":1,"center":[0],"width":0}]}})",
        ENTS_BAD_VALUE, "/height/of/1/width: is 0.0; write a number from 1e-100", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30],"crest":0,"root":0}})", ENTS_BAD_VALUE,
+       "/height/flank_angles: has 1 entry; write an array of 2 numbers", "the flank that rises"},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,0],"crest":0,"root":0}})", ENTS_BAD_VALUE,
+       "/height/flank_angles/1: is 0.0; write degrees from 0.1 to 89", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0.6,"root":0.4}})", ENTS_BAD_VALUE,
+       "/height: \"crest\" and \"root\" leave nothing of \"pitch\"", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":1.5}})", ENTS_BAD_VALUE,
+       "/height/root: is 1.5; write a length from 0 to the pitch", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"rounding":0.3}})",
+       ENTS_BAD_VALUE, "/height/rounding: is 0.3; write a length from pitch / 2048 to pitch / 4", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"hand":"left"}})",
+       ENTS_BAD_VALUE, "/height/hand: a line segment has no angle round the axis", "remove this key"},
+      {R"({"segment":"quad4","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"starts":1.5}})",
+       ENTS_BAD_VALUE, "/height/starts: is 1.5; write a whole number", ""},
+      {R"({"segment":"quad4","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"hand":"wrong"}})",
+       ENTS_BAD_VALUE, "/height/hand: is \"wrong\"; write \"right\" or \"left\"", ""},
       {R"({"segment":"line2","height":{"type":"sum","of":[]}})", ENTS_BAD_VALUE, "/height/of: has 0 entries",
        ""},
       {R"({"segment":"line2","height":{"type":"product","of":{}}})", ENTS_BAD_VALUE,

@@ -78,6 +78,19 @@ protected:
          {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0}}, {"width", 1}}}},
         {{"segment", "quad4"},
          {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0, 1}}, {"width", 1}}}},
+        {{"segment", "line2"},
+         {"height",
+          {{"type", "thread"}, {"pitch", 1.5}, {"flank_angles", {30, 45}}, {"crest", 0.2}, {"root", 0.3}, {"rounding", 0.1}, {"offset", 1}}}},
+        {{"segment", "quad4"},
+         {"height",
+          {{"type", "thread"},
+           {"pitch", 6},
+           {"flank_angles", {3, 30}},
+           {"crest", 1},
+           {"root", 0},
+           {"starts", 2},
+           {"turn", 360},
+           {"hand", "left"}}}},
         {{"segment", "quad4"},
          {"height", {{"type", "sum"}, {"of", {two, {{"type", "product"}, {"of", {two, two}}}}}}}},
         {{"segment", "quad4"},
@@ -188,6 +201,10 @@ bool depends_on_more(const std::string& message) {
            "is not a regular file",
            "no array called",
            "the patch's nodes that this segment has", // as many as the segment has
+           "a length from 0 to the pitch",
+           "leave nothing of \"pitch\" for the flanks",
+           "a length from pitch / 2048 to pitch / 4",
+           "has no angle round the axis", // in 2D
            "twice",
            "has no segment with node", // numbered without gaps
        })

@@ -205,14 +205,15 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
             (line ? list({any(), any(), any()}) : list({pair, pair})) + "}",
         R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": )" +
             (line ? list({any(), any()}) : list({pair, pair})) + "}",
+        R"({"type": "thread", "flank_angles": [0.5, 60], "crest": 0, "root": 0, "pitch": )" + any() + R"(, "offset": )" + any() + "}",
     };
     const std::string projections[] = {R"({"type": "normal"})",
                                        R"({"type": "shadow_point", "emitter": )" + triple + "}",
                                        R"({"type": "shadow_direction", "direction": )" + triple + "}"};
-    std::string height = heights[random.below(6)];
+    std::string height = heights[random.below(7)];
     if (random.below(4) == 0)
-      height = R"({"type": "product", "of": [)" + heights[1 + random.below(5)] + ", " +
-               heights[1 + random.below(5)] + "]}";
+      height = R"({"type": "product", "of": [)" + heights[1 + random.below(6)] + ", " +
+               heights[1 + random.below(6)] + "]}";
     const std::string with_stiffness[] = {"penalty", "augmented", "augmented_multiplier", "multiplier"};
     const std::string normals[] = {
         R"({"type": ")" + with_stiffness[random.below(4)] + R"(", "stiffness": )" + any() + "}",

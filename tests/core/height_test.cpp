@@ -19,6 +19,7 @@
 
 #include "core/height_map.hpp"
 #include "core/height_tree.hpp"
+#include "core/thread.hpp"
 #include "lanes.hpp"
 
 namespace {
@@ -231,9 +232,12 @@ template <int T> void expect_dual_parts(const std::vector<Case>& cases) {
     }
 }
 
-// Spacings of 1/2 and samples of order 1: second derivatives of a map reach 9 * 4 / (1/2)^2 = 144.
+// Spacings of 1/2 and samples of order 1: second derivatives of a map reach 9 * 4 / (1/2)^2 = 144, those of the profile 4 / (0.3)^2.
 std::vector<Case> with_maps(std::vector<Case> cases, std::int32_t dimension) {
   Random random(9);
+  std::vector<double> coefficients;
+  for (int i = 0; i < 7; ++i) coefficients.push_back(random(-1.0, 1.0));
+  cases.push_back({"profile", Height::profile(coefficients, dimension == 1 ? std::vector{0.4} : std::vector{-0.3, 0.4}, 0.7), {}});
   for (const MapBoundary boundary : {MapBoundary::periodic, MapBoundary::clamped})
     cases.push_back({"map", Height::map(random_map(dimension, boundary, random)), {}});
   return cases;
@@ -309,12 +313,56 @@ TEST(Height, NaNIsNeverHidden) {
   heights.push_back(Height::gaussian(1.0, {0.0, 0.0}, 1.0));
   heights.push_back(Height::map(random_map(2, MapBoundary::periodic, random)));
   heights.push_back(Height::map(random_map(2, MapBoundary::clamped, random)));
+  heights.push_back(Height::profile({0.0, 1.0, 0.5}, {0.5, 2.0}, 0.0));
   for (const Height& height : heights)
     for (int a = 0; a < 2; ++a) {
       double s[2] = {0.25, 0.75};
       s[a] = std::numeric_limits<double>::quiet_NaN();
       EXPECT_TRUE(std::isnan(evaluate_height(height.root(), s).h));
     }
+}
+
+// Straight lines through the corners, but for the rounding on either side of these; inside of the corners; the pitch line.
+TEST(Thread, IsStraightBetweenItsRoundedCorners) {
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {
+    ThreadProfile p{};
+    p.pitch = random(0.5, 4.0);
+    p.rising = random(0.02, 1.3);
+    p.falling = random(0.02, 1.3);
+    p.crest = random(0.0, 0.3) * p.pitch;
+    p.root = random(0.0, 0.3) * p.pitch;
+    p.rounding = random(0.001, 0.25) * p.pitch;
+    const std::vector<double> coefficients = thread_coefficients(p);
+    const Height height = Height::profile(coefficients, {1.0 / p.pitch}, 0.0);
+
+    const double slopes = std::tan(p.rising) + std::tan(p.falling), depth = (p.pitch - p.crest - p.root) / slopes;
+    const double fall = depth * std::tan(p.falling), rise = depth * std::tan(p.rising);
+    const double corner[5] = {0.5 * p.crest, 0.5 * p.crest + fall, 0.5 * p.crest + fall + p.root, p.pitch - 0.5 * p.crest,
+                              p.pitch + 0.5 * p.crest};
+    const double ridge = 0.5 * p.pitch - p.crest; // ridge on the pitch line: crest + (what both flanks run) = pitch / 2
+    const double crest_height = ridge / slopes;
+    const auto straight = [&](double x) {
+      if (x < corner[0] || x > corner[3]) return crest_height;
+      if (x < corner[1]) return crest_height - (x - corner[0]) / std::tan(p.falling);
+      if (x < corner[2]) return crest_height - depth;
+      return crest_height - (corner[3] - x) / std::tan(p.rising);
+    };
+    for (int k = 0; k < 400; ++k) {
+      const double s[1] = {random(0.0, p.pitch)};
+      const double h = evaluate_height(height.root(), s).h, lines = straight(s[0]);
+      double nearest = p.pitch;
+      for (const double c : corner) nearest = std::min(nearest, std::fabs(s[0] - c));
+      nearest = std::min(nearest, std::fabs(s[0] + 0.5 * p.crest));
+      const double rounding_error = 64 * eps * (depth + p.pitch / std::tan(std::min(p.rising, p.falling)));
+      if (nearest >= p.rounding) EXPECT_NEAR(h, lines, rounding_error);
+      EXPECT_LE(h, crest_height + rounding_error);
+      EXPECT_GE(h, crest_height - depth - rounding_error);
+      if (nearest < p.rounding && (s[0] < corner[0] + p.rounding || s[0] > corner[3] - p.rounding) && p.root > 2 * p.rounding &&
+          fall > 2 * p.rounding && rise > 2 * p.rounding)
+        EXPECT_LE(h, lines + rounding_error) << "a crest loses material";
+    }
+  }
 }
 
 TEST(HeightTree, KnowsBoundsFeaturesAndContinuity) {
@@ -337,6 +385,12 @@ TEST(HeightTree, KnowsBoundsFeaturesAndContinuity) {
     const double s[2] = {random(-4.0, 4.0), random(-4.0, 4.0)};
     EXPECT_LE(std::fabs(evaluate_height(map.root(), s).h), map.bound() * (1 + 8 * eps));
   }
+
+  const Height profile = Height::profile({1.0, -3.0, 0.5, 2.0}, {0.5, 0.0}, 0.1);
+  EXPECT_EQ(profile.bound(), 3.0);
+  EXPECT_EQ(profile.continuity(), 2);
+  EXPECT_EQ(profile.feature_length(0), 0.5); // a quarter of a turn
+  EXPECT_EQ(profile.feature_length(1), Height::unbounded);
 
   const Height product =
       Height::product(list(Height::sine(2.0, {1.0, 0.0}, 0.0), Height::gaussian(3.0, {0.0, 0.0}, 0.5)));

@@ -100,6 +100,34 @@ Height::Height(const json& text, int parameters) : parameters_(parameters) {
     origin_ = text.value("origin", std::vector<double>(2, 0.0));
     for (std::size_t a = 0; a < size.size(); ++a)
       spacing_.push_back(size[a] / (periodic_ ? count_[a] : count_[a] - 1));
+  } else if (type == "thread") {
+    kind_ = Kind::thread;
+    periodic_ = true;
+    const double pitch = text.at("pitch"), crest = text.at("crest"), root = text.at("root");
+    const double degree = std::numbers::pi / 180.0;
+    const double rising = std::tan(text.at("flank_angles")[0].get<double>() * degree);
+    const double falling = std::tan(text.at("flank_angles")[1].get<double>() * degree);
+    const int n = static_cast<int>(std::ceil(2.0 * pitch / text.value("rounding", pitch / 16.0)));
+    // ridge from one foot to the other, seen from its crest; heights above the root
+    const double depth = (pitch - crest - root) / (rising + falling);
+    const double pitch_line = depth - (0.5 * pitch - crest) / (rising + falling);
+    table_.resize(1);
+    for (int i = 0; i < n; ++i) {
+      const double x = pitch * (i <= n / 2 ? i : i - n) / n; // from the nearest crest, or nearly
+      double highest = 0.0;
+      for (const double from : {x - pitch, x, x + pitch}) {
+        const double beyond = std::max(std::fabs(from) - 0.5 * crest, 0.0);
+        highest = std::max(highest, depth - beyond / (from > 0.0 ? falling : rising));
+      }
+      table_[0].push_back(highest - pitch_line);
+    }
+    count_ = {n, 1};
+    const double starts = text.value("starts", 1.0) * (text.value("hand", "right") == "left" ? 1.0 : -1.0);
+    if (parameters == 2) vector_.push_back(starts / text.value("turn", 2.0 * std::numbers::pi));
+    vector_.push_back(1.0 / pitch);
+    phase_ = -text.value("offset", 0.0) / pitch;
+    origin_ = {0.0};
+    spacing_ = {1.0 / n};
   } else {
     kind_ = type == "sum" ? Kind::sum : Kind::product;
     for (const json& part : text.at("of")) parts_.emplace_back(part, parameters);
@@ -112,6 +140,12 @@ double Height::spline(int a, double s, std::array<double, 4>& weights) const {
   weights = {g * g * g / 6.0, (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0,
              (4.0 - 6.0 * g * g + 3.0 * g * g * g) / 6.0, f * f * f / 6.0};
   return first;
+}
+
+double Height::turns(const double* s) const {
+  double turns = phase_;
+  for (std::size_t a = 0; a < vector_.size(); ++a) turns += vector_[a] * s[a];
+  return turns;
 }
 
 double Height::operator()(const double* s) const {
@@ -154,6 +188,14 @@ double Height::operator()(const double* s) const {
                      [static_cast<std::size_t>(wrap(i + a - 1, count_[0], periodic_))];
     return sum;
   }
+  case Kind::thread: {
+    std::array<double, 4> w{};
+    const long i = static_cast<long>(spline(0, turns(s), w));
+    double sum = 0.0;
+    for (int a = 0; a < 4; ++a)
+      sum += w[static_cast<std::size_t>(a)] * table_[0][static_cast<std::size_t>(wrap(i + a - 1, count_[0], true))];
+    return sum;
+  }
   case Kind::sum: {
     double sum = 0.0;
     for (const Height& part : parts_) sum += part(s);
@@ -173,13 +215,14 @@ long Height::cell(const double* s) const {
   std::array<double, 4> unused{};
   if (kind_ == Kind::map)
     for (int a = 0; a < parameters_; ++a) cell = 4096 * cell + static_cast<long>(spline(a, s[a], unused));
+  if (kind_ == Kind::thread) cell = static_cast<long>(spline(0, turns(s), unused));
   for (const Height& part : parts_) cell = 65536 * cell + part.cell(s);
   return cell;
 }
 
 const std::vector<std::string>& height_kinds() {
   static const std::vector<std::string> kinds = {"none",     "constant", "sine",    "polynomial",
-                                                 "gaussian", "sum",      "product", "map"};
+                                                 "gaussian", "sum",      "product", "map",        "thread"};
   return kinds;
 }
 
@@ -212,6 +255,22 @@ json draw_height(Random& random, const std::string& kind, int parameters) {
             {"width", random.uniform(0.35, 0.8)}};
   if (kind == "sum") return {{"type", "sum"}, {"of", two_of("sine", "gaussian")}};
   if (kind == "product") return {{"type", "product"}, {"of", two_of("sine", "polynomial")}};
+  if (kind == "thread") {
+    const double pitch = random.uniform(2.0, 3.0);
+    json thread = {{"type", "thread"},
+                   {"pitch", pitch},
+                   {"flank_angles", {random.uniform(72.0, 82.0), random.uniform(72.0, 82.0)}},
+                   {"crest", pitch * random.uniform(0.05, 0.3)},
+                   {"root", pitch * random.uniform(0.05, 0.3)},
+                   {"rounding", pitch * random.uniform(0.15, 0.25)},
+                   {"offset", random.uniform(-1.0, 1.0)}};
+    if (t == 2) {
+      thread["starts"] = random.below(4);
+      thread["turn"] = random.uniform(8.0, 12.0);
+      thread["hand"] = random.coin() ? "left" : "right";
+    }
+    return thread;
+  }
   const int columns = 6 + random.below(5), rows = 6 + random.below(5);
   json size = json::array(), origin = json::array();
   for (int a = 0; a < t; ++a) {
@@ -269,6 +328,14 @@ json rescale_height(const json& height, double height_factor, double coordinate_
     scale("amplitude", height_factor);
     scale("center", coordinate_factor);
     scale("width", coordinate_factor);
+  }
+  if (type == "thread") {
+    for (const char* key : {"pitch", "crest", "root", "rounding", "offset"}) scale(key, coordinate_factor);
+    if (height.contains("turn")) scale("turn", coordinate_factor);
+    for (json& angle : out["flank_angles"]) {
+      const double degree = std::numbers::pi / 180.0;
+      angle = std::atan(std::tan(angle.get<double>() * degree) * coordinate_factor / height_factor) / degree;
+    }
   }
   if (type == "map") {
     scale("values", height_factor);

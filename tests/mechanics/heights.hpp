@@ -22,7 +22,8 @@ public:
   long cell(const double* s) const;
 
 private:
-  enum class Kind { none, constant, sine, polynomial, gaussian, map, sum, product };
+  enum class Kind { none, constant, sine, polynomial, gaussian, map, thread, sum, product };
+  double turns(const double* s) const;                                 // along the wave vector
   double spline(int a, double s, std::array<double, 4>& weights) const; // returns the first knot
 
   Kind kind_ = Kind::none;
@@ -36,7 +37,7 @@ private:
   std::vector<Height> parts_;
 };
 
-// none constant sine polynomial gaussian sum product map
+// none constant sine polynomial gaussian sum product map thread
 const std::vector<std::string>& height_kinds();
 
 // A height of this kind on a segment of size 2 in s, |h| up to about 0.1: with radii of curvature of 0.2 and

@@ -97,7 +97,7 @@ inline const Basis& basis(const std::string& name) {
 
 inline const std::vector<std::string>& height_kinds() {
   static const std::vector<std::string> kinds = {"none",     "constant", "sine",    "polynomial",
-                                                 "gaussian", "map",      "product", "sum"};
+                                                 "gaussian", "map",      "product", "sum",        "thread"};
   return kinds;
 }
 
@@ -131,6 +131,12 @@ inline std::string height(const std::string& kind, int dimension, double size = 
     return R"({"type": "product", "of": [)" + sine + R"(, {"type": "constant", "value": 0.9}, )" +
            height("gaussian", dimension, 20.0) + "]}";
   if (kind == "sum") return R"({"type": "sum", "of": [)" + sine + ", " + gaussian + "]}";
+  if (kind == "thread") {
+    const std::string thread = R"({"type": "thread", "pitch": 1.5, "flank_angles": [80, 75], "crest": 0.3, "root": 0.4, "rounding": 0.3)" +
+                               std::string(line ? "}" : R"(, "turn": 9, "starts": 2})");
+    if (size == 1.0) return thread;
+    return R"({"type": "product", "of": [)" + thread + R"(, {"type": "constant", "value": )" + n(1.0) + "}]}";
+  }
   throw std::runtime_error("no height " + kind);
 }
 
