@@ -31,7 +31,8 @@ struct ContactFields {
   std::vector<double> slip, age;                 ///< [slaves] accumulated; increments since the last change of status
   std::vector<std::int32_t> flags;               ///< [slaves] ENTS_FLAG_...; no segment: ENTS_FLAG_OUTSIDE
   std::vector<int> segment;                      ///< [slaves] -1: none
-  std::vector<double> force;                     ///< [d] of all slave nodes on the master
+  std::vector<double> node_forces;               ///< [slaves][d] on the master
+  std::vector<double> force;                     ///< [d] their sum
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.

@@ -48,6 +48,7 @@ ContactFields Contact::fields(const Configuration& at) {
   fields.age = fields.slip;
   fields.flags.assign(slaves, ENTS_FLAG_OUTSIDE);
   fields.segment = segment_;
+  fields.node_forces.assign(slaves * d_, 0.0);
   fields.force.assign(d_, 0.0);
   for (std::size_t e = 0; e < count; ++e) {
     if (status[e] != ENTS_OK) continue;
@@ -67,7 +68,10 @@ ContactFields Contact::fields(const Configuration& at) {
     spread(normal, fields.normal);
     spread(point, fields.point);
     spread(traction, fields.traction);
-    for (std::size_t i = 0; i < d_; ++i) fields.force[i] += residual[e * element_dofs_ + i];
+    for (std::size_t i = 0; i < d_; ++i) {
+      fields.node_forces[k * d_ + i] = residual[e * element_dofs_ + i];
+      fields.force[i] += residual[e * element_dofs_ + i];
+    }
   }
   return fields;
 }

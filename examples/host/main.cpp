@@ -119,7 +119,7 @@ int run_program(int argc, char** argv) {
                              ->excludes("--explicit");
   run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
   run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
-  run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status and segment of every slave node in the JSON result");
+  run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status, segment and force of every slave node in the JSON result");
   run_app->add_option("--cut", run.cut, "take every step in two halves, or in one to four increments of random sizes")
       ->check(CLI::IsMember({"halves", "random"}));
   run_app->add_option("--seed", run.seed, "of --cut random [1]")->check(integer(0, 4294967295));

@@ -42,7 +42,8 @@ Json nodes_json(const StepRecord& record) {
   return {{"position", column(record.positions)}, {"gap", column(fields.gap)},
           {"normal_gap", column(fields.normal_gap)}, {"pressure", column(fields.pressure)},
           {"traction", column(fields.traction)}, {"slip", column(fields.slip)},
-          {"age", column(fields.age)}, {"status", status}, {"segment", fields.segment}};
+          {"age", column(fields.age)}, {"status", status}, {"segment", fields.segment},
+          {"force", column(fields.node_forces)}};
 }
 
 Json step_json(const StepRecord& record, bool nodes) {

@@ -2,6 +2,7 @@
 // What a run says at its end: the JSON result, the table, the files for ParaView and the pictures.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ std::string exact_table(const std::vector<StepRecord>& records);
 
 /// The parts of one step for the VTU series: "bulk", "slave" and "surface" (the enriched master).
 void write_step(vtu::Series& series, Simulation& simulation, const StepRecord& record);
+
+/// The pictures that draw_pictures and draw_comparison may leave, each as NAME.dat, .gp, .svg and .png.
+inline constexpr std::array picture_names{"residuals", "force", "traction", "pressure", "westergaard",
+                                          "contact_fraction", "mean_gap", "pressure_map", "compare"};
 
 /// @return one line per problem (gnuplot missing, ...)
 std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures of a run: what a person would rather look at than read.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -88,6 +89,35 @@ Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
     }
   chart.curves.push_back(computed);
   chart.subtitle = mesh_note(simulation);
+  return chart;
+}
+
+/// Nodal pressures of the last step along the slave surface of a body in the plane: over x or y, along which it extends farther.
+Chart pressure_along_surface(Simulation& simulation, const StepRecord& record) {
+  const Scene& scene = simulation.scene();
+  const SlavePoints& slaves = simulation.contact()->slaves();
+  std::vector<std::array<double, 3>> places(slaves.size());
+  for (std::size_t k = 0; k < slaves.size(); ++k)
+    for (std::size_t c = 0; c < 2; ++c) places[k][c] = slaves.place(k, simulation.mesh())[c];
+  const auto extent = [&](std::size_t c) {
+    const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](auto& a, auto& b) { return a[c] < b[c]; });
+    return (*high)[c] - (*low)[c];
+  };
+  const std::size_t axis = extent(1) > extent(0) ? 1 : 0;
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places[a][axis] < places[b][axis]; });
+  Chart chart;
+  chart.title = "Contact pressure, last step";
+  chart.subtitle = scene.title + "; " + mesh_note(simulation);
+  chart.x = {axis == 0 ? "x of the slave nodes" : "y of the slave nodes", scene.units.length};
+  chart.y = {"pressure", scene.units.pressure, false, 0};
+  Curve curve{"", {}, {}, Style::line};
+  for (const std::size_t k : order) {
+    curve.x.push_back(places[k][axis]);
+    curve.y.push_back(record.fields.pressure[k]);
+  }
+  chart.curves = {curve};
   return chart;
 }
 
@@ -257,6 +287,8 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
     note(draw(partial_slip_profile(simulation, records.back()), folder, "traction"));
     return problems;
   }
+  if (type == ExactSpec::Type::none && simulation.scene().dimension == 2)
+    note(draw(pressure_along_surface(simulation, records.back()), folder, "pressure"));
   if (type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine)
     note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
   if (type == ExactSpec::Type::westergaard)

@@ -5,6 +5,7 @@
 
 #include "output_folder.hpp"
 #include "restart.hpp"
+#include "result.hpp"
 
 namespace host {
 
@@ -17,9 +18,13 @@ RunFiles::RunFiles(std::filesystem::path folder, const std::filesystem::path& re
   const std::filesystem::path of_checkpoint = restart.has_parent_path() ? restart.parent_path() : ".";
   if (restart.empty() || !std::filesystem::equivalent(of_checkpoint, folder_, error)) {
     // Beside what this run writes they would look like its results, also if it fails.
-    for (const char* name : {"result.json", "result.pvd", "checkpoint.json"})
+    const auto remove = [&](const std::string& name) {
       if (std::filesystem::is_regular_file(std::filesystem::symlink_status(folder_ / name, error)))
         std::filesystem::remove(folder_ / name, error);
+    };
+    for (const char* name : {"result.json", "result.pvd", "checkpoint.json"}) remove(name);
+    for (const std::string name : picture_names)
+      for (const char* kind : {".dat", ".gp", ".svg", ".png"}) remove(name + kind);
     return;
   }
   series_->resume(first);
