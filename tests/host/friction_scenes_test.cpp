@@ -139,6 +139,31 @@ TEST(FrictionScene, IroningOverPlainSegments) {
   EXPECT_GT(cuts(result), 0u);
 }
 
+// An elastic nut on a rigid bolt: the ridges at its ends carry more than those between, most of all the one at the bearing; all
+// together carry the load, on the loaded flanks alone; and 512 plain segments, 73 to a pitch, give the same motion.
+TEST(FrictionScene, ThreadSharesItsLoad) {
+  const Json result = run_scene("thread", "--nodes");
+  const Json &last = result.at("steps").back(), &nodes = last.at("nodes");
+  constexpr double pitch = 1.5;
+  double share[5] = {};
+  for (std::size_t k = 0; k < nodes.at("gap").size(); ++k) {
+    const double y = nodes.at("position")[2 * k + 1], force = nodes.at("force")[2 * k + 1];
+    const std::size_t ridge = std::min<std::size_t>(4, static_cast<std::size_t>(std::max(0.0, y) / pitch));
+    share[ridge] += force / last.at("force").get<double>();
+    if (nodes.at("status")[k] != "open") EXPECT_GT(std::fmod(y, pitch), 0.5 * pitch) << "an unloaded flank carries";
+  }
+  std::printf("shares of the load, from the bearing on: %.1f %.1f %.1f %.1f %.1f %%\n", 100 * share[0], 100 * share[1], 100 * share[2],
+              100 * share[3], 100 * share[4]);
+  EXPECT_NEAR(share[0] + share[1] + share[2] + share[3] + share[4], 1, 1e-9);
+  EXPECT_GT(share[0], share[4]);
+  EXPECT_GT(share[4], share[1]);
+  EXPECT_GT(share[1], share[2]);
+  EXPECT_EQ(cuts(result), 0u);
+
+  const Json comparison = run_scene("thread", "--compare 512");
+  EXPECT_LT(comparison.at("explicit")[0].at("difference").get<double>(), 2e-3);
+}
+
 struct Method {
   const char* variant;
   double penetration; ///< over the size of the slave surface
