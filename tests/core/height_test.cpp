@@ -355,12 +355,15 @@ TEST(Thread, IsStraightBetweenItsRoundedCorners) {
       for (const double c : corner) nearest = std::min(nearest, std::fabs(s[0] - c));
       nearest = std::min(nearest, std::fabs(s[0] + 0.5 * p.crest));
       const double rounding_error = 64 * eps * (depth + p.pitch / std::tan(std::min(p.rising, p.falling)));
-      if (nearest >= p.rounding) EXPECT_NEAR(h, lines, rounding_error);
+      if (nearest >= p.rounding) {
+        EXPECT_NEAR(h, lines, rounding_error);
+      }
       EXPECT_LE(h, crest_height + rounding_error);
       EXPECT_GE(h, crest_height - depth - rounding_error);
       if (nearest < p.rounding && (s[0] < corner[0] + p.rounding || s[0] > corner[3] - p.rounding) && p.root > 2 * p.rounding &&
-          fall > 2 * p.rounding && rise > 2 * p.rounding)
+          fall > 2 * p.rounding && rise > 2 * p.rounding) {
         EXPECT_LE(h, lines + rounding_error) << "a crest loses material";
+      }
     }
   }
 }

@@ -150,7 +150,9 @@ TEST(FrictionScene, ThreadSharesItsLoad) {
     const double y = nodes.at("position")[2 * k + 1], force = nodes.at("force")[2 * k + 1];
     const std::size_t ridge = std::min<std::size_t>(4, static_cast<std::size_t>(std::max(0.0, y) / pitch));
     share[ridge] += force / last.at("force").get<double>();
-    if (nodes.at("status")[k] != "open") EXPECT_GT(std::fmod(y, pitch), 0.5 * pitch) << "an unloaded flank carries";
+    if (nodes.at("status")[k] != "open") {
+      EXPECT_GT(std::fmod(y, pitch), 0.5 * pitch) << "an unloaded flank carries";
+    }
   }
   std::printf("shares of the load, from the bearing on: %.1f %.1f %.1f %.1f %.1f %%\n", 100 * share[0], 100 * share[1], 100 * share[2],
               100 * share[3], 100 * share[4]);
