@@ -376,7 +376,8 @@ ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, doub
 
 /* A slave node moves on to another segment: `state` as seen from the new one. The anchor of friction and the
  * multipliers move with the material of the master surface, so that no slip history is lost: through the
- * surface coordinates where the model uses any, else to the closest point of the new segment (extended over its border).
+ * surface coordinates where both are given and lead to the same place (not over a seam, not if they are constant along the
+ * segment), else to the closest point of the new segment (extended over its border).
  *   old_master, new_master  [m][d] positions, [L], both at the same instant (the begin of the increment)
  *   old_..., new_surface_coordinates  [m][d-1] or null: the model's own, else s = xi (then positions decide)
  *   state, moved            [state_size] in, out; may not overlap
@@ -564,7 +565,7 @@ ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
 #define ENTS_CONDITION_TABLE(X)                                                                                        \
   X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; 3 for the consistent tangent with friction")              \
   X(ENTS_CHECK_FOLD, 1, "max |h| |kappa| of rho: below 1, else rho_e folds over itself")                               \
-  X(ENTS_CHECK_EDGE, 2, "max |h| on the edges [L]: 0 for a local enrichment (s = xi); else not judged")                \
+  X(ENTS_CHECK_EDGE, 2, "max |h| on the edges [L]: 0 for a local enrichment (s = xi, not smoothed); else not judged")  \
   X(ENTS_CHECK_JUMP, 3, "max distance of the two rho_e on an edge of two segments [L]: 0")                             \
   X(ENTS_CHECK_KINK, 4, "max angle between the two n_e on such an edge [rad]: at most `kink`")                         \
   X(ENTS_CHECK_WEDGE, 5, "min angle free outside between two segments at their edge [rad]: above 0")                   \

@@ -142,7 +142,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     flags |= flag::searched;
   }
   const bool escaped = found == Found::escaped;
-  if (found != Found::yes && !(escaped && element && !(wanted & want::kinematics))) return status_of(found);
+  if (found != Found::yes && !(escaped && judged && !(wanted & want::kinematics))) return status_of(found);
 
   Kinematics<B, H, Rigid> k;
   if (!evaluate_gap(p, t, k))

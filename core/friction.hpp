@@ -39,7 +39,7 @@ template <int T> ENTS_INLINE double contract(const double (&u)[T], const double 
   return s;
 }
 
-// pressure_force: p A >= 0; multiplier: lambda_a [F/L]. False where rho_e has no area: no direction has a length there.
+// pressure_force: p A, below 0 where a multiplier pulls: no friction; multiplier: lambda_a [F/L]. False where rho_e has no area: no direction has a length there.
 template <class B, bool H>
 ENTS_INLINE bool evaluate_friction(const ContactLaw& law, const Projection<B, H>& p, const double* anchor,
                                    const double* multiplier, double pressure_force, double area,
@@ -60,8 +60,10 @@ ENTS_INLINE bool evaluate_friction(const ContactLaw& law, const Projection<B, H>
   f.limit = 0.0;
   f.limit_by_pressure = 0.0;
   if (law.friction == FrictionKind::rough) return true;
-  f.limit = law.friction_coefficient * pressure_force;
-  f.limit_by_pressure = law.friction_coefficient;
+  if (pressure_force > 0.0) {
+    f.limit = law.friction_coefficient * pressure_force;
+    f.limit_by_pressure = law.friction_coefficient;
+  }
   if (law.shear_limit > 0.0 && law.shear_limit * area < f.limit) {
     f.limit = law.shear_limit * area;
     f.limit_by_pressure = 0.0;

@@ -27,7 +27,6 @@ ENTS_INLINE bool any(bool a) { return a; }
 ENTS_INLINE bool every(bool a) { return a; }
 ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
 
-template <class S> inline constexpr int lane_count = 1;
 template <class S> using Truth = decltype(S(0.0) < S(0.0));
 
 // 1 / x where x may be zero: whoever divides before knowing that must not use the result. (The sanitizers are told.)
@@ -40,7 +39,6 @@ template <class S> ENTS_INLINE S unchecked_inverse(S x) { return 1.0 / x; }
 template <class S> ENTS_INLINE Dual<S> unchecked_inverse(Dual<S> x) { return 1.0 / x; }
 
 ENTS_INLINE double lane(double x, int) { return x; }
-ENTS_INLINE void set_lane(double& x, int, double value) { x = value; }
 
 template <int W> struct Lanes; // where the compiler has them
 
@@ -140,13 +138,11 @@ template <int W> struct Lanes {
   friend ENTS_INLINE LaneTruth<W> operator<=(Lanes a, Lanes b) { return is_less<W, true>(a.v, b.v); }
   friend ENTS_INLINE LaneTruth<W> operator>=(Lanes a, Lanes b) { return is_less<W, true>(b.v, a.v); }
 };
-template <int W> inline constexpr int lane_count<Lanes<W>> = W;
 
 template <int W> ENTS_INLINE Lanes<W> value_of(Lanes<W> a) { return a; }
 template <int W> ENTS_INLINE Lanes<W> minus_value(Lanes<W> a, Lanes<W> b) { return a - b; }
 template <int W> ENTS_INLINE Lanes<W> select(LaneTruth<W> c, Lanes<W> a, Lanes<W> b) { return Lanes<W>(chosen(c, a.v, b.v), 0); }
 template <int W> ENTS_INLINE double lane(const Lanes<W>& x, int k) { return x.v[k]; }
-template <int W> ENTS_INLINE void set_lane(Lanes<W>& x, int k, double value) { x.v[k] = value; }
 // One instruction, whether or not the compiler is told that roots do not set errno.
 template <int W> ENTS_INLINE Lanes<W> square_root(Lanes<W> a) {
 #if defined(__AVX512F__)

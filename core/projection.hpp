@@ -116,11 +116,6 @@ ENTS_INLINE bool ray_frame(const Vec<double, 3> (&e)[2], const Vec<double, 3>& r
   return true;
 }
 
-template <int D> ENTS_INLINE double absolute_dot(const Vec<double, D>& a, const Vec<double, D>& b) {
-  const double s = dot(a, b);
-  return s < 0 ? -s : s;
-}
-
 template <int D> ENTS_INLINE Vec<double, D> ray_of(const Target& t) {
   Vec<double, D> e;
   for (int k = 0; k < D; ++k) e[k] = t.ray[k];

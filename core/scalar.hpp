@@ -5,6 +5,8 @@
 // Nothing here or in the kernel may branch on a value of type S except through value_of().
 #pragma once
 
+#include <cmath>
+
 #ifdef __FAST_MATH__
 #error "ents must not be compiled with -ffast-math: NaN checks and bit equality would be lost"
 #endif
@@ -69,11 +71,12 @@ template <class S> ENTS_INLINE Dual<S>& operator*=(Dual<S>& a, Dual<S> b) { retu
 
 #if defined(__GNUC__)
 ENTS_INLINE double absolute(double a) { return __builtin_fabs(a); }
+ENTS_INLINE double square_root(double a) { return __builtin_sqrt(a); }
 #else
-ENTS_INLINE double absolute(double a) { return a < 0 ? -a : a; }
+ENTS_INLINE double absolute(double a) { return std::fabs(a); }
+ENTS_INLINE double square_root(double a) { return std::sqrt(a); }
 #endif
 
-ENTS_INLINE double square_root(double a) { return __builtin_sqrt(a); }
 template <class S> ENTS_INLINE Dual<S> square_root(Dual<S> a) {
   const S r = square_root(a.v);
   return {r, a.d / (2.0 * r)};

@@ -40,7 +40,7 @@ struct SurfaceChecker {
   // Over several segments: its nodes are not the corners of the segment.
   bool smoothed() const {
     return model.basis == Basis::catmull_rom4 || model.basis == Basis::bspline4 ||
-           model.basis == Basis::catmull_rom16 || model.basis == Basis::bspline16;
+           model.basis == Basis::catmull_rom16 || model.basis == Basis::bspline16 || model.basis == Basis::bezier15;
   }
   Finding& finding(int which) const { return result.findings[which]; }
   // Keep the place if its value is the worst so far; a segment without a place is one where the value holds everywhere.

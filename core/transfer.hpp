@@ -50,6 +50,18 @@ ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::d
   return max_norm(xi) < 1e6;
 }
 
+// Is rho_e(xi) the slave's place? Beyond its border a segment goes on in its own way: it may be off by as much as the place is away
+// from its middle. Coordinates with a seam between the segments lead a whole turn away.
+template <class B, bool H>
+ENTS_INLINE bool is_there(const Geometry<B>& g, const double (&xi)[B::dim - 1], Projection<B, H>& p) {
+  double middle[B::dim - 1];
+  domain_centre<B>(middle);
+  if (!evaluate_surface<1>(g, middle, p.N, p.s)) return false;
+  double way = square_root(dot(p.s.d, p.s.d));
+  for (const auto& tangent : p.s.e) way += square_root(dot(tangent, tangent));
+  return evaluate_surface<1>(g, xi, p.N, p.s) && dot(p.s.d, p.s.d) <= way * way;
+}
+
 template <class B, bool H>
 Status transfer_state(const Plan& plan, const double* old_master, const double* old_coordinates,
                       const double* new_master, const double* new_coordinates, const double* state, double* moved) {
@@ -75,15 +87,16 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     g.height = plan.height;
     for (int a = 0; a < T; ++a) from.xi[a] = old_xi[a];
     if (!evaluate_surface<1>(g, from.xi, from.N, from.s)) return Status::degenerate_segment;
-    if (old_coordinates && new_coordinates) {
-      double s[T], s1[T][T];
+    double point[D], s[T], s1[T][T];
+    for (int c = 0; c < D; ++c) point[c] = old_master[c] - from.s.d[c];
+    g.set(point, new_master);
+    g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
+    bool located = old_coordinates && new_coordinates;
+    if (located) {
       coordinates_at<B>(old_coordinates, from.xi, s, s1);
-      if (!locate_coordinates<B>(new_coordinates, s, xi)) return Status::no_projection;
-    } else {
-      double point[D];
-      for (int c = 0; c < D; ++c) point[c] = old_master[c] - from.s.d[c];
-      g.set(point, new_master);
-      g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
+      located = locate_coordinates<B>(new_coordinates, s, xi) && is_there<B, H>(g, xi, to);
+    }
+    if (!located) {
       Target t{};
       t.kind = ProjectionKind::normal;
       const bool found = search<B, H>(g, t, plan, to).found == Found::yes;

@@ -1,6 +1,7 @@
 // The cone, invariance, and the life of a state: begin untouched, cut and uncut increments, augmentation, transfer.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iostream>
 
@@ -256,6 +257,85 @@ INSTANTIATE_TEST_SUITE_P(Height, RowOfSegments,
                          testing::Values("null", R"({"type": "sine", "amplitude": 0.005, "wave_vector": [0.7]})"),
                          [](const auto& parameter) { return parameter.index == 0 ? "plain" : "sine"; }); // of x
 
+// Segments of a circle with the angle as surface coordinate: where it jumps from 2 pi to 0, the anchor goes on as it does elsewhere.
+TEST(State, MovesOverASeamOfTheSurfaceCoordinates) {
+  Slide s;
+  const double turn = 2.0 * std::acos(-1.0);
+  const auto corner = [&](int i) { return std::array{std::cos(turn * i / 16), std::sin(turn * i / 16)}; };
+  const auto segment = [&](int i) { // clockwise seen, its normal points outwards
+    const auto a = corner(i + 1), b = corner(i);
+    return std::array{a[0], a[1], b[0], b[1]};
+  };
+  std::vector<double> state(s.elements.state.size());
+  ents_state_init(s.model.handle(), 1, state.data(), s.elements.layout.state_size, nullptr);
+  state[1] = 2.0;
+  state[2 + 1] = -1.02; // xi, and the anchor still on the old segment
+  state[2 + 2] = -0.98;
+  for (const double seam : {0.0, 1.0}) {
+    const auto before = segment(15), after = segment(0);
+    const double old_s[2] = {turn, turn * 15 / 16}, new_s[2] = {turn / 16 + (1 - seam) * turn, (1 - seam) * turn};
+    std::vector<double> moved(state.size());
+    ASSERT_EQ(ents_state_transfer(s.model.handle(), before.data(), old_s, after.data(), new_s, state.data(), moved.data(), nullptr), ENTS_OK);
+    EXPECT_NEAR(moved[2 + 1], 0.98, 0.02) << "seam " << seam;
+    EXPECT_NEAR(moved[2 + 2], 1.02, 0.02) << "seam " << seam;
+  }
+}
+
+// Grooves along one direction: the other coordinate is 0 everywhere, so coordinates alone do not say where a point is.
+TEST(State, MovesWhereCoordinatesAreConstantAlongADirection) {
+  for (const char* friction : {"", R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50})"}) {
+    const mechanics::Model model(R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.01, "wave_vector": [0.5, 0]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 100})" + std::string(friction) + "}}");
+    const ents_layout layout = layout_of(model.handle());
+    std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
+    ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
+    state[1] = 2.0;
+    for (std::size_t k = 3; k < 3 + (layout.friction ? 4 : 2); k += 2) state[k] = 1.02, state[k + 1] = 0.5;
+    const double before[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, after[12] = {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0};
+    const double old_s[8] = {0, 0, 1, 0, 1, 0, 0, 0}, new_s[8] = {1, 0, 2, 0, 2, 0, 1, 0};
+    ASSERT_EQ(ents_state_transfer(model.handle(), before, old_s, after, new_s, state.data(), moved.data(), nullptr), ENTS_OK) << friction;
+    for (std::size_t k = 3; k < 3 + (layout.friction ? 4 : 2); k += 2) {
+      EXPECT_NEAR(moved[k], -0.98, 1e-9) << friction;
+      EXPECT_NEAR(moved[k + 1], 0.5, 1e-9) << friction;
+    }
+  }
+}
+
+// A multiplier may pull for an iteration while the pair is still counted as closed: no friction then, and nothing undefined.
+TEST(State, AMultiplierThatPullsHasNoFriction) {
+  Slide s(R"({"type": "multiplier", "stiffness": 100})");
+  s.segment(0.0, 1.0);
+  s.elements.multiplier = {1.0, 0.0};
+  s.evaluate_at(0.3);
+  s.commit();
+  for (const double x : {0.3, 0.301}) {
+    s.elements.multiplier = {-0.5, 0.0};
+    s.evaluate_at(x, -0.1);
+    EXPECT_TRUE(s.results.flags[0] & ENTS_FLAG_CONTACT) << x;
+    for (const double t : s.results.traction) EXPECT_EQ(t, 0.0) << x;
+    for (const double r : s.results.residual) EXPECT_TRUE(std::isfinite(r)) << x;
+  }
+}
+
+// Flags are those of the element, whatever else is wanted, also of a slave that is far away.
+TEST(State, FlagsAloneRefuseNoSlaveFarAway) {
+  const mechanics::Model model(R"({"segment": "line3", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  const double slave[2] = {50.0, 3.0}, master[6] = {1, 0, -1, 0, 0, 0.1};
+  double residual[8];
+  std::int32_t flags[2] = {-1, -1};
+  for (const bool forces : {false, true}) {
+    ents_input in{};
+    in.struct_size = sizeof in;
+    in.slave = slave, in.master = master;
+    ents_output out{};
+    out.struct_size = sizeof out;
+    out.wanted = forces ? ENTS_FLAGS | ENTS_RESIDUAL : ENTS_FLAGS;
+    out.flags = &flags[forces], out.residual = residual;
+    EXPECT_EQ(ents_evaluate(model.handle(), 0, 1, &in, &out, nullptr), ENTS_OK);
+  }
+  EXPECT_EQ(flags[0], flags[1]);
+  EXPECT_TRUE(flags[0] & ENTS_FLAG_OUTSIDE);
+}
 
 // Uzawa: with the slave held at a penetration, multipliers grow by stiffness times gap; the begin of the increment stays.
 TEST(State, AugmentationMovesTheMultipliersOnly) {
