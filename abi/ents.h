@@ -364,7 +364,8 @@ ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t c
                                const ents_input *input, const ents_output *output,
                                ents_report *report);
 
-/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. */
+/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. A state knows neither the height nor the
+ * numbers of the law: another model of the same segment and kinds of law goes on with it (heights that wear between increments). */
 ENTS_API int32_t ents_state_init(const ents_model *model, int64_t count, double *state,
                                  int64_t stride, ents_report *report);
 

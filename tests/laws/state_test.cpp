@@ -317,6 +317,21 @@ TEST(State, AMultiplierThatPullsHasNoFriction) {
   }
 }
 
+// Heights that wear: the worn model goes on with the state of the old one, anchor and slip included.
+TEST(State, GoesOnWithAnotherHeight) {
+  const std::string penalty = R"({"type": "penalty", "stiffness": 100})";
+  Slide fresh(penalty, R"({"type": "constant", "value": 0.002})"), worn(penalty, R"({"type": "constant", "value": 0.001})");
+  for (Slide* s : {&fresh, &worn}) s->segment(0.0, 1.0);
+  fresh.evaluate_at(0.3);
+  fresh.commit();
+  fresh.evaluate_at(0.303);
+  EXPECT_NEAR(fresh.results.traction[0], 50 * 0.003, 1e-13);
+  worn.elements.state = fresh.elements.state;
+  worn.evaluate_at(0.303);
+  EXPECT_NEAR(worn.results.traction[0], 50 * 0.003, 1e-13);
+  EXPECT_NEAR(fresh.results.residual[1] - worn.results.residual[1], -100 * 0.001, 1e-13);
+}
+
 // Flags are those of the element, whatever else is wanted, also of a slave that is far away.
 TEST(State, FlagsAloneRefuseNoSlaveFarAway) {
   const mechanics::Model model(R"({"segment": "line3", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");

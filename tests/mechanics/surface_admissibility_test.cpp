@@ -405,6 +405,20 @@ TEST(SurfaceAdmissibility, SmoothedSurfacesAreNotTorn) {
   }
 }
 
+// One flat patch; the height goes on into its neighbours, wherever they are.
+TEST(SurfaceAdmissibility, SmoothedTrianglesMayHaveAHeightOnTheirSides) {
+  MeshSurface surface;
+  surface.basis = &basis_named("bezier15");
+  const double points[15][2] = {{0, 0}, {4, 0}, {0, 4}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {2, 2}, {1, 3}, {0, 3}, {0, 2}, {0, 1}, {1, 1}, {2, 1}, {1, 2}};
+  for (const auto& p : points) {
+    surface.connectivity.push_back(static_cast<std::int64_t>(surface.positions.size() / 3));
+    surface.positions.insert(surface.positions.end(), {p[0], p[1], 0.0});
+  }
+  const Checked c = check(model("bezier15", {{"type", "constant"}, {"value", 0.05}}), surface);
+  EXPECT_FALSE(c.judges(ENTS_CHECK_EDGE));
+  EXPECT_EQ(c.violated, 0);
+}
+
 // Panel d, first case. |h| against the radius of curvature over every segment: three parabolas side by side, of which
 // the middle one is the most curved, at its top.
 TEST(SurfaceAdmissibility, PanelDFolds) {
