@@ -329,13 +329,11 @@ json rescale_height(const json& height, double height_factor, double coordinate_
     scale("center", coordinate_factor);
     scale("width", coordinate_factor);
   }
-  if (type == "thread") {
+  if (type == "thread") { // its heights are in units of its lengths along s
     for (const char* key : {"pitch", "crest", "root", "rounding", "offset"}) scale(key, coordinate_factor);
     if (height.contains("turn")) scale("turn", coordinate_factor);
-    for (json& angle : out["flank_angles"]) {
-      const double degree = std::numbers::pi / 180.0;
-      angle = std::atan(std::tan(angle.get<double>() * degree) * coordinate_factor / height_factor) / degree;
-    }
+    const json factor = {{"type", "constant"}, {"value", height_factor / coordinate_factor}};
+    return {{"type", "product"}, {"of", json::array({factor, out})}};
   }
   if (type == "map") {
     scale("values", height_factor);
