@@ -275,7 +275,7 @@ class Model:
         slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
         want       names of QUANTITIES, as one string or a list
         surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers]: one for
-                   all, or with a leading [n]
+                   all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 
@@ -313,8 +313,9 @@ class Model:
             if value is None:
                 continue
             shape = shapes[name]
-            shared = np.ndim(value) == len(shape)
-            given[name] = _array(name, value, shape if shared else (n, *shape)) if np.ndim(value) else np.full(1, value, np.float64)
+            number = np.ndim(value) == 0 and len(shape) < 2  # of all elements and all entries
+            shared = number or np.ndim(value) == len(shape)
+            given[name] = np.full(shape, value, np.float64) if number else _array(name, value, shape if shared else (n, *shape))
             setattr(block, name, given[name].ctypes.data)
             setattr(block, name + "_stride", 0 if shared else int(np.prod(shape)))
         if tree is not None:

@@ -148,6 +148,30 @@ class Numbers(unittest.TestCase):
         np.testing.assert_allclose(at["height"], [-0.1, 0, 0.1], atol=1e-15)
         np.testing.assert_allclose(at["point"], [[-0.5, -0.1], [0, 0], [0.5, 0.1]], atol=1e-15)
 
+    def test_one_number_for_all_entries(self):
+        """Of 500 elements, the last ones of which would read far behind one number that is taken for an array of them."""
+        rng = np.random.default_rng(2)
+        slave = rng.uniform([-0.9, -0.9, -0.1], [0.9, 0.9, 0.05], (500, 3))
+        start = ents.Model(FIRST)
+        unknowns = ents.Model({**FIRST, "contact": {"normal": {"type": "augmented_multiplier", "stiffness": 400},
+                                                    "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 200}}})
+        self.assertEqual(unknowns.layout.multipliers, 3)
+        state = unknowns.state_init(1)[0]
+        for model, name, shape, more in ((start, "start", (2,), {}), (unknowns, "multiplier", (3,), {"state": state}), (start, "area", (), {})):
+            for value in (0.25, np.float64(0.25), np.array(0.25)):
+                whole = model.evaluate(slave, QUAD, "residual gap", **{name: np.full((500, *shape), 0.25)}, **more)
+                number = model.evaluate(slave, QUAD, "residual gap", **{name: value}, **more)
+                self.assertEqual(number["residual"].tobytes(), whole["residual"].tobytes(), name)
+                self.assertEqual(number["gap"].tobytes(), whole["gap"].tobytes(), name)
+        for name in ("master", "surface_coordinates"):
+            with self.assertRaises(ents.Error) as caught:
+                start.evaluate(slave, **{"master": QUAD, name: 0.25})
+            self.assertEqual(caught.exception.status, ents.Status.BAD_COUNT)
+            self.assertIn(name, str(caught.exception))
+        with self.assertRaises(ents.Error) as caught:  # a state of 0.25 is none
+            unknowns.evaluate(slave, QUAD, state=0.25, multiplier=0.0)
+        self.assertEqual(caught.exception.status, ents.Status.BAD_STATE)
+
     def test_threads_and_batches_give_the_same_bits(self):
         model = ents.Model(FIRST)
         rng = np.random.default_rng(1)
