@@ -279,15 +279,15 @@ class Model:
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 
-        Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message".
+        Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message": those
+        of this call's range. Where ranges share `out`, the last call's are left in it: look at "status".
         """
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
                                    state_begin=state, multiplier=multiplier)
         result, block_out = self._output(len(slave), want, out)
         report = self._call("evaluate", first, len(slave) - first if count is None else count, block, block_out)
-        if out is None:
-            result.update(step_factor=report.step_factor, message=report.message.decode())
+        result.update(step_factor=report.step_factor, message=report.message.decode())
         return result
 
     def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None):

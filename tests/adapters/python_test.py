@@ -490,6 +490,12 @@ class Errors(unittest.TestCase):
         self.assertEqual(r["status"].tolist(), [0, ents.Status.DEEP_PENETRATION])
         self.assertTrue(0 < r["step_factor"] < 1)
         self.assertTrue(r["message"])
+        again = model.evaluate([[0, 0, 0.5], [0.1, 0, 0.5]], QUAD, out=r)
+        self.assertEqual((again["status"].tolist(), again["step_factor"], again["message"]), ([0, 0], 1, ""))
+        model.evaluate([[0, 0, 0.5], [0.1, 0, -0.5]], QUAD, out=r, first=0, count=1)
+        self.assertEqual((r["step_factor"], r["message"]), (1, ""))
+        model.evaluate([[0, 0, 0.5], [0.1, 0, -0.5]], QUAD, out=r, first=1, count=1)
+        self.assertTrue(0 < r["step_factor"] < 1 and "penetration_limit" in r["message"])
 
 
 if __name__ == "__main__":
