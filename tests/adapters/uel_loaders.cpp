@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Programs that are not Abaqus but load its user elements; they have none of Abaqus's services.
+#include "calculix_host.hpp"
 #include "hosts.hpp"
 #include "uel_host.hpp"
 
@@ -12,6 +13,7 @@ std::vector<HostKind> hosts() {
        false, 0, true, false},
       {"oofem", [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::oofem); },
        false},
+      {"calculix_u1a", [](const Elements& e) { return std::make_unique<CalculixHost>(e, "U1A"); }, true, 3},
   };
 }
 
