@@ -61,6 +61,7 @@ CCX_API void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ip
     stop("*USER SECTION: the first constant is the number of PROPS");
   int nprops = static_cast<int>(constants[0]);
   if (ndofel > leading_dimension) stop("more than 20 nodes");
+  ccx::check_history("U1A", *nelem, nsvars, xstateini, xstate);
   const int* nodes = kon + ipkon[*nelem - 1];
   double coords[leading_dimension], u[leading_dimension], du[leading_dimension],
       still[leading_dimension] = {}, rhs[leading_dimension], energy[8] = {},
