@@ -45,9 +45,11 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   case Program::abaqus:
     break;
   case Program::moose: // U is the old solution, DU leads to the present one
+  case Program::moose_mesh:
     c.u = old;
     c.props.push_back(2);
-    c.null_flags = true;
+    c.null_flags = program_ == Program::moose;
+    c.lflags = {1, 1, 0, 1, 1}; // but for the third they are what the stack has there
     c.kstep = c.kinc = 0;
     c.pnewdt = 0.123;
     break;
@@ -63,7 +65,21 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
 
 Answer UelHost::evaluate(int element, const std::vector<double>& displacement) {
   UelCall c = call(element, displacement);
-  c();
+  if (program_ == Program::moose_mesh) { // stiffness, then residual: each from the history of before
+    c.lflags[2] = 4;
+    c();
+    UelCall residual = call(element, displacement);
+    residual.lflags[2] = 5;
+    residual();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.ndofel); ++i) {
+      if (c.rhs[i] != 0 && !std::isnan(c.rhs[i]))
+        throw std::runtime_error("a residual besides the stiffness");
+      c.rhs[i] = residual.rhs[i];
+    }
+    for (std::size_t i = 0; i < c.svars.size(); ++i) c.svars[i] = residual.svars[i];
+  } else {
+    c();
+  }
   Answer answer;
   const auto n = static_cast<std::size_t>(c.ndofel);
   if (program_ == Program::abaqus && c.pnewdt < 1) { // the others do not look at it

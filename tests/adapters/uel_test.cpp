@@ -121,6 +121,28 @@ TEST_F(Uel, PerturbationIsLinearAboutTheBaseState) {
   }
 }
 
+TEST_F(Uel, MooseAsksWithNumbersOfItsOwn) {
+  UelHost moose(problem_.elements, UelHost::Program::moose_mesh);
+  moose.begin(std::vector<double>(problem_.target.size()));
+  const auto asked = [&](int what) {
+    UelCall c = moose.call(0, pressed(problem_));
+    c.lflags[2] = what;
+    c();
+    return c;
+  };
+  UelCall reference = request(1), both = asked(0), stiffness = asked(4), residual = asked(5);
+  reference();
+  const auto n = static_cast<std::size_t>(both.ndofel);
+  EXPECT_TRUE(same(both.rhs, reference.rhs, n));
+  EXPECT_TRUE(same(residual.rhs, reference.rhs, n));
+  EXPECT_TRUE(zero(stiffness.rhs, n));
+  EXPECT_TRUE(same(both.amatrx, reference.amatrx, n * n));
+  EXPECT_TRUE(same(stiffness.amatrx, reference.amatrx, n * n));
+  EXPECT_TRUE(zero(residual.amatrx, n * n));
+  for (UelCall* c : {&both, &stiffness, &residual})
+    EXPECT_TRUE(same(c->svars, reference.svars, reference.svars.size())) << c->lflags[2];
+}
+
 TEST_F(Uel, LargestElementNumber) {
   UelCall c = request(1);
   c.jelem = 2147483647;

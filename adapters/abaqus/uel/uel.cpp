@@ -24,6 +24,13 @@ enum class Request {
   perturbation_output = 100
 };
 
+/// MOOSE has numbers of its own there, 0, 4 and 5 for both, stiffness and residual, or passes no LFLAGS.
+Request requested(const int* lflags, bool moose) {
+  const int what = lflags ? lflags[2] : 0;
+  if (moose && what == 4) return Request::stiffness;
+  return static_cast<Request>(what ? what : 1);
+}
+
 void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int mlvarx) {
   for (int k = 0; rhs && k < columns; ++k)
     for (int i = 0; i < dofs; ++i) rhs[i + static_cast<std::ptrdiff_t>(k) * mlvarx] = value;
@@ -38,8 +45,10 @@ ENTS_ENTRY(uel, UEL,
             double*, int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*,
             int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
   const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
-  const auto request = static_cast<Request>(lflags && lflags[2] ? lflags[2] : 1);
-  const bool perturbation = lflags && lflags[3] == 1;
+  const int option = options({props}, *nprops);
+  const bool moose = option > 0 && (option & option_old_displacement);
+  const Request request = requested(lflags, moose);
+  const bool perturbation = !moose && lflags && lflags[3] == 1; // MOOSE sets LFLAGS(3) alone
   fill(0, rhs, amatrx, dofs, columns, *mlvarx);
   if (request == Request::damping || request == Request::mass || request == Request::perturbation_output)
     return;
@@ -54,8 +63,7 @@ ENTS_ENTRY(uel, UEL,
   e.property_count = *nprops;
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
-  const int option = options(e.properties, e.property_count);
-  if (option > 0 && (option & option_old_displacement)) e.increment = {du, 1, e.dofs};
+  if (moose) e.increment = {du, 1, e.dofs};
   e.history = {svars};
   e.history_size = *nsvars;
   e.sign = -1; // RHS is external minus internal force
@@ -63,7 +71,8 @@ ENTS_ENTRY(uel, UEL,
   if (request != Request::stiffness && !perturbation) e.residual = {rhs, 1, e.dofs};
   if (request == Request::residual_and_stiffness || request == Request::stiffness)
     e.tangent = {amatrx, 1, dofs};
-  if (request == Request::residual_and_stiffness && !perturbation) {
+  // MOOSE asks for residual and stiffness in turn, with the history of before each time: the last one stays.
+  if ((request == Request::residual_and_stiffness && !perturbation) || moose) {
     e.history_end = {svars};
     if (energy) e.energy = energy + 1; // elastic strain energy
   }
