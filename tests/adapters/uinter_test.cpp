@@ -117,6 +117,32 @@ TEST_F(Uinter, NoMasterIsNoContact) {
   EXPECT_EQ(c.statev[0], 0);
 }
 
+TEST_F(Uinter, APointThatHasLeftTheMasterLandsWithoutHistory) {
+  for (const int d : {2, 3}) {
+    const auto land = [&](Call& c) {
+      c.rdisp[0] = 0.02, c.rdisp[1] = 0.7, c.rdisp[2] = -0.2;
+      c.place(0.9, 0.4);
+      c();
+    };
+    Call fresh(d), back(d);
+    fresh.props[0] = back.props[0] = d == 2 ? 63 : 62;
+    land(fresh);
+    back.rdisp[0] = 0.02;
+    back.place(0.15, -0.35);
+    back();
+    ASSERT_EQ(back.statev[0], 1);
+    back.rdisp[0] = -1e36;
+    back();
+    EXPECT_EQ(back.lopenclose, 0);
+    for (std::size_t i = 0; i < back.statev.size(); ++i) EXPECT_EQ(back.statev[i], 0) << i;
+    land(back);
+    const auto n = static_cast<std::size_t>(d);
+    EXPECT_GT(fresh.stress[0], 0);
+    EXPECT_EQ(std::memcmp(back.stress.data(), fresh.stress.data(), n * sizeof(double)), 0);
+    EXPECT_EQ(std::memcmp(back.ddsddr.data(), fresh.ddsddr.data(), n * n * sizeof(double)), 0);
+  }
+}
+
 TEST_F(Uinter, OpensAndCloses) {
   Call c(2);
   for (const double closing : {-0.1, 0.1, -0.1}) {

@@ -63,7 +63,8 @@ ENTS_ENTRY(uinter, UINTER,
     abaqus::stop();
     return;
   }
-  if (rdisp[0] < no_master) {
+  if (rdisp[0] < no_master) { // where it lands again it has no history
+    std::fill(statev, statev + *nstatv, 0.0);
     if (*lopenclose >= 0) *lopenclose = 0;
     return;
   }
