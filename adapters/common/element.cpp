@@ -73,7 +73,7 @@ std::string read_properties(const Element& e, Arguments& arguments) {
   if (!model.model) return model.error;
   arguments.model = &model;
   arguments.area = area;
-  arguments.row = model.row(e.number);
+  arguments.row = e.listed && e.number >= 0 ? model.row(e.number) : nullptr;
   if (area == 0) {
     if (!arguments.row)
       return entry(2) + ", the area, is 0 and there is no line for this element in " +

@@ -43,6 +43,7 @@ enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative
 struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none
+  bool listed = true;       ///< the number is that of an element, which ents_k.txt may have a line for
   int nodes = 0; ///< slave, master nodes of the segment, then one for the multipliers if the model has any
   int dofs = 0;  ///< per node
   int coordinates = 0;         ///< per node

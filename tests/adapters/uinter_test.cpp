@@ -143,6 +143,28 @@ TEST_F(Uinter, APointThatHasLeftTheMasterLandsWithoutHistory) {
   }
 }
 
+TEST_F(Uinter, ALineOfTheTableIsAnElementsAndNoNodes) {
+  std::ofstream("ents_64.json") << std::ifstream("ents_62.json").rdbuf();
+  std::ofstream("ents_64.txt") << "17 0.5  0 0  3 0  3 2  0 2\n";
+  Call listed(3), plain(3);
+  listed.props[0] = 64, plain.props[0] = 62;
+  for (Call* c : {&listed, &plain}) {
+    c->rdisp[0] = 0.02;
+    c->place(0.15, -0.35);
+    (*c)();
+  }
+  EXPECT_GT(plain.stress[0], 0);
+  EXPECT_EQ(std::memcmp(listed.stress.data(), plain.stress.data(), 3 * sizeof(double)), 0);
+  Call selfcheck(3);
+  selfcheck.props[0] = 64, selfcheck.props[2] = 1, selfcheck.nprops = 3;
+  selfcheck.rdisp[0] = 0.02;
+  selfcheck.place(0.15, -0.35);
+  selfcheck();
+  const auto messages = abaqus_messages();
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].text.find("17"), std::string::npos) << messages[0].text;
+}
+
 TEST_F(Uinter, OpensAndCloses) {
   Call c(2);
   for (const double closing : {-0.1, 0.1, -0.1}) {
