@@ -87,6 +87,10 @@ std::string read_properties(const Element& e, Arguments& arguments) {
 /// @return what is wrong with the element's sizes; "" if nothing
 std::string check_sizes(const Element& e, const LoadedModel& model) {
   const ents_layout& layout = model.layout;
+  if (layout.multipliers && !e.host->multipliers)
+    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
+                        "contact.normal.type, "
+                        "\"augmented\" for one";
   const int needed = 1 + layout.nodes + (layout.multipliers ? 1 : 0);
   if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers ||
       layout.state_size > largest_state)
@@ -100,10 +104,6 @@ std::string check_sizes(const Element& e, const LoadedModel& model) {
   if (e.dofs < layout.dimension || e.coordinates < layout.dimension)
     return model.file + " is a model in " + std::to_string(layout.dimension) + "D, the element has " +
            std::to_string(std::min(e.dofs, e.coordinates)) + " coordinates and degrees of freedom a node";
-  if (layout.multipliers && e.position && !e.displacement)
-    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
-                        "contact.normal.type, "
-                        "\"augmented\" for one";
   if (e.history_size < layout.state_size)
     return model.file + " needs " + std::to_string(layout.state_size) +
            " history variables, the element has " + std::to_string(e.history_size) + ". Write " +

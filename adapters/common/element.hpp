@@ -31,6 +31,7 @@ struct Host {
   const char* properties;     ///< "*UEL PROPERTY, entry "
   std::string (*directory)(); ///< the job's directory, see model_number
   bool spare_nodes = false;   ///< the host's element may have more nodes than needed
+  bool multipliers = true;    ///< its elements can carry them as unknowns
 };
 
 /// Properties of an element, in this order in every host:

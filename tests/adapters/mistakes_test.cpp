@@ -157,6 +157,19 @@ TEST_P(Mistakes, EndTheJobWithAdvice) {
   }
 }
 
+TEST_P(Mistakes, MultipliersWhereThereIsNoPlaceForThemAreRefused) {
+  if (GetParam().multipliers) return;
+  const auto with = [](const char* name) {
+    const int model = problem(name).elements.model;
+    return [model](Elements& e) {
+      e.model = model;
+      for (auto& nodes : e.nodes) nodes.push_back(nodes.back()); // the node that they would have
+    };
+  };
+  for (const char* name : {"quad4_multiplier", "quad4_friction_multiplier"})
+    expect(name, with(name), "multipliers as unknowns", "\"augmented\"");
+}
+
 TEST_P(Mistakes, InTheNumberOfNodesNameTheRightOne) {
   expect(
       "a model with more nodes", [](Elements& e) { e.model = 944; }, "ents_944.json");

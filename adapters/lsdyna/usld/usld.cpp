@@ -22,8 +22,8 @@ using namespace ents_adapter;
 
 constexpr std::ptrdiff_t nlq = ENTS_LSDYNA_NLQ;
 constexpr int nodes = 8;
-constexpr Host host{"nodes: ", "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry ",
-                    [] { return std::string(); }, true};
+constexpr Host host{
+    "nodes: ", "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry ", [] { return std::string(); }, true, false};
 
 [[noreturn]] void stop() {
   int code = 2;
