@@ -10,7 +10,7 @@ void UelCall::operator()(UelFunction* function) {
   double time[2] = {0.5, 1.5}, dtime = 0.5, period = 1, params[3] = {}, adlmag = 0;
   std::vector<double> still(static_cast<std::size_t>(ndofel), 0.0),
       predef(2 * static_cast<std::size_t>(nnode));
-  du.resize(static_cast<std::size_t>(mlvarx), std::numeric_limits<double>::quiet_NaN());
+  du.resize(static_cast<std::size_t>(nrhs * mlvarx), std::numeric_limits<double>::quiet_NaN());
   function(rhs.data(), amatrx.data(), svars.data(), energy.data(), &ndofel, &nrhs, &nsvars, props.data(),
            &nprops, coords.data(), &mcrd, &nnode, u.data(), du.data(), still.data(), still.data(), &jtype,
            time, &dtime, &kstep, &kinc, &jelem, null_flags ? nullptr : params, &zero, nullptr,

@@ -107,17 +107,25 @@ TEST_F(Uel, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
 TEST_F(Uel, PerturbationIsLinearAboutTheBaseState) {
   UelCall base = request(2);
   base();
-  UelCall c = request(1);
-  c.lflags[3] = 1;
-  for (std::size_t i = 0; i < c.du.size(); ++i) c.du[i] = 1e-3 * static_cast<double>(i + 1);
-  c();
-  const auto n = static_cast<std::size_t>(c.ndofel);
-  EXPECT_TRUE(same(c.amatrx, base.amatrx, n * n));
-  EXPECT_TRUE(zero(c.svars, c.svars.size()));
-  for (std::size_t i = 0; i < n; ++i) {
-    double force = 0;
-    for (std::size_t j = 0; j < n; ++j) force -= base.amatrx[i + j * n] * c.du[j];
-    EXPECT_DOUBLE_EQ(c.rhs[i], force);
+  for (const int columns : {1, 2}) { // of a steady state: real and imaginary part
+    UelCall c = request(1);
+    c.lflags[3] = 1;
+    c.nrhs = columns;
+    const auto n = static_cast<std::size_t>(c.ndofel), column = static_cast<std::size_t>(c.mlvarx);
+    c.du.assign(static_cast<std::size_t>(columns) * column, std::nan(""));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        c.du[k * column + i] = 1e-3 * static_cast<double>(i * i + 7 * k + 1);
+    c();
+    EXPECT_TRUE(same(c.amatrx, base.amatrx, n * n));
+    EXPECT_TRUE(zero(c.svars, c.svars.size()));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k)
+      for (std::size_t i = 0; i < n; ++i) {
+        double force = 0;
+        for (std::size_t j = 0; j < n; ++j) force -= base.amatrx[i + j * n] * c.du[k * column + j];
+        EXPECT_DOUBLE_EQ(c.rhs[k * column + i], force) << "column " << k;
+      }
+    c.rhs.check_untouched("padding of RHS", columns == 1 ? n : column + n, column - n);
   }
 }
 

@@ -81,7 +81,8 @@ ENTS_ENTRY(uel, UEL,
   if (result.outcome == Outcome::done) {
     if (result.message[0]) abaqus::tell(abaqus::Severity::information, result.message);
     // About the base state U the forces of the perturbation DU are -K DU.
-    if (perturbation && e.tangent) negative_product({amatrx, 1, dofs}, dofs, du, rhs);
+    for (std::ptrdiff_t k = 0; perturbation && e.tangent && k < columns; ++k)
+      negative_product({amatrx, 1, dofs}, dofs, du + k * *mlvarx, rhs + k * *mlvarx);
     return;
   }
   const bool cut = result.outcome == Outcome::cut && pnewdt;
