@@ -171,6 +171,32 @@ TEST_F(Uel, DeepPenetrationCutsTheIncrement) {
   EXPECT_NE(only_message(1).find("penetration_limit"), std::string::npos);
 }
 
+TEST_F(Uel, DeepPenetrationIsToldWhereNoIncrementIsCut) {
+  const Problem deep = problem("line2_cuts");
+  std::vector<double> u(deep.target.size());
+  u[static_cast<std::size_t>(deep.elements.nodes[0][0] * 2 + 1)] = -0.4;
+  const auto call = [&](int what, bool perturbation) {
+    UelCall c = UelHost(deep.elements, UelHost::Program::abaqus).call(0, u);
+    c.lflags[2] = what, c.lflags[3] = perturbation;
+    return c;
+  };
+  for (const auto& [what, perturbation] : {std::pair{2, false}, {6, false}, {1, true}, {2, true}}) {
+    UelCall c = call(what, perturbation);
+    EXPECT_THROW(c(), HostStopped) << what;
+    EXPECT_EQ(c.pnewdt, 1e36);
+    const std::string text = only_message(-2);
+    EXPECT_NE(text.find("penetration_limit"), std::string::npos) << text;
+    EXPECT_NE(text.find("LFLAGS(3) = " + std::to_string(what)), std::string::npos) << text;
+  }
+  UelCall half = call(5, false);
+  half();
+  EXPECT_EQ(half.pnewdt, 1e36);
+  EXPECT_TRUE(zero(half.rhs, static_cast<std::size_t>(half.ndofel)));
+  const std::string text = only_message(-1);
+  EXPECT_NE(text.find("penetration_limit"), std::string::npos) << text;
+  EXPECT_NE(text.find("half-increment"), std::string::npos) << text;
+}
+
 TEST_F(Uel, DivergedIterationCutsTheIncrement) {
   UelCall c = request(1);
   c.u[3] = std::nan("");

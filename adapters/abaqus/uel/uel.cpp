@@ -2,6 +2,7 @@
 // Abaqus/Standard UEL, and the programs that load one: MOOSE and OOFEM, which pass fewer arguments.
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "../../common/element.hpp"
 #include "../abaqus.hpp"
@@ -85,9 +86,24 @@ ENTS_ENTRY(uel, UEL,
       negative_product({amatrx, 1, dofs}, dofs, du + k * *mlvarx, rhs + k * *mlvarx);
     return;
   }
-  const bool cut = result.outcome == Outcome::cut && pnewdt;
+  // Abaqus looks at PNEWDT where it asks for both, in a general step. A half-increment residual, from which
+  // it chooses the next time step, may lack an element; a stiffness or an initial acceleration may not.
+  const bool recoverable = result.outcome == Outcome::cut;
+  const bool counts = !abaqus::is_host() || (request == Request::residual_and_stiffness && !perturbation);
+  const bool cut = recoverable && counts && pnewdt;
   if (cut) *pnewdt = result.step_factor;
-  abaqus::tell(cut ? abaqus::Severity::information : abaqus::Severity::error, result.message);
+  if (recoverable && !counts) {
+    const bool left_out = request == Request::residual;
+    const std::string text =
+        std::string(result.message) +
+        (left_out ? "; left out of the half-increment residual"
+                  : "; Abaqus cuts no increment here, LFLAGS(3) = " + std::to_string(lflags[2]) +
+                        (perturbation ? " in a perturbation step" : ""));
+    abaqus::tell(left_out ? abaqus::Severity::warning : abaqus::Severity::error, text.c_str());
+    if (left_out) return;
+  } else {
+    abaqus::tell(cut ? abaqus::Severity::information : abaqus::Severity::error, result.message);
+  }
   // A host that can neither cut nor stop gets numbers that it cannot take for a solution.
   if (!abaqus::is_host() || (!cut && !abaqus::stop()))
     fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
