@@ -41,7 +41,8 @@ CalculixHost::CalculixHost(const Elements& elements, const std::string& element_
     for (const int node : element) kon_.push_back(node + 1);
     ielprop_.push_back(static_cast<int>(prop_.size()));
     if (uel_) prop_.insert(prop_.end(), {3, elements.symmetric ? 0.0 : 1.0});
-    prop_.insert(prop_.end(), {static_cast<double>(elements.model), elements.area[ipkon_.size() - 1], 0});
+    prop_.insert(prop_.end(), {static_cast<double>(elements.model), elements.area[ipkon_.size() - 1],
+                               static_cast<double>(elements.options)});
     lakon_ += element_type + "A \x01\x03";
     lakon_ += static_cast<char>(element.size());
   }

@@ -38,6 +38,7 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   const std::vector<double> old = begin_.empty() ? std::vector<double>(c.u.size()) : gather(element, begin_);
   for (std::size_t i = 0; i < c.u.size(); ++i) c.du.push_back(c.u[i] - old[i]);
   c.props = {static_cast<double>(elements_.model), area(element)};
+  if (elements_.options != 0) c.props.push_back(elements_.options);
   for (std::size_t i = 0; i < c.svars.size(); ++i)
     c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
   c.jelem = 90001 + element;

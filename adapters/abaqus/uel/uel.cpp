@@ -11,8 +11,11 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
-                    abaqus::job_directory};
+constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
+                    .history = "*USER ELEMENT, VARIABLES=",
+                    .properties = "*UEL PROPERTY, entry ",
+                    .directory = abaqus::job_directory,
+                    .options = option_selfcheck | option_old_displacement | option_negative_tangent};
 
 /// LFLAGS(3): what is to be formed.
 enum class Request {

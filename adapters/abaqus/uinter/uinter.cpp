@@ -11,12 +11,11 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
-                    "*SURFACE INTERACTION, DEPVAR= 3 and ",
-                    "*SURFACE INTERACTION, property ",
-                    abaqus::job_directory,
-                    false,
-                    false};
+constexpr Host host{.nodes = "a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
+                    .history = "*SURFACE INTERACTION, DEPVAR= 3 and ",
+                    .properties = "*SURFACE INTERACTION, property ",
+                    .directory = abaqus::job_directory,
+                    .multipliers = false};
 constexpr double no_master = -1e35; // Abaqus: -1e36
 /// STATEV: 1 if the start is known, the start, then the model's state.
 constexpr int start_size = 3;

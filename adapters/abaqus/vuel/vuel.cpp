@@ -12,12 +12,12 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"*USER ELEMENT, NODES=",
-                    "*USER ELEMENT, VARIABLES=",
-                    "*UEL PROPERTY, entry ",
-                    abaqus::job_directory,
-                    false,
-                    false};
+constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
+                    .history = "*USER ELEMENT, VARIABLES=",
+                    .properties = "*UEL PROPERTY, entry ",
+                    .directory = abaqus::job_directory,
+                    .multipliers = false,
+                    .options = option_selfcheck | option_negative_tangent};
 
 enum Operation { form_mass = 1, form_internal_force = 2, form_external_force = 3 }; // lflags(3)
 constexpr int internal_energy = 2;                                                  // energy(:,3)
