@@ -91,7 +91,7 @@ std::string read_properties(const Element& e, Arguments& arguments) {
     if (!arguments.row)
       return entry(2) + ", the area, is 0 and there is no line for this element in " +
              model.file.substr(0, model.file.size() - 4) +
-             "txt; write \"ELEMENT AREA\" there, or the area in the deck";
+             "txt; write \"ELEMENT AREA\" there, or the area in the deck" + e.host->numbers;
     arguments.area = arguments.row->area;
   }
   return "";

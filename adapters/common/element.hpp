@@ -36,6 +36,7 @@ struct Host {
   bool spare_nodes = false;       ///< the host's element may have more nodes than needed
   bool multipliers = true;        ///< its elements can carry them as unknowns
   int options = option_selfcheck; ///< those that mean something there
+  const char* numbers = "";       ///< what to know of the elements' numbers where one is not in the table
 };
 
 /// Properties of an element, in this order in every host:

@@ -396,6 +396,11 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
          c.props = {47, 0};
        },
        "ents_47.txt"},
+      {"element missing, of a part",
+       [](UelCall& c) {
+         c.props = {47, 0};
+       },
+       "With *PART or *INSTANCE"},
       {"area 0 in the table",
        [](UelCall& c) {
          c.props = {48, 0};
