@@ -9,6 +9,11 @@
 
 namespace abaqus {
 
+/// JELEM is Abaqus's own number where a deck has parts.
+inline constexpr char numbers[] =
+    ". With *PART or *INSTANCE Abaqus has numbers of its own: write the area as "
+    "property 2, one ELSET per area, or use a flat deck";
+
 /// GETOUTDIR, with a separator at its end.
 std::string job_directory();
 

@@ -39,6 +39,7 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
                              const int* calcul_qa, const double* xstateini, double* xstate,
                              const int* nstate_, std::size_t) {
   Element e = describe(*nelem, lakonl, prop + ielprop[*nelem - 1]);
+  ccx::check_history("U1E", *nelem, *nstate_, xstateini, xstate);
   const int* nodes = kon + ipkon[*nelem - 1];
   const int dofs = 3 * e.nodes;
   const auto nodal = [&](int i) {

@@ -98,11 +98,14 @@ step "linking ccx with libents_calculix.so"
 rm -rf "$work/patched"
 python3 "$here/patch.py" "$ccx" "$work/patched"
 cd "$work/patched"
+c="-O2 -w -I/usr/include/spooles -I$ccx -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1"
+libraries='-lspooles -lpthread -larpack -llapack -lblas -lm'
+# shellcheck disable=SC2086 # words
 {
-  for file in *.c; do gcc -O2 -w -I/usr/include/spooles -I"$ccx" -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1 -c "$file"; done &&
+  for file in *.c; do gcc $c -c "$file"; done &&
     for file in *.f; do gfortran $fortran -c "$file"; done &&
     gfortran -O2 -fopenmp -o ../ccx_ents "$ccx/ccx_2.20.o" ./*.o "$ccx/ccx_2.20.a" \
-      -L"$build/lib" -lents_calculix -lents -Wl,-rpath,"$build/lib" -lspooles -lpthread -larpack -llapack -lblas -lm
+      -L"$build/lib" -lents_calculix -lents -Wl,-rpath,"$build/lib" $libraries
 } >"$log" 2>&1 || failed "ccx did not link"
 [ -z "$only_build" ] || exit 0
 
@@ -129,12 +132,37 @@ python3 "$here/example/native.py" write "$work/native"
 for folder in "$work"/native/*; do (cd "$folder" && OMP_NUM_THREADS=2 "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $folder"; done
 python3 "$here/example/native.py" compare "$work/native" || status=1
 
-# 7. A mistake in the deck reaches the user as ccx's own errors do.
-step "a mistake"
+# 7. A deck without U1E and U1A: ccx as it was, iterations included.
+step "ccx's own contact with friction, in ccx without the changes, too"
+cd "$work/native/friction"
+# shellcheck disable=SC2086 # words
+gfortran -O2 -fopenmp -o "$work/ccx_plain" "$ccx/ccx_2.20.o" "$ccx/ccx_2.20.a" $libraries >"$log" 2>&1 || failed "ccx did not link"
+for program in ccx_plain ccx_ents; do
+  OMP_NUM_THREADS=1 "$work/$program" job >"$log" 2>&1 || failed "$program stopped"
+  mv job.dat $program.dat
+  mv job.sta $program.sta
+done
+cmp ccx_plain.dat ccx_ents.dat && cmp ccx_plain.sta ccx_ents.sta || { echo "run.sh: $PWD: ccx is another one for decks without U1E" >&2; status=1; }
+
+# 8. Mistakes reach the user as ccx's own errors do.
+step "mistakes"
+# shellcheck disable=SC2086 # words
+if gcc $c -DLONGLONG -fsyntax-only "$work/patched/nonlingeo.c" >"$log" 2>&1 || ! grep 'error: .*LONGLONG' "$log"; then
+  echo "run.sh: integers of 8 bytes were not refused" >&2
+  status=1
+fi
 cd "$work/sphere"
-code=0
+refused() { # by the element $1, with the words $2
+  code=0
+  OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
+  grep "ERROR in $1.*$2" "$log" && [ $code -eq 201 ] || { echo "run.sh: no message, or exit status $code instead of 201" >&2; status=1; }
+}
+for element in U1E U1A; do
+  python3 "$here/example/make.py" sphere $element .
+  sed -i 's/^\*STEP, NLGEOM/*STEP/' job.inp
+  refused $element 'STEP, NLGEOM'
+done
 python3 "$here/example/make.py" sphere U1E .
 rm ents_1.json
-OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
-grep 'ERROR in U1E.*ents_1.json' "$log" && [ $code -eq 201 ] || { echo "run.sh: no message, or exit status $code instead of 201" >&2; status=1; }
+refused U1E ents_1.json
 exit $status

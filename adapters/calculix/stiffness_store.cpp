@@ -21,6 +21,16 @@ void stop(const char* label, const char* message) {
   std::_Exit(201); // ccx's own status; other threads are still running
 }
 
+void check_history(const char* label, int element, int size, const double* begin, const double* end) {
+  if (size == 0 || (begin && end)) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "ents, element %d: this step is linear, and ccx keeps no history in it: write *STEP, NLGEOM "
+                "(*BUCKLE and *FREQUENCY are linear, too)",
+                element);
+  stop(label, text);
+}
+
 } // namespace ccx
 
 /// Stiffness pass of U1E and U1A: s = K, no mass, no load.

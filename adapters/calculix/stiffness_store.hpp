@@ -19,4 +19,7 @@ std::vector<double>& stiffness(int element);
 /// "*ERROR in LABEL: message" into ccx's output, and its exit status.
 [[noreturn]] void stop(const char* label, const char* message);
 
+/// Stops where ccx has made no room for `size` history variables: in linear steps.
+void check_history(const char* label, int element, int size, const double* begin, const double* end);
+
 } // namespace ccx

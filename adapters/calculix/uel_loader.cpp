@@ -61,6 +61,7 @@ CCX_API void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ip
     stop("*USER SECTION: the first constant is the number of PROPS");
   int nprops = static_cast<int>(constants[0]);
   if (ndofel > leading_dimension) stop("more than 20 nodes");
+  ccx::check_history("U1A", *nelem, nsvars, xstateini, xstate);
   const int* nodes = kon + ipkon[*nelem - 1];
   double coords[leading_dimension], u[leading_dimension], du[leading_dimension],
       still[leading_dimension] = {}, rhs[leading_dimension], energy[8] = {},
@@ -81,9 +82,16 @@ CCX_API void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ip
   uel(rhs, amatrx.data(), svars.data(), energy, &ndofel, &nrhs, &nsvars, props.data(), &nprops, coords, &mcrd,
       &nnode, u, du, still, still, &jtype, times, &step, &kstep, &kinc, &jelem, params, &none, &none, &unused,
       predef, &one, lflags, &ndofel, &unused, &none, &pnewdt, &none, &none, &period);
+  if (pnewdt > 0 && pnewdt < 1) { // whatever else the element has left: the increment is repeated
+    qa[2] = qa[2] > 0 ? std::fmin(qa[2], pnewdt) : pnewdt;
+    std::fill(rhs, rhs + ndofel, 0.0);
+    std::fill(amatrx.begin(), amatrx.end(), 0.0);
+    svars.assign(xstateini + state, xstateini + state + nsvars);
+  }
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(rhs, rhs + ndofel, finite)) stop("the element's right-hand side is not finite");
+  if (!std::all_of(amatrx.begin(), amatrx.end(), finite)) stop("the element's stiffness is not finite");
   std::copy(svars.begin(), svars.end(), xstate + state);
-  if (!std::isfinite(rhs[0])) stop("the element's right-hand side is not finite");
-  if (pnewdt > 0 && pnewdt < 1) qa[2] = qa[2] > 0 ? std::fmin(qa[2], pnewdt) : pnewdt;
   for (int i = 0; i < ndofel; ++i) {
     if (*calcul_fn == 1)
       fn[static_cast<std::ptrdiff_t>(mi[1] + 1) * (nodes[i / 3] - 1) + 1 + i % 3] -= rhs[i];

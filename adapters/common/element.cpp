@@ -43,6 +43,14 @@ void say(Result& result, const Element& e, const std::string& text) {
     std::snprintf(result.message, sizeof result.message, "ents: %s", text.c_str());
 }
 
+/// The options that a host has, for who has taken another.
+std::string known_options(const Host& host) {
+  std::string text = "1 (selfcheck)";
+  if (host.options & option_old_displacement) text += ", 2 (displacements lack the increment)";
+  if (host.options & option_negative_tangent) text += ", 4 (the opposite sign)";
+  return text;
+}
+
 Result fail(const Element& e, const std::string& text) {
   Result result;
   result.outcome = Outcome::failed;
@@ -63,22 +71,27 @@ std::string read_properties(const Element& e, Arguments& arguments) {
     return entry(1) + " is " + std::to_string(number) + "; write the model's number k, 1 .. " +
            std::to_string(largest_model_number) + ", of the file ents_k.json";
   if (!(area >= 0) || !std::isfinite(area))
-    return entry(2) + " is " + std::to_string(area) +
-           "; write the tributary area of the slave node, > 0, or 0 to take it from ents_" +
-           std::to_string(static_cast<int>(number)) + ".txt";
+    return entry(2) + " is " + std::to_string(area) + "; write the tributary area of the slave node, > 0" +
+           (e.listed ? ", or 0 to take it from ents_" + std::to_string(static_cast<int>(number)) + ".txt"
+                     : std::string());
   arguments.options = options(e.properties, e.property_count);
-  if (arguments.options < 0) return entry(3) + ", the sum of options, is not 0 .. 7";
+  if (arguments.options < 0 || (arguments.options & ~e.host->options))
+    return entry(3) + " is " + std::to_string(e.properties(2)) + "; write 0 or the sum of options, here " +
+           known_options(*e.host);
 
   const LoadedModel& model = model_number(static_cast<int>(number), e.host->directory);
   if (!model.model) return model.error;
   arguments.model = &model;
   arguments.area = area;
-  arguments.row = model.row(e.number);
+  arguments.row = e.listed && e.number >= 0 ? model.row(e.number) : nullptr;
   if (area == 0) {
+    if (!e.listed)
+      return entry(2) + " is 0; write the tributary area of the slave node: there is no table, because this "
+                        "host does not tell the elements' numbers";
     if (!arguments.row)
       return entry(2) + ", the area, is 0 and there is no line for this element in " +
              model.file.substr(0, model.file.size() - 4) +
-             "txt; write \"ELEMENT AREA\" there, or the area in the deck";
+             "txt; write \"ELEMENT AREA\" there, or the area in the deck" + e.host->numbers;
     arguments.area = arguments.row->area;
   }
   return "";
@@ -87,6 +100,10 @@ std::string read_properties(const Element& e, Arguments& arguments) {
 /// @return what is wrong with the element's sizes; "" if nothing
 std::string check_sizes(const Element& e, const LoadedModel& model) {
   const ents_layout& layout = model.layout;
+  if (layout.multipliers && !e.host->multipliers)
+    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
+                        "contact.normal.type, "
+                        "\"augmented\" for one";
   const int needed = 1 + layout.nodes + (layout.multipliers ? 1 : 0);
   if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers ||
       layout.state_size > largest_state)
@@ -100,10 +117,6 @@ std::string check_sizes(const Element& e, const LoadedModel& model) {
   if (e.dofs < layout.dimension || e.coordinates < layout.dimension)
     return model.file + " is a model in " + std::to_string(layout.dimension) + "D, the element has " +
            std::to_string(std::min(e.dofs, e.coordinates)) + " coordinates and degrees of freedom a node";
-  if (layout.multipliers && e.position && !e.displacement)
-    return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
-                        "contact.normal.type, "
-                        "\"augmented\" for one";
   if (e.history_size < layout.state_size)
     return model.file + " needs " + std::to_string(layout.state_size) +
            " history variables, the element has " + std::to_string(e.history_size) + ". Write " +

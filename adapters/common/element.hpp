@@ -24,25 +24,30 @@ template <class T> struct Row {
   explicit operator bool() const { return data != nullptr; }
 };
 
+/// What a deck may add up in property 3.
+enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative_tangent = 4 };
+
 /// What a host calls the things that a user can get wrong: a number is put behind each.
 struct Host {
-  const char* nodes;          ///< "*USER ELEMENT, NODES="
-  const char* history;        ///< "*USER ELEMENT, VARIABLES="
-  const char* properties;     ///< "*UEL PROPERTY, entry "
-  std::string (*directory)(); ///< the job's directory, see model_number
-  bool spare_nodes = false;   ///< the host's element may have more nodes than needed
+  const char* nodes;              ///< "*USER ELEMENT, NODES="
+  const char* history;            ///< "*USER ELEMENT, VARIABLES="
+  const char* properties;         ///< "*UEL PROPERTY, entry "
+  std::string (*directory)();     ///< the job's directory, see model_number
+  bool spare_nodes = false;       ///< the host's element may have more nodes than needed
+  bool multipliers = true;        ///< its elements can carry them as unknowns
+  int options = option_selfcheck; ///< those that mean something there
+  const char* numbers = "";       ///< what to know of the elements' numbers where one is not in the table
 };
 
 /// Properties of an element, in this order in every host:
 ///   1  k, whole number: the model is ents_k.json
 ///   2  tributary area of the slave node [A], > 0; 0: from ents_k.txt
-///   3  options, a sum: 1 selfcheck; others are a host's own. May be absent
+///   3  a sum of the options that the host has. May be absent
 ///   4 ..  surface coordinates [m][d-1] of the master nodes. May be absent; zeros at the end do not count
-enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative_tangent = 4 };
-
 struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none
+  bool listed = true;       ///< the number is that of an element, which ents_k.txt may have a line for
   int nodes = 0; ///< slave, master nodes of the segment, then one for the multipliers if the model has any
   int dofs = 0;  ///< per node
   int coordinates = 0;         ///< per node
@@ -82,7 +87,7 @@ struct Result {
 /// @return what happened; the history is written for `done` only
 Result evaluate(const Element& element);
 
-/// The value of an option property; 0 if it is absent.
+/// The value of an option property; 0 if it is absent, -1 if it is no sum of options of any host.
 int options(const Row<const double>& properties, int count);
 
 /// result = -matrix vector, both [n]: forces of a small change about the present state.

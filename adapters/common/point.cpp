@@ -50,6 +50,7 @@ Result evaluate(const Point& p) {
   Element e;
   e.host = p.host;
   e.number = p.number;
+  e.listed = false; // it is a node's
   e.nodes = 1 + corners;
   e.dofs = e.coordinates = d;
   e.position = {position, 1, d};

@@ -108,6 +108,7 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   segment_.assign(n, -1);
   segment_begin_ = segment_;
   xi_.assign(n, 0.0);
+  xi_begin_ = xi_;
   state_begin_.assign(n * static_cast<std::size_t>(layout_.state_size), 0.0);
   check(ents_state_init(model_, signed_size(n), state_begin_.data(), layout_.state_size, &report), report);
   state_end_ = state_begin_;
@@ -175,6 +176,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   Forces result;
   auto report = made<ents_report>();
   const auto cut = [&](const ents_report& why) {
+    reject();
     result = {};
     result.step_factor = why.step_factor > 0 && why.step_factor < 1 ? why.step_factor : 0.5;
     result.message = why.message;
@@ -257,8 +259,16 @@ Forces BorderContact::evaluate(const double* u, double* r) {
 
 void BorderContact::accept() {
   segment_begin_ = segment_;
+  xi_begin_ = xi_;
   state_begin_ = state_end_;
   points_begin_ = points_;
+}
+
+void BorderContact::reject() {
+  segment_ = segment_begin_;
+  xi_ = xi_begin_;
+  state_end_ = state_begin_;
+  points_ = points_begin_;
 }
 
 } // namespace freefem

@@ -30,7 +30,7 @@ struct Options {
 struct Forces {
   std::vector<long> row, column; ///< of the entries of K; the same place may come again
   std::vector<double> value;     ///< [F/L]
-  double step_factor = 1;        ///< below 1: nothing was added; cut the step by this factor
+  double step_factor = 1;        ///< below 1: nothing was added; rejected, cut the step by this factor
   std::string message;           ///< why
 };
 
@@ -52,6 +52,9 @@ public:
 
   /// What the last `evaluate` found is the begin of the next increment.
   void accept();
+
+  /// The increment is thrown away: the next `evaluate` starts from its begin, as the first one did.
+  void reject();
 
 private:
   struct Term {
@@ -75,9 +78,9 @@ private:
   std::vector<double> weights_, coordinates_, points_;
   ents_master_mesh mesh_{};
   std::vector<double> tree_;
-  // History: at the begin of the increment, and as of the last evaluation.
+  // Where slave nodes are and their history: at the begin of the increment, and as of the last evaluation.
   std::vector<std::int64_t> segment_, segment_begin_;
-  std::vector<double> xi_, state_begin_, state_end_, points_begin_;
+  std::vector<double> xi_, xi_begin_, state_begin_, state_end_, points_begin_;
 };
 
 } // namespace freefem

@@ -3,9 +3,9 @@
 //
 //   load "ents"
 //   EntsContact contact(Th, slave, master, "model.json");           // labels of two borders of Th
-//   real factor = entsForces(contact, u[], r, I, J, C);             // r += R, triplets of K; factor < 1: cut
-//   the step by it entsAccept(contact);                                            // the increment has
-//   converged: its history counts
+//   real factor = entsForces(contact, u[], r, I, J, C);    // r += R, triplets of K; factor < 1: cut the step
+//   entsAccept(contact);                                   // the increment has converged: its history counts
+//   entsReject(contact);                                   // or it is thrown away: back to its begin
 #include <ff++.hpp>
 
 #include "border_contact.hpp"
@@ -127,13 +127,14 @@ private:
   Expression variable_, u_, r_, i_, j_, k_;
 };
 
-class Accept : public E_F0mps {
+/// The end of an increment.
+template <void (BorderContact::*end)()> class End : public E_F0mps {
 public:
-  explicit Accept(const basicAC_F0& args) : variable_(to<EntsContact*>(args[0])) {}
+  explicit End(const basicAC_F0& args) : variable_(to<EntsContact*>(args[0])) {}
   AnyType operator()(Stack stack) const override {
     EntsContact* variable = GetAny<EntsContact*>((*variable_)(stack));
     checked([&] {
-      made(variable).accept();
+      (made(variable).*end)();
       return 0;
     });
     return SetAny<long>(0L);
@@ -156,7 +157,8 @@ void load() {
   Global.Add("entsForces", "(",
              new Function<Forces, double, EntsContact*, KN<double>*, KN<double>*, KN<long>*, KN<long>*,
                           KN<double>*>);
-  Global.Add("entsAccept", "(", new Function<Accept, long, EntsContact*>);
+  Global.Add("entsAccept", "(", new Function<End<&BorderContact::accept>, long, EntsContact*>);
+  Global.Add("entsReject", "(", new Function<End<&BorderContact::reject>, long, EntsContact*>);
 }
 
 } // namespace

@@ -275,19 +275,19 @@ class Model:
         slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
         want       names of QUANTITIES, as one string or a list
         surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers]: one for
-                   all, or with a leading [n]
+                   all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 
-        Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message".
+        Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message": those
+        of this call's range. Where ranges share `out`, the last call's are left in it: look at "status".
         """
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
                                    state_begin=state, multiplier=multiplier)
         result, block_out = self._output(len(slave), want, out)
         report = self._call("evaluate", first, len(slave) - first if count is None else count, block, block_out)
-        if out is None:
-            result.update(step_factor=report.step_factor, message=report.message.decode())
+        result.update(step_factor=report.step_factor, message=report.message.decode())
         return result
 
     def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None):
@@ -297,7 +297,7 @@ class Model:
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier)
         result, block_out = self._output(len(slave), want, None)
-        report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, len(slave)))
+        report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, tree, len(slave)))
         result.update(step_factor=report.step_factor, message=report.message.decode())
         return result
 
@@ -313,8 +313,9 @@ class Model:
             if value is None:
                 continue
             shape = shapes[name]
-            shared = np.ndim(value) == len(shape)
-            given[name] = _array(name, value, shape if shared else (n, *shape)) if np.ndim(value) else np.full(1, value, np.float64)
+            number = np.ndim(value) == 0 and len(shape) < 2  # of all elements and all entries
+            shared = number or np.ndim(value) == len(shape)
+            given[name] = np.full(shape, value, np.float64) if number else _array(name, value, shape if shared else (n, *shape))
             setattr(block, name, given[name].ctypes.data)
             setattr(block, name + "_stride", 0 if shared else int(np.prod(shape)))
         if tree is not None:
@@ -485,21 +486,27 @@ class System:
     slave, master    combinations (begin, nodes, weights) if slave points or master nodes are not the host's nodes: sampling_points, smooth
     multiplier_equations [n][multipliers]
 
-    .residual [rows] and .matrix.data are added to: set them to zero before each assembly.
+    .residual [rows] and .matrix.data are added to: set them to zero before each assembly. Where the entries of each element lie is remembered: assign
+    another matrix, other indptr and indices or other equations, instead of writing into those that are there (equations are copied and
+    cannot be written to).
     """
 
     def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None):
-        self.slave_equations = _array("slave_equations", slave_equations, (None, None), np.int64)
-        self.master_equations = None if master_equations is None else _array("master_equations", master_equations, (None, None), np.int64)
-        self.multiplier_equations = None if multiplier_equations is None else _array("multiplier_equations", multiplier_equations, (None, None), np.int64)
+        self.slave_equations, self.master_equations, self.multiplier_equations = slave_equations, master_equations, multiplier_equations
         self.matrix = matrix
         if matrix is None and rows is None:
             raise Error(Status.NULL_ARGUMENT, "rows: say how many there are, or give a matrix")
         self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else rows)
         self._combinations = [None if points is None else _combination(points) for points in (slave, master)]
-        self._places = None
+        self._places, self._places_of = None, ()
 
-    def _struct(self, model, elements):
+    def __setattr__(self, name, value):
+        if name.endswith("_equations") and value is not None:
+            value = _array(name, value, (None, None), np.int64).copy()
+            value.setflags(write=False)
+        super().__setattr__(name, value)
+
+    def _struct(self, model, tree, elements):
         lay = model.layout
         slave, master = (None if points is None else ctypes.addressof(points) for points in self._combinations)
         out = _new(SystemOfHost, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
@@ -513,6 +520,8 @@ class System:
         if lay.multipliers and self.multiplier_equations is not None:
             _array("multiplier_equations", self.multiplier_equations, (elements, lay.multipliers), np.int64)
             out.multiplier_equations = self.multiplier_equations.ctypes.data
+        if not (isinstance(self.residual, np.ndarray) and self.residual.dtype == np.float64 and self.residual.flags.c_contiguous):
+            raise Error(Status.BAD_VALUE, "residual: wanted is a contiguous array of float64")
         if self.matrix is None:
             return out
         begin, columns, values = self.matrix.indptr, self.matrix.indices, self.matrix.data
@@ -520,10 +529,13 @@ class System:
             raise Error(Status.BAD_VALUE, "matrix: wanted are indptr and indices of one integer type and data of float64")
         if not all(array.flags.c_contiguous for array in (begin, columns, values)):
             raise Error(Status.BAD_VALUE, "matrix: indptr, indices and data must be contiguous")
+        if len(begin) != len(self.residual) + 1 or begin[-1] > len(columns):
+            raise Error(Status.BAD_COUNT, f"matrix: indptr and indices are not those of {len(self.residual)} rows, which the residual has")
         if slave is None and master is None:  # remembers where the entries of each element are
             size = lay.dimension * (lay.nodes + 1) ** 2 + 1
-            if self._places is None or len(self._places) != elements:
-                self._places = np.zeros((elements, size), np.int64)
+            of = begin, columns, tree, self.slave_equations, self.master_equations  # kept: another object is never at the same address
+            if self._places is None or self._places.shape != (elements, size) or any(a is not b for a, b in zip(of, self._places_of)):
+                self._places, self._places_of = np.zeros((elements, size), np.int64), of
             out.places, out.places_size = self._places.ctypes.data, size
         out.index_size, out.row_begin, out.columns, out.values = begin.itemsize, begin.ctypes.data, columns.ctypes.data, values.ctypes.data
         return out

@@ -39,14 +39,17 @@ private:
   Answer call(int element, const std::vector<double>& displacement, int keyHisUpd) {
     if (!keyHisUpd) last_[at(element)] = displacement;
     int number = 7000 + element, d = elements_.dimension, nNodes = static_cast<int>(nodes(element).size()),
-        nUsrDof = nNodes * d, one = 1, none = 0, nReal = 2, nSaveVars = size_, keyEleErr = 99, keyEleCnv = 99;
+        nUsrDof = nNodes * d, one = 1, none = 0, nReal = elements_.options != 0 ? 3 : 2, nSaveVars = size_,
+        keyEleErr = 99, keyEleCnv = 99;
     int keyMtx[10] = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0};
     const auto n = at(nUsrDof);
     Guarded stiff(n * n), mass(n * n), damp(n * n), sstiff(n * n), fExt(n), fInt(n), save(at(size_)),
         energy(1);
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
                         current(n, 1e99), still(n, 1e99);
-    double real[2] = {static_cast<double>(elements_.model), area(element)}, zero = 0;
+    double real[3] = {static_cast<double>(elements_.model), area(element),
+                      static_cast<double>(elements_.options)},
+           zero = 0;
     for (int i = 0; i < size_; ++i) save[at(i)] = committed(element)[at(i)];
     userelem_(&number, &one, keyMtx, &none, &d, &nNodes, nullptr, &one, &nUsrDof, &none, &none, &one, &none,
               nullptr, nullptr, nullptr, &zero, &none, &none, nullptr, &none, &nReal, real, &nSaveVars,

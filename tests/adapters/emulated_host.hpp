@@ -20,6 +20,7 @@ struct Elements {
   int state_size = 0;
   int multipliers = 0;
   bool symmetric = false; ///< the tangent
+  int options = 0;        ///< the deck's
 
   int unknowns() const { return static_cast<int>(reference.size()); }
 };

@@ -40,7 +40,7 @@ public:
       : EmulatedHost(elements), d_(elements.nodes.size(), std::vector<double>(50)) {
     cdata_.nen = static_cast<int>(elements.nodes[0].size()) + 1;
     for (int k = 0; k < static_cast<int>(d_.size()); ++k) {
-      material_line = {static_cast<double>(elements.model), area(k), 0};
+      material_line = {static_cast<double>(elements.model), area(k), static_cast<double>(elements.options)};
       call(k, 1, nullptr, nullptr, nullptr, nullptr);
       words_ = static_cast<int>(hdata_.nh1);
     }

@@ -42,7 +42,7 @@ public:
       }
     Guarded force(nlq * 24), stiff(nlq * 24 * 24), hsv(at(nlq * size_)), dener(nlq);
     std::vector<double> cm(40), still(nlq, 1e99);
-    cm[0] = elements_.model, cm[1] = area(element);
+    cm[0] = elements_.model, cm[1] = area(element), cm[2] = elements_.options;
     for (int i = 0; i < size_; ++i)
       for (int b = 0; b < nlq; ++b) hsv[at(b + nlq * i)] = committed(element)[at(i)];
     const auto c = [&](int i, int node) { return now[at(i)][at(node)].data(); };

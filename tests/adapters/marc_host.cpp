@@ -27,7 +27,14 @@ public:
     Guarded xk(n * n), xm(n * n), f(n), r(n), dt(at(size_));
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
                         increment(n, 1e99), t = committed(element);
-    double geom[8] = {static_cast<double>(elements_.model), area(element), 0, 1e99, 1e99, 1e99, 1e99, 1e99};
+    double geom[8] = {static_cast<double>(elements_.model),
+                      area(element),
+                      static_cast<double>(elements_.options),
+                      1e99,
+                      1e99,
+                      1e99,
+                      1e99,
+                      1e99};
     const auto call = [&](int iflag) {
       uselem_(&number, xk.data(), xm.data(), &nnode, &d, f.data(), r.data(), &jtype, u.data(),
               increment.data(), &none, &none, &none, &nstats, &none, &none, x.data(), &d, &iflag, &idss,

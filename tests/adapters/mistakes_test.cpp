@@ -67,15 +67,16 @@ Ending run(const HostKind& kind, const Elements& elements, const std::vector<dou
 /// How a host calls what a user can get wrong; null: its user cannot.
 struct Words {
   const char *host, *nodes, *history, *area;
+  int options = 1; ///< that it has
 };
 constexpr Words words[] = {
-    {"abaqus_uel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2"},
-    {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2"},
+    {"abaqus_uel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 7},
+    {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 5},
     {"calculix", "*USER ELEMENT, NODES=5", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry 2"},
     {"opensees", "with nodes: 5", nullptr, "element entsContact, property 2"},
     {"feap", "nodes of the elements: 5", nullptr, "MATErial, user 7, entry 2"},
     {"ansys", "USRELEM, NNODES=5", "USRELEM, NSAVEVARS=", "real constant R, entry 2"},
-    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2"},
+    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 3},
     {"lsdyna", nullptr, "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry 2"}, // always a solid of eight nodes
 };
 
@@ -155,6 +156,48 @@ TEST_P(Mistakes, EndTheJobWithAdvice) {
     expect(
         "no table", [](Elements& e) { e.area.assign(e.area.size(), 0); }, "ents_14.txt", "ELEMENT AREA");
   }
+}
+
+TEST_P(Mistakes, OptionsThatMeanNothingAreRefused) {
+  const auto option = [](int value) { return [value](Elements& e) { e.options = value; }; };
+  const std::string area = own().area, property = area.substr(0, area.size() - 1) + "3 is ";
+  for (const int value : {1, 2, 3, 4, 5, 6, 7, 8, -1}) {
+    if (value > 0 && (value & ~own().options) == 0) {
+      Elements elements = problem_.elements;
+      elements.options = value;
+      const Ending ending = run(GetParam(), elements, pressed(problem_));
+      EXPECT_EQ(ending.text.find("here 1"), std::string::npos) << ending.text;
+    } else {
+      expect("option", option(value), property + std::to_string(value), "here 1");
+    }
+  }
+}
+
+TEST_P(Mistakes, AnAreaOfNothingIsRefusedWhereThereIsNoTable) {
+  if (GetParam().name != "lsdyna") return;
+  const auto area = [](double value) {
+    return [value](Elements& e) { e.area.assign(e.area.size(), value); };
+  };
+  for (const double value : {0.0, -1.0}) {
+    Elements elements = problem_.elements;
+    area(value)(elements);
+    EXPECT_EQ(run(GetParam(), elements, pressed(problem_)).text.find(".txt"), std::string::npos) << value;
+    expect("area", area(value), own().area, "write the tributary area of the slave node");
+  }
+  expect("area 0", area(0), "there is no table");
+}
+
+TEST_P(Mistakes, MultipliersWhereThereIsNoPlaceForThemAreRefused) {
+  if (GetParam().multipliers) return;
+  const auto with = [](const char* name) {
+    const int model = problem(name).elements.model;
+    return [model](Elements& e) {
+      e.model = model;
+      for (auto& nodes : e.nodes) nodes.push_back(nodes.back()); // the node that they would have
+    };
+  };
+  for (const char* name : {"quad4_multiplier", "quad4_friction_multiplier"})
+    expect(name, with(name), "multipliers as unknowns", "\"augmented\"");
 }
 
 TEST_P(Mistakes, InTheNumberOfNodesNameTheRightOne) {

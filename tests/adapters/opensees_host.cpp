@@ -47,7 +47,7 @@ public:
       const auto& list = nodes(k);
       domain.integers = {100 + k, elements.model, static_cast<int>(list.size())};
       for (const int node : list) domain.integers.push_back(node + 1);
-      domain.doubles = {area(k), 0};
+      domain.doubles = {area(k), static_cast<double>(elements.options)};
       objects_.push_back(std::make_unique<eleObject>());
       request(k, 0, nullptr, nullptr);
       if (objects_.back()->nDOF != elements.dimension * static_cast<int>(list.size()))

@@ -51,6 +51,10 @@ const Kind kinds[] = {
      R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]}, "penetration_limit": 0.06,
          "contact": {"normal": {"type": "penalty", "stiffness": 400},
                      "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 200}}})"},
+    {"quad4_cuts", 20, 3,
+     R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]}, "penetration_limit": 0.06,
+         "contact": {"normal": {"type": "penalty", "stiffness": 400},
+                     "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 200}}})"},
     // Slave nodes slide from the first segment of the element to the second.
     {"line2_patch", 18, 2,
      R"({"segment": "line2", "patch": [[0, 1], [1, 2], [2, 3]],

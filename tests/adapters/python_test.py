@@ -148,6 +148,30 @@ class Numbers(unittest.TestCase):
         np.testing.assert_allclose(at["height"], [-0.1, 0, 0.1], atol=1e-15)
         np.testing.assert_allclose(at["point"], [[-0.5, -0.1], [0, 0], [0.5, 0.1]], atol=1e-15)
 
+    def test_one_number_for_all_entries(self):
+        """Of 500 elements, the last ones of which would read far behind one number that is taken for an array of them."""
+        rng = np.random.default_rng(2)
+        slave = rng.uniform([-0.9, -0.9, -0.1], [0.9, 0.9, 0.05], (500, 3))
+        start = ents.Model(FIRST)
+        unknowns = ents.Model({**FIRST, "contact": {"normal": {"type": "augmented_multiplier", "stiffness": 400},
+                                                    "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 200}}})
+        self.assertEqual(unknowns.layout.multipliers, 3)
+        state = unknowns.state_init(1)[0]
+        for model, name, shape, more in ((start, "start", (2,), {}), (unknowns, "multiplier", (3,), {"state": state}), (start, "area", (), {})):
+            for value in (0.25, np.float64(0.25), np.array(0.25)):
+                whole = model.evaluate(slave, QUAD, "residual gap", **{name: np.full((500, *shape), 0.25)}, **more)
+                number = model.evaluate(slave, QUAD, "residual gap", **{name: value}, **more)
+                self.assertEqual(number["residual"].tobytes(), whole["residual"].tobytes(), name)
+                self.assertEqual(number["gap"].tobytes(), whole["gap"].tobytes(), name)
+        for name in ("master", "surface_coordinates"):
+            with self.assertRaises(ents.Error) as caught:
+                start.evaluate(slave, **{"master": QUAD, name: 0.25})
+            self.assertEqual(caught.exception.status, ents.Status.BAD_COUNT)
+            self.assertIn(name, str(caught.exception))
+        with self.assertRaises(ents.Error) as caught:  # a state of 0.25 is none
+            unknowns.evaluate(slave, QUAD, state=0.25, multiplier=0.0)
+        self.assertEqual(caught.exception.status, ents.Status.BAD_STATE)
+
     def test_threads_and_batches_give_the_same_bits(self):
         model = ents.Model(FIRST)
         rng = np.random.default_rng(1)
@@ -247,6 +271,73 @@ class Surfaces(unittest.TestCase):
         with self.assertRaises(ents.Error) as caught:
             model.assemble(ents.System(equations[4:] + 2 * (equations[4:] == 10), equations[:4], matrix), x[4:], tree, segment, area=area, state=state)
         self.assertEqual(caught.exception.status, ents.Status.BAD_PATTERN)
+
+    def test_assembly_after_a_change(self):
+        """Another matrix, other equations, another tree or model: nothing goes where the entries were before."""
+        x = np.array([[0.0, 0.0], [1, 0.1], [2, 0.05], [3, 0], [0.4, -0.05], [1.6, -0.02], [2.5, -0.02]])
+        model = ents.Model(FIRST_2D := {"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 1000}}})
+        nodes, slave = np.arange(8).reshape(-1, 2), np.arange(8, 14).reshape(-1, 2)
+        tree = ents.Tree(model, [[0, 1], [1, 2], [2, 3]], x[:4])
+
+        def place(i, j):  # of two neighbours, or of a slave and a master node
+            return (i < 8) != (j < 8) or abs(i // 2 - j // 2) <= 1
+        narrow = self.Rows(14, np.int32)
+        kept = np.array([place(i, j) for i in range(14) for j in range(14)])
+        narrow.indptr = np.concatenate([[0], np.cumsum(kept.reshape(14, 14).sum(axis=1))]).astype(np.int32)
+        narrow.indices, narrow.data = narrow.indices[kept], narrow.data[kept]
+
+        def sums(system, model=model, tree=tree):
+            system.residual[:], system.matrix.data[:] = 0, 0
+            result = model.assemble(system, x[4:], tree, [0, 1, 2], "flags")
+            self.assertTrue((result["flags"] & ents.Flag.CONTACT).all())
+            dense = np.zeros((14, 14))
+            np.add.at(dense, (np.repeat(np.arange(14), np.diff(system.matrix.indptr)), system.matrix.indices), system.matrix.data)
+            return system.residual.tobytes(), dense.tobytes()
+        fresh = sums(ents.System(slave, nodes, self.Rows(14, np.int32)))
+        system = ents.System(slave, nodes, narrow)
+        self.assertEqual(sums(system), fresh)
+        system.matrix = self.Rows(14, np.int32)
+        self.assertEqual(sums(system), fresh, "another matrix")
+        system.matrix = narrow
+        self.assertEqual(sums(system), fresh, "one with fewer entries")
+        system.matrix.indptr, system.matrix.indices, system.matrix.data = (getattr(self.Rows(14, np.int32), a) for a in ("indptr", "indices", "data"))
+        self.assertEqual(sums(system), fresh, "other arrays in it")
+
+        other = np.arange(6).reshape(-1, 2)[::-1], np.arange(6, 14).reshape(-1, 2)
+        system.slave_equations, system.master_equations = other[0].tolist(), other[1].astype(np.int32)
+        self.assertEqual(sums(system), sums(ents.System(*other, self.Rows(14, np.int32))), "other equations")
+        given = slave.copy()
+        system.slave_equations, system.master_equations = given, nodes
+        given[:] = 1 << 40
+        self.assertEqual(sums(system), fresh, "the caller's array is not the system's")
+        with self.assertRaises(ValueError):
+            system.slave_equations[0, 0] = 5
+
+        back = ents.Tree(model, [[3, 2], [2, 1], [1, 0]], x[3::-1])
+        self.assertNotEqual(sums(system), sums(system, tree=back))
+        self.assertEqual(sums(system, tree=back), sums(ents.System(slave, nodes, self.Rows(14, np.int32)), tree=back), "another tree")
+        self.assertEqual(sums(system), fresh)
+        wide = ents.Model({**FIRST_2D, "segment": "catmull_rom4"})
+        curved = ents.Tree(wide, [[0, 1, 2, 3], [3, 2, 1, 0], [0, 1, 2, 3]], x[:4])
+        arguments = x[4:] * [0, 1] + [1.5, -0.1], curved, [0, 0, 2]
+        results = []
+        for used in (system, ents.System(slave, nodes, self.Rows(14, np.int32))):
+            used.residual[:], used.matrix.data[:] = 0, 0
+            wide.assemble(used, *arguments)
+            results.append((used.residual.tobytes(), used.matrix.data.tobytes()))
+            self.assertGreaterEqual(used._places.shape[1], 2 * 5 ** 2 + 1, "room for the entries of four master nodes")
+        self.assertEqual(*results, "another model")
+
+        for wrong, words in ((self.Rows(13, np.int32), "14 rows"), (self.Rows(15, np.int32), "14 rows")):
+            system.matrix = wrong
+            with self.assertRaises(ents.Error) as caught:
+                model.assemble(system, x[4:], tree, [0, 1, 2])
+            self.assertEqual(caught.exception.status, ents.Status.BAD_COUNT)
+            self.assertIn(words, str(caught.exception))
+        system.residual = np.zeros(14, np.float32)
+        with self.assertRaises(ents.Error) as caught:
+            model.assemble(system, x[4:], tree, [0, 1, 2])
+        self.assertIn("residual", str(caught.exception))
 
     def test_assembly_of_points_and_smoothed_surfaces(self):
         """Points inside slave facets on a smoothed master: forces in balance, and the tangent is the derivative of the residual."""
@@ -399,6 +490,12 @@ class Errors(unittest.TestCase):
         self.assertEqual(r["status"].tolist(), [0, ents.Status.DEEP_PENETRATION])
         self.assertTrue(0 < r["step_factor"] < 1)
         self.assertTrue(r["message"])
+        again = model.evaluate([[0, 0, 0.5], [0.1, 0, 0.5]], QUAD, out=r)
+        self.assertEqual((again["status"].tolist(), again["step_factor"], again["message"]), ([0, 0], 1, ""))
+        model.evaluate([[0, 0, 0.5], [0.1, 0, -0.5]], QUAD, out=r, first=0, count=1)
+        self.assertEqual((r["step_factor"], r["message"]), (1, ""))
+        model.evaluate([[0, 0, 0.5], [0.1, 0, -0.5]], QUAD, out=r, first=1, count=1)
+        self.assertTrue(0 < r["step_factor"] < 1 and "penetration_limit" in r["message"])
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ void UelCall::operator()(UelFunction* function) {
   double time[2] = {0.5, 1.5}, dtime = 0.5, period = 1, params[3] = {}, adlmag = 0;
   std::vector<double> still(static_cast<std::size_t>(ndofel), 0.0),
       predef(2 * static_cast<std::size_t>(nnode));
-  du.resize(static_cast<std::size_t>(mlvarx), std::numeric_limits<double>::quiet_NaN());
+  du.resize(static_cast<std::size_t>(nrhs * mlvarx), std::numeric_limits<double>::quiet_NaN());
   function(rhs.data(), amatrx.data(), svars.data(), energy.data(), &ndofel, &nrhs, &nsvars, props.data(),
            &nprops, coords.data(), &mcrd, &nnode, u.data(), du.data(), still.data(), still.data(), &jtype,
            time, &dtime, &kstep, &kinc, &jelem, null_flags ? nullptr : params, &zero, nullptr,
@@ -38,6 +38,7 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   const std::vector<double> old = begin_.empty() ? std::vector<double>(c.u.size()) : gather(element, begin_);
   for (std::size_t i = 0; i < c.u.size(); ++i) c.du.push_back(c.u[i] - old[i]);
   c.props = {static_cast<double>(elements_.model), area(element)};
+  if (elements_.options != 0) c.props.push_back(elements_.options);
   for (std::size_t i = 0; i < c.svars.size(); ++i)
     c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
   c.jelem = 90001 + element;
@@ -45,9 +46,11 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   case Program::abaqus:
     break;
   case Program::moose: // U is the old solution, DU leads to the present one
+  case Program::moose_mesh:
     c.u = old;
     c.props.push_back(2);
-    c.null_flags = true;
+    c.null_flags = program_ == Program::moose;
+    c.lflags = {1, 1, 0, 1, 1}; // but for the third they are what the stack has there
     c.kstep = c.kinc = 0;
     c.pnewdt = 0.123;
     break;
@@ -63,7 +66,21 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
 
 Answer UelHost::evaluate(int element, const std::vector<double>& displacement) {
   UelCall c = call(element, displacement);
-  c();
+  if (program_ == Program::moose_mesh) { // stiffness, then residual: each from the history of before
+    c.lflags[2] = 4;
+    c();
+    UelCall residual = call(element, displacement);
+    residual.lflags[2] = 5;
+    residual();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.ndofel); ++i) {
+      if (c.rhs[i] != 0 && !std::isnan(c.rhs[i]))
+        throw std::runtime_error("a residual besides the stiffness");
+      c.rhs[i] = residual.rhs[i];
+    }
+    for (std::size_t i = 0; i < c.svars.size(); ++i) c.svars[i] = residual.svars[i];
+  } else {
+    c();
+  }
   Answer answer;
   const auto n = static_cast<std::size_t>(c.ndofel);
   if (program_ == Program::abaqus && c.pnewdt < 1) { // the others do not look at it

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Programs that call an Abaqus UEL, emulated: Abaqus/Standard, MOOSE's AbaqusUserElement and OOFEM's
-// AbaqusUserElement.
+// Programs that call an Abaqus UEL, emulated: Abaqus/Standard, MOOSE's AbaqusUserElement and
+// AbaqusUELMeshUserElement, and OOFEM's AbaqusUserElement.
 #pragma once
 
 #include "emulated_host.hpp"
@@ -44,7 +44,7 @@ struct UelCall {
 
 class UelHost : public EmulatedHost {
 public:
-  enum class Program { abaqus, moose, oofem };
+  enum class Program { abaqus, moose, moose_mesh, oofem };
   UelHost(const Elements& elements, Program program);
 
   Answer evaluate(int element, const std::vector<double>& displacement) override;

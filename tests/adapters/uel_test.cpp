@@ -107,18 +107,48 @@ TEST_F(Uel, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
 TEST_F(Uel, PerturbationIsLinearAboutTheBaseState) {
   UelCall base = request(2);
   base();
-  UelCall c = request(1);
-  c.lflags[3] = 1;
-  for (std::size_t i = 0; i < c.du.size(); ++i) c.du[i] = 1e-3 * static_cast<double>(i + 1);
-  c();
-  const auto n = static_cast<std::size_t>(c.ndofel);
-  EXPECT_TRUE(same(c.amatrx, base.amatrx, n * n));
-  EXPECT_TRUE(zero(c.svars, c.svars.size()));
-  for (std::size_t i = 0; i < n; ++i) {
-    double force = 0;
-    for (std::size_t j = 0; j < n; ++j) force -= base.amatrx[i + j * n] * c.du[j];
-    EXPECT_DOUBLE_EQ(c.rhs[i], force);
+  for (const int columns : {1, 2}) { // of a steady state: real and imaginary part
+    UelCall c = request(1);
+    c.lflags[3] = 1;
+    c.nrhs = columns;
+    const auto n = static_cast<std::size_t>(c.ndofel), column = static_cast<std::size_t>(c.mlvarx);
+    c.du.assign(static_cast<std::size_t>(columns) * column, std::nan(""));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        c.du[k * column + i] = 1e-3 * static_cast<double>(i * i + 7 * k + 1);
+    c();
+    EXPECT_TRUE(same(c.amatrx, base.amatrx, n * n));
+    EXPECT_TRUE(zero(c.svars, c.svars.size()));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k)
+      for (std::size_t i = 0; i < n; ++i) {
+        double force = 0;
+        for (std::size_t j = 0; j < n; ++j) force -= base.amatrx[i + j * n] * c.du[k * column + j];
+        EXPECT_DOUBLE_EQ(c.rhs[k * column + i], force) << "column " << k;
+      }
+    c.rhs.check_untouched("padding of RHS", columns == 1 ? n : column + n, column - n);
   }
+}
+
+TEST_F(Uel, MooseAsksWithNumbersOfItsOwn) {
+  UelHost moose(problem_.elements, UelHost::Program::moose_mesh);
+  moose.begin(std::vector<double>(problem_.target.size()));
+  const auto asked = [&](int what) {
+    UelCall c = moose.call(0, pressed(problem_));
+    c.lflags[2] = what;
+    c();
+    return c;
+  };
+  UelCall reference = request(1), both = asked(0), stiffness = asked(4), residual = asked(5);
+  reference();
+  const auto n = static_cast<std::size_t>(both.ndofel);
+  EXPECT_TRUE(same(both.rhs, reference.rhs, n));
+  EXPECT_TRUE(same(residual.rhs, reference.rhs, n));
+  EXPECT_TRUE(zero(stiffness.rhs, n));
+  EXPECT_TRUE(same(both.amatrx, reference.amatrx, n * n));
+  EXPECT_TRUE(same(stiffness.amatrx, reference.amatrx, n * n));
+  EXPECT_TRUE(zero(residual.amatrx, n * n));
+  for (UelCall* c : {&both, &stiffness, &residual})
+    EXPECT_TRUE(same(c->svars, reference.svars, reference.svars.size())) << c->lflags[2];
 }
 
 TEST_F(Uel, LargestElementNumber) {
@@ -139,6 +169,32 @@ TEST_F(Uel, DeepPenetrationCutsTheIncrement) {
   EXPECT_TRUE(zero(c.rhs, static_cast<std::size_t>(c.ndofel)));
   EXPECT_TRUE(zero(c.svars, c.svars.size()));
   EXPECT_NE(only_message(1).find("penetration_limit"), std::string::npos);
+}
+
+TEST_F(Uel, DeepPenetrationIsToldWhereNoIncrementIsCut) {
+  const Problem deep = problem("line2_cuts");
+  std::vector<double> u(deep.target.size());
+  u[static_cast<std::size_t>(deep.elements.nodes[0][0] * 2 + 1)] = -0.4;
+  const auto call = [&](int what, bool perturbation) {
+    UelCall c = UelHost(deep.elements, UelHost::Program::abaqus).call(0, u);
+    c.lflags[2] = what, c.lflags[3] = perturbation;
+    return c;
+  };
+  for (const auto& [what, perturbation] : {std::pair{2, false}, {6, false}, {1, true}, {2, true}}) {
+    UelCall c = call(what, perturbation);
+    EXPECT_THROW(c(), HostStopped) << what;
+    EXPECT_EQ(c.pnewdt, 1e36);
+    const std::string text = only_message(-2);
+    EXPECT_NE(text.find("penetration_limit"), std::string::npos) << text;
+    EXPECT_NE(text.find("LFLAGS(3) = " + std::to_string(what)), std::string::npos) << text;
+  }
+  UelCall half = call(5, false);
+  half();
+  EXPECT_EQ(half.pnewdt, 1e36);
+  EXPECT_TRUE(zero(half.rhs, static_cast<std::size_t>(half.ndofel)));
+  const std::string text = only_message(-1);
+  EXPECT_NE(text.find("penetration_limit"), std::string::npos) << text;
+  EXPECT_NE(text.find("half-increment"), std::string::npos) << text;
 }
 
 TEST_F(Uel, DivergedIterationCutsTheIncrement) {
@@ -340,6 +396,11 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
          c.props = {47, 0};
        },
        "ents_47.txt"},
+      {"element missing, of a part",
+       [](UelCall& c) {
+         c.props = {47, 0};
+       },
+       "With *PART or *INSTANCE"},
       {"area 0 in the table",
        [](UelCall& c) {
          c.props = {48, 0};

@@ -117,6 +117,54 @@ TEST_F(Uinter, NoMasterIsNoContact) {
   EXPECT_EQ(c.statev[0], 0);
 }
 
+TEST_F(Uinter, APointThatHasLeftTheMasterLandsWithoutHistory) {
+  for (const int d : {2, 3}) {
+    const auto land = [&](Call& c) {
+      c.rdisp[0] = 0.02, c.rdisp[1] = 0.7, c.rdisp[2] = -0.2;
+      c.place(0.9, 0.4);
+      c();
+    };
+    Call fresh(d), back(d);
+    fresh.props[0] = back.props[0] = d == 2 ? 63 : 62;
+    land(fresh);
+    back.rdisp[0] = 0.02;
+    back.place(0.15, -0.35);
+    back();
+    ASSERT_EQ(back.statev[0], 1);
+    back.rdisp[0] = -1e36;
+    back();
+    EXPECT_EQ(back.lopenclose, 0);
+    for (std::size_t i = 0; i < back.statev.size(); ++i) EXPECT_EQ(back.statev[i], 0) << i;
+    land(back);
+    const auto n = static_cast<std::size_t>(d);
+    EXPECT_GT(fresh.stress[0], 0);
+    EXPECT_EQ(std::memcmp(back.stress.data(), fresh.stress.data(), n * sizeof(double)), 0);
+    EXPECT_EQ(std::memcmp(back.ddsddr.data(), fresh.ddsddr.data(), n * n * sizeof(double)), 0);
+  }
+}
+
+TEST_F(Uinter, ALineOfTheTableIsAnElementsAndNoNodes) {
+  std::ofstream("ents_64.json") << std::ifstream("ents_62.json").rdbuf();
+  std::ofstream("ents_64.txt") << "17 0.5  0 0  3 0  3 2  0 2\n";
+  Call listed(3), plain(3);
+  listed.props[0] = 64, plain.props[0] = 62;
+  for (Call* c : {&listed, &plain}) {
+    c->rdisp[0] = 0.02;
+    c->place(0.15, -0.35);
+    (*c)();
+  }
+  EXPECT_GT(plain.stress[0], 0);
+  EXPECT_EQ(std::memcmp(listed.stress.data(), plain.stress.data(), 3 * sizeof(double)), 0);
+  Call selfcheck(3);
+  selfcheck.props[0] = 64, selfcheck.props[2] = 1, selfcheck.nprops = 3;
+  selfcheck.rdisp[0] = 0.02;
+  selfcheck.place(0.15, -0.35);
+  selfcheck();
+  const auto messages = abaqus_messages();
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].text.find("17"), std::string::npos) << messages[0].text;
+}
+
 TEST_F(Uinter, OpensAndCloses) {
   Call c(2);
   for (const double closing : {-0.1, 0.1, -0.1}) {

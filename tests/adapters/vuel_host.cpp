@@ -31,7 +31,7 @@ public:
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     const int blocks[] = {1, 7, 136};
     int block = blocks[element % 3], d = elements_.dimension, nnode = static_cast<int>(nodes(element).size()),
-        ndofel = nnode * d, nsvars = size_, two = 2, none = 0, one = 1;
+        ndofel = nnode * d, nsvars = size_, nprops = elements_.options != 0 ? 3 : 2, none = 0, one = 1;
     const int mine = block / 2;
     const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement);
     Guarded rhs(at(block * ndofel)), amass(at(block * ndofel * ndofel)), stable(at(block)),
@@ -47,15 +47,16 @@ public:
         }
       for (int i = 0; i < nsvars; ++i) svars[at(b + block * i)] = committed(element)[at(i)];
     }
-    double props[2] = {static_cast<double>(elements_.model), area(element)}, time[2] = {0, 0}, period = 1,
-           dtime = 1e-3;
+    double props[3] = {static_cast<double>(elements_.model), area(element),
+                       static_cast<double>(elements_.options)},
+           time[2] = {0, 0}, period = 1, dtime = 1e-3;
     std::vector<int> jelem(at(block), 5);
     const auto call = [&](int operation) {
       int lflags[3] = {17, 1, operation};
       vuel_(&block, rhs.data(), amass.data(), stable.data(), svars.data(), &nsvars, energy.data(), &nnode,
-            &ndofel, props, &two, nullptr, &none, coords.data(), &d, total.data(), still.data(), still.data(),
-            still.data(), &one, jelem.data(), time, &period, &dtime, &dtime, &one, &one, lflags, scale.data(),
-            nullptr, &none, nullptr, nullptr);
+            &ndofel, props, &nprops, nullptr, &none, coords.data(), &d, total.data(), still.data(),
+            still.data(), still.data(), &one, jelem.data(), time, &period, &dtime, &dtime, &one, &one, lflags,
+            scale.data(), nullptr, &none, nullptr, nullptr);
     };
     call(1);
     amass.check_written("amass", 0, amass.size());

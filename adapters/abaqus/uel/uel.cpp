@@ -2,6 +2,7 @@
 // Abaqus/Standard UEL, and the programs that load one: MOOSE and OOFEM, which pass fewer arguments.
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "../../common/element.hpp"
 #include "../abaqus.hpp"
@@ -10,8 +11,12 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
-                    abaqus::job_directory};
+constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
+                    .history = "*USER ELEMENT, VARIABLES=",
+                    .properties = "*UEL PROPERTY, entry ",
+                    .directory = abaqus::job_directory,
+                    .options = option_selfcheck | option_old_displacement | option_negative_tangent,
+                    .numbers = abaqus::numbers};
 
 /// LFLAGS(3): what is to be formed.
 enum class Request {
@@ -23,6 +28,13 @@ enum class Request {
   mass_and_residual = 6,
   perturbation_output = 100
 };
+
+/// MOOSE has numbers of its own there, 0, 4 and 5 for both, stiffness and residual, or passes no LFLAGS.
+Request requested(const int* lflags, bool moose) {
+  const int what = lflags ? lflags[2] : 0;
+  if (moose && what == 4) return Request::stiffness;
+  return static_cast<Request>(what ? what : 1);
+}
 
 void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int mlvarx) {
   for (int k = 0; rhs && k < columns; ++k)
@@ -38,8 +50,10 @@ ENTS_ENTRY(uel, UEL,
             double*, int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*,
             int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
   const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
-  const auto request = static_cast<Request>(lflags && lflags[2] ? lflags[2] : 1);
-  const bool perturbation = lflags && lflags[3] == 1;
+  const int option = options({props}, *nprops);
+  const bool moose = option > 0 && (option & option_old_displacement);
+  const Request request = requested(lflags, moose);
+  const bool perturbation = !moose && lflags && lflags[3] == 1; // MOOSE sets LFLAGS(3) alone
   fill(0, rhs, amatrx, dofs, columns, *mlvarx);
   if (request == Request::damping || request == Request::mass || request == Request::perturbation_output)
     return;
@@ -54,8 +68,7 @@ ENTS_ENTRY(uel, UEL,
   e.property_count = *nprops;
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
-  const int option = options(e.properties, e.property_count);
-  if (option > 0 && (option & option_old_displacement)) e.increment = {du, 1, e.dofs};
+  if (moose) e.increment = {du, 1, e.dofs};
   e.history = {svars};
   e.history_size = *nsvars;
   e.sign = -1; // RHS is external minus internal force
@@ -63,7 +76,8 @@ ENTS_ENTRY(uel, UEL,
   if (request != Request::stiffness && !perturbation) e.residual = {rhs, 1, e.dofs};
   if (request == Request::residual_and_stiffness || request == Request::stiffness)
     e.tangent = {amatrx, 1, dofs};
-  if (request == Request::residual_and_stiffness && !perturbation) {
+  // MOOSE asks for residual and stiffness in turn, with the history of before each time: the last one stays.
+  if ((request == Request::residual_and_stiffness && !perturbation) || moose) {
     e.history_end = {svars};
     if (energy) e.energy = energy + 1; // elastic strain energy
   }
@@ -72,12 +86,28 @@ ENTS_ENTRY(uel, UEL,
   if (result.outcome == Outcome::done) {
     if (result.message[0]) abaqus::tell(abaqus::Severity::information, result.message);
     // About the base state U the forces of the perturbation DU are -K DU.
-    if (perturbation && e.tangent) negative_product({amatrx, 1, dofs}, dofs, du, rhs);
+    for (std::ptrdiff_t k = 0; perturbation && e.tangent && k < columns; ++k)
+      negative_product({amatrx, 1, dofs}, dofs, du + k * *mlvarx, rhs + k * *mlvarx);
     return;
   }
-  const bool cut = result.outcome == Outcome::cut && pnewdt;
+  // Abaqus looks at PNEWDT where it asks for both, in a general step. A half-increment residual, from which
+  // it chooses the next time step, may lack an element; a stiffness or an initial acceleration may not.
+  const bool recoverable = result.outcome == Outcome::cut;
+  const bool counts = !abaqus::is_host() || (request == Request::residual_and_stiffness && !perturbation);
+  const bool cut = recoverable && counts && pnewdt;
   if (cut) *pnewdt = result.step_factor;
-  abaqus::tell(cut ? abaqus::Severity::information : abaqus::Severity::error, result.message);
+  if (recoverable && !counts) {
+    const bool left_out = request == Request::residual;
+    const std::string text =
+        std::string(result.message) +
+        (left_out ? "; left out of the half-increment residual"
+                  : "; Abaqus cuts no increment here, LFLAGS(3) = " + std::to_string(lflags[2]) +
+                        (perturbation ? " in a perturbation step" : ""));
+    abaqus::tell(left_out ? abaqus::Severity::warning : abaqus::Severity::error, text.c_str());
+    if (left_out) return;
+  } else {
+    abaqus::tell(cut ? abaqus::Severity::information : abaqus::Severity::error, result.message);
+  }
   // A host that can neither cut nor stop gets numbers that it cannot take for a solution.
   if (!abaqus::is_host() || (!cut && !abaqus::stop()))
     fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);

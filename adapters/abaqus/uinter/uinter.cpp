@@ -11,9 +11,11 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
-                    "*SURFACE INTERACTION, DEPVAR= 3 and ", "*SURFACE INTERACTION, property ",
-                    abaqus::job_directory};
+constexpr Host host{.nodes = "a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
+                    .history = "*SURFACE INTERACTION, DEPVAR= 3 and ",
+                    .properties = "*SURFACE INTERACTION, property ",
+                    .directory = abaqus::job_directory,
+                    .multipliers = false};
 constexpr double no_master = -1e35; // Abaqus: -1e36
 /// STATEV: 1 if the start is known, the start, then the model's state.
 constexpr int start_size = 3;
@@ -63,7 +65,8 @@ ENTS_ENTRY(uinter, UINTER,
     abaqus::stop();
     return;
   }
-  if (rdisp[0] < no_master) {
+  if (rdisp[0] < no_master) { // where it lands again it has no history
+    std::fill(statev, statev + *nstatv, 0.0);
     if (*lopenclose >= 0) *lopenclose = 0;
     return;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "../../common/element.hpp"
 #include "../abaqus.hpp"
@@ -11,8 +12,13 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{"*USER ELEMENT, NODES=", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry ",
-                    abaqus::job_directory};
+constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
+                    .history = "*USER ELEMENT, VARIABLES=",
+                    .properties = "*UEL PROPERTY, entry ",
+                    .directory = abaqus::job_directory,
+                    .multipliers = false,
+                    .options = option_selfcheck | option_negative_tangent,
+                    .numbers = abaqus::numbers};
 
 enum Operation { form_mass = 1, form_internal_force = 2, form_external_force = 3 }; // lflags(3)
 constexpr int internal_energy = 2;                                                  // energy(:,3)
@@ -31,6 +37,9 @@ ENTS_ENTRY(vuel, VUEL,
   }
   std::fill(rhs, rhs + block * dofs, 0.0);
   if (lflags[2] != form_internal_force) return;
+  const int option = options({props}, *nprops);
+  std::vector<double> tangent; // which Explicit does not want, but the selfcheck
+  if (option > 0 && (option & option_selfcheck)) tangent.resize(static_cast<std::size_t>(dofs * dofs));
   for (std::ptrdiff_t b = 0; b < block; ++b) {
     Element e;
     e.host = &host;
@@ -44,14 +53,17 @@ ENTS_ENTRY(vuel, VUEL,
     e.property_count = *nprops;
     e.history = {svars + b, block};
     e.history_size = *nsvars;
-    const int option = options(e.properties, e.property_count);
     e.sign = option > 0 && (option & option_negative_tangent) ? -1 : 1;
     e.residual = {rhs + b, block, block * e.dofs};
+    if (!tangent.empty()) e.tangent = {tangent.data(), 1, dofs};
     e.history_end = {svars + b, block};
     e.energy = energy + b + block * internal_energy;
     dtime_stable[b] = *period; // the element has no mass of its own, so no limit either
     const Result result = evaluate(e);
-    if (result.outcome == Outcome::done) continue;
+    if (result.outcome == Outcome::done) {
+      if (result.message[0]) abaqus::tell(abaqus::Severity::information, result.message);
+      continue;
+    }
     abaqus::tell(abaqus::Severity::error, result.message); // an explicit increment cannot be repeated
     if (!abaqus::stop()) std::fill(rhs, rhs + block * dofs, std::numeric_limits<double>::quiet_NaN());
     return;

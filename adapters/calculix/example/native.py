@@ -5,7 +5,7 @@
 usage: native.py write OUT
        native.py compare OUT
 
-write    OUT/ents_N/job.inp, OUT/native_N/job.inp for every penalty
+write    OUT/ents_N/job.inp, OUT/native_N/job.inp for every penalty; OUT/friction/job.inp: ccx's own contact with friction, no U1E
 compare  the forces that ccx left beside them
 
 exit status: 0 they agree, 1 they do not"""
@@ -42,8 +42,8 @@ class Block:
         self.shape = nx, ny
 
 
-def deck(penalty, native):
-    """Deck, and U1E's model and areas."""
+def deck(penalty, native, friction=()):
+    """Deck, and U1E's model and areas. friction: lines of ccx's own contact."""
     lower = Block(1, [0, 0, 0], [1.5, 1.5, 1], [3, 3, 2])
     upper = Block(1001, [0.2, 0.25, 1 + GAP], [1.2, 1.3, 1.8 + GAP], [4, 3, 2])
     lines = ["*NODE, NSET=ALL", *(", ".join(map(repr, node)) for block in (lower, upper) for node in block.nodes), "*ELEMENT, TYPE=C3D8, ELSET=BLOCKS",
@@ -54,7 +54,7 @@ def deck(penalty, native):
     if native:
         lines += ["*SURFACE, NAME=SLAVE, TYPE=ELEMENT", *(f"{e}, S1" for e, _ in upper.below),
                   "*SURFACE, NAME=MASTER, TYPE=ELEMENT", *(f"{e}, S2" for e, _ in lower.above),
-                  "*SURFACE INTERACTION, NAME=LAW", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{penalty!r}, {TENSION!r}, 1.",
+                  "*SURFACE INTERACTION, NAME=LAW", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{penalty!r}, {TENSION!r}, 1.", *friction,
                   "*CONTACT PAIR, INTERACTION=LAW, TYPE=NODE TO SURFACE", "SLAVE, MASTER"]
     else:
         # One element a slave node, over all 9 facets of the master: 1 + 16 nodes.
@@ -112,6 +112,8 @@ def main():
     out = pathlib.Path(sys.argv[2])
     if sys.argv[1] == "compare":
         sys.exit(0 if compare(out) else "U1E and ccx's own contact differ by more than their areas")
+    (out / "friction").mkdir(parents=True, exist_ok=True)
+    (out / "friction" / "job.inp").write_text("\n".join(deck(6e3, True, ["*FRICTION", "0.3, 3e3"])[0]) + "\n")
     for k, penalty in enumerate(PENALTIES):
         for name, native in (("ents", False), ("native", True)):
             folder = out / f"{name}_{k}"

@@ -22,8 +22,12 @@ using namespace ents_adapter;
 
 constexpr std::ptrdiff_t nlq = ENTS_LSDYNA_NLQ;
 constexpr int nodes = 8;
-constexpr Host host{"nodes: ", "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry ",
-                    [] { return std::string(); }, true};
+constexpr Host host{.nodes = "nodes: ",
+                    .history = "*SECTION_SOLID, NHSV=",
+                    .properties = "*SECTION_SOLID, entry ",
+                    .directory = [] { return std::string(); },
+                    .spare_nodes = true,
+                    .multipliers = false};
 
 [[noreturn]] void stop() {
   int code = 2;
@@ -55,6 +59,7 @@ usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, dou
     }
     Element e;
     e.host = &host;
+    e.listed = false; // its number is not told
     e.nodes = nodes;
     e.dofs = e.coordinates = 3;
     e.position = {position, 1, 3};

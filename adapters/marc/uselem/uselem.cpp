@@ -15,8 +15,12 @@ namespace {
 using namespace ents_adapter;
 
 constexpr int property_count = 3; // geom has no length
-constexpr Host host{"nodes of the element: ", "STATE VARS, number: ", "GEOMETRY, EGEOM",
-                    [] { return std::string(); }, true};
+constexpr Host host{.nodes = "nodes of the element: ",
+                    .history = "STATE VARS, number: ",
+                    .properties = "GEOMETRY, EGEOM",
+                    .directory = [] { return std::string(); },
+                    .spare_nodes = true,
+                    .options = option_selfcheck | option_old_displacement};
 
 enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // iflag
 

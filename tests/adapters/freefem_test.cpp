@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact of two borders, as the plugin of FreeFEM has it: an increment that is cut or thrown away leaves no
+// trace.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "freefem/border_contact.hpp"
+
+namespace freefem {
+namespace {
+
+/// A V, and a slave edge over it whose first node touches. Within the border a node projects on both flanks,
+/// and stays on the one that it was on.
+class Valley : public testing::Test {
+protected:
+  static constexpr char model[] = R"({"segment": "line2", "border": 0.3, "penetration_limit": 0.2,
+    "contact": {"normal": {"type": "penalty", "stiffness": 100},
+                "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 50}}})";
+  static constexpr double start[2] = {0.2, 0.3};
+
+  static Border slave() { return {{3, 4}, {start[0], start[1], -0.5, 3}, {0, 1}}; }
+  static Border master() { return {{0, 1, 2}, {-1, 1, 0, 0, 1, 1}, {0, 1, 1, 2}}; }
+  static Options options() {
+    Options result;
+    result.reach = 0.5;
+    return result;
+  }
+
+  /// The first slave node at (x, y): its force, and what the plugin gets.
+  struct Answer {
+    double force[2];
+    Forces forces;
+  };
+  Answer at(double x, double y) {
+    std::vector<double> u(10), r(10);
+    u[6] = x - start[0], u[7] = y - start[1];
+    Answer answer{{}, contact_.evaluate(u.data(), r.data())};
+    answer.force[0] = r[6], answer.force[1] = r[7];
+    return answer;
+  }
+  void expect_same(const Answer& a, const Answer& b) {
+    EXPECT_EQ(b.forces.step_factor, 1);
+    EXPECT_EQ(a.force[0], b.force[0]);
+    EXPECT_EQ(a.force[1], b.force[1]);
+    EXPECT_EQ(a.forces.value, b.forces.value);
+  }
+
+  BorderContact contact_{model, slave(), master(), 10, options()};
+};
+
+TEST_F(Valley, ACutReturnsToTheBeginOfTheIncrement) {
+  for (const bool accepted : {false, true}) {
+    const Answer before = at(0.1, 0.05); // on the right flank
+    ASSERT_GT(std::abs(before.force[0]), 1);
+    if (accepted) contact_.accept();
+    const Answer reference = at(0.1, 0.05), diverged = at(-0.9, 0.4); // deep in the left one
+    EXPECT_GT(diverged.forces.step_factor, 0);
+    EXPECT_LT(diverged.forces.step_factor, 1);
+    EXPECT_TRUE(diverged.forces.value.empty());
+    EXPECT_FALSE(diverged.forces.message.empty());
+    EXPECT_EQ(diverged.force[0], 0);
+    expect_same(reference, at(0.1, 0.05));
+  }
+}
+
+TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
+  at(0.12, 0.06);
+  contact_.accept();
+  const Answer before = at(0.1, 0.05);
+  ASSERT_GT(std::abs(before.force[0]), 1);
+  const auto leave = [&] { ASSERT_LT(at(-0.7, 0.6).force[0], -1); }; // on the left flank, not too deep
+  leave();
+  EXPECT_EQ(at(0.1, 0.05).force[0], 0) << "this node does not show which flank it was on";
+  leave();
+  contact_.reject();
+  expect_same(before, at(0.1, 0.05));
+  leave();
+  contact_.reject();
+  contact_.accept(); // of nothing
+  expect_same(before, at(0.1, 0.05));
+}
+
+} // namespace
+} // namespace freefem
