@@ -8,6 +8,11 @@
 
 namespace ents {
 
+std::int32_t refuse_without_contact(const char* asks, ents_report* report) {
+  return report_message(report, ENTS_BAD_MASK, -1,
+                        "%s, but the model has no \"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}", asks);
+}
+
 namespace {
 
 // An array of an input or output struct, as the checks and messages need it.
@@ -83,10 +88,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
                           static_cast<unsigned>(out.wanted & ~want::all));
   if ((out.wanted & want::needs_law) != 0 && model.model.law.normal == NormalKind::none)
-    return report_status(
-        report, ENTS_BAD_MASK, -1,
-        "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
-        "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
+    return refuse_without_contact("output.wanted asks for energy, pressure, residual or tangent", report);
   if (count == 0) return ENTS_OK;
   const std::int64_t last = first + count - 1;
   if (const std::int64_t leading = leading_dimension(model, out);

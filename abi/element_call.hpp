@@ -26,6 +26,9 @@ inline bool states_overlap(const ents_model& model, const ents_input& in, const 
   return from < to + size(out.state_end_stride) && to < from + size(in.state_begin_stride);
 }
 
+// "`asks`, but the model has no contact"
+std::int32_t refuse_without_contact(const char* asks, ents_report* report);
+
 struct ElementCall {
   const ents_model* model;
   const Plan* plan; // of one segment

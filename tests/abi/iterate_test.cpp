@@ -48,6 +48,13 @@ struct Iteration {
     return ents_iterate(model.get(), &mesh, tree.data(), static_cast<int64_t>(tree.size()), 0, count(), &detection, &input, &output, into,
                         &report);
   }
+  // The segments and starts are those of `segment` and `xi`.
+  int32_t assemble() {
+    ents_input in = input;
+    in.slave = slave.data(), in.slave_stride = 2;
+    in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1, in.start = xi.data(), in.start_stride = 1;
+    return ents_assemble(model.get(), 0, count(), &in, &output, &system, &report);
+  }
 
   Model model;
   int64_t connectivity[4] = {0, 1, 1, 2}, of_master[6] = {0, 1, 2, 3, 4, 5};
@@ -147,6 +154,20 @@ TEST(Iterate, RefusesBeforeItWrites) {
   rough.input.state_begin = state.data();
   EXPECT_EQ(rough.iterate(nullptr), ENTS_BAD_VALUE);
   EXPECT_EQ(rough.segment[0], -1);
+}
+
+// A model without "contact" has nothing to add: refused as ents_evaluate refuses a residual of it.
+TEST(Assemble, AModelWithoutContactIsRefused) {
+  Iteration it(R"({"segment": "line2"})", {0.5, -0.01});
+  EXPECT_EQ(it.iterate(&it.system), ENTS_BAD_MASK);
+  EXPECT_NE(std::strstr(it.report.message, "the model has no \"contact\""), nullptr) << it.report.message;
+  it.segment[0] = 0;
+  EXPECT_EQ(it.assemble(), ENTS_BAD_MASK);
+  EXPECT_NE(std::strstr(it.report.message, "the model has no \"contact\""), nullptr) << it.report.message;
+  double gap = 0.0;
+  it.output.wanted = ENTS_GAP, it.output.gap = &gap;
+  EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message; // projections alone need none
+  EXPECT_DOUBLE_EQ(gap, -0.01);
 }
 
 // Nobody asks for a result of the element, and it is clearly open: its area is looked at all the same.
