@@ -23,7 +23,6 @@ private:
   std::int32_t add(std::int64_t e);
   std::uint64_t evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents, std::int32_t* flags) const;
   std::int32_t add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const;
-  void open_element(std::int64_t e, double* residual, double* tangent) const;
 
   const ElementCall& call_;
   const Plan& plan_;
@@ -31,28 +30,14 @@ private:
   ents_report* report_;
 };
 
-// An element without a segment: its multipliers are zero, scaled like those of elements that are open.
-void Assembly::open_element(std::int64_t e, double* residual, double* tangent) const {
-  const ents_input& in = *call_.in;
-  const double given = in.area ? *at(in.area, in.area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
-  const int nodes = plan_.dofs - plan_.multipliers;
-  for (int a = 0; a < plan_.multipliers; ++a) {
-    const double slope = -area / (a == 0 ? plan_.law.stiffness : plan_.law.friction_stiffness);
-    residual[nodes + a] = slope * at(in.multiplier, in.multiplier_stride, e)[a];
-    for (int b = 0; b < plan_.multipliers; ++b)
-      tangent[(nodes + b) * plan_.dofs + nodes + a] = a == b ? slope : 0.0;
-  }
-}
-
 std::int32_t Assembly::add(std::int64_t e) {
   double residual[Equations::max_dofs], tangent[Equations::max_dofs * Equations::max_dofs];
   std::int32_t flags = 0;
   const std::int64_t segment = call_.segment(e);
   if (segment < -1) return call_.refuse_segment(e, report_);
   if (segment == -1) {
-    call_.write_open(e);
-    if (plan_.multipliers == 0) return ENTS_OK;
-    open_element(e, residual, tangent);
+    const std::int32_t status = call_.evaluate_open(e, {0, residual, tangent, nullptr});
+    if (status != ENTS_OK || plan_.multipliers == 0) return status;
   } else {
     const ElementCall::Wanted wanted = {ENTS_FLAGS | (equations_.wants_residual() ? ENTS_RESIDUAL : 0) |
                                             (equations_.wants_tangent() ? ENTS_TANGENT : 0),
@@ -139,9 +124,12 @@ std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::in
   for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
     const bool found = call.segment(first) >= 0;
     for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
-    if (!found)
-      for (std::int64_t e = first; e < end; ++e) call.write_open(e);
-    else if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
+    if (found) {
+      if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
+      continue;
+    }
+    for (std::int64_t e = first; e < end; ++e)
+      if (const std::int32_t status = call.settle(call.evaluate_open(e, {}), e, result, report); status < 0) return status;
   }
   return result;
 }

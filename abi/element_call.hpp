@@ -56,8 +56,9 @@ struct ElementCall {
     return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results);
   }
 
-  // What an element without a segment gives: zeros, a fresh state, ENTS_FLAG_OUTSIDE.
-  void write_open(std::int64_t e) const;
+  // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held at zero as those of any
+  // open element. Of `also` the residual and the tangent, and of these the rows and columns of the multipliers alone.
+  std::int32_t evaluate_open(std::int64_t e, const Wanted& also) const;
 
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
@@ -87,6 +88,9 @@ struct ElementCall {
   }
 
 private:
+  std::int32_t check_open(std::int64_t e) const;
+  void write_open(std::int64_t e) const;
+  void hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const;
   std::int32_t explain_penetration(std::int64_t e, ents_report* report) const;
 
   ents_input input_copy; // of an older caller's

@@ -498,8 +498,9 @@ typedef struct ents_system {
 
 /* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
  * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
- * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero.
- * What is open adds nothing, but for the equations "multiplier = 0". Where no results per element are asked for, elements that are
+ * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero but
+ * the equations "multiplier = 0" of open elements, R = -A/eps lambda, K = -A/eps. Its inputs are checked as those of all others; `start` is not read.
+ * What is open adds nothing but these equations. Where no results per element are asked for, elements that are
  * clearly open (the slave above all of a line2 or tri3 and its height's bound, or of a plain quad4) are not projected.
  * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
  *   output  results per element as of ents_evaluate, or null

@@ -189,6 +189,94 @@ TEST(Assemble, AreasOfOpenElementsAreChecked) {
   }
 }
 
+// What a slave without a segment gives does not depend on who asks: ents_evaluate, far beside a segment; ents_iterate alone, or into a system.
+TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
+  const std::string coulomb = R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 70})";
+  for (const bool friction : {false, true})
+    for (const double area : {0.7, 0.0}) {
+      Iteration it(R"({"segment": "line2", "contact": {"normal": )" + multiplier + (friction ? coulomb : "") + "}}", {50.0, 50.0});
+      const auto n = static_cast<std::size_t>(it.model.layout.dofs), m = static_cast<std::size_t>(it.model.layout.multipliers);
+      ASSERT_EQ(m, friction ? 2u : 1u);
+      const double lambda[] = {3.1, -0.9};
+      const std::size_t leading = n + 2;
+      std::vector<double> alone_r(n, -7.0), alone_k(leading * n, -7.0), r = alone_r, k = alone_k;
+      double alone_energy = -7.0, energy = -7.0;
+      it.input.multiplier = lambda, it.input.area = &area;
+      it.output.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_ENERGY;
+      it.output.tangent_leading_dimension = static_cast<int64_t>(leading);
+      it.output.residual = alone_r.data(), it.output.tangent = alone_k.data(), it.output.energy = &alone_energy;
+      ents_input beside = it.input;
+      beside.slave = it.slave.data(), beside.master = it.positions;
+      ASSERT_EQ(ents_evaluate(it.model.get(), 0, 1, &beside, &it.output, &it.report), ENTS_OK) << it.report.message;
+      EXPECT_DOUBLE_EQ(alone_r[6], -(area > 0.0 ? area : 1.0) / 100 * 3.1);
+      it.output.residual = r.data(), it.output.tangent = k.data(), it.output.energy = &energy;
+      ASSERT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+      EXPECT_EQ(it.segment[0], -1);
+      EXPECT_EQ(r, alone_r);
+      EXPECT_EQ(k, alone_k);
+      EXPECT_EQ(energy, alone_energy);
+      // the same in the host's equations
+      const int64_t equation[] = {8, 9}, row_begin[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 4}, columns[] = {8, 9, 8, 9};
+      double values[4] = {};
+      it.system.multiplier_equations = equation, it.system.rows = 10;
+      it.system.row_begin = row_begin, it.system.columns = columns, it.system.values = values;
+      it.output.wanted = ENTS_ENERGY, energy = -7.0;
+      ASSERT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;
+      EXPECT_EQ(energy, alone_energy);
+      for (std::size_t a = 0; a < m; ++a) {
+        EXPECT_EQ(it.residual[8 + a], alone_r[6 + a]);
+        for (std::size_t b = 0; b < m; ++b) EXPECT_EQ(values[2 * a + b], alone_k[(6 + b) * leading + 6 + a]);
+      }
+    }
+}
+
+// What an element without a segment has by way of inputs is looked at as those of all others; but for its start, which nobody has set.
+TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const struct {
+    const char* input;
+    double value;
+    int32_t status;
+  } mistakes[] = {{"slave", inf, ENTS_NON_FINITE},       {"area", nan, ENTS_NON_FINITE},        {"area", inf, ENTS_NON_FINITE},
+                  {"area", -3.0, ENTS_BAD_VALUE},        {"multiplier", nan, ENTS_NON_FINITE},  {"multiplier", 1e200, ENTS_OUT_OF_RANGE},
+                  {"state_begin", 0.0, ENTS_BAD_STATE},  {"state_begin", nan, ENTS_BAD_STATE}};
+  for (const bool has_multiplier : {false, true}) {
+    Iteration it(model_text(has_multiplier ? multiplier : penalty), {50.0, 50.0, 50.0, 50.0});
+    const std::size_t size = static_cast<std::size_t>(it.model.layout.state_size);
+    std::vector<double> area(2, 1.0), lambda(2, 1.0), state(2 * size);
+    const int64_t equation[] = {10, 11};
+    std::vector<int32_t> status(2, -9);
+    it.input.area = area.data(), it.input.area_stride = 1;
+    if (has_multiplier) it.input.multiplier = lambda.data(), it.input.multiplier_stride = 1;
+    it.input.state_begin = state.data(), it.input.state_begin_stride = static_cast<int64_t>(size);
+    it.output.status = status.data(), it.output.status_stride = 1;
+    it.system.multiplier_equations = equation, it.system.rows = 12;
+    ASSERT_EQ(ents_state_init(it.model.get(), 2, state.data(), static_cast<int64_t>(size), nullptr), ENTS_OK);
+    it.xi[1] = nan;
+    ASSERT_EQ(it.assemble(), ENTS_OK) << it.report.message;
+    for (const auto& mistake : mistakes) {
+      const std::string name = mistake.input;
+      if (name == "multiplier" && !has_multiplier) continue;
+      double& wrong = name == "slave" ? it.slave[2] : name == "area" ? area[1] : name == "multiplier" ? lambda[1] : state[size];
+      const double right = wrong;
+      wrong = mistake.value;
+      std::fill(it.residual.begin(), it.residual.end(), 0.0);
+      const auto expect_refused = [&](int32_t result, const char* call) {
+        EXPECT_EQ(result, mistake.status) << call << " " << name << " " << mistake.value;
+        EXPECT_EQ(it.report.element, 1);
+        EXPECT_EQ(status[1], mistake.status);
+        const std::string said = mistake.status < 0 ? "input." + name : "exceeds the range";
+        EXPECT_NE(std::strstr(it.report.message, said.c_str()), nullptr) << it.report.message;
+        EXPECT_NE(std::strstr(it.report.message, "element 1"), nullptr) << it.report.message;
+        EXPECT_EQ(it.residual[11], 0.0);
+      };
+      expect_refused(it.assemble(), "assemble");
+      if (name != "slave") expect_refused(it.iterate(nullptr), "iterate"); // a detection has looked at it
+      wrong = right;
+    }
+  }
+}
+
 // A slave without area carries no force; its multiplier is zero, and its row of the system is not.
 TEST(Assemble, SlavesWithoutAreaHoldTheirMultiplier) {
   for (const char* law : {"augmented_multiplier", "multiplier"})
