@@ -15,15 +15,27 @@ inline std::int64_t leading_dimension(const ents_model& model, const ents_output
   return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
+// Elements first .. first + count - 1 of two arrays, `size` numbers each: is there a place that both have? Elements of one stride may lie between
+// each other.
+inline bool arrays_overlap(const double* a, std::int64_t a_stride, const double* b, std::int64_t b_stride, std::int64_t size,
+                           std::int64_t first, std::int64_t count) noexcept {
+  constexpr std::uintptr_t bytes = sizeof(double);
+  const auto begin = [first](const double* data, std::int64_t stride) {
+    return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * bytes;
+  };
+  const auto extent = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + size) * bytes; };
+  const std::uintptr_t from = begin(a, a_stride), to = begin(b, b_stride);
+  if (from >= to + extent(b_stride) || to >= from + extent(a_stride)) return false;
+  if (count == 1 || a_stride != b_stride || a_stride <= 0) return true;
+  const std::uintptr_t period = static_cast<std::uintptr_t>(a_stride) * bytes, room = static_cast<std::uintptr_t>(size) * bytes;
+  const std::uintptr_t apart = (from < to ? to - from : from - to) % period;
+  return apart < room || apart > period - room;
+}
+
 // Do the states at the end of elements first .. lie on those at the begin? An element may be evaluated twice: they must not.
 inline bool states_overlap(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
-  if ((out.wanted & ENTS_STATE) == 0 || !in.state_begin || !out.state_end || count < 1) return false;
-  const auto begin = [first](const double* data, std::int64_t stride) {
-    return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * sizeof(double);
-  };
-  const auto size = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + model.sizes.state) * sizeof(double); };
-  const std::uintptr_t from = begin(in.state_begin, in.state_begin_stride), to = begin(out.state_end, out.state_end_stride);
-  return from < to + size(out.state_end_stride) && to < from + size(in.state_begin_stride);
+  return (out.wanted & ENTS_STATE) != 0 && in.state_begin && out.state_end && count > 0 &&
+         arrays_overlap(in.state_begin, in.state_begin_stride, out.state_end, out.state_end_stride, model.sizes.state, first, count);
 }
 
 // "`asks`, but the model has no contact"

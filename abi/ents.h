@@ -298,7 +298,7 @@ typedef struct ents_input {
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
 #define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
 #define ENTS_TANGENT       (1 << 12) /* tangent       [dofs][tangent_leading_dimension] [F/L]  K = dR/du */
-#define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin */
+#define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin, but may lie between its blocks */
 #define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
 #define ENTS_ITERATIONS    (1 << 15) /* iterations    [1] int32: surface evaluations the projection took */
 #define ENTS_TRACTION      (1 << 16) /* traction      [d]    [F/A]   tangential traction on the master, spatial vector */

@@ -327,6 +327,36 @@ TEST_F(Arguments, StatesDoNotOverlap) {
   }
 }
 
+// [element][begin | end]: as near as can be, and in no common place.
+TEST_F(Arguments, StatesMayLieBetweenEachOther) {
+  constexpr int64_t count = 5;
+  const int64_t size = model.layout.state_size, most = std::max<int64_t>(3 * size, 32);
+  std::vector<double> states(static_cast<std::size_t>(most * (count + 1))), ends(static_cast<std::size_t>(count * size));
+  for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = 0; // five times the same element
+  output.status = nullptr;
+  for (const int32_t wanted : {int32_t{ENTS_STATE}, ENTS_STATE | ENTS_GAP_GRADIENT})
+    for (const int64_t stride : {2 * size, 2 * size + 1, 3 * size})
+      for (int64_t apart = 0; apart < stride; ++apart)
+        for (const bool end_first : {false, true})
+          for (const int64_t first : {int64_t{0}, int64_t{2}}) {
+            double *begin = states.data() + (end_first ? apart : 0), *end = states.data() + (end_first ? 0 : apart);
+            call::state_init(model.get(), count, begin, stride, nullptr);
+            std::vector<double> gradient(static_cast<std::size_t>(count * model.layout.dofs));
+            output.wanted = wanted;
+            output.gap_gradient = gradient.data(), output.gap_gradient_stride = model.layout.dofs;
+            input.state_begin = begin, input.state_begin_stride = stride;
+            output.state_end = ends.data(), output.state_end_stride = size;
+            ASSERT_EQ(call::evaluate(model.get(), first, count - first, &input, &output, &report), ENTS_OK) << report.message;
+            output.state_end = end, output.state_end_stride = stride;
+            const int32_t status = call::evaluate(model.get(), first, count - first, &input, &output, &report);
+            const bool disjoint = apart >= size && apart + size <= stride;
+            ASSERT_EQ(status, disjoint ? ENTS_OK : ENTS_BAD_VALUE) << "stride " << stride << ", " << apart << " apart";
+            for (int64_t e = first; disjoint && e < count; ++e)
+              for (int64_t i = 0; i < size; ++i) ASSERT_EQ(end[e * stride + i], ends[static_cast<std::size_t>(e * size + i)]);
+          }
+  reset();
+}
+
 TEST_F(Arguments, SlaveSurfaces) {
   // turned about the axis of r = 0, a facet must not cross it
   const double crossing[] = {0.1, 0.0, 1.0, 0.0, -0.9, 1.0};
