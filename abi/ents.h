@@ -248,7 +248,8 @@ typedef struct ents_detection {
  * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
  * concave edge between segments (a kink of a plain mesh) that is a penetration that nobody sees: the normals of both
  * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE says so (normal projection): cut the step, widen the border, or
- * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open.
+ * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open. (At a point where more than 64
+ * segments meet nothing is proved: a slave without a projection is flagged.)
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
