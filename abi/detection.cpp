@@ -77,13 +77,13 @@ std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const doubl
 using TreeFunction = Status (*)(const Plan&, const MasterMesh&, double*, std::int64_t&);
 std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree,
                        std::int64_t size, TreeFunction make, bool refit, ents_report* report) {
+  const FloatingPointGuard guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
   if (status == ENTS_OK) status = check_tree_size(model->plan, mesh, tree, size, report);
   if (status == ENTS_OK && refit) status = check_is_tree(model->plan, mesh, tree, report);
   if (status != ENTS_OK) return status;
-  const FloatingPointGuard guard;
   std::int64_t segment = -1;
   const Status outcome = make(model->plan, mesh, tree, segment);
   return outcome == Status::ok ? report_ok(report)
@@ -93,6 +93,7 @@ std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, 
 std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller, const double* tree,
                         std::int64_t size, std::int64_t first, std::int64_t count,
                         const ents_detection* detection, ents_report* report) {
+  const FloatingPointGuard guard;
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
@@ -108,7 +109,6 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
     return report_message(report, ENTS_BAD_COUNT, -1,
                           "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
-  const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach > 0.0) || !(io->reach < 1e100))
     return report_message(report, ENTS_BAD_VALUE, -1,
                           "detection.reach is %g; a length above 0 and below 1e100 is needed", io->reach);
