@@ -184,6 +184,10 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
   if (states_overlap(*handle, *in, *out, first, count))
     return report_status(report, ENTS_BAD_VALUE, -1, "output.state_end overlaps input.state_begin; give it an array of its own");
+  const bool in_place = in->start == out->xi && (first + count <= 1 || in->start_stride == out->xi_stride);
+  if (!in_place && writes_start(*handle, *in, *out, first, count))
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
   return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
 }
 

@@ -38,6 +38,12 @@ inline bool states_overlap(const ents_model& model, const ents_input& in, const 
          arrays_overlap(in.state_begin, in.state_begin_stride, out.state_end, out.state_end_stride, model.sizes.state, first, count);
 }
 
+// Does xi take the place of the start, so that an element that is evaluated twice would start from its own result?
+inline bool writes_start(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
+  return (out.wanted & ENTS_XI) != 0 && in.start && out.xi && count > 0 &&
+         arrays_overlap(in.start, in.start_stride, out.xi, out.xi_stride, model.plan.parameters, first, count);
+}
+
 // "`asks`, but the model has no contact"
 std::int32_t refuse_without_contact(const char* asks, ents_report* report);
 

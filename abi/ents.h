@@ -320,7 +320,8 @@ typedef struct ents_input {
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
  * BAD_COUNT): 0 is not "shared" as with inputs. With first = 0 and count = 1 alone strides are not read and may be 0. A
- * pointer may be null unless its bit is set in `wanted`. */
+ * pointer may be null unless its bit is set in `wanted`. Outputs must not overlap each other or inputs, except that xi may take the
+ * place of input.start (the same pointer and stride). */
 typedef struct ents_output {
   int32_t struct_size;
   int32_t wanted;                      /* ENTS_... bits */
