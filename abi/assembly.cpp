@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_assemble: elements evaluated, their residuals and tangents added to the host's equations.
+// ents_assemble and ents_iterate: elements evaluated, their residuals and tangents added to the host's equations.
 #include <algorithm>
 
+#include "abi/detection_call.hpp"
 #include "abi/element_block.hpp"
 #include "abi/equations.hpp"
 #include "abi/guard.hpp"
@@ -95,30 +96,8 @@ std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
   return result;
 }
 
-std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
-                      const ents_input* input, const ents_output* output, const ents_system* system,
-                      bool start_first, ents_report* report) {
-  const FloatingPointGuard guard;
-  ents_output none{};
-  none.struct_size = sizeof none;
-  ElementCall call;
-  call.start_first = start_first;
-  std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
-  if (status != ENTS_OK) return status;
-  Assembly assembly(call, report);
-  if ((status = assembly.open(system, first, count)) != ENTS_OK) return status;
-  report_ok(report);
-  return assembly.add(first, count);
-}
-
-// The elements that a detection has found; results per element only.
-std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::int64_t count,
-                            const ents_input* input, const ents_output* output, ents_report* report) {
-  const FloatingPointGuard guard;
-  ElementCall call;
-  call.start_first = true;
-  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
-    return status;
+// Elements that a detection has found; results per element only.
+std::int32_t evaluate_found(const ElementCall& call, std::int64_t first, std::int64_t count, ents_report* report) {
   report_ok(report);
   std::int32_t result = ENTS_OK;
   for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
@@ -134,6 +113,73 @@ std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::in
   return result;
 }
 
+constexpr ents_output no_results() {
+  ents_output none{};
+  none.struct_size = sizeof none;
+  return none;
+}
+
+std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input, const ents_output* output,
+                      const ents_system* system, ents_report* report) {
+  const FloatingPointGuard guard;
+  const ents_output none = no_results();
+  ElementCall call;
+  std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
+  if (status != ENTS_OK) return status;
+  Assembly assembly(call, report);
+  if ((status = assembly.open(system, first, count)) != ENTS_OK) return status;
+  report_ok(report);
+  return assembly.add(first, count);
+}
+
+// What ents_iterate takes of the caller's input: the rest comes from the detection.
+std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_report* report) {
+  if (input.slave || input.master || input.mesh || input.segment || input.start || input.surface_coordinates)
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
+                         "takes them from the detection");
+  if (model.model.law.has_friction() && input.state_begin)
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
+  if (!model.model.patch.empty())
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "the elements of this model are patches: they choose their segments themselves; use ents_evaluate");
+  return ENTS_OK;
+}
+
+// All that can be refused before the first slave is looked at is, and then nothing has been written.
+std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, std::int64_t size, std::int64_t first,
+                     std::int64_t count, const ents_detection* detection, const ents_input* input, const ents_output* output,
+                     const ents_system* system, ents_report* report) {
+  const FloatingPointGuard guard;
+  ents_input copy{};
+  std::int32_t status = ENTS_OK;
+  const ents_input* rest = known_struct(input, copy, "input", status, report);
+  if (rest) status = check_handle(model, report);
+  if (status == ENTS_OK) status = check_rest(*model, *rest, report);
+  if (status != ENTS_OK) return status;
+  DetectionCall slaves;
+  if ((status = slaves.open(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
+  ents_input in = *rest;
+  in.struct_size = sizeof in;
+  in.mesh = mesh;
+  in.slave = slaves.io->slave, in.slave_stride = model->plan.dimension;
+  in.segment = slaves.io->segment, in.segment_stride = 1;
+  in.start = slaves.io->xi, in.start_stride = model->plan.parameters;
+  const ents_output none = no_results();
+  ElementCall call;
+  call.start_first = true;
+  if ((status = call.open(model, first, count, &in, output || !system ? output : &none, report)) != ENTS_OK) return status;
+  Assembly assembly(call, report);
+  if (system && (status = assembly.open(system, first, count)) != ENTS_OK) return status;
+  std::int64_t lost = -1;
+  if ((status = slaves.detect_all(first, count, lost, report)) != ENTS_OK) return status;
+  if (lost >= 0)
+    return report_message(report, ENTS_NO_PROJECTION, lost, "slave %lld is behind an edge between segments and ahead of none",
+                          static_cast<long long>(lost));
+  return system ? assembly.add(first, count) : evaluate_found(call, first, count, report);
+}
+
 } // namespace
 
 } // namespace ents
@@ -142,48 +188,14 @@ extern "C" {
 
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
-  return ents::at_the_door(
-      report, [&] { return ents::assemble(model, first, count, input, output, system, false, report); });
+  return ents::at_the_door(report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
 }
 
 int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                      int64_t first, int64_t count, const ents_detection* detection, const ents_input* input,
                      const ents_output* output, const ents_system* system, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    ents_input copy{};
-    std::int32_t status = ENTS_OK;
-    const ents_input* known = ents::known_struct(input, copy, "input", status, report);
-    if (!known) return status;
-    if (known->slave || known->master || known->mesh || known->segment || known->start ||
-        known->surface_coordinates)
-      return ents::report_status(
-          report, ENTS_BAD_VALUE, -1,
-          "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
-          "takes them from the detection");
-    // before anything is written: what would be refused later
-    if ((status = ents::check_handle(model, report)) != ENTS_OK) return status;
-    if (model->model.law.has_friction() && known->state_begin)
-      return ents::report_status(
-          report, ENTS_BAD_VALUE, -1,
-          "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
-    ents_detection older{};
-    const ents_detection* found = ents::known_struct(detection, older, "detection", status, report);
-    if (!found) return status;
-    if (!found->flags)
-      return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "detection.flags is null; ents_iterate tells lost slaves by them");
-    if ((status = ents_detect(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
-    for (std::int64_t i = first; i < first + count; ++i)
-      if ((found->flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0)
-        return ents::report_message(report, ENTS_NO_PROJECTION, i, "slave %lld is behind an edge between segments and ahead of none",
-                                    static_cast<long long>(i));
-    ents_input in = *known;
-    in.struct_size = sizeof in;
-    in.mesh = mesh;
-    in.slave = found->slave, in.slave_stride = model->plan.dimension;
-    in.segment = found->segment, in.segment_stride = 1;
-    in.start = found->xi, in.start_stride = model->plan.parameters;
-    if (system) return ents::assemble(model, first, count, &in, output, system, true, report);
-    return ents::evaluate_found(model, first, count, &in, output, report);
+    return ents::iterate(model, mesh, tree, size, first, count, detection, input, output, system, report);
   });
 }
 

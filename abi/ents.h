@@ -514,7 +514,8 @@ ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t c
 /* All of an iteration in one call: ents_detect, then ents_assemble of the elements found (system null: results per element only,
  * residual and tangent among them if wanted). `input` gives areas, states and multipliers; its slave, master, mesh, segment
  * and start must be null: they come from the detection, the start even where input.state_begin has one. A slave that is lost
- * (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. With friction use the two calls: a state has to follow its slave to another segment
+ * (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. All arguments but the numbers of single slaves and elements are checked before anything is
+ * written. With friction use the two calls: a state has to follow its slave to another segment
  * in between (ents_state_transfer). */
 ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
                               int64_t count, const ents_detection *detection, const ents_input *input, const ents_output *output,

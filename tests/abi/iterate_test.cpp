@@ -141,19 +141,83 @@ TEST(Iterate, TellsTheFirstOfTheRefused) {
   EXPECT_NE(std::strstr(it.report.message, "gap = -0.1"), nullptr) << it.report.message;
 }
 
-// An older caller's detection ends before `flags`, which ents_iterate needs; nothing is read beyond it, and nothing has been written.
+// All that is wrong whatever the slaves is refused while their segments are what they were.
 TEST(Iterate, RefusesBeforeItWrites) {
+  const auto refused = [](Iteration& it, int32_t status, const char* said, bool with_system = false) {
+    it.xi[0] = -7.0, it.found[0] = -7;
+    EXPECT_EQ(it.iterate(with_system ? &it.system : nullptr), status) << said;
+    EXPECT_NE(std::strstr(it.report.message, said), nullptr) << it.report.message;
+    EXPECT_EQ(it.segment[0], -1) << said;
+    EXPECT_EQ(it.xi[0], -7.0) << said;
+    EXPECT_EQ(it.found[0], -7) << said;
+  };
+  double gap = 0.0;
+  const auto want_gap = [&gap](Iteration& it) { it.output.wanted = ENTS_GAP, it.output.gap = &gap; };
+  const std::string rough = R"(, "friction": {"type": "rough", "stiffness": 10}}})", segment = R"({"segment": "line2", )";
+  {
+    Iteration it(segment + R"("contact": {"normal": )" + penalty + rough, {0.5, -0.01});
+    want_gap(it);
+    const std::vector<double> state(static_cast<std::size_t>(it.model.layout.state_size));
+    it.input.state_begin = state.data();
+    refused(it, ENTS_BAD_VALUE, "input.state_begin with friction");
+  }
+  {
+    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + penalty + "}}", {0.5, -0.01});
+    want_gap(it);
+    refused(it, ENTS_BAD_VALUE, "patches");
+  }
+  {
+    Iteration it(R"({"segment": "line2"})", {0.5, -0.01});
+    want_gap(it);
+    it.output.wanted = ENTS_RESIDUAL;
+    refused(it, ENTS_BAD_MASK, "the model has no \"contact\"");
+    it.output.wanted = ENTS_GAP;
+    refused(it, ENTS_BAD_MASK, "the model has no \"contact\"", true);
+  }
+  {
+    Iteration it(model_text(multiplier), {0.5, -0.01});
+    want_gap(it);
+    refused(it, ENTS_NULL_ARGUMENT, "input.multiplier");
+  }
   Iteration it(model_text(penalty), {0.5, -0.01});
-  it.detection.struct_size = offsetof(ents_detection, flags);
-  EXPECT_EQ(it.iterate(nullptr), ENTS_NULL_ARGUMENT);
-  EXPECT_NE(std::strstr(it.report.message, "detection.flags"), nullptr) << it.report.message;
-  EXPECT_EQ(it.segment[0], -1);
-  Iteration rough(R"({"segment": "line2", "contact": {"normal": )" + penalty + R"(, "friction": {"type": "rough", "stiffness": 10}}})",
-                  {0.5, -0.01});
-  const std::vector<double> state(static_cast<std::size_t>(rough.model.layout.state_size));
-  rough.input.state_begin = state.data();
-  EXPECT_EQ(rough.iterate(nullptr), ENTS_BAD_VALUE);
-  EXPECT_EQ(rough.segment[0], -1);
+  want_gap(it);
+  it.output.wanted = 1 << 25;
+  refused(it, ENTS_BAD_MASK, "output.wanted has unknown bits");
+  it.output.wanted = ENTS_GAP | ENTS_PRESSURE;
+  refused(it, ENTS_NULL_ARGUMENT, "output.pressure");
+  it.output.wanted = ENTS_GAP;
+  it.system.index_size = 5;
+  refused(it, ENTS_BAD_VALUE, "system.index_size", true);
+  it.system.index_size = 8, it.system.slave_equations = nullptr;
+  refused(it, ENTS_NULL_ARGUMENT, "system.slave_equations", true);
+  it.detection.reach = 0.0;
+  refused(it, ENTS_BAD_VALUE, "detection.reach");
+  it.detection.reach = 0.5;
+  EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+}
+
+// They are the caller's to have: an older one's detection ends before them, and nothing is read beyond it. A slave that is lost is told all the same.
+TEST(Iterate, FlagsOfTheDetectionAreOptional) {
+  for (const bool older : {false, true}) {
+    Iteration it(model_text(penalty), {0.5, -0.01, 2.0, -0.2});
+    it.positions[1] = it.positions[5] = 0.5; // a groove
+    ASSERT_EQ(ents_tree_refit(it.model.get(), &it.mesh, it.tree.data(), static_cast<int64_t>(it.tree.size()), nullptr), ENTS_OK);
+    it.slave[1] = 0.5 * 0.75 - 0.01;
+    std::vector<double> gap(2, -7.0);
+    it.output.wanted = ENTS_GAP, it.output.gap = gap.data(), it.output.gap_stride = 1;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
+    EXPECT_EQ(it.found[1], ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
+    it.found.assign(2, -7);
+    if (older) it.detection.struct_size = offsetof(ents_detection, flags);
+    else it.detection.flags = nullptr;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
+    EXPECT_EQ(it.report.element, 1);
+    EXPECT_NE(std::strstr(it.report.message, "slave 1 is behind an edge"), nullptr) << it.report.message;
+    it.slave[3] = 0.3;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+    EXPECT_LT(gap[0], 0.0);
+    EXPECT_EQ(it.found, std::vector<int32_t>(2, -7));
+  }
 }
 
 // A model without "contact" has nothing to add: refused as ents_evaluate refuses a residual of it.
