@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <climits>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -377,6 +378,22 @@ TEST_F(Arguments, SlaveSurfaces) {
   combination.points = 1, combination.begin = from, combination.nodes = of, combination.weights = factors;
   EXPECT_EQ(ents_combine(&combination, 2, 3, crossing, point, &report), ENTS_BAD_VALUE);
   EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
+}
+
+// One struct for many segments: what is asked for stays asked for.
+TEST_F(Arguments, TheCheckOfASegmentKeepsItsSamples) {
+  const Model line(R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [30], "phase": 0.3}})");
+  const double nodes[] = {-1, 0, 1, 0}, smooth[] = {0, 0.01}, waves[] = {0, 5};
+  ents_admissibility result{};
+  result.struct_size = sizeof result;
+  ASSERT_EQ(call::model_check(line.get(), nodes, smooth, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 0);
+  ASSERT_EQ(call::model_check(line.get(), nodes, waves, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 0);
+  EXPECT_GT(result.height_max, 0.0199); // samples as fine as 150 waves ask for
+  result.samples = 9;
+  ASSERT_EQ(call::model_check(line.get(), nodes, waves, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 9);
 }
 
 TEST_F(Arguments, CountsOfTheOtherFunctions) {
