@@ -393,7 +393,9 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
  *   connectivity  [facets][nodes of the facet], 0 <= index < nodes
  *   positions     [nodes][d], [L]
  *   thickness     2D: the area of a length, [L]; axisymmetric bodies: 0, the areas are then of the full turn about the second axis. 3D: ignored
- *   areas         [nodes] out, [A]; 0 for nodes on no facet */
+ *   areas         [nodes] out, [A]; 0 for nodes on no facet
+ * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (a facet or node that does not exist, report.element; a thickness
+ * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
 
@@ -425,7 +427,8 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
  *   point_nodes    [points * nodes of the facet] out
  *   weights        [points * nodes of the facet] out
  *   areas          [points] out, [A]
- * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). */
+ * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). Statuses: those of ents_tributary_areas, DEGENERATE_SEGMENT
+ * among them, and nothing is written after any of them. */
 ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
                                       int64_t nodes, const double *positions, double thickness, int64_t *begin,
                                       int64_t *point_nodes, double *weights, double *areas, ents_report *report);

@@ -380,6 +380,24 @@ TEST_F(Arguments, SlaveSurfaces) {
   EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
 }
 
+// In space the areas are areas, whatever the thickness.
+TEST_F(Arguments, ThicknessIsOfThePlaneOnly) {
+  const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  const int64_t connectivity[] = {0, 1, 2, 3};
+  for (const double thickness : {0.0, 3.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    double areas[4] = {7, 7, 7, 7};
+    EXPECT_EQ(call::tributary_areas("quad4", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_OK) << report.message;
+    for (const double a : areas) EXPECT_DOUBLE_EQ(a, 0.25);
+    int64_t begin[2], nodes[4];
+    double weights[4], area = 0.0;
+    EXPECT_EQ(ents_sampling_points("quad4", 1, 1, connectivity, 4, square, thickness, begin, nodes, weights, &area, &report), ENTS_OK) << report.message;
+    EXPECT_DOUBLE_EQ(area, 1.0);
+    if (thickness >= 0.0 && std::isfinite(thickness)) continue;
+    EXPECT_EQ(call::tributary_areas("line2", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_BAD_VALUE);
+    EXPECT_NE(std::string(report.message).find("thickness"), std::string::npos) << report.message;
+  }
+}
+
 // One struct for many segments: what is asked for stays asked for.
 TEST_F(Arguments, TheCheckOfASegmentKeepsItsSamples) {
   const Model line(R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [30], "phase": 0.3}})");
