@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_assemble: elements evaluated, their residuals and tangents added to the host's equations.
+// ents_assemble and ents_iterate: elements evaluated, their residuals and tangents added to the host's equations.
 #include <algorithm>
 
+#include "abi/detection_call.hpp"
 #include "abi/element_block.hpp"
 #include "abi/equations.hpp"
 #include "abi/guard.hpp"
@@ -23,7 +24,6 @@ private:
   std::int32_t add(std::int64_t e);
   std::uint64_t evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents, std::int32_t* flags) const;
   std::int32_t add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const;
-  void open_element(std::int64_t e, double* residual, double* tangent) const;
 
   const ElementCall& call_;
   const Plan& plan_;
@@ -31,28 +31,14 @@ private:
   ents_report* report_;
 };
 
-// An element without a segment: its multipliers are zero, scaled like those of elements that are open.
-void Assembly::open_element(std::int64_t e, double* residual, double* tangent) const {
-  const ents_input& in = *call_.in;
-  const double given = in.area ? *at(in.area, in.area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
-  const int nodes = plan_.dofs - plan_.multipliers;
-  for (int a = 0; a < plan_.multipliers; ++a) {
-    const double slope = -area / (a == 0 ? plan_.law.stiffness : plan_.law.friction_stiffness);
-    residual[nodes + a] = slope * at(in.multiplier, in.multiplier_stride, e)[a];
-    for (int b = 0; b < plan_.multipliers; ++b)
-      tangent[(nodes + b) * plan_.dofs + nodes + a] = a == b ? slope : 0.0;
-  }
-}
-
 std::int32_t Assembly::add(std::int64_t e) {
   double residual[Equations::max_dofs], tangent[Equations::max_dofs * Equations::max_dofs];
   std::int32_t flags = 0;
   const std::int64_t segment = call_.segment(e);
   if (segment < -1) return call_.refuse_segment(e, report_);
   if (segment == -1) {
-    call_.write_open(e);
-    if (plan_.multipliers == 0) return ENTS_OK;
-    open_element(e, residual, tangent);
+    const std::int32_t status = call_.evaluate_open(e, {0, residual, tangent, nullptr});
+    if (status != ENTS_OK || plan_.multipliers == 0) return status;
   } else {
     const ElementCall::Wanted wanted = {ENTS_FLAGS | (equations_.wants_residual() ? ENTS_RESIDUAL : 0) |
                                             (equations_.wants_tangent() ? ENTS_TANGENT : 0),
@@ -110,14 +96,34 @@ std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
   return result;
 }
 
-std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
-                      const ents_input* input, const ents_output* output, const ents_system* system,
-                      bool start_first, ents_report* report) {
-  const FloatingPointGuard guard;
+// Elements that a detection has found; results per element only.
+std::int32_t evaluate_found(const ElementCall& call, std::int64_t first, std::int64_t count, ents_report* report) {
+  report_ok(report);
+  std::int32_t result = ENTS_OK;
+  for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
+    const bool found = call.segment(first) >= 0;
+    for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
+    if (found) {
+      if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
+      continue;
+    }
+    for (std::int64_t e = first; e < end; ++e)
+      if (const std::int32_t status = call.settle(call.evaluate_open(e, {}), e, result, report); status < 0) return status;
+  }
+  return result;
+}
+
+constexpr ents_output no_results() {
   ents_output none{};
   none.struct_size = sizeof none;
+  return none;
+}
+
+std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input, const ents_output* output,
+                      const ents_system* system, ents_report* report) {
+  const FloatingPointGuard guard;
+  const ents_output none = no_results();
   ElementCall call;
-  call.start_first = start_first;
   std::int32_t status = call.open(model, first, count, input, output ? output : &none, report);
   if (status != ENTS_OK) return status;
   Assembly assembly(call, report);
@@ -126,24 +132,52 @@ std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t 
   return assembly.add(first, count);
 }
 
-// The elements that a detection has found; results per element only.
-std::int32_t evaluate_found(const ents_model* model, std::int64_t first, std::int64_t count,
-                            const ents_input* input, const ents_output* output, ents_report* report) {
+// What ents_iterate takes of the caller's input: the rest comes from the detection.
+std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_report* report) {
+  if (input.slave || input.master || input.mesh || input.segment || input.start || input.surface_coordinates)
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
+                         "takes them from the detection");
+  if (model.model.law.has_friction() && input.state_begin)
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
+  if (!model.model.patch.empty())
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "the elements of this model are patches: they choose their segments themselves; use ents_evaluate");
+  return ENTS_OK;
+}
+
+// All that can be refused before the first slave is looked at is, and then nothing has been written.
+std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, std::int64_t size, std::int64_t first,
+                     std::int64_t count, const ents_detection* detection, const ents_input* input, const ents_output* output,
+                     const ents_system* system, ents_report* report) {
   const FloatingPointGuard guard;
+  ents_input copy{};
+  std::int32_t status = ENTS_OK;
+  const ents_input* rest = known_struct(input, copy, "input", status, report);
+  if (rest) status = check_handle(model, report);
+  if (status == ENTS_OK) status = check_rest(*model, *rest, report);
+  if (status != ENTS_OK) return status;
+  DetectionCall slaves;
+  if ((status = slaves.open(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
+  ents_input in = *rest;
+  in.struct_size = sizeof in;
+  in.mesh = mesh;
+  in.slave = slaves.io->slave, in.slave_stride = model->plan.dimension;
+  in.segment = slaves.io->segment, in.segment_stride = 1;
+  in.start = slaves.io->xi, in.start_stride = model->plan.parameters;
+  const ents_output none = no_results();
   ElementCall call;
   call.start_first = true;
-  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
-    return status;
-  report_ok(report);
-  std::int32_t result = ENTS_OK;
-  for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
-    const bool found = call.segment(first) >= 0;
-    for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
-    if (!found)
-      for (std::int64_t e = first; e < end; ++e) call.write_open(e);
-    else if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
-  }
-  return result;
+  if ((status = call.open(model, first, count, &in, output || !system ? output : &none, report)) != ENTS_OK) return status;
+  Assembly assembly(call, report);
+  if (system && (status = assembly.open(system, first, count)) != ENTS_OK) return status;
+  std::int64_t lost = -1;
+  if ((status = slaves.detect_all(first, count, lost, report)) != ENTS_OK) return status;
+  if (lost >= 0)
+    return report_message(report, ENTS_NO_PROJECTION, lost, "slave %lld is behind an edge between segments and ahead of none",
+                          static_cast<long long>(lost));
+  return system ? assembly.add(first, count) : evaluate_found(call, first, count, report);
 }
 
 } // namespace
@@ -154,48 +188,14 @@ extern "C" {
 
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
-  return ents::at_the_door(
-      report, [&] { return ents::assemble(model, first, count, input, output, system, false, report); });
+  return ents::at_the_door(report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
 }
 
 int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                      int64_t first, int64_t count, const ents_detection* detection, const ents_input* input,
                      const ents_output* output, const ents_system* system, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    ents_input copy{};
-    std::int32_t status = ENTS_OK;
-    const ents_input* known = ents::known_struct(input, copy, "input", status, report);
-    if (!known) return status;
-    if (known->slave || known->master || known->mesh || known->segment || known->start ||
-        known->surface_coordinates)
-      return ents::report_status(
-          report, ENTS_BAD_VALUE, -1,
-          "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
-          "takes them from the detection");
-    // before anything is written: what would be refused later
-    if ((status = ents::check_handle(model, report)) != ENTS_OK) return status;
-    if (model->model.law.has_friction() && known->state_begin)
-      return ents::report_status(
-          report, ENTS_BAD_VALUE, -1,
-          "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
-    ents_detection older{};
-    const ents_detection* found = ents::known_struct(detection, older, "detection", status, report);
-    if (!found) return status;
-    if (!found->flags)
-      return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "detection.flags is null; ents_iterate tells lost slaves by them");
-    if ((status = ents_detect(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
-    for (std::int64_t i = first; i < first + count; ++i)
-      if ((found->flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0)
-        return ents::report_message(report, ENTS_NO_PROJECTION, i, "slave %lld is behind an edge between segments and ahead of none",
-                                    static_cast<long long>(i));
-    ents_input in = *known;
-    in.struct_size = sizeof in;
-    in.mesh = mesh;
-    in.slave = found->slave, in.slave_stride = model->plan.dimension;
-    in.segment = found->segment, in.segment_stride = 1;
-    in.start = found->xi, in.start_stride = model->plan.parameters;
-    if (system) return ents::assemble(model, first, count, &in, output, system, true, report);
-    return ents::evaluate_found(model, first, count, &in, output, report);
+    return ents::iterate(model, mesh, tree, size, first, count, detection, input, output, system, report);
   });
 }
 

@@ -4,9 +4,8 @@
 
 #include <cmath>
 
+#include "abi/detection_call.hpp"
 #include "abi/guard.hpp"
-#include "abi/handle.hpp"
-#include "abi/mesh.hpp"
 
 namespace ents {
 
@@ -77,30 +76,30 @@ std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const doubl
 using TreeFunction = Status (*)(const Plan&, const MasterMesh&, double*, std::int64_t&);
 std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree,
                        std::int64_t size, TreeFunction make, bool refit, ents_report* report) {
+  const FloatingPointGuard guard;
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
   if (status == ENTS_OK) status = check_tree_size(model->plan, mesh, tree, size, report);
   if (status == ENTS_OK && refit) status = check_is_tree(model->plan, mesh, tree, report);
   if (status != ENTS_OK) return status;
-  const FloatingPointGuard guard;
   std::int64_t segment = -1;
   const Status outcome = make(model->plan, mesh, tree, segment);
   return outcome == Status::ok ? report_ok(report)
                                : explain_segment(model->plan, mesh, outcome, segment, report);
 }
 
-std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller, const double* tree,
-                        std::int64_t size, std::int64_t first, std::int64_t count,
-                        const ents_detection* detection, ents_report* report) {
-  std::int32_t status = check_handle(model, report);
-  MasterMesh mesh;
+} // namespace
+
+std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mesh* caller, const double* boxes, std::int64_t size,
+                                 std::int64_t first, std::int64_t count, const ents_detection* detection, ents_report* report) {
+  std::int32_t status = check_handle(handle, report);
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
-  if (status == ENTS_OK) status = check_tree_size(model->plan, mesh, tree, size, report);
-  if (status == ENTS_OK) status = check_is_tree(model->plan, mesh, tree, report);
+  if (status == ENTS_OK) status = check_tree_size(handle->plan, mesh, boxes, size, report);
+  if (status == ENTS_OK) status = check_is_tree(handle->plan, mesh, boxes, report);
   if (status != ENTS_OK) return status;
-  ents_detection copy;
-  const ents_detection* io = known_struct(detection, copy, "detection", status, report);
+  model = handle, tree = boxes;
+  io = known_struct(detection, copy, "detection", status, report);
   if (!io) return status;
   if ((status = check_reserved(io->reserved, "detection", report)) != ENTS_OK) return status;
   constexpr std::int64_t most = std::int64_t{1} << 50;
@@ -108,7 +107,6 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
     return report_message(report, ENTS_BAD_COUNT, -1,
                           "first = %lld, count = %lld: both must be >= 0 and end before 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
-  const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach > 0.0) || !(io->reach < 1e100))
     return report_message(report, ENTS_BAD_VALUE, -1,
                           "detection.reach is %g; a length above 0 and below 1e100 is needed", io->reach);
@@ -117,7 +115,12 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
                           !io->slave     ? "slave"
                           : !io->segment ? "segment"
                                          : "xi");
+  return ENTS_OK;
+}
+
+std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, std::int64_t& lost, ents_report* report) const {
   const Plan& plan = model->plan;
+  lost = -1;
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;
     double* xi = io->xi + i * plan.parameters;
@@ -149,11 +152,10 @@ std::int32_t detect_all(const ents_model* model, const ents_master_mesh* caller,
           (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0) |
                      (found.behind_edge ? ENTS_FLAG_BEHIND_EDGE : 0);
     if (io->other) io->other[i] = found.other;
+    if (found.behind_edge && lost < 0) lost = i;
   }
   return report_ok(report);
 }
-
-} // namespace
 
 } // namespace ents
 
@@ -187,8 +189,13 @@ int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, d
 
 int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                     int64_t first, int64_t count, const ents_detection* detection, ents_report* report) {
-  return ents::at_the_door(
-      report, [&] { return ents::detect_all(model, mesh, tree, size, first, count, detection, report); });
+  return ents::at_the_door(report, [&] {
+    const ents::FloatingPointGuard guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
+    ents::DetectionCall call;
+    const std::int32_t status = call.open(model, mesh, tree, size, first, count, detection, report);
+    std::int64_t lost = -1;
+    return status == ENTS_OK ? call.detect_all(first, count, lost, report) : status;
+  });
 }
 
 } // extern "C"

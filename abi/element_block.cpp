@@ -101,7 +101,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
         (!out->status || one || (out->status_stride >= 1 && out->status_stride < most))))
     return false;
   if ((wanted & ~(want::residual | want::tangent)) == 0) return true;
-  return own(want::xi, out->xi, out->xi_stride, t) && own(want::gap, out->gap, out->gap_stride, 1) &&
+  return own(want::xi, out->xi, out->xi_stride, t) && !writes_start(*model, *in, *out, first, count) && own(want::gap, out->gap, out->gap_stride, 1) &&
          own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) &&
          own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) &&
          own(want::energy, out->energy, out->energy_stride, 1) && own(want::pressure, out->pressure, out->pressure_stride, 1) &&

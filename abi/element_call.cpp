@@ -8,6 +8,11 @@
 
 namespace ents {
 
+std::int32_t refuse_without_contact(const char* asks, ents_report* report) {
+  return report_message(report, ENTS_BAD_MASK, -1,
+                        "%s, but the model has no \"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}", asks);
+}
+
 namespace {
 
 // An array of an input or output struct, as the checks and messages need it.
@@ -83,10 +88,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
                           static_cast<unsigned>(out.wanted & ~want::all));
   if ((out.wanted & want::needs_law) != 0 && model.model.law.normal == NormalKind::none)
-    return report_status(
-        report, ENTS_BAD_MASK, -1,
-        "output.wanted asks for energy, pressure, residual or tangent, but the model has no "
-        "\"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}");
+    return refuse_without_contact("output.wanted asks for energy, pressure, residual or tangent", report);
   if (count == 0) return ENTS_OK;
   const std::int64_t last = first + count - 1;
   if (const std::int64_t leading = leading_dimension(model, out);
@@ -108,7 +110,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   return ENTS_OK;
 }
 
-constexpr int input_arrays = 7;
+constexpr int input_arrays = 7, start_array = 3;
 Array input_array(const ents_model& model, const ents_input& in, int index) noexcept {
   const Plan& plan = model.plan;
   const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes;
@@ -119,7 +121,7 @@ Array input_array(const ents_model& model, const ents_input& in, int index) noex
     return {"master", in.master, in.master_stride, m * d};
   case 2:
     return {"surface_coordinates", in.surface_coordinates, in.surface_coordinates_stride, m * t};
-  case 3:
+  case start_array:
     return {"start", in.start, in.start_stride, t};
   case 4:
     return {"area", in.area, in.area_stride, 1};
@@ -182,6 +184,10 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
   if (states_overlap(*handle, *in, *out, first, count))
     return report_status(report, ENTS_BAD_VALUE, -1, "output.state_end overlaps input.state_begin; give it an array of its own");
+  const bool in_place = in->start == out->xi && (first + count <= 1 || in->start_stride == out->xi_stride);
+  if (!in_place && writes_start(*handle, *in, *out, first, count))
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
   return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
 }
 
@@ -204,7 +210,51 @@ void ElementCall::write_open(std::int64_t e) const {
       std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
   }
   if ((out->wanted & ENTS_STATE) != 0) at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
-  if (out->status) *at(out->status, out->status_stride, e) = ENTS_OK;
+}
+
+// R = -A / eps lambda, K = -A / eps; in each the roundings of the element kernel. A slave without area has its equations, too.
+void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const {
+  const double given = in->area ? *at(in->area, in->area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
+  const double* lambda = at(in->multiplier, in->multiplier_stride, e);
+  const std::int64_t size = plan->multipliers, first = model->sizes.dofs - size;
+  for (std::int64_t a = 0; residual && a < size; ++a)
+    residual[first + a] = a == 0 ? -area / plan->law.stiffness * lambda[0] : (0.0 - area * lambda[a]) / plan->law.friction_stiffness;
+  for (std::int64_t a = 0; tangent && a < size; ++a)
+    for (std::int64_t b = 0; b < size; ++b)
+      tangent[(first + b) * leading + first + a] =
+          a != b ? 0.0 : a == 0 ? -area / plan->law.stiffness : 1.0 / plan->law.friction_stiffness * (0.0 - area);
+  if ((out->wanted & ENTS_ENERGY) != 0) // of the normal one; friction has none
+    *at(out->energy, out->energy_stride, e) = area * (-0.5 * lambda[0] * lambda[0] / plan->law.stiffness);
+}
+
+// As the element kernel, but for the start: nobody sets one where there is no segment.
+std::int32_t ElementCall::check_open(std::int64_t e) const {
+  const double *area = at(in->area, in->area_stride, e), *lambda = at(in->multiplier, in->multiplier_stride, e);
+  if (first_non_finite(at(in->slave, in->slave_stride, e), plan->dimension) >= 0 || first_non_finite(area, 1) >= 0 ||
+      first_non_finite(lambda, plan->multipliers) >= 0)
+    return ENTS_NON_FINITE;
+  if (area && *area < 0.0) return ENTS_BAD_VALUE;
+  if (in->state_begin && !is_state(plan->state, at(in->state_begin, in->state_begin_stride, e))) return ENTS_BAD_STATE;
+  constexpr double largest = 1e60; // products of a few such numbers stay in range
+  double size = 0.0;
+  for (int a = 0; a < plan->multipliers; ++a)
+    size += std::fabs(lambda[a]) * (1.0 + 1.0 / (a == 0 ? plan->law.stiffness : plan->law.friction_stiffness));
+  return (area ? 1.0 + *area : 1.0) * size < largest ? ENTS_OK : ENTS_OUT_OF_RANGE;
+}
+
+std::int32_t ElementCall::evaluate_open(std::int64_t e, const Wanted& also) const {
+  const std::int32_t outcome = check_open(e);
+  if (out->status) *at(out->status, out->status_stride, e) = outcome;
+  if (outcome != ENTS_OK) return outcome;
+  write_open(e);
+  if (plan->multipliers == 0) return ENTS_OK;
+  const auto own = [&](std::int32_t bit, double* data, std::int64_t stride) {
+    return (out->wanted & bit) != 0 ? at(data, stride, e) : nullptr;
+  };
+  hold_multipliers(e, also.residual ? also.residual : own(ENTS_RESIDUAL, out->residual, out->residual_stride),
+                   also.tangent ? also.tangent : own(ENTS_TANGENT, out->tangent, out->tangent_stride),
+                   also.tangent ? plan->dofs : leading_dimension(*model, *out));
+  return ENTS_OK;
 }
 
 ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) const {
@@ -241,6 +291,7 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
   const long long number = e;
   if (status == ENTS_NON_FINITE)
     for (int i = 0; i < input_arrays; ++i) {
+      if (i == start_array && in->mesh && segment(e) < 0) continue;
       const Array a = input_array(*model, *in, i);
       const double* v = at(static_cast<const double*>(a.data), a.stride, e);
       const std::int64_t k = first_non_finite(v, a.size);

@@ -15,16 +15,37 @@ inline std::int64_t leading_dimension(const ents_model& model, const ents_output
   return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
+// Elements first .. first + count - 1 of two arrays, `size` numbers each: is there a place that both have? Elements of one stride may lie between
+// each other.
+inline bool arrays_overlap(const double* a, std::int64_t a_stride, const double* b, std::int64_t b_stride, std::int64_t size,
+                           std::int64_t first, std::int64_t count) noexcept {
+  constexpr std::uintptr_t bytes = sizeof(double);
+  const auto begin = [first](const double* data, std::int64_t stride) {
+    return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * bytes;
+  };
+  const auto extent = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + size) * bytes; };
+  const std::uintptr_t from = begin(a, a_stride), to = begin(b, b_stride);
+  if (from >= to + extent(b_stride) || to >= from + extent(a_stride)) return false;
+  if (count == 1 || a_stride != b_stride || a_stride <= 0) return true;
+  const std::uintptr_t period = static_cast<std::uintptr_t>(a_stride) * bytes, room = static_cast<std::uintptr_t>(size) * bytes;
+  const std::uintptr_t apart = (from < to ? to - from : from - to) % period;
+  return apart < room || apart > period - room;
+}
+
 // Do the states at the end of elements first .. lie on those at the begin? An element may be evaluated twice: they must not.
 inline bool states_overlap(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
-  if ((out.wanted & ENTS_STATE) == 0 || !in.state_begin || !out.state_end || count < 1) return false;
-  const auto begin = [first](const double* data, std::int64_t stride) {
-    return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * sizeof(double);
-  };
-  const auto size = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + model.sizes.state) * sizeof(double); };
-  const std::uintptr_t from = begin(in.state_begin, in.state_begin_stride), to = begin(out.state_end, out.state_end_stride);
-  return from < to + size(out.state_end_stride) && to < from + size(in.state_begin_stride);
+  return (out.wanted & ENTS_STATE) != 0 && in.state_begin && out.state_end && count > 0 &&
+         arrays_overlap(in.state_begin, in.state_begin_stride, out.state_end, out.state_end_stride, model.sizes.state, first, count);
 }
+
+// Does xi take the place of the start, so that an element that is evaluated twice would start from its own result?
+inline bool writes_start(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
+  return (out.wanted & ENTS_XI) != 0 && in.start && out.xi && count > 0 &&
+         arrays_overlap(in.start, in.start_stride, out.xi, out.xi_stride, model.plan.parameters, first, count);
+}
+
+// "`asks`, but the model has no contact"
+std::int32_t refuse_without_contact(const char* asks, ents_report* report);
 
 struct ElementCall {
   const ents_model* model;
@@ -53,8 +74,9 @@ struct ElementCall {
     return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results);
   }
 
-  // What an element without a segment gives: zeros, a fresh state, ENTS_FLAG_OUTSIDE.
-  void write_open(std::int64_t e) const;
+  // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held at zero as those of any
+  // open element. Of `also` the residual and the tangent, and of these the rows and columns of the multipliers alone.
+  std::int32_t evaluate_open(std::int64_t e, const Wanted& also) const;
 
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
@@ -84,6 +106,9 @@ struct ElementCall {
   }
 
 private:
+  std::int32_t check_open(std::int64_t e) const;
+  void write_open(std::int64_t e) const;
+  void hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const;
   std::int32_t explain_penetration(std::int64_t e, ents_report* report) const;
 
   ents_input input_copy; // of an older caller's

@@ -248,7 +248,8 @@ typedef struct ents_detection {
  * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
  * concave edge between segments (a kink of a plain mesh) that is a penetration that nobody sees: the normals of both
  * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE says so (normal projection): cut the step, widen the border, or
- * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open.
+ * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open. (At a point where more than 64
+ * segments meet nothing is proved: a slave without a projection is flagged.)
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
@@ -298,7 +299,7 @@ typedef struct ents_input {
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
 #define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
 #define ENTS_TANGENT       (1 << 12) /* tangent       [dofs][tangent_leading_dimension] [F/L]  K = dR/du */
-#define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin */
+#define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin, but may lie between its blocks */
 #define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
 #define ENTS_ITERATIONS    (1 << 15) /* iterations    [1] int32: surface evaluations the projection took */
 #define ENTS_TRACTION      (1 << 16) /* traction      [d]    [F/A]   tangential traction on the master, spatial vector */
@@ -319,7 +320,8 @@ typedef struct ents_input {
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
  * BAD_COUNT): 0 is not "shared" as with inputs. With first = 0 and count = 1 alone strides are not read and may be 0. A
- * pointer may be null unless its bit is set in `wanted`. */
+ * pointer may be null unless its bit is set in `wanted`. Outputs must not overlap each other or inputs, except that xi may take the
+ * place of input.start (the same pointer and stride). */
 typedef struct ents_output {
   int32_t struct_size;
   int32_t wanted;                      /* ENTS_... bits */
@@ -393,7 +395,9 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
  *   connectivity  [facets][nodes of the facet], 0 <= index < nodes
  *   positions     [nodes][d], [L]
  *   thickness     2D: the area of a length, [L]; axisymmetric bodies: 0, the areas are then of the full turn about the second axis. 3D: ignored
- *   areas         [nodes] out, [A]; 0 for nodes on no facet */
+ *   areas         [nodes] out, [A]; 0 for nodes on no facet
+ * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (a facet or node that does not exist, report.element; a thickness
+ * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
 
@@ -425,7 +429,8 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
  *   point_nodes    [points * nodes of the facet] out
  *   weights        [points * nodes of the facet] out
  *   areas          [points] out, [A]
- * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). */
+ * begin, point_nodes and weights make an ents_combination. Allocates (NO_MEMORY). Statuses: those of ents_tributary_areas, DEGENERATE_SEGMENT
+ * among them, and nothing is written after any of them. */
 ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
                                       int64_t nodes, const double *positions, double thickness, int64_t *begin,
                                       int64_t *point_nodes, double *weights, double *areas, ents_report *report);
@@ -500,8 +505,9 @@ typedef struct ents_system {
 
 /* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
  * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
- * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero.
- * What is open adds nothing, but for the equations "multiplier = 0". Where no results per element are asked for, elements that are
+ * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero but
+ * the equations "multiplier = 0" of open elements, R = -A/eps lambda, K = -A/eps. Its inputs are checked as those of all others; `start` is not read.
+ * What is open adds nothing but these equations. Where no results per element are asked for, elements that are
  * clearly open (the slave above all of a line2 or tri3 and its height's bound, or of a plain quad4) are not projected.
  * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
  *   output  results per element as of ents_evaluate, or null
@@ -513,7 +519,8 @@ ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t c
 /* All of an iteration in one call: ents_detect, then ents_assemble of the elements found (system null: results per element only,
  * residual and tangent among them if wanted). `input` gives areas, states and multipliers; its slave, master, mesh, segment
  * and start must be null: they come from the detection, the start even where input.state_begin has one. A slave that is lost
- * (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. With friction use the two calls: a state has to follow its slave to another segment
+ * (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. All arguments but the numbers of single slaves and elements are checked before anything is
+ * written. With friction use the two calls: a state has to follow its slave to another segment
  * in between (ents_state_transfer). */
 ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
                               int64_t count, const ents_detection *detection, const ents_input *input, const ents_output *output,
@@ -543,7 +550,7 @@ ENTS_API int32_t ents_surface_evaluate(const ents_model *model, int64_t count,
  * regular grid of `samples` points per direction). Worst values and where they are. */
 typedef struct ents_admissibility {
   int32_t struct_size;
-  int32_t samples;            /* in: points per direction, 2 .. 4096; 0: as fine as the height asks for */
+  int32_t samples;            /* in: points per direction, 2 .. 4096; 0: as fine as the height asks for. Not written */
   int32_t continuity;         /* h is C^continuity; 1000: smooth */
   int32_t reserved;           /* 0 */
   double fold;                /* max |h| |kappa| over the segment; >= 1: rho_e folds over itself */

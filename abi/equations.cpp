@@ -11,6 +11,8 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
   system_ = known_struct(caller, copy_, "system", status, report_);
   if (!system_) return status;
   const ents_system& s = *system_;
+  if (call_.model->model.law.normal == NormalKind::none)
+    return refuse_without_contact("argument 'system' asks for residual and tangent", report_);
   if ((call_.out->wanted & (ENTS_RESIDUAL | ENTS_TANGENT)) != 0)
     return report_status(report_, ENTS_BAD_MASK, -1,
                          "output.wanted asks for residual or tangent; ents_assemble adds them to the system");

@@ -130,9 +130,15 @@ std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count,
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }
+      const bool twice = mixed && known != 0;
+      double start[2]; // before xi takes its place
+      if (twice && in->start) std::copy_n(at(in->start, in->start_stride, first + k), plan->parameters, start);
       const std::int32_t outcome = evaluate(first + k, {}, report);
       if (const std::int32_t end = settle(outcome, first + k, result, report); end < 0) return end;
-      if (mixed && known != 0 && outcome == ENTS_OK && (!in->mesh || gather_block(first, size, nodes, here))) plan->pairs(*plan, here, 1);
+      if (!twice || outcome != ENTS_OK || (in->mesh && !gather_block(first, size, nodes, here))) continue;
+      begin_at_first(here);
+      if (in->start) here.start = start, here.start_stride = 0;
+      plan->pairs(*plan, here, 1);
     }
   }
   return result;

@@ -80,7 +80,7 @@ std::int32_t check_facets(const char* name, const Facets& f, ents_report* report
   if ((f.count > 0 && !f.connectivity) || (f.nodes > 0 && !f.positions))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null",
                           f.count > 0 && !f.connectivity ? "connectivity" : "positions");
-  if (!std::isfinite(f.thickness) || f.thickness < 0.0)
+  if (f.entry->parameters == 1 && (!std::isfinite(f.thickness) || f.thickness < 0.0))
     return report_status(report, ENTS_BAD_VALUE, -1, "argument 'thickness' must be >= 0");
   const std::int64_t entries = f.count * f.entry->nodes;
   for (std::int64_t i = 0; i < entries; ++i)

@@ -10,12 +10,12 @@ namespace ents {
 
 namespace {
 
-constexpr int most_segments = 16; // that meet in a point
+constexpr int most_segments = 64; // that meet in a point
 
 // A point of a segment's border.
 struct BorderPoint {
   double point[3], normal[3], xi[2];
-  double distance; // to the slave
+  double distance; // to where it is looked for from
   bool corner;     // of a patch
   std::int64_t segment;
 };
@@ -31,10 +31,10 @@ struct Corner {
   double tangent[2][3], angle;
 };
 
-// The point of a segment's border that is closest to the slave.
+// The point of a segment's border that is closest to another one.
 class Border {
 public:
-  Border(const Plan& plan, const SegmentNodes& nodes, const double* slave) : plan_(plan), nodes_(nodes), slave_(slave) {}
+  Border(const Plan& plan, const SegmentNodes& nodes, const double* from) : plan_(plan), nodes_(nodes), from_(from) {}
 
   bool closest(BorderPoint& best) const {
     best.distance = infinity;
@@ -43,12 +43,17 @@ public:
     return best.distance < infinity;
   }
 
-  bool corner(const BorderPoint& at, Corner& out) const {
+  // At the corner nearest to a point of the border.
+  bool corner(const BorderPoint& near, Corner& out) const {
     constexpr double step = 1e-4;
+    double at[2] = {near.xi[0] > 0.0 ? 1.0 : -1.0, near.xi[1] > 0.0 ? 1.0 : -1.0};
+    if (triangle()) at[0] = std::round(near.xi[0]), at[1] = std::round(near.xi[1]);
+    BorderPoint here;
+    if (!evaluate(at, here)) return false;
     for (int e = 0; e < 2; ++e) {
-      double xi[2] = {at.xi[0], at.xi[1]};
+      double xi[2] = {at[0], at[1]};
       if (!triangle()) {
-        xi[e] -= step * (xi[e] > 0.0 ? 1.0 : -1.0);
+        xi[e] -= step * xi[e];
       } else if (xi[0] + xi[1] == 0.0) {
         xi[e] += step;
       } else { // (1, 0) or (0, 1)
@@ -59,7 +64,7 @@ public:
       BorderPoint beside;
       if (!evaluate(xi, beside)) return false;
       double* t = out.tangent[e];
-      for (int k = 0; k < 3; ++k) t[k] = beside.point[k] - at.point[k];
+      for (int k = 0; k < 3; ++k) t[k] = beside.point[k] - here.point[k];
       const double length = std::sqrt(dot(t, t, 3));
       if (!(length > 0.0)) return false;
       for (int k = 0; k < 3; ++k) t[k] /= length;
@@ -91,7 +96,7 @@ private:
     const SurfacePoint to = {out.point, out.normal, nullptr, nullptr, nullptr, nullptr, nullptr};
     if (plan_.surface(plan_, nodes_.positions, nodes_.surface_coordinates, xi, to) != Status::ok) return false;
     double sum = 0.0;
-    for (int k = 0; k < plan_.dimension; ++k) sum += (slave_[k] - out.point[k]) * (slave_[k] - out.point[k]);
+    for (int k = 0; k < plan_.dimension; ++k) sum += (from_[k] - out.point[k]) * (from_[k] - out.point[k]);
     out.distance = std::sqrt(sum);
     return true;
   }
@@ -123,14 +128,72 @@ private:
 
   const Plan& plan_;
   const SegmentNodes& nodes_;
-  const double* slave_;
+  const double* from_;
 };
+
+// How far a segment's nodes are from its first.
+double size_of(const Plan& plan, const SegmentNodes& nodes) {
+  double most = 0.0;
+  for (int i = 1; i < plan.nodes; ++i) {
+    double sum = 0.0;
+    for (int k = 0; k < plan.dimension; ++k) {
+      const double off = nodes.positions[i * plan.dimension + k] - nodes.positions[k];
+      sum += off * off;
+    }
+    most = std::max(most, sum);
+  }
+  return std::sqrt(most);
+}
+
+// The point of all borders that is closest to the slave; false: none within reach.
+bool closest_of_all(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach, BorderPoint& best) {
+  best.distance = reach, best.segment = -1;
+  const Status status = visit_segments(
+      Tree(plan, mesh.segments), tree, [&](const double* box) { return distance_to_box(plan.dimension, slave, box); },
+      [&] { return best.distance; },
+      [&](std::int64_t segment) {
+        SegmentNodes nodes;
+        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
+        BorderPoint point;
+        if (!Border(plan, nodes, slave).closest(point) || !(point.distance <= best.distance)) return Status::ok;
+        if (best.segment >= 0 && point.distance == best.distance) return Status::ok;
+        point.segment = segment;
+        best = point;
+        return Status::ok;
+      });
+  return status == Status::ok && best.segment >= 0;
+}
+
+// The segments whose borders go through a point, which lies on the border of one of them; -1: more than there is room for.
+int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, const BorderPoint& place, BorderPoint (&found)[most_segments]) {
+  const int d = plan.dimension;
+  SegmentNodes nodes;
+  if (gather(plan, mesh, place.segment, nodes) != Status::ok) return 0;
+  const double near = 1e-6 * size_of(plan, nodes);
+  int count = 0;
+  bool all = true;
+  const Status status = visit_segments(
+      Tree(plan, mesh.segments), tree, [&](const double* box) { return distance_to_box(d, place.point, box); }, [&] { return near; },
+      [&](std::int64_t segment) {
+        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
+        double box[6];
+        plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + d);
+        BorderPoint point;
+        if (distance_to_box(d, place.point, box) > near || !Border(plan, nodes, place.point).closest(point) || point.distance > near)
+          return Status::ok;
+        point.segment = segment;
+        if (count < most_segments) found[count++] = point;
+        else all = false;
+        return Status::ok;
+      });
+  if (status != Status::ok) return 0;
+  return all ? count : -1;
+}
 
 // The sum of the normals of the segments that meet in a point, weighted by their angles there; false at a free edge. On which side
 // of a surface a point lies whose closest point is an edge or a vertex, this normal tells and no other
 // (Baerentzen and Aanaes, IEEE TVCG 11, 2005).
-bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const double* slave, const BorderPoint* found, int count,
-                  double (&sum)[3]) {
+bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const BorderPoint* found, int count, double (&sum)[3]) {
   bool vertex = false;
   for (int i = 0; i < count; ++i) vertex = vertex || found[i].corner;
   if (count < 2) return false;
@@ -140,7 +203,7 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const double* slave,
     if (vertex) {
       SegmentNodes nodes;
       if (gather(plan, mesh, found[i].segment, nodes) != Status::ok ||
-          !Border(plan, nodes, slave).corner(found[i], corners[i]))
+          !Border(plan, nodes, found[i].point).corner(found[i], corners[i]))
         return false;
       weight = corners[i].angle;
     }
@@ -160,30 +223,13 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const double* slave,
 } // namespace
 
 bool is_behind_edge(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach) {
-  BorderPoint found[most_segments];
-  int count = 0;
-  double closest = reach;
-  const int d = plan.dimension;
-  constexpr double margin = 1.0 + 1e-6; // points whose distances differ by less are one
-  const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree, [&](const double* box) { return distance_to_box(d, slave, box); },
-      [&] { return closest * margin; },
-      [&](std::int64_t segment) {
-        SegmentNodes nodes;
-        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
-        BorderPoint point;
-        if (!Border(plan, nodes, slave).closest(point) || point.distance > closest * margin) return Status::ok;
-        point.segment = segment;
-        closest = std::min(closest, point.distance);
-        const auto farther = [&](const BorderPoint& p) { return p.distance > closest * margin; };
-        count = static_cast<int>(std::remove_if(found, found + count, farther) - found);
-        if (count < most_segments) found[count++] = point;
-        return Status::ok;
-      });
-  double outward[3] = {};
-  if (status != Status::ok || !pseudonormal(plan, mesh, slave, found, count, outward)) return false;
-  double side = 0.0;
-  for (int k = 0; k < d; ++k) side += (slave[k] - found[0].point[k]) * outward[k];
+  BorderPoint closest, found[most_segments];
+  if (!closest_of_all(plan, mesh, tree, slave, reach, closest)) return false;
+  const int count = meeting_in(plan, mesh, tree, closest, found);
+  if (count < 0) return true; // better a step cut than a penetration unseen
+  double outward[3] = {}, side = 0.0;
+  if (!pseudonormal(plan, mesh, found, count, outward)) return false;
+  for (int k = 0; k < plan.dimension; ++k) side += (slave[k] - closest.point[k]) * outward[k];
   return side < 0.0;
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <climits>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -327,6 +328,36 @@ TEST_F(Arguments, StatesDoNotOverlap) {
   }
 }
 
+// [element][begin | end]: as near as can be, and in no common place.
+TEST_F(Arguments, StatesMayLieBetweenEachOther) {
+  constexpr int64_t count = 5;
+  const int64_t size = model.layout.state_size, most = std::max<int64_t>(3 * size, 32);
+  std::vector<double> states(static_cast<std::size_t>(most * (count + 1))), ends(static_cast<std::size_t>(count * size));
+  for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = 0; // five times the same element
+  output.status = nullptr;
+  for (const int32_t wanted : {int32_t{ENTS_STATE}, ENTS_STATE | ENTS_GAP_GRADIENT})
+    for (const int64_t stride : {2 * size, 2 * size + 1, 3 * size})
+      for (int64_t apart = 0; apart < stride; ++apart)
+        for (const bool end_first : {false, true})
+          for (const int64_t first : {int64_t{0}, int64_t{2}}) {
+            double *begin = states.data() + (end_first ? apart : 0), *end = states.data() + (end_first ? 0 : apart);
+            call::state_init(model.get(), count, begin, stride, nullptr);
+            std::vector<double> gradient(static_cast<std::size_t>(count * model.layout.dofs));
+            output.wanted = wanted;
+            output.gap_gradient = gradient.data(), output.gap_gradient_stride = model.layout.dofs;
+            input.state_begin = begin, input.state_begin_stride = stride;
+            output.state_end = ends.data(), output.state_end_stride = size;
+            ASSERT_EQ(call::evaluate(model.get(), first, count - first, &input, &output, &report), ENTS_OK) << report.message;
+            output.state_end = end, output.state_end_stride = stride;
+            const int32_t status = call::evaluate(model.get(), first, count - first, &input, &output, &report);
+            const bool disjoint = apart >= size && apart + size <= stride;
+            ASSERT_EQ(status, disjoint ? ENTS_OK : ENTS_BAD_VALUE) << "stride " << stride << ", " << apart << " apart";
+            for (int64_t e = first; disjoint && e < count; ++e)
+              for (int64_t i = 0; i < size; ++i) ASSERT_EQ(end[e * stride + i], ends[static_cast<std::size_t>(e * size + i)]);
+          }
+  reset();
+}
+
 TEST_F(Arguments, SlaveSurfaces) {
   // turned about the axis of r = 0, a facet must not cross it
   const double crossing[] = {0.1, 0.0, 1.0, 0.0, -0.9, 1.0};
@@ -347,6 +378,40 @@ TEST_F(Arguments, SlaveSurfaces) {
   combination.points = 1, combination.begin = from, combination.nodes = of, combination.weights = factors;
   EXPECT_EQ(ents_combine(&combination, 2, 3, crossing, point, &report), ENTS_BAD_VALUE);
   EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
+}
+
+// In space the areas are areas, whatever the thickness.
+TEST_F(Arguments, ThicknessIsOfThePlaneOnly) {
+  const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  const int64_t connectivity[] = {0, 1, 2, 3};
+  for (const double thickness : {0.0, 3.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    double areas[4] = {7, 7, 7, 7};
+    EXPECT_EQ(call::tributary_areas("quad4", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_OK) << report.message;
+    for (const double a : areas) EXPECT_DOUBLE_EQ(a, 0.25);
+    int64_t begin[2], nodes[4];
+    double weights[4], area = 0.0;
+    EXPECT_EQ(ents_sampling_points("quad4", 1, 1, connectivity, 4, square, thickness, begin, nodes, weights, &area, &report), ENTS_OK) << report.message;
+    EXPECT_DOUBLE_EQ(area, 1.0);
+    if (thickness >= 0.0 && std::isfinite(thickness)) continue;
+    EXPECT_EQ(call::tributary_areas("line2", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_BAD_VALUE);
+    EXPECT_NE(std::string(report.message).find("thickness"), std::string::npos) << report.message;
+  }
+}
+
+// One struct for many segments: what is asked for stays asked for.
+TEST_F(Arguments, TheCheckOfASegmentKeepsItsSamples) {
+  const Model line(R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [30], "phase": 0.3}})");
+  const double nodes[] = {-1, 0, 1, 0}, smooth[] = {0, 0.01}, waves[] = {0, 5};
+  ents_admissibility result{};
+  result.struct_size = sizeof result;
+  ASSERT_EQ(call::model_check(line.get(), nodes, smooth, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 0);
+  ASSERT_EQ(call::model_check(line.get(), nodes, waves, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 0);
+  EXPECT_GT(result.height_max, 0.0199); // samples as fine as 150 waves ask for
+  result.samples = 9;
+  ASSERT_EQ(call::model_check(line.get(), nodes, waves, &result, &report), ENTS_OK);
+  EXPECT_EQ(result.samples, 9);
 }
 
 TEST_F(Arguments, CountsOfTheOtherFunctions) {

@@ -181,4 +181,62 @@ TEST(Batch, MistakesEndTheBatch) {
   for (std::size_t e = 5; e < count; ++e) EXPECT_EQ(batch.integers[2][e], -7);
 }
 
+// A host may keep one array of projections: the results are those of two.
+TEST(Batch, XiMayTakeThePlaceOfTheStart) {
+  Random random(86);
+  const std::vector<double> nodes = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0.1};
+  const int64_t connectivity[] = {0, 1, 2, 3};
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 1, mesh.connectivity = connectivity, mesh.nodes = 4, mesh.positions = nodes.data();
+  const Model model(text({"quad4", "sine"}));
+  const auto n = static_cast<std::size_t>(model.layout.dofs);
+  for (const std::size_t size : {1u, 5u, 63u, 64u, 200u})
+    for (const int32_t wanted : {0, int32_t{ENTS_RESIDUAL}, ENTS_RESIDUAL | ENTS_GAP_GRADIENT})
+      for (const bool in_mesh : {false, true})
+        for (const std::size_t padding : {0u, 3u}) {
+          std::vector<double> slaves, start;
+          for (std::size_t e = 0; e < size; ++e) {
+            slaves.insert(slaves.end(), {random(-0.9, 0.9), random(-0.9, 0.9), random(-0.08, 0.02)});
+            for (std::size_t a = 0; a < 2 + padding; ++a) start.push_back(a < 2 ? slaves[3 * e + a] + random(-0.1, 0.1) : -7.0);
+          }
+          slaves[3 * (size / 2)] = 50.0; // one that takes another way
+          const std::vector<int64_t> segment(size, 0);
+          std::vector<double> apart(start.size(), -7.0), in_place = start, residual[2], gradient[2];
+          std::vector<int32_t> iterations[2], status[2];
+          for (const std::size_t k : {0u, 1u}) {
+            ents_input in{};
+            in.struct_size = sizeof in;
+            in.slave = slaves.data(), in.slave_stride = 3;
+            in.start = k == 0 ? start.data() : in_place.data(), in.start_stride = static_cast<int64_t>(2 + padding);
+            if (in_mesh) in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1;
+            else in.master = nodes.data();
+            residual[k].assign(size * n, -7.0), gradient[k] = residual[k], iterations[k].assign(size, -7), status[k] = iterations[k];
+            ents_output out{};
+            out.struct_size = sizeof out;
+            out.wanted = wanted | ENTS_XI | ENTS_ITERATIONS;
+            out.xi = k == 0 ? apart.data() : in_place.data(), out.xi_stride = in.start_stride;
+            out.residual = residual[k].data(), out.residual_stride = static_cast<int64_t>(n);
+            out.gap_gradient = gradient[k].data(), out.gap_gradient_stride = static_cast<int64_t>(n);
+            out.iterations = iterations[k].data(), out.iterations_stride = 1;
+            out.status = status[k].data(), out.status_stride = 1;
+            ents_report report = new_report();
+            ASSERT_GE(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report), ENTS_OK) << report.message;
+            if (k == 0 || size == 1) continue;
+            out.xi = in_place.data() + 1; // in the place of others' starts
+            EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report), ENTS_BAD_VALUE);
+            EXPECT_NE(std::string(report.message).find("output.xi overlaps input.start"), std::string::npos) << report.message;
+          }
+          for (std::size_t e = 0; e < size; ++e)
+            for (std::size_t a = 0; a < 2; ++a) {
+              const std::size_t at = e * (2 + padding) + a;
+              ASSERT_EQ(in_place[at], status[0][e] == ENTS_OK ? apart[at] : start[at]) << size << " " << wanted << " " << e;
+            }
+          EXPECT_TRUE(same_bits(residual[0], residual[1])) << size << " " << wanted;
+          EXPECT_TRUE(same_bits(gradient[0], gradient[1])) << size << " " << wanted;
+          EXPECT_EQ(iterations[0], iterations[1]) << size << " " << wanted;
+          EXPECT_EQ(status[0], status[1]);
+        }
+}
+
 } // namespace

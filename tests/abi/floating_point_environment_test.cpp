@@ -260,7 +260,7 @@ TEST(FloatingPointEnvironment, SignallingNaNsDoNotTrap) {
   });
   EXPECT_EQ(status, ENTS_NON_FINITE);
   EXPECT_KEPT(traps, [&] {
-    status = ents_tributary_areas("quad4", 1, connectivity, 4, nodes, fresh[0], areas, nullptr);
+    status = ents_tributary_areas("line2", 1, connectivity, 4, nodes, fresh[0], areas, nullptr);
   });
   EXPECT_EQ(status, ENTS_BAD_VALUE);
   ents_admissibility result{};
@@ -285,6 +285,34 @@ TEST(FloatingPointEnvironment, SignallingNaNsDoNotTrap) {
   ents_model* made = nullptr;
   EXPECT_KEPT(traps, [&] { status = ents_model_create(t, -1, nullptr, &data, 1, &made, nullptr); });
   EXPECT_NE(status, ENTS_OK);
+}
+
+// Memory that has not been made a tree may hold anything.
+TEST(FloatingPointEnvironment, SignallingNaNsInATreeDoNotTrap) {
+  const Setting& traps = settings[5];
+  const Model model(R"({"segment": "line2"})");
+  const double positions[] = {0, 0, 2, 0}, slave[] = {1, -0.1};
+  const int64_t connectivity[] = {0, 1};
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 1, mesh.connectivity = connectivity, mesh.nodes = 2, mesh.positions = positions;
+  int64_t size = 0, segment = -1;
+  ASSERT_EQ(ents_tree_size(model.get(), 1, &size, nullptr), ENTS_OK);
+  std::vector<double> tree(static_cast<std::size_t>(size), std::numeric_limits<double>::signaling_NaN());
+  double xi = 0.0;
+  ents_detection detection{};
+  detection.struct_size = sizeof detection;
+  detection.slave = slave, detection.reach = 1.0, detection.segment = &segment, detection.xi = &xi;
+  int32_t status = 0;
+  EXPECT_KEPT(traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
+  EXPECT_EQ(status, ENTS_BAD_STATE);
+  EXPECT_KEPT(traps, [&] { status = ents_tree_refit(model.get(), &mesh, tree.data(), size, nullptr); });
+  EXPECT_EQ(status, ENTS_BAD_STATE);
+  EXPECT_KEPT(traps, [&] { status = ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr); });
+  EXPECT_EQ(status, ENTS_OK);
+  EXPECT_KEPT(traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
+  EXPECT_EQ(status, ENTS_OK);
+  EXPECT_EQ(segment, 0);
 }
 
 } // namespace

@@ -48,6 +48,13 @@ struct Iteration {
     return ents_iterate(model.get(), &mesh, tree.data(), static_cast<int64_t>(tree.size()), 0, count(), &detection, &input, &output, into,
                         &report);
   }
+  // The segments and starts are those of `segment` and `xi`.
+  int32_t assemble() {
+    ents_input in = input;
+    in.slave = slave.data(), in.slave_stride = 2;
+    in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1, in.start = xi.data(), in.start_stride = 1;
+    return ents_assemble(model.get(), 0, count(), &in, &output, &system, &report);
+  }
 
   Model model;
   int64_t connectivity[4] = {0, 1, 1, 2}, of_master[6] = {0, 1, 2, 3, 4, 5};
@@ -134,19 +141,97 @@ TEST(Iterate, TellsTheFirstOfTheRefused) {
   EXPECT_NE(std::strstr(it.report.message, "gap = -0.1"), nullptr) << it.report.message;
 }
 
-// An older caller's detection ends before `flags`, which ents_iterate needs; nothing is read beyond it, and nothing has been written.
+// All that is wrong whatever the slaves is refused while their segments are what they were.
 TEST(Iterate, RefusesBeforeItWrites) {
+  const auto refused = [](Iteration& it, int32_t status, const char* said, bool with_system = false) {
+    it.xi[0] = -7.0, it.found[0] = -7;
+    EXPECT_EQ(it.iterate(with_system ? &it.system : nullptr), status) << said;
+    EXPECT_NE(std::strstr(it.report.message, said), nullptr) << it.report.message;
+    EXPECT_EQ(it.segment[0], -1) << said;
+    EXPECT_EQ(it.xi[0], -7.0) << said;
+    EXPECT_EQ(it.found[0], -7) << said;
+  };
+  double gap = 0.0;
+  const auto want_gap = [&gap](Iteration& it) { it.output.wanted = ENTS_GAP, it.output.gap = &gap; };
+  const std::string rough = R"(, "friction": {"type": "rough", "stiffness": 10}}})", segment = R"({"segment": "line2", )";
+  {
+    Iteration it(segment + R"("contact": {"normal": )" + penalty + rough, {0.5, -0.01});
+    want_gap(it);
+    const std::vector<double> state(static_cast<std::size_t>(it.model.layout.state_size));
+    it.input.state_begin = state.data();
+    refused(it, ENTS_BAD_VALUE, "input.state_begin with friction");
+  }
+  {
+    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + penalty + "}}", {0.5, -0.01});
+    want_gap(it);
+    refused(it, ENTS_BAD_VALUE, "patches");
+  }
+  {
+    Iteration it(R"({"segment": "line2"})", {0.5, -0.01});
+    want_gap(it);
+    it.output.wanted = ENTS_RESIDUAL;
+    refused(it, ENTS_BAD_MASK, "the model has no \"contact\"");
+    it.output.wanted = ENTS_GAP;
+    refused(it, ENTS_BAD_MASK, "the model has no \"contact\"", true);
+  }
+  {
+    Iteration it(model_text(multiplier), {0.5, -0.01});
+    want_gap(it);
+    refused(it, ENTS_NULL_ARGUMENT, "input.multiplier");
+  }
   Iteration it(model_text(penalty), {0.5, -0.01});
-  it.detection.struct_size = offsetof(ents_detection, flags);
-  EXPECT_EQ(it.iterate(nullptr), ENTS_NULL_ARGUMENT);
-  EXPECT_NE(std::strstr(it.report.message, "detection.flags"), nullptr) << it.report.message;
-  EXPECT_EQ(it.segment[0], -1);
-  Iteration rough(R"({"segment": "line2", "contact": {"normal": )" + penalty + R"(, "friction": {"type": "rough", "stiffness": 10}}})",
-                  {0.5, -0.01});
-  const std::vector<double> state(static_cast<std::size_t>(rough.model.layout.state_size));
-  rough.input.state_begin = state.data();
-  EXPECT_EQ(rough.iterate(nullptr), ENTS_BAD_VALUE);
-  EXPECT_EQ(rough.segment[0], -1);
+  want_gap(it);
+  it.output.wanted = 1 << 25;
+  refused(it, ENTS_BAD_MASK, "output.wanted has unknown bits");
+  it.output.wanted = ENTS_GAP | ENTS_PRESSURE;
+  refused(it, ENTS_NULL_ARGUMENT, "output.pressure");
+  it.output.wanted = ENTS_GAP;
+  it.system.index_size = 5;
+  refused(it, ENTS_BAD_VALUE, "system.index_size", true);
+  it.system.index_size = 8, it.system.slave_equations = nullptr;
+  refused(it, ENTS_NULL_ARGUMENT, "system.slave_equations", true);
+  it.detection.reach = 0.0;
+  refused(it, ENTS_BAD_VALUE, "detection.reach");
+  it.detection.reach = 0.5;
+  EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+}
+
+// They are the caller's to have: an older one's detection ends before them, and nothing is read beyond it. A slave that is lost is told all the same.
+TEST(Iterate, FlagsOfTheDetectionAreOptional) {
+  for (const bool older : {false, true}) {
+    Iteration it(model_text(penalty), {0.5, -0.01, 2.0, -0.2});
+    it.positions[1] = it.positions[5] = 0.5; // a groove
+    ASSERT_EQ(ents_tree_refit(it.model.get(), &it.mesh, it.tree.data(), static_cast<int64_t>(it.tree.size()), nullptr), ENTS_OK);
+    it.slave[1] = 0.5 * 0.75 - 0.01;
+    std::vector<double> gap(2, -7.0);
+    it.output.wanted = ENTS_GAP, it.output.gap = gap.data(), it.output.gap_stride = 1;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
+    EXPECT_EQ(it.found[1], ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
+    it.found.assign(2, -7);
+    if (older) it.detection.struct_size = offsetof(ents_detection, flags);
+    else it.detection.flags = nullptr;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
+    EXPECT_EQ(it.report.element, 1);
+    EXPECT_NE(std::strstr(it.report.message, "slave 1 is behind an edge"), nullptr) << it.report.message;
+    it.slave[3] = 0.3;
+    EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+    EXPECT_LT(gap[0], 0.0);
+    EXPECT_EQ(it.found, std::vector<int32_t>(2, -7));
+  }
+}
+
+// A model without "contact" has nothing to add: refused as ents_evaluate refuses a residual of it.
+TEST(Assemble, AModelWithoutContactIsRefused) {
+  Iteration it(R"({"segment": "line2"})", {0.5, -0.01});
+  EXPECT_EQ(it.iterate(&it.system), ENTS_BAD_MASK);
+  EXPECT_NE(std::strstr(it.report.message, "the model has no \"contact\""), nullptr) << it.report.message;
+  it.segment[0] = 0;
+  EXPECT_EQ(it.assemble(), ENTS_BAD_MASK);
+  EXPECT_NE(std::strstr(it.report.message, "the model has no \"contact\""), nullptr) << it.report.message;
+  double gap = 0.0;
+  it.output.wanted = ENTS_GAP, it.output.gap = &gap;
+  EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message; // projections alone need none
+  EXPECT_DOUBLE_EQ(gap, -0.01);
 }
 
 // Nobody asks for a result of the element, and it is clearly open: its area is looked at all the same.
@@ -164,6 +249,94 @@ TEST(Assemble, AreasOfOpenElementsAreChecked) {
         EXPECT_EQ(it.iterate(&it.system), bad < 0.0 && std::isfinite(bad) ? ENTS_BAD_VALUE : ENTS_NON_FINITE) << bad;
         EXPECT_NE(std::strstr(it.report.message, "input.area"), nullptr) << it.report.message;
       }
+    }
+  }
+}
+
+// What a slave without a segment gives does not depend on who asks: ents_evaluate, far beside a segment; ents_iterate alone, or into a system.
+TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
+  const std::string coulomb = R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 70})";
+  for (const bool friction : {false, true})
+    for (const double area : {0.7, 0.0}) {
+      Iteration it(R"({"segment": "line2", "contact": {"normal": )" + multiplier + (friction ? coulomb : "") + "}}", {50.0, 50.0});
+      const auto n = static_cast<std::size_t>(it.model.layout.dofs), m = static_cast<std::size_t>(it.model.layout.multipliers);
+      ASSERT_EQ(m, friction ? 2u : 1u);
+      const double lambda[] = {3.1, -0.9};
+      const std::size_t leading = n + 2;
+      std::vector<double> alone_r(n, -7.0), alone_k(leading * n, -7.0), r = alone_r, k = alone_k;
+      double alone_energy = -7.0, energy = -7.0;
+      it.input.multiplier = lambda, it.input.area = &area;
+      it.output.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_ENERGY;
+      it.output.tangent_leading_dimension = static_cast<int64_t>(leading);
+      it.output.residual = alone_r.data(), it.output.tangent = alone_k.data(), it.output.energy = &alone_energy;
+      ents_input beside = it.input;
+      beside.slave = it.slave.data(), beside.master = it.positions;
+      ASSERT_EQ(ents_evaluate(it.model.get(), 0, 1, &beside, &it.output, &it.report), ENTS_OK) << it.report.message;
+      EXPECT_DOUBLE_EQ(alone_r[6], -(area > 0.0 ? area : 1.0) / 100 * 3.1);
+      it.output.residual = r.data(), it.output.tangent = k.data(), it.output.energy = &energy;
+      ASSERT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
+      EXPECT_EQ(it.segment[0], -1);
+      EXPECT_EQ(r, alone_r);
+      EXPECT_EQ(k, alone_k);
+      EXPECT_EQ(energy, alone_energy);
+      // the same in the host's equations
+      const int64_t equation[] = {8, 9}, row_begin[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 4}, columns[] = {8, 9, 8, 9};
+      double values[4] = {};
+      it.system.multiplier_equations = equation, it.system.rows = 10;
+      it.system.row_begin = row_begin, it.system.columns = columns, it.system.values = values;
+      it.output.wanted = ENTS_ENERGY, energy = -7.0;
+      ASSERT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;
+      EXPECT_EQ(energy, alone_energy);
+      for (std::size_t a = 0; a < m; ++a) {
+        EXPECT_EQ(it.residual[8 + a], alone_r[6 + a]);
+        for (std::size_t b = 0; b < m; ++b) EXPECT_EQ(values[2 * a + b], alone_k[(6 + b) * leading + 6 + a]);
+      }
+    }
+}
+
+// What an element without a segment has by way of inputs is looked at as those of all others; but for its start, which nobody has set.
+TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const struct {
+    const char* input;
+    double value;
+    int32_t status;
+  } mistakes[] = {{"slave", inf, ENTS_NON_FINITE},       {"area", nan, ENTS_NON_FINITE},        {"area", inf, ENTS_NON_FINITE},
+                  {"area", -3.0, ENTS_BAD_VALUE},        {"multiplier", nan, ENTS_NON_FINITE},  {"multiplier", 1e200, ENTS_OUT_OF_RANGE},
+                  {"state_begin", 0.0, ENTS_BAD_STATE},  {"state_begin", nan, ENTS_BAD_STATE}};
+  for (const bool has_multiplier : {false, true}) {
+    Iteration it(model_text(has_multiplier ? multiplier : penalty), {50.0, 50.0, 50.0, 50.0});
+    const std::size_t size = static_cast<std::size_t>(it.model.layout.state_size);
+    std::vector<double> area(2, 1.0), lambda(2, 1.0), state(2 * size);
+    const int64_t equation[] = {10, 11};
+    std::vector<int32_t> status(2, -9);
+    it.input.area = area.data(), it.input.area_stride = 1;
+    if (has_multiplier) it.input.multiplier = lambda.data(), it.input.multiplier_stride = 1;
+    it.input.state_begin = state.data(), it.input.state_begin_stride = static_cast<int64_t>(size);
+    it.output.status = status.data(), it.output.status_stride = 1;
+    it.system.multiplier_equations = equation, it.system.rows = 12;
+    ASSERT_EQ(ents_state_init(it.model.get(), 2, state.data(), static_cast<int64_t>(size), nullptr), ENTS_OK);
+    it.xi[1] = nan;
+    ASSERT_EQ(it.assemble(), ENTS_OK) << it.report.message;
+    for (const auto& mistake : mistakes) {
+      const std::string name = mistake.input;
+      if (name == "multiplier" && !has_multiplier) continue;
+      double& wrong = name == "slave" ? it.slave[2] : name == "area" ? area[1] : name == "multiplier" ? lambda[1] : state[size];
+      const double right = wrong;
+      wrong = mistake.value;
+      std::fill(it.residual.begin(), it.residual.end(), 0.0);
+      const auto expect_refused = [&](int32_t result, const char* call) {
+        EXPECT_EQ(result, mistake.status) << call << " " << name << " " << mistake.value;
+        EXPECT_EQ(it.report.element, 1);
+        EXPECT_EQ(status[1], mistake.status);
+        const std::string said = mistake.status < 0 ? "input." + name : "exceeds the range";
+        EXPECT_NE(std::strstr(it.report.message, said.c_str()), nullptr) << it.report.message;
+        EXPECT_NE(std::strstr(it.report.message, "element 1"), nullptr) << it.report.message;
+        EXPECT_EQ(it.residual[11], 0.0);
+      };
+      expect_refused(it.assemble(), "assemble");
+      if (name != "slave") expect_refused(it.iterate(nullptr), "iterate"); // a detection has looked at it
+      wrong = right;
     }
   }
 }

@@ -108,5 +108,84 @@ TEST(BehindEdge, AFreeEdgeIsNone) {
   }
 }
 
+// What is detected for one slave.
+std::int32_t flags_of(const MeshSurface& surface, const std::vector<double>& slave, double reach) {
+  const Model model(nlohmann::json{{"segment", surface.basis->name}}.dump());
+  Detector::Found found;
+  Detector(model, surface).detect(slave, reach, found);
+  EXPECT_EQ(found.segment[0], -1);
+  return found.flags[0];
+}
+
+MeshSurface surface_of(const char* basis, std::vector<std::int64_t> connectivity, std::vector<double> positions) {
+  MeshSurface out;
+  out.basis = &basis_named(basis);
+  out.connectivity = std::move(connectivity), out.positions = std::move(positions);
+  return out;
+}
+
+// Free edges that are equally far from a slave are no common one: between two plates, on the axis of a hole.
+TEST(BehindEdge, FreeEdgesThatAreEquallyFarAreNone) {
+  EXPECT_EQ(flags_of(surface_of("line2", {0, 1, 2, 3}, {-2, 0, -1, 0, 1, 0, 2, 0}), {0.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED);
+  const MeshSurface plates = surface_of("quad4", {0, 1, 2, 3, 4, 5, 6, 7},
+                                        {-2, -1, 0, -1, -1, 0, -1, 1, 0, -2, 1, 0, 1, -1, 0, 2, -1, 0, 2, 1, 0, 1, 1, 0});
+  EXPECT_EQ(flags_of(plates, {0.0, 0.1, -0.3}, 5.0), ENTS_FLAG_SEARCHED);
+  EXPECT_EQ(flags_of(plates, {0.0, 1.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED); // corners
+  for (const int n : {4, 12, 90}) { // facets round a hole
+    std::vector<std::int64_t> connectivity;
+    std::vector<double> positions;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * i / n, c = std::cos(angle), s = std::sin(angle);
+      positions.insert(positions.end(), {c, s, 0.0, 2.0 * c, 2.0 * s, 0.0});
+      const std::int64_t next = (i + 1) % n;
+      connectivity.insert(connectivity.end(), {2 * i, 2 * i + 1, 2 * next + 1, 2 * next});
+    }
+    EXPECT_EQ(flags_of(surface_of("quad4", connectivity, positions), {0.0, 0.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED) << n;
+  }
+}
+
+// The same in an element of several segments: open, not lost.
+TEST(BehindEdge, APatchBetweenFreeEdgesIsOpen) {
+  const Model model(R"({"segment": "line2", "patch": [[0, 1], [2, 3]], "contact": {"normal": {"type": "penalty", "stiffness": 10}}})");
+  const double slave[] = {0.0, -0.3}, master[] = {-2, 0, -1, 0, 1, 0, 2, 0};
+  std::vector<double> residual(10, 7.0);
+  std::int32_t flags = 0;
+  ents_input in{};
+  in.struct_size = sizeof in;
+  in.slave = slave, in.master = master;
+  ents_output out{};
+  out.struct_size = sizeof out;
+  out.wanted = ENTS_RESIDUAL | ENTS_FLAGS, out.residual = residual.data(), out.flags = &flags;
+  EXPECT_EQ(ents_evaluate(model.handle(), 0, 1, &in, &out, nullptr), ENTS_OK);
+  EXPECT_EQ(flags & (ENTS_FLAG_CONTACT | ENTS_FLAG_OUTSIDE), ENTS_FLAG_OUTSIDE);
+  EXPECT_EQ(residual, std::vector<double>(10, 0.0));
+}
+
+// Behind two grooves that are equally far: lost behind either.
+TEST(BehindEdge, GroovesThatAreEquallyFarAreSeen) {
+  const MeshSurface grooves = surface_of("line2", {0, 1, 1, 2, 2, 3, 3, 4}, {-2, 1, -1, 0, 0, 0.1, 1, 0, 2, 1});
+  for (const double x : {0.0, 0.1, -0.1}) EXPECT_EQ(flags_of(grooves, {x, -20.0}, 30.0), ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
+}
+
+// A pit and a hill of n facets: however many meet in its lowest point, a slave behind it is seen, and one ahead of the top is open (as far as
+// facets are counted).
+TEST(BehindEdge, FacetsRoundAPitAreAllCounted) {
+  for (const int n : {3, 6, 12, 16, 17, 20, 32, 63, 64, 65, 100}) {
+    std::vector<double> pit{0, 0, 0}, hill{0, 0, 0};
+    std::vector<std::int64_t> connectivity;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * i / n, c = std::cos(angle), s = std::sin(angle);
+      pit.insert(pit.end(), {c, s, 0.7});
+      hill.insert(hill.end(), {c, s, -0.7});
+      connectivity.insert(connectivity.end(), {0, 1 + i, 1 + (i + 1) % n});
+    }
+    for (const double x : {0.0, 0.001, 0.02}) {
+      EXPECT_EQ(flags_of(surface_of("tri3", connectivity, pit), {x, 0.5 * x, -0.1}, 0.5), ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE) << n;
+      const std::int32_t open = flags_of(surface_of("tri3", connectivity, hill), {x, 0.5 * x, 0.1}, 0.5);
+      EXPECT_EQ(open, n <= 64 ? ENTS_FLAG_SEARCHED : ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE) << n;
+    }
+  }
+}
+
 } // namespace
 } // namespace mechanics
