@@ -150,6 +150,7 @@ std::string Simulation::fingerprint() const {
     const ContactHistory history = contact_->history();
     hash.add_all(history.segment);
     hash.add_all(history.state);
+    hash.add_all(history.xi);
     hash.add_all(history.pressure);
     hash.add_all(history.traction);
   }

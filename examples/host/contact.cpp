@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "segment_search.hpp"
 
 namespace host {
 namespace {
@@ -88,19 +87,23 @@ std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<doub
   return position;
 }
 
+void Contact::build_grid(const std::vector<double>& displacement) {
+  using Point = SegmentSearch::Point;
+  grid_masters_.resize(master_.segments * m_ * d_);
+  std::vector<Point> corners(master_.segments * m_, Point::Zero());
+  for (std::size_t s = 0; s < master_.segments; ++s) gather_master(s, displacement, 0., grid_masters_.data() + s * m_ * d_);
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    for (std::size_t i = 0; i < d_; ++i) corners[c][static_cast<Eigen::Index>(i)] = grid_masters_[c * d_ + i];
+  grid_ = std::make_unique<SegmentSearch>(corners, m_);
+}
+
 void Contact::search(const Configuration& at, bool only_lost) {
   if (master_.segments == 1) {
     std::fill(segment_.begin(), segment_.end(), 0);
     return;
   }
   using Point = SegmentSearch::Point;
-  std::vector<double> masters(master_.segments * m_ * d_);
-  std::vector<Point> corners(master_.segments * m_, Point::Zero());
-  for (std::size_t s = 0; s < master_.segments; ++s)
-    gather_master(s, at.displacement, at.motion, masters.data() + s * m_ * d_);
-  for (std::size_t c = 0; c < corners.size(); ++c)
-    for (std::size_t i = 0; i < d_; ++i) corners[c][static_cast<Eigen::Index>(i)] = masters[c * d_ + i];
-  const SegmentSearch search(corners, m_);
+  if (!grid_ || !master_.rigid) build_grid(at.displacement);
 
   // All candidates of all slave nodes in one call.
   std::vector<std::size_t> owner;
@@ -109,12 +112,13 @@ void Contact::search(const Configuration& at, bool only_lost) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point position = Point::Zero();
     const std::array<double, 3> now = position_of(k, at.displacement);
-    for (std::size_t i = 0; i < d_; ++i) position[static_cast<Eigen::Index>(i)] = now[i];
-    for (const int s : search.near(position)) {
+    for (std::size_t i = 0; i < d_; ++i)
+      position[static_cast<Eigen::Index>(i)] = now[i] - (master_.rigid ? at.motion * master_.direction[i] : 0.);
+    for (const int s : grid_->near(position)) {
       owner.push_back(k);
       candidate.push_back(s);
       slave.insert(slave.end(), position.data(), position.data() + d_);
-      const auto first = masters.begin() + offset(static_cast<std::size_t>(s) * m_ * d_);
+      const auto first = grid_masters_.begin() + offset(static_cast<std::size_t>(s) * m_ * d_);
       master.insert(master.end(), first, first + offset(m_ * d_));
       if (master_.surface_coordinates.empty()) continue;
       const auto second =

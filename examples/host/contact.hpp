@@ -2,12 +2,14 @@
 // Node-to-segment contact: one element of the library per slave node, or per sampling point inside the slave faces.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "configuration.hpp"
 #include "dof_map.hpp"
 #include "master.hpp"
+#include "segment_search.hpp"
 #include "slave_points.hpp"
 #include "sparse_system.hpp"
 
@@ -114,6 +116,8 @@ private:
                      double* positions) const;
   ents_input input() const;
   /// Segments of all slave nodes for this configuration.
+  /// Where the master's segments are; once for a rigid master, without its motion.
+  void build_grid(const std::vector<double>& displacement);
   void search(const Configuration& at, bool only_lost);
   /// History of the active elements as seen from their segments.
   void move_history(ents_report& report);
@@ -151,6 +155,8 @@ private:
   std::vector<double> last_xi_, xi_begin_; ///< [slaves][d-1] where the projection was last, NaN: unknown
   std::vector<double> start_;              ///< [active][d-1]; empty: search
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
+  std::unique_ptr<SegmentSearch> grid_;
+  std::vector<double> grid_masters_; ///< [segments][m][d]
   ContactFields accepted_;
 };
 

@@ -38,9 +38,13 @@ bool Simulation::choose(const Configuration& at, bool only_lost, std::string& re
   const CpuStopwatch cpu;
   auto report = ents_struct<ents_report>();
   const bool changed = contact_->choose(at, only_lost, report);
-  if (changed && !contact_->master().rigid) build_pattern();
   timings_.contact += watch.seconds();
   timings_.contact_cpu += cpu.seconds();
+  if (changed && !contact_->master().rigid) {
+    const Stopwatch equations;
+    build_pattern();
+    timings_.setup += equations.seconds();
+  }
   if (report.status == ENTS_OK) return true;
   reason = describe(contact_->master().model->library(), report.status, report);
   step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
@@ -134,20 +138,24 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
   bool ok = !factorize || solver_->factorize(system_->matrix());
   if (ok) {
     // Tied dofs add their residuals in one equation.
-    Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations()), column = residual, row = residual;
+    Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(equations(), force_controlled() ? 2 : 1);
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(equations()), row = column;
     for (std::size_t i = 0; i < at.residual.size(); ++i) {
       const int at_row = equation(i);
       if (at_row < 0) continue;
-      residual[at_row] += at.residual[i];
+      sides(at_row, 0) -= at.residual[i];
       if (at.coupling.column.empty()) continue;
       column[at_row] += at.coupling.column[i];
       row[at_row] += at.coupling.row[i];
     }
-    Eigen::VectorXd step = solver_->solve(-residual - motion_step * column);
+    sides.col(0) -= motion_step * column;
+    if (force_controlled()) sides.col(1) = -column;
+    const Eigen::MatrixXd steps = solver_->solve(sides);
+    Eigen::VectorXd step = steps.col(0);
     double motion = motion_step;
     if (force_controlled()) {
       // One more unknown, the motion, and one more equation, the force: eliminated by hand.
-      const Eigen::VectorXd follow = solver_->solve(-column);
+      const auto follow = steps.col(1);
       const double stiffness = at.coupling.diagonal + row.dot(follow);
       motion = (-force_error - row.dot(step)) / stiffness;
       step += motion * follow;

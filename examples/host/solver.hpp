@@ -22,7 +22,8 @@ public:
   virtual void analyze(const SparseSystem::Matrix& matrix) = 0;
   /// @return false if the matrix is singular to working precision
   virtual bool factorize(const SparseSystem::Matrix& matrix) = 0;
-  virtual Eigen::VectorXd solve(const Eigen::VectorXd& right_hand_side) = 0;
+  /// @param right_hand_sides  [equations][any number]
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) = 0;
   /// "CHOLMOD supernodal Cholesky", for the run's header and result.
   virtual std::string name() const = 0;
 };
