@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 
+#include "advice.hpp"
+#include "check_extent.hpp"
 #include "program.hpp"
 
 namespace host::test {
@@ -233,6 +235,40 @@ TEST_F(Program, EqualErrorIsOnlySaidWhereItHolds) {
     EXPECT_EQ(text.text.find(", equal error") != std::string::npos, !reached.empty()) << text.text;
     EXPECT_EQ(text.text.find("is not reached: the fit asks for") != std::string::npos, reached.empty()) << text.text;
   }
+}
+
+// How Newton's iteration failed says what may help.
+TEST_F(Program, AStepThatCannotBeSolvedSaysWhatMayHelp) {
+  const std::string stiffness = "the contact stiffness (/contact/model/contact/normal/stiffness)";
+  Json stiff = parse_json_file(fs::path(EXAMPLES) / "hertz2d" / "scene.json");
+  stiff["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e9;
+  stiff["solver"]["min_step"] = 0.9; // one try
+  expect(ents_host("run " + write("scene.json", stiff)), 1,
+         {"the residual does not fall any more: lower " + stiffness + " or raise /solver/tolerance\n"});
+  Json soft = small();
+  soft["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e-3;
+  expect(ents_host("run " + write("scene.json", soft)), 1,
+         {"penetration exceeds", "; take smaller steps, or see /solver/min_step, or raise " + stiffness + "\n"});
+  expect(ents_host("run \"" EXAMPLES "/chatter/scene.json\""), 1, {"; nodes open and close in turn: see examples/chatter (power or exponential law)\n"});
+}
+
+TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
+  const auto advice = [](const std::vector<double>& residuals, int switches, const char* law = "penalty") {
+    Json normal = {{"type", law}};
+    if (std::string(law) != "exponential") normal["stiffness"] = 1;
+    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches)}, {{"contact", {{"normal", normal}}}});
+  };
+  const std::vector<double> still{1, 0.1, 1.2e-8, 3e-9, 5.9e-8, 1.2e-8, 4e-9, 1.2e-8, 1.2e-8, 5.9e-8}, in_turn{1, .5, .2, .1, .2, .1, .2, .1, .2, .1};
+  EXPECT_EQ(advice(still, 0).substr(0, 40), "the residual does not fall any more: low");
+  EXPECT_EQ(advice(still, 0, "exponential"), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(advice_if_stuck({still, std::vector<int>(still.size(), 0)}, Json()), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(advice(in_turn, 1).substr(0, 18), "nodes open and clo");
+  EXPECT_EQ(advice(in_turn, 0), "");                // no node opens or closes
+  EXPECT_EQ(advice(in_turn, 1, "exponential"), ""); // a law that begins smoothly already
+  EXPECT_EQ(advice({1, 1e-9, 1e-9, 1e-9}, 0), "");  // too few to tell
+  std::vector<double> slow{1e-4}, growing{1e-9}, lost{0.5};
+  for (int i = 0; i < 12; ++i) slow.push_back(0.7 * slow.back()), growing.push_back(5 * growing.back()), lost.push_back(i % 3 == 0 ? 0.7 : 0.4);
+  for (const auto& residuals : {slow, growing, lost}) EXPECT_EQ(advice(residuals, 0), "") << residuals.back();
 }
 
 TEST_F(Program, MistakesInFilesAreNamed) {
