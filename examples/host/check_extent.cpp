@@ -141,7 +141,7 @@ std::string text_of(const Extent& extent) {
 
 SurfaceExtent extent_of(const EntsModel& model, const Json& text, const std::filesystem::path& folder,
                         const MasterSurface& surface) {
-  const bool triangles = text.at("segment").get<std::string>().starts_with("tri");
+  const bool triangles = is_triangle(text.at("segment").get<std::string>());
   SurfaceExtent extent;
   extent.coordinates = coordinates_of(surface, text, triangles);
   if (text.contains("height")) find_maps(text.at("height"), "/height", folder, extent);
