@@ -307,5 +307,48 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
 }
 
+// A forgotten "length_unit" leaves a speck of a map: said before the run, whose result looks like a master that faces away.
+TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
+  write_text("profile.txt", "# Channel: z\n# Width: 4 mm\n# Height: 1 mm\n# Value units: m\n"
+                            "1e-5 2e-5 3e-5 4e-5 5e-5 4e-5 3e-5 2e-5 1e-5 1e-5\n");
+  const auto scene = [&](const Json& more) {
+    Json json = small();
+    json["contact"]["model"]["height"] = {{"type", "map"}, {"file", "profile.txt"}, {"boundary", "clamped"}, {"origin", {-1.5}}};
+    json["contact"]["model"]["height"].update(more);
+    json["steps"] = {{"control", "approach"}, {"values", {1e-4}}};
+    return write("scene.json", json);
+  };
+  const std::string warning = "ents-host: warning: the map /contact/model/height covers only a part of the segments", good = scene({{"length_unit", 1e-3}});
+  for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
+    const ProgramOutput fine = ents_host("run " + good + more);
+    EXPECT_EQ(fine.text.find("warning"), std::string::npos) << fine.text;
+  }
+  const std::string bad = scene(Json::object());
+  for (const char* more : {"", " --explicit 8", " --compare 4,8", " --json"}) {
+    const ProgramOutput output = ents_host("run " + bad + more);
+    EXPECT_NE(output.text.find(warning), std::string::npos) << output.text;
+    EXPECT_LT(output.text.find(warning), output.text.find("step 1")) << output.text; // before anything is solved
+  }
+  const ProgramOutput json = ents_host("run " + bad + " --json 2>/dev/null; exit $?; :");
+  EXPECT_TRUE(Json::accept(json.text)) << json.text;
+}
+
+// Of a master that deforms the faces say where the segments lie; the outer nodes of smoothed ones are its neighbours'.
+TEST_F(Program, AMapIsHeldAgainstTheSurfaceCoordinatesOfTheSegments) {
+  Json text = small();
+  text["contact"]["model"]["segment"] = "catmull_rom4";
+  text["contact"]["model"].erase("surface_coordinates");
+  text["contact"]["model"]["height"] = {{"type", "map"}, {"values", {0, 1e-3, 0}}, {"boundary", "clamped"}, {"size", {1}}};
+  const Scene scene = read_scene_text(text.dump(), folder_ / "scene.json");
+  const auto said = [&](const std::vector<double>& of_segments) {
+    testing::internal::CaptureStderr();
+    note_small_maps(scene, of_segments);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said({-1, 0, 0.5, 1, 0, 0.5, 1, 2}), "");
+  EXPECT_NE(said({-1, 0, 0.5, 1, 0, 0.5, 1.1, 2}).find("warning: the map /contact/model/height"), std::string::npos);
+  EXPECT_NE(said({}).find("warning: the map /contact/model/height"), std::string::npos); // s = xi: -1 .. 1
+}
+
 } // namespace
 } // namespace host::test
