@@ -93,6 +93,19 @@ TEST_F(Program, HelpOfACommandBeginsWithItsNameAndSaysWhatItTells) {
   for (const ProgramOutput& output : {verify, variants}) EXPECT_EQ(output.text.find("ents-host chart"), std::string::npos) << output.text;
 }
 
+// The scripts answer by their own names, before they do anything.
+TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
+  const auto script = [](const std::string& command) { return run_in_shell("sh \"" EXAMPLES "/../" + command); };
+  for (const char* options : {"--target", "-DA=1 --target ents", "--target -DA=1"})
+    expect(script(std::string("examples/setup.sh\" ") + options), 2, {"setup.sh: --target needs a NAME and stands before -D..."});
+  expect(script("examples/setup.sh\" --with"), 2, {"setup.sh: --with needs a PACKAGE"});
+  for (const char* options : {"--foo", "-DA=1 --foo", "foo"}) {
+    const ProgramOutput output = script(std::string("tests/run.sh\" ") + options);
+    expect(output, 2, {"run.sh: unknown option ", "usage: sh tests/run.sh"});
+    EXPECT_EQ(output.text.find("setup.sh: unknown"), std::string::npos) << output.text;
+  }
+}
+
 // An --out that is no folder is told before anything is computed: with a scene of hours it would be too late.
 TEST_F(Program, AnOutputFolderThatCannotBeIsToldFirst) {
   const std::string scene = write("small.json", small()), file = write_text("afile", "");
