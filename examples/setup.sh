@@ -20,9 +20,10 @@ HELP
 
 target=all with=
 while [ $# -ge 2 ]; do
-  case $1 in
-    --target) target=$2 ;;
-    --with) with="$with $2" ;;
+  case $1,$2 in
+    *,-*) break ;;
+    --target,*) target=$2 ;;
+    --with,*) with="$with $2" ;;
     *) break ;;
   esac
   shift 2
@@ -31,6 +32,8 @@ for option; do
   case $option in
     -h | --help) usage; exit 0 ;;
     -D?*) ;;
+    --target) echo "setup.sh: --target needs a NAME and stands before -D..." >&2; exit 2 ;;
+    --with) echo "setup.sh: --with needs a PACKAGE and stands before -D..." >&2; exit 2 ;;
     *) echo "setup.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
   esac
 done

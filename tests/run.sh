@@ -3,9 +3,8 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 
-case ${1-} in
-  -h | --help)
-    cat <<'HELP'
+usage() {
+  cat <<'HELP'
 usage: sh tests/run.sh [-DNAME=VALUE ...]
 
 Installs what is missing, builds in build/ (see sh examples/setup.sh --help for both, and for the options) and runs every test.
@@ -14,9 +13,15 @@ Afterwards some of them, by name:
 
 exit status: 0 all tests passed; 1 a test or the build failed; 2 a package is missing, or the command line is wrong
 HELP
-    exit 0
-    ;;
-esac
+}
+
+for option; do
+  case $option in
+    -h | --help) usage; exit 0 ;;
+    -D?*) ;;
+    *) echo "run.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
+  esac
+done
 
 # A browser opens the page of charts.
 sh "$root/examples/setup.sh" --with chromium "$@"

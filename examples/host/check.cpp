@@ -198,7 +198,7 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
   }
   if (!options.out.empty()) {
     const pictures::Outcome outcome =
-        draw_check(model, surface, answer.violations(), answer.offences(), name.starts_with("tri"), options.out);
+        draw_check(model, surface, answer.violations(), answer.offences(), is_triangle(name), options.out);
     if (!outcome.problem.empty()) std::fprintf(stderr, "%s\n", outcome.problem.c_str());
   }
   return answer.admissible() ? 0 : 1;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "output/table.hpp"
+#include "smoothing.hpp"
 
 namespace host {
 namespace {
@@ -29,22 +31,33 @@ void include(Extent& extent, std::size_t direction, double value) {
 
 /// Surface coordinates at the nodes a segment lies between; the outer ones of smoothed segments are its
 /// neighbours'.
-Extent coordinates_of(const MasterSurface& surface, const Json& text, bool triangles) {
-  const std::size_t directions = surface.d - 1;
+/// @param of_segments  [segments][m][d-1], or empty: the model's own, else s = xi
+Extent coordinates_of(const Json& text, std::size_t directions, const std::vector<double>& of_segments) {
   const std::string name = text.at("segment").get<std::string>();
-  const bool smoothed = name.starts_with("catmull_rom") || name.starts_with("bspline");
+  const std::size_t m = directions == 1 ? 4 : 16; // of smoothed segments
   const auto between = [&](std::size_t node) {
     const auto middle = [](std::size_t i) { return i == 1 || i == 2; };
-    return !smoothed || (directions == 1 ? middle(node) : middle(node % 4) && middle(node / 4));
+    return !is_smoothed(name) || (directions == 1 ? middle(node % m) : middle(node % m % 4) && middle(node % m / 4));
   };
   Extent extent = nothing(directions);
-  const bool given = !surface.surface_coordinates.empty(), of_model = text.contains("surface_coordinates");
-  for (std::size_t i = 0; i < directions; ++i) {
-    if (!given && !of_model) include(extent, i, triangles ? 0 : -1), include(extent, i, 1);
-    for (std::size_t k = 0; given && k < surface.surface_coordinates.size() / directions; ++k)
-      if (between(k % surface.m)) include(extent, i, surface.surface_coordinates[k * directions + i]);
-    for (std::size_t a = 0; !given && of_model && a < surface.m; ++a)
-      if (between(a)) include(extent, i, text.at("surface_coordinates").at(a).at(i).get<double>());
+  if (!of_segments.empty()) {
+    for (std::size_t k = 0; k < of_segments.size(); ++k)
+      if (between(k / directions)) include(extent, k % directions, of_segments[k]);
+  } else if (text.contains("surface_coordinates")) {
+    const Json& own = text.at("surface_coordinates");
+    const auto include_node = [&](std::size_t a) {
+      for (std::size_t i = 0; i < directions; ++i) include(extent, i, own.at(a).at(i).get<double>());
+    };
+    if (text.contains("patch")) {
+      for (const Json& segment : text.at("patch"))
+        for (std::size_t a = 0; a < segment.size(); ++a)
+          if (between(a)) include_node(segment.at(a).get<std::size_t>());
+    } else {
+      for (std::size_t a = 0; a < own.size(); ++a)
+        if (between(a)) include_node(a);
+    }
+  } else {
+    for (std::size_t i = 0; i < directions; ++i) include(extent, i, is_triangle(name) ? 0 : -1), include(extent, i, 1);
   }
   return extent;
 }
@@ -129,6 +142,27 @@ void find_maps(const Json& height, const std::string& where, const std::filesyst
     for (const auto& item : height.items()) find_maps(item.value(), where + "/" + item.key(), folder, out);
 }
 
+/// All but the heights.
+/// @param where  path of the model
+SurfaceExtent coverage(const Json& text, const std::string& where, const std::filesystem::path& folder, std::size_t directions,
+                       const std::vector<double>& of_segments) {
+  SurfaceExtent extent;
+  extent.coordinates = coordinates_of(text, directions, of_segments);
+  if (text.contains("height")) find_maps(text.at("height"), where + "/height", folder, extent);
+  return extent;
+}
+
+std::vector<std::string> warnings(const SurfaceExtent& extent) {
+  std::vector<std::string> lines;
+  for (const MapExtent& map : extent.maps)
+    if (map.too_small)
+      lines.push_back("warning: the map " + map.where +
+                      " covers only a part of the segments, beyond it the heights of its border go on; look at "
+                      "\"size\", \"origin\" "
+                      "and \"length_unit\" (metres in one unit of length)");
+  return lines;
+}
+
 std::string text_of(const Extent& extent) {
   std::string text;
   for (std::size_t i = 0; i < extent.low.size(); ++i)
@@ -141,10 +175,8 @@ std::string text_of(const Extent& extent) {
 
 SurfaceExtent extent_of(const EntsModel& model, const Json& text, const std::filesystem::path& folder,
                         const MasterSurface& surface) {
-  const bool triangles = text.at("segment").get<std::string>().starts_with("tri");
-  SurfaceExtent extent;
-  extent.coordinates = coordinates_of(surface, text, triangles);
-  if (text.contains("height")) find_maps(text.at("height"), "/height", folder, extent);
+  const bool triangles = is_triangle(text.at("segment").get<std::string>());
+  SurfaceExtent extent = coverage(text, "", folder, surface.d - 1, surface.surface_coordinates);
 
   const double each = most_points / static_cast<double>(surface.segments());
   const int n =
@@ -164,13 +196,15 @@ std::string describe(const SurfaceExtent& extent) {
            text_of(extent.coordinates) + " (sampled)\n";
   for (const MapExtent& map : extent.maps)
     text += "map " + map.where + (map.clamped ? ": covers " : ": repeats ") + text_of(map.covers) + "\n";
-  for (const MapExtent& map : extent.maps)
-    if (map.too_small)
-      text += "warning: the map " + map.where +
-              " covers only a part of the segments, beyond it the heights of its border go on; look at "
-              "\"size\", \"origin\" "
-              "and \"length_unit\" (metres in one unit of length)\n";
+  for (const std::string& line : warnings(extent)) text += line + "\n";
   return text;
+}
+
+void note_small_maps(const Scene& scene, const std::vector<double>& of_segments) {
+  if (!scene.contact) return;
+  const auto directions = static_cast<std::size_t>(scene.dimension - 1);
+  const SurfaceExtent extent = coverage(scene.contact->model, "/contact/model", scene.file.parent_path(), directions, of_segments);
+  for (const std::string& line : warnings(extent)) std::fprintf(stderr, "ents-host: %s\n", line.c_str());
 }
 
 Json extent_json(const SurfaceExtent& extent) {

@@ -20,7 +20,9 @@ std::vector<double> natural_nodes(const std::string& segment) {
       {"tri6", {0, 0, 1, 0, 0, 1, .5, 0, .5, .5, 0, .5}},
       {"quad4", {-1, -1, 1, -1, 1, 1, -1, 1}},
       {"quad8", {-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0}},
-      {"quad9", {-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0, 0, 0}}};
+      {"quad9", {-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0, 0, 0}},
+      {"bezier15", {0, 0, 1, 0, 0, 1, .25, 0, .5, 0, .75, 0, .75, .25, .5, .5, .25, .75, 0, .75, 0, .5, 0, .25,
+                    .25, .25, .5, .25, .25, .5}}};
   const auto found = nodes.find(segment);
   if (found != nodes.end()) return found->second;
   std::vector<double> patch; // 16-node patches: 4 j + i

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "check_extent.hpp"
 #include "commands.hpp"
 #include "output_folder.hpp"
 #include "result.hpp"
@@ -31,6 +32,7 @@ Solution solve_once(const Scene& scene, const EntsLibrary& library, int division
     observer.line(divisions == 0 ? "one enriched segment"
                                  : "explicit mesh, " + std::to_string(divisions) + " segments per direction");
   Simulation simulation(scene, &library, divisions);
+  if (divisions == 0) note_small_maps(scene, {}); // the master is rigid
   const std::vector<StepRecord> records = solve(simulation, {});
   Solution solution;
   solution.row.divisions = divisions;

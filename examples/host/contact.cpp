@@ -343,8 +343,11 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   for (std::size_t e = 0; e < active_.size(); ++e)
     if ((flags[e] & ENTS_FLAG_CONTACT) != 0)
       found[active_[e]] = 2 * segment_[active_[e]] + ((flags[e] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
-  status_changes_ = 0;
-  for (std::size_t k = 0; k < points_.size(); ++k) status_changes_ += found[k] != found_[k];
+  status_changes_ = switches_ = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    status_changes_ += found[k] != found_[k];
+    switches_ += (found[k] < 0) != (found_[k] < 0);
+  }
   found_ = std::move(found);
   if (coupling != nullptr) {
     coupling->force = coupling->diagonal = 0;

@@ -96,6 +96,8 @@ public:
   /// How many slave nodes the last `assemble` found in another status (open, stick, slip) or closed on another
   /// segment than the one before it: Newton's iteration is quadratic once there are none.
   int status_changes() const { return status_changes_; }
+  /// Those of them that opened or closed.
+  int switches() const { return switches_; }
 
   /// The increment is accepted: what the last `assemble` left becomes the history.
   void accept(const Configuration& at);
@@ -147,7 +149,7 @@ private:
   Configuration begin_;                      ///< where the increment began
   /// [slaves] segment and status that the last `assemble` found; -1: open
   std::vector<int> found_;
-  int status_changes_ = 0;
+  int status_changes_ = 0, switches_ = 0;
   // The elements of the present choice, in the order of `active_`.
   std::vector<std::size_t> active_; ///< slaves with a segment
   std::vector<double> slave_positions_, master_positions_, active_coordinates_, active_areas_, active_multipliers_;

@@ -106,6 +106,9 @@ struct SurfaceSample {
 SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& master,
                              const std::vector<double>& surface_coordinates, const std::vector<double>& xi);
 
+/// Do its natural coordinates fill the unit triangle? Else [-1, 1] per direction.
+inline bool is_triangle(const std::string& segment) { return segment.starts_with("tri") || segment.starts_with("bezier"); }
+
 /// Place i of n equal steps from -1 to 1.
 inline double even_xi(std::size_t i, std::size_t n) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; }
 

@@ -33,6 +33,8 @@ constexpr Type types[] = {
 const Names mesh_changing{"PART",  "ASSEMBLY", "INSTANCE", "SYSTEM", "NGEN",
                           "NFILL", "NMAP",     "NCOPY",    "ELGEN",  "ELCOPY"};
 
+const Names assembled{"PART", "ASSEMBLY", "INSTANCE"};
+
 template <class T> std::optional<T> parsed(string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   T value{};
@@ -79,7 +81,8 @@ public:
         heading(s);
       else if (contains(mesh_changing, s.keyword))
         error(s.place,
-              "*" + s.keyword + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT");
+              "*" + s.keyword + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT" +
+                  (contains(assembled, s.keyword) ? " (Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")" : ""));
       else if (!contains({"ELEMENT", "NSET", "ELSET", "SURFACE"}, s.keyword))
         deck.ignored.push_back({s.keyword, deck.files[static_cast<std::size_t>(s.place.file)], s.place.line});
     }

@@ -14,6 +14,7 @@
 #include "adapter.hpp"
 #include "commands.hpp"
 #include "error.hpp"
+#include "nearest_word.hpp"
 
 namespace {
 
@@ -68,12 +69,28 @@ std::vector<int> divisions_of(const std::string& list) {
   return divisions;
 }
 
+/// What stands where no argument is expected, an option first; else what is wrong with those that are.
+std::string parse_error(const CLI::App& command, const CLI::ParseError& error) {
+  const std::vector<std::string> rest = command.remaining();
+  const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.starts_with('-'); });
+  if (option == rest.end()) {
+    if (!rest.empty()) return "unexpected argument \"" + rest.front() + "\"";
+    return error.what();
+  }
+  const std::string word = option->substr(0, option->find('='));
+  std::vector<std::string> known;
+  for (const CLI::Option* each : command.get_options())
+    for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+  const std::string near = host::nearest_word(word, known);
+  return "unknown option " + word + (near.empty() ? "" : "; did you mean " + near + "?");
+}
+
 constexpr const char* command_names = "run, variants, verify, check or chart, or --help";
 
 int run_program(int argc, char** argv) {
   using namespace host;
   CLI::App app{"Reference finite element host of ents, enriched node-to-segment contact.\n"
-               "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n"};
+               "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n", "ents-host"};
   app.footer("Exit codes: 0 done, 1 the job failed, 2 the command line or an input file is wrong.\n\n"
              "Examples:\n"
              "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
@@ -130,7 +147,9 @@ int run_program(int argc, char** argv) {
   run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
       ->check(CLI::ExistingFile);
   add_common(*run_app);
-  run_app->footer("Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
+  run_app->footer("A scene needs dimension, formulation (2D), materials, parts and steps; and supports, springs or a half_space, to hold the bodies.\n"
+                  "The schema of /contact/model is abi/model.schema.json.\n\n"
+                  "Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
                   "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1;\n"
                   "what was solved before is told and written all the same.\n\n"
                   "Examples:\n"
@@ -142,8 +161,13 @@ int run_program(int argc, char** argv) {
   VariantsOptions variants;
   CLI::App* variants_app =
       app.add_subcommand("variants", "Solve a scene and all its variants; one table compares error, penetration, iterations, time");
-  variants_app->add_option("scene", variants.scene, "scene file with a key \"variants\"")->required();
+  variants_app->add_option("scene", variants.scene, "scene file with a key \"variants\"")->required()->type_name("FILE");
   add_common(*variants_app);
+  variants_app->footer("The first row, \"as it is\", is the scene without a variant. Columns: steps solved; of the last step the relative error of each\n"
+                       "quantity of the exact solution (none without /exact), and the deepest penetration over the size of the slave surface; of all\n"
+                       "steps Newton's iterations, cuts, and the time. A variant that fails has no penetration; below the table stands why.\n\n"
+                       "Example:\n"
+                       "  ents-host variants examples/hertz2d/scene.json                      six laws of contact");
 
   VerifyOptions verify;
   CLI::App* verify_app =
@@ -153,6 +177,10 @@ int run_program(int argc, char** argv) {
       ->check(number_check("a number >= 0", [](double value) { return value >= 0; }))
       ->capture_default_str();
   add_common(*verify_app);
+  verify_app->footer("One row per file. Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above --tolerance.\n"
+                     "Quantities: xi, normal, gap and normal gap, gradients (d_) and Hessians (d2_) with respect to the coordinates of the nodes.\n\n"
+                     "Example:\n"
+                     "  ents-host verify tests/mechanics/golden/*.json");
 
   CheckOptions check;
   CLI::App* check_app = app.add_subcommand(
@@ -199,7 +227,13 @@ int run_program(int argc, char** argv) {
     app.parse(arguments(argc, argv));
     run.compare = compare->count() > 0;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0 || !app.get_subcommands().empty()) return app.exit(error) == 0 ? 0 : 2; // 0: --help
+    if (error.get_exit_code() == 0) return app.exit(error); // --help
+    if (!app.get_subcommands().empty()) {
+      const CLI::App& command = *app.get_subcommands().front();
+      const std::string name = "ents-host " + command.get_name();
+      std::fprintf(stderr, "%s: %s\n%s --help lists what there is\n", name.c_str(), parse_error(command, error).c_str(), name.c_str());
+      return 2;
+    }
     if (argc < 2)
       std::fprintf(stderr, "ents-host: a command is missing; write ents-host with %s\n", command_names);
     else if (argv[1][0] == '-')

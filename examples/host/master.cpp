@@ -26,7 +26,7 @@ void check_sizes(const Scene& scene, const EntsModel& model, std::size_t nodes, 
 
 bool has_triangles(const Json& model) {
   return model.contains("segment") && model.at("segment").is_string() &&
-         model.at("segment").get<std::string>().starts_with("tri");
+         is_triangle(model.at("segment").get<std::string>());
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "advice.hpp"
 #include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
@@ -116,6 +117,7 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     timings_.contact_cpu += cpu.seconds();
     if (status != ENTS_OK) {
       result.reason = describe(contact_->master().model->library(), status, report);
+      if (status == ENTS_DEEP_PENETRATION) result.advice = advice_if_deep(scene_->contact->model);
       result.step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
       return result;
     }
@@ -204,6 +206,10 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     timings_.total += watch.seconds();
     return outcome;
   };
+  const auto fail_there = [&](const Evaluation& evaluation) {
+    outcome.advice = evaluation.advice;
+    return fail(evaluation.reason, evaluation.step_factor);
+  };
 
   if (contact_) contact_->begin_increment(now_);
   if (!choose(at, false, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
@@ -235,7 +241,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   };
   if (!extrapolate) {
     state = evaluate(at, jump, factorize);
-    if (!state.ok) return fail(state.reason, state.step_factor);
+    if (!state.ok) return fail_there(state);
     if (!solve(state, factorize, motion_step, error_of(state), next)) {
       outcome.advice = advice_if_singular(at);
       return fail("the tangent is singular", 0.5);
@@ -244,6 +250,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
 
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
   const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
+  IterationHistory history; // with the present multipliers
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
     // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs or its
     // margin: beside a kink of a plain mesh they could otherwise change sides for ever.
@@ -251,9 +258,11 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
                                                  outcome.step_factor))
       return fail(outcome.reason, outcome.step_factor);
     state = evaluate(next, {}, true);
-    if (!state.ok) return fail(state.reason, state.step_factor);
+    if (!state.ok) return fail_there(state);
     double relative = relative_residual(state);
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
+    history.residuals.push_back(relative);
+    history.switches.push_back(contact_ ? contact_->switches() : 0);
     if (outcome.augmentations.empty()) {
       outcome.residuals.push_back(relative);
       outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);
@@ -270,6 +279,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
                             " augmentations", 0.5);
           outcome.augmentations.push_back({error, 0});
           iteration = 0;
+          history = {};
           continue;
         }
         outcome.augmentations.push_back({error, 0});
@@ -297,9 +307,10 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   }
   // The last residuals tell a flip-flop (they come back) from a divergence (they grow).
   std::string last;
-  for (std::size_t i = outcome.residuals.size() - std::min<std::size_t>(outcome.residuals.size(), 4);
-       i < outcome.residuals.size(); ++i)
-    last += " " + format_number(outcome.residuals[i], 2);
+  const std::vector<double>& residuals = history.residuals;
+  for (std::size_t i = residuals.size() - std::min<std::size_t>(residuals.size(), 4); i < residuals.size(); ++i)
+    last += " " + format_number(residuals[i], 2);
+  outcome.advice = advice_if_stuck(history, contact_ ? scene_->contact->model : Json());
   return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations, residuals" + last, 0.5);
 }
 

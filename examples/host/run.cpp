@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "advice.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -226,7 +227,7 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
         if (size < scene.solver.min_step)
           throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason +
                          " even in parts of " + format_number(size / outcome.step_factor, 3) +
-                         "; " + (outcome.advice.empty() ? "take smaller steps, or see /solver/min_step" : outcome.advice));
+                         "; " + (outcome.advice.empty() ? smaller_steps : outcome.advice));
       }
     };
     try {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "adapter.hpp"
+#include "check_extent.hpp"
 #include "commands.hpp"
 #include "restart.hpp"
 #include "run_files.hpp"
@@ -77,6 +78,8 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     throw InputError("--last-step " + std::to_string(plan.last) + ": the checkpoint was written after step " +
                      std::to_string(plan.first - 1) + "; there is nothing left to solve");
   note_ignored(options, scene);
+  // Before the run, for in its result such a map looks like a master that faces away.
+  if (scene.contact) note_small_maps(scene, simulation.contact()->master().surface_coordinates);
   RunFiles files(options.out, options.restart, plan.first);
 
   RunObserver observer;

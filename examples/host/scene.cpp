@@ -273,8 +273,9 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
         item.fail("there is a part \"" + scene.parts[i].name + "\" already");
   }
   if (scene.parts.empty()) object.fail("\"parts\" is empty");
-  for (const JsonValue& item : object.at("supports").items())
-    scene.supports.push_back(read_support(item, scene.dimension));
+  if (object.has("supports"))
+    for (const JsonValue& item : object.at("supports").items())
+      scene.supports.push_back(read_support(item, scene.dimension));
   if (object.has("tractions"))
     for (const JsonValue& item : object.at("tractions").items()) {
       JsonObject traction(item);

@@ -99,7 +99,7 @@ private:
     RigidCoupling coupling;
     double force_scale = 0; ///< norm of the forces present: contact, loads, reactions
     bool ok = false;
-    std::string reason;
+    std::string reason, advice; ///< as of NewtonOutcome
     double step_factor = 0.5;
   };
 

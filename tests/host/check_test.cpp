@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "check_mesh.hpp"
 #include "ents_library.hpp"
 #include "output/pictures.hpp"
 #include "program.hpp"
@@ -182,6 +183,28 @@ TEST_F(Check, SaysWhatTheSceneNeeds) {
     for (int bit = 0; bit < 9; ++bit) by_bit[model.layout().needs >> bit & 1].push_back(names[bit]);
     EXPECT_EQ(json.at("needs").get<std::vector<std::string>>(), by_bit[1]);
     EXPECT_EQ(json.at("does_not_need").get<std::vector<std::string>>(), by_bit[0]);
+  }
+}
+
+// Without a mesh: one segment that does nothing but carry its natural coordinates, whatever its basis.
+TEST_F(Check, WithoutAMeshNodesLieAtNaturalCoordinates) {
+  const EntsLibrary library;
+  for (const std::string name : {"line2", "line3", "catmull_rom4", "bspline4", "tri3", "tri6", "quad4", "quad8", "quad9", "catmull_rom16",
+                                 "bspline16", "bezier15"}) {
+    const Json text = {{"segment", name}};
+    const EntsModel model(library, text.dump(), "", "here");
+    const auto d = static_cast<std::size_t>(model.layout().dimension);
+    const std::vector<double> xi = even_grid(model.layout().parameters, 7, is_triangle(name));
+    const MasterSurface surface = read_surface("", name, model.layout());
+    const SurfaceSample sample = sample_surface(model, surface.master(0), {}, xi);
+    for (std::size_t k = 0; k < xi.size() / (d - 1); ++k) {
+      for (std::size_t i = 0; i + 1 < d; ++i) EXPECT_NEAR(sample.point[k * d + i], xi[k * (d - 1) + i], 1e-14) << name;
+      EXPECT_EQ(sample.point[k * d + d - 1], 0) << name;
+    }
+    const Json json = result(write("model.json", text), "", 0);
+    const bool triangle = name.starts_with("tri") || name == "bezier15";
+    EXPECT_EQ(json.at("surface_coordinates").at("low"), Json(std::vector<double>(d - 1, triangle ? 0. : -1.))) << name;
+    EXPECT_EQ(json.at("surface_coordinates").at("high"), Json(std::vector<double>(d - 1, 1.))) << name;
   }
 }
 

@@ -17,9 +17,9 @@ struct ProgramOutput {
   int exit_code = 0;
 };
 
-/// ents-host with arguments as typed in a shell.
-inline ProgramOutput ents_host(const std::string& arguments) {
-  const std::string command = "\"" ENTS_HOST "\" " + arguments + " 2>&1";
+/// A command as typed in a shell.
+inline ProgramOutput run_in_shell(const std::string& line) {
+  const std::string command = line + " 2>&1";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   ProgramOutput output;
@@ -30,6 +30,9 @@ inline ProgramOutput ents_host(const std::string& arguments) {
   output.exit_code = status >= 0 && (status & 0x7f) == 0 ? (status >> 8) & 0xff : -1;
   return output;
 }
+
+/// ents-host with arguments as typed in a shell.
+inline ProgramOutput ents_host(const std::string& arguments) { return run_in_shell("\"" ENTS_HOST "\" " + arguments); }
 
 /// The JSON result of a scene of examples/.
 inline Json run_scene(const std::string& name, const std::string& options = "") {

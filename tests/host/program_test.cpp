@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 
+#include "advice.hpp"
+#include "check_extent.hpp"
 #include "program.hpp"
 
 namespace host::test {
@@ -69,6 +71,39 @@ TEST_F(Program, NamesACommandItDoesNotKnow) {
   expect(ents_host("--foo"), 2, {"\"--foo\"", "run, variants, verify"});
   expect(ents_host(""), 2, {"a command is missing", "run, variants, verify"});
   expect(ents_host("--help"), 0, {"Exit codes", "variants"});
+}
+
+TEST_F(Program, NamesAnOptionItDoesNotKnowAndTheOneThatWasMeant) {
+  const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
+  expect(ents_host("run " + scene + " --outt x"), 2, {"ents-host run: unknown option --outt; did you mean --out?\n"});
+  expect(ents_host("run --no-picture=1 " + scene), 2, {"ents-host run: unknown option --no-picture; did you mean --no-pictures?\n"});
+  expect(ents_host("run --helpp"), 2, {"ents-host run: unknown option --helpp; did you mean --help?\n"});
+  expect(ents_host("check " + model + " --colour red"), 2, {"ents-host check: unknown option --colour\n", "ents-host check --help"});
+  expect(ents_host("run " + scene + " other.json more.json"), 2, {"ents-host run: unexpected argument \"other.json\"\n"});
+  expect(ents_host("run"), 2, {"ents-host run: scene is required"});
+}
+
+TEST_F(Program, HelpOfACommandBeginsWithItsNameAndSaysWhatItTells) {
+  expect(ents_host("--help"), 0, {"Usage: ents-host [OPTIONS] SUBCOMMAND\n"});
+  expect(ents_host("run --help"), 0, {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps", "abi/model.schema.json"});
+  const ProgramOutput verify = ents_host("verify --help"), variants = ents_host("variants --help");
+  expect(verify, 0, {"Usage: ents-host verify [OPTIONS] files...\n",
+                     "Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above --tolerance"});
+  expect(variants, 0, {"Usage: ents-host variants [OPTIONS] scene\n", "The first row, \"as it is\", is the scene", "Columns: "});
+  for (const ProgramOutput& output : {verify, variants}) EXPECT_EQ(output.text.find("ents-host chart"), std::string::npos) << output.text;
+}
+
+// The scripts answer by their own names, before they do anything.
+TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
+  const auto script = [](const std::string& command) { return run_in_shell("sh \"" EXAMPLES "/../" + command); };
+  for (const char* options : {"--target", "-DA=1 --target ents", "--target -DA=1"})
+    expect(script(std::string("examples/setup.sh\" ") + options), 2, {"setup.sh: --target needs a NAME and stands before -D..."});
+  expect(script("examples/setup.sh\" --with"), 2, {"setup.sh: --with needs a PACKAGE"});
+  for (const char* options : {"--foo", "-DA=1 --foo", "foo"}) {
+    const ProgramOutput output = script(std::string("tests/run.sh\" ") + options);
+    expect(output, 2, {"run.sh: unknown option ", "usage: sh tests/run.sh"});
+    EXPECT_EQ(output.text.find("setup.sh: unknown"), std::string::npos) << output.text;
+  }
 }
 
 // An --out that is no folder is told before anything is computed: with a scene of hours it would be too late.
@@ -235,6 +270,40 @@ TEST_F(Program, EqualErrorIsOnlySaidWhereItHolds) {
   }
 }
 
+// How Newton's iteration failed says what may help.
+TEST_F(Program, AStepThatCannotBeSolvedSaysWhatMayHelp) {
+  const std::string stiffness = "the contact stiffness (/contact/model/contact/normal/stiffness)";
+  Json stiff = parse_json_file(fs::path(EXAMPLES) / "hertz2d" / "scene.json");
+  stiff["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e9;
+  stiff["solver"]["min_step"] = 0.9; // one try
+  expect(ents_host("run " + write("scene.json", stiff)), 1,
+         {"the residual does not fall any more: lower " + stiffness + " or raise /solver/tolerance\n"});
+  Json soft = small();
+  soft["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e-3;
+  expect(ents_host("run " + write("scene.json", soft)), 1,
+         {"penetration exceeds", "; take smaller steps, or see /solver/min_step, or raise " + stiffness + "\n"});
+  expect(ents_host("run \"" EXAMPLES "/chatter/scene.json\""), 1, {"; nodes open and close in turn: see examples/chatter (power or exponential law)\n"});
+}
+
+TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
+  const auto advice = [](const std::vector<double>& residuals, int switches, const char* law = "penalty") {
+    Json normal = {{"type", law}};
+    if (std::string(law) != "exponential") normal["stiffness"] = 1;
+    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches)}, {{"contact", {{"normal", normal}}}});
+  };
+  const std::vector<double> still{1, 0.1, 1.2e-8, 3e-9, 5.9e-8, 1.2e-8, 4e-9, 1.2e-8, 1.2e-8, 5.9e-8}, in_turn{1, .5, .2, .1, .2, .1, .2, .1, .2, .1};
+  EXPECT_EQ(advice(still, 0).substr(0, 40), "the residual does not fall any more: low");
+  EXPECT_EQ(advice(still, 0, "exponential"), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(advice_if_stuck({still, std::vector<int>(still.size(), 0)}, Json()), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(advice(in_turn, 1).substr(0, 18), "nodes open and clo");
+  EXPECT_EQ(advice(in_turn, 0), "");                // no node opens or closes
+  EXPECT_EQ(advice(in_turn, 1, "exponential"), ""); // a law that begins smoothly already
+  EXPECT_EQ(advice({1, 1e-9, 1e-9, 1e-9}, 0), "");  // too few to tell
+  std::vector<double> slow{1e-4}, growing{1e-9}, lost{0.5};
+  for (int i = 0; i < 12; ++i) slow.push_back(0.7 * slow.back()), growing.push_back(5 * growing.back()), lost.push_back(i % 3 == 0 ? 0.7 : 0.4);
+  for (const auto& residuals : {slow, growing, lost}) EXPECT_EQ(advice(residuals, 0), "") << residuals.back();
+}
+
 TEST_F(Program, MistakesInFilesAreNamed) {
   Json json = small();
   json["variants"] = {{"a", {{"solvr", Json::object()}}}};
@@ -269,6 +338,49 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   const ProgramOutput good = ents_host("run " + write("scene.json", json));
   expect(good, 0, {});
   EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
+}
+
+// A forgotten "length_unit" leaves a speck of a map: said before the run, whose result looks like a master that faces away.
+TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
+  write_text("profile.txt", "# Channel: z\n# Width: 4 mm\n# Height: 1 mm\n# Value units: m\n"
+                            "1e-5 2e-5 3e-5 4e-5 5e-5 4e-5 3e-5 2e-5 1e-5 1e-5\n");
+  const auto scene = [&](const Json& more) {
+    Json json = small();
+    json["contact"]["model"]["height"] = {{"type", "map"}, {"file", "profile.txt"}, {"boundary", "clamped"}, {"origin", {-1.5}}};
+    json["contact"]["model"]["height"].update(more);
+    json["steps"] = {{"control", "approach"}, {"values", {1e-4}}};
+    return write("scene.json", json);
+  };
+  const std::string warning = "ents-host: warning: the map /contact/model/height covers only a part of the segments", good = scene({{"length_unit", 1e-3}});
+  for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
+    const ProgramOutput fine = ents_host("run " + good + more);
+    EXPECT_EQ(fine.text.find("warning"), std::string::npos) << fine.text;
+  }
+  const std::string bad = scene(Json::object());
+  for (const char* more : {"", " --explicit 8", " --compare 4,8", " --json"}) {
+    const ProgramOutput output = ents_host("run " + bad + more);
+    EXPECT_NE(output.text.find(warning), std::string::npos) << output.text;
+    EXPECT_LT(output.text.find(warning), output.text.find("step 1")) << output.text; // before anything is solved
+  }
+  const ProgramOutput json = ents_host("run " + bad + " --json 2>/dev/null; exit $?; :");
+  EXPECT_TRUE(Json::accept(json.text)) << json.text;
+}
+
+// Of a master that deforms the faces say where the segments lie; the outer nodes of smoothed ones are its neighbours'.
+TEST_F(Program, AMapIsHeldAgainstTheSurfaceCoordinatesOfTheSegments) {
+  Json text = small();
+  text["contact"]["model"]["segment"] = "catmull_rom4";
+  text["contact"]["model"].erase("surface_coordinates");
+  text["contact"]["model"]["height"] = {{"type", "map"}, {"values", {0, 1e-3, 0}}, {"boundary", "clamped"}, {"size", {1}}};
+  const Scene scene = read_scene_text(text.dump(), folder_ / "scene.json");
+  const auto said = [&](const std::vector<double>& of_segments) {
+    testing::internal::CaptureStderr();
+    note_small_maps(scene, of_segments);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said({-1, 0, 0.5, 1, 0, 0.5, 1, 2}), "");
+  EXPECT_NE(said({-1, 0, 0.5, 1, 0, 0.5, 1.1, 2}).find("warning: the map /contact/model/height"), std::string::npos);
+  EXPECT_NE(said({}).find("warning: the map /contact/model/height"), std::string::npos); // s = xi: -1 .. 1
 }
 
 } // namespace

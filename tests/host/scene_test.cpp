@@ -95,6 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"exact_in_space", [](Json& j) { j["exact"] = {{"type", "hertz_point"}, {"radius", 1}}; },
                 {"/exact/type", "space", "/dimension is 2"}},
         Mistake{"nothing_holds", [](Json& j) { j["supports"] = Json::array(); }, {"/supports", "nothing holds"}},
+        Mistake{"nothing_given_that_holds", [](Json& j) { j.erase("supports"); }, {"/supports", "nothing holds"}},
         Mistake{"exact", [](Json& j) { j["exact"] = {{"type", "hertz_line"}}; }, {"/exact", "radius"}},
         Mistake{"half_space", [](Json& j) { j["half_space"] = {{"nodes", {"b.x_max"}}}; }, {"/half_space"}},
         Mistake{"periodic", [](Json& j) { j["periodic"] = {{"b.x_min", "b.y_min", "b"}}; }, {"/periodic/0", "pair"}},
@@ -114,6 +115,15 @@ TEST(Scene, DuplicateKeysAndSyntaxAreErrors) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("a.json:3"), std::string::npos) << error.what();
   }
+}
+
+TEST(Scene, SpringsHoldWithoutSupports) {
+  Json json = good();
+  json.erase("supports");
+  json["springs"] = {{{"faces", "b.y_min"}, {"stiffness", {1, 1}}}};
+  const Scene scene = test::scene_from(json);
+  EXPECT_TRUE(scene.supports.empty());
+  EXPECT_NO_THROW(Simulation(scene, &test::library()));
 }
 
 TEST(Scene, ShippedScenesAreRead) {

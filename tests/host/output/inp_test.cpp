@@ -196,7 +196,11 @@ TEST(InpErrors, SetsAndSurfaces) {
 
 TEST(InpErrors, Files) {
   expect_error("1, 0., 0.\n", "deck.inp:1", "data before the first keyword");
-  expect_error(square + "*PART, NAME=p\n", "deck.inp:8", "*PART changes the mesh");
+  for (const std::string keyword : {"*PART, NAME=p", "*ASSEMBLY, NAME=a", "*INSTANCE, NAME=i, PART=p"})
+    expect_error(square + keyword + "\n", "deck.inp:8",
+                 keyword.substr(0, keyword.find(',')) + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT "
+                 "(Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")");
+  EXPECT_TRUE(error_of(square + "*NGEN\n1, 2\n").ends_with("write a flat deck of *NODE and *ELEMENT"));
   expect_error(square + "*NSET,\n", "deck.inp:8", "ends inside the keyword line");
   expect_error("*INCLUDE, INPUT=none.inp\n", "deck.inp:1", "cannot read none.inp");
   EXPECT_EQ(error_of(""), "deck.inp: no mesh; expected *NODE and *ELEMENT with data lines");

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What to change when a step cannot be solved: how Newton's iteration failed says more than that it did.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "json_reader.hpp"
+
+namespace host {
+
+/// Where nothing better is known.
+inline constexpr const char* smaller_steps = "take smaller steps, or see /solver/min_step";
+
+/// One run of Newton's iteration.
+struct IterationHistory {
+  std::vector<double> residuals; ///< relative, after each iteration
+  std::vector<int> switches;     ///< slave nodes that opened or closed, at each iteration against the one before
+};
+
+/// The residual stands still above the tolerance, or nodes open and close in turn. Empty: it is neither.
+/// @param model  of the contact, null if there is none
+std::string advice_if_stuck(const IterationHistory& history, const Json& model);
+
+/// Slave nodes went too deep (ENTS_DEEP_PENETRATION).
+std::string advice_if_deep(const Json& model);
+
+} // namespace host
