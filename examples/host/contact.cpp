@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 
-
 namespace host {
 namespace {
 

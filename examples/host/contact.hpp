@@ -117,9 +117,9 @@ private:
   void gather_master(std::size_t segment, const std::vector<double>& displacement, double motion,
                      double* positions) const;
   ents_input input() const;
-  /// Segments of all slave nodes for this configuration.
   /// Where the master's segments are; once for a rigid master, without its motion.
   void build_grid(const std::vector<double>& displacement);
+  /// Segments of all slave nodes for this configuration.
   void search(const Configuration& at, bool only_lost);
   /// History of the active elements as seen from their segments.
   void move_history(ents_report& report);
