@@ -332,10 +332,9 @@ json rescale_height(const json& height, double height_factor, double coordinate_
   if (type == "thread") {
     for (const char* key : {"pitch", "crest", "root", "rounding", "offset"}) scale(key, coordinate_factor);
     if (height.contains("turn")) scale("turn", coordinate_factor);
-    for (json& angle : out["flank_angles"]) {
-      const double degree = std::numbers::pi / 180.0;
-      angle = std::atan(std::tan(angle.get<double>() * degree) * coordinate_factor / height_factor) / degree;
-    }
+    if (height_factor != coordinate_factor) // the flanks keep their angles, which have bounds
+      return {{"type", "product"},
+              {"of", json::array({{{"type", "constant"}, {"value", height_factor / coordinate_factor}}, out})}};
   }
   if (type == "map") {
     scale("values", height_factor);
