@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Degenerate and borderline geometry: each case has one verdict, at three sizes and three rotations.
 //
-// Not covered, because the model has no such thing yet: friction (slip exactly zero, negative coefficient), a
-// search over many segments (two segments equally close: the lower index; a node outside all of them; no
-// segments at all), and node numbers (duplicates in a segment, out of range, slave among the master nodes).
+// Elsewhere: friction without slip or pressure, what is searched or outside (borderline_test.cpp), numbers of a law
+// (bad_input_test.cpp), node numbers and surfaces without segments (mesh_test.cpp), many segments
+// (tests/mechanics/detection_test.cpp).
 #include <gtest/gtest.h>
 
 #include "support/pose.hpp"

@@ -11,6 +11,7 @@
 #include "cases.hpp"
 #include "differentiated.hpp"
 #include "interleaved.hpp"
+#include "worst.hpp"
 
 namespace bench {
 
@@ -56,11 +57,10 @@ public:
       for (std::size_t e = 0; e < count_; ++e, mine += size, results += size) {
         double apart = 0.0, largest = 0.0;
         for (std::size_t i = 0; i < size; ++i) {
-          const double d = std::abs(mine[i] - results[i]);
-          if (!(d <= apart)) apart = d; // also a NaN
-          largest = std::max(largest, std::abs(results[i]));
+          test::raise(apart, std::abs(mine[i] - results[i]));
+          test::raise(largest, std::abs(results[i]));
         }
-        if (!(apart <= worst * largest)) worst = apart / largest;
+        if (apart != 0.0) test::raise(worst, apart / largest);
       }
     }
     return worst;

@@ -14,6 +14,7 @@
 #include "bases.hpp"
 #include "interleaved.hpp"
 #include "ipc_pair.hpp"
+#include "worst.hpp"
 
 namespace bench {
 
@@ -60,14 +61,11 @@ double norm(const double* v, std::size_t size) {
   return std::sqrt(sum);
 }
 
-void raise(double& worst, double value) {
-  if (!(value <= worst) && !std::isnan(worst)) worst = value; // also to a NaN
-}
 struct Difference {
   double apart = 0.0, largest = 0.0;
   void add(double theirs, double expected) {
-    raise(apart, std::abs(theirs - expected));
-    largest = std::max(largest, std::abs(expected));
+    test::raise(apart, std::abs(theirs - expected));
+    test::raise(largest, std::abs(expected));
   }
   double relative() const { return apart / largest; }
 };
@@ -90,8 +88,8 @@ bool compare_barrier(std::ostream& out, const Job& job, const Pairs& pairs, cons
         second.add(h.at(n * j + i), 2.0 * slope * tangent[n * i + j] +
                                         4.0 * curvature / stiffness * residual[i] * residual[j]);
     }
-    raise(gradient, first.relative());
-    raise(hessian, second.relative());
+    test::raise(gradient, first.relative());
+    test::raise(hessian, second.relative());
   }
   out << "IPC Toolkit on the same " << pairs.size() << " plain " << (d == 2 ? "line2" : "tri3")
       << ", frictionless: gradient differs by " << gradient << ", Hessian by " << hessian << "\n";
@@ -120,12 +118,12 @@ bool compare_friction(std::ostream& out, const Pairs& pairs, const double* resul
     const double tangential = norm(along.data(), 3);
     Difference apart;
     for (std::size_t i = 0; i < n; ++i) apart.add(-theirs[i] / their_tangential, along[i] / tangential);
-    raise(direction, apart.relative());
+    test::raise(direction, apart.relative());
     const double limit = friction_coefficient * (1.0 - 1e-9);
     const double ours = tangential / std::abs(normal), other = their_tangential / their_normal;
     if (ours < limit || other < limit) continue;
     ++sliding;
-    raise(ratio, std::abs(ours - other) / friction_coefficient);
+    test::raise(ratio, std::abs(ours - other) / friction_coefficient);
   }
   out << "with friction (" << sliding << " slide in both): directions along the surface differ by "
       << direction << ", ratio to the normal force by " << ratio << "\n";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/basis.hpp"
+#include "worst.hpp"
 
 namespace {
 
@@ -110,7 +111,9 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
       sum_yy += s.n[i] * p[1] * p[1];
     }
     EXPECT_NEAR(sum_x, x, rounding);
-    if (this->T == 2) EXPECT_NEAR(sum_y, y, rounding);
+    if (this->T == 2) {
+      EXPECT_NEAR(sum_y, y, rounding);
+    }
     if constexpr (linear) continue;
     // an approximating spline adds spacing^2 / 3 to a square: 4 / 3
     const double shift = this->interpolating ? 0.0 : 4.0 / 3.0;
@@ -121,8 +124,10 @@ TYPED_TEST(BasisTest, ReproducesPolynomials) {
       continue;
     }
     EXPECT_NEAR(sum_xx, x * x + shift, 10 * rounding);
-    if (this->T == 2) EXPECT_NEAR(sum_xy, x * y, 10 * rounding);
-    if (this->T == 2) EXPECT_NEAR(sum_yy, y * y + shift, 10 * rounding);
+    if (this->T == 2) {
+      EXPECT_NEAR(sum_xy, x * y, 10 * rounding);
+      EXPECT_NEAR(sum_yy, y * y + shift, 10 * rounding);
+    }
   }
 }
 
@@ -159,31 +164,35 @@ TYPED_TEST(BasisTest, IsOneAtItsOwnNodeAndZeroAtTheOthers) {
 // Every derivative is the derivative of the one before, by dual numbers; and `second`, `third` tell which vanish identically.
 TYPED_TEST(BasisTest, DerivativesFollowFromEachOther) {
   using B = TypeParam;
-  constexpr int T = TestFixture::T;
+  constexpr int parameters = TestFixture::T;
   double largest_2[3] = {}, largest_3[4] = {};
   for (const auto& xi : this->points()) {
     const auto s = this->template shape<3>(xi);
-    for (int a = 0; a < T; ++a) {
+    for (int a = 0; a < parameters; ++a) {
       const auto d = this->template along<2>(xi, a);
       for (int i = 0; i < B::nodes; ++i) {
         EXPECT_NEAR(d.n[i].v, s.n[i], TestFixture::rounded);
         EXPECT_NEAR(d.n[i].d, s.d1[a][i], TestFixture::rounded);
-        for (int b = 0; b < T; ++b) {
+        for (int b = 0; b < parameters; ++b) {
           const int k = symmetric_index(a, b);
-          largest_2[k] = std::max(largest_2[k], std::fabs(d.d1[b][i].d));
-          if (B::second[k]) EXPECT_NEAR(d.d1[b][i].d, s.d2[k][i], TestFixture::rounded) << a << b;
+          test::raise(largest_2[k], std::fabs(d.d1[b][i].d));
+          if (B::second[k]) {
+            EXPECT_NEAR(d.d1[b][i].d, s.d2[k][i], TestFixture::rounded) << a << b;
+          }
         }
         for (int k = 0; k < TestFixture::K; ++k) {
           const int abc = k + a; // 11 12 22 and 1 2
           if (!B::second[k]) continue;
-          largest_3[abc] = std::max(largest_3[abc], std::fabs(d.d2[k][i].d));
-          if (B::third[abc]) EXPECT_NEAR(d.d2[k][i].d, s.d3[abc][i], TestFixture::rounded) << k << " along " << a;
+          test::raise(largest_3[abc], std::fabs(d.d2[k][i].d));
+          if (B::third[abc]) {
+            EXPECT_NEAR(d.d2[k][i].d, s.d3[abc][i], TestFixture::rounded) << k << " along " << a;
+          }
         }
       }
     }
   }
   for (int k = 0; k < TestFixture::K; ++k) EXPECT_EQ(B::second[k], largest_2[k] > 1e-3) << k;
-  for (int k = 0; k < (T == 1 ? 1 : 4); ++k) EXPECT_EQ(B::third[k], largest_3[k] > 1e-3) << k;
+  for (int k = 0; k < (parameters == 1 ? 1 : 4); ++k) EXPECT_EQ(B::third[k], largest_3[k] > 1e-3) << k;
   bool bends = false;
   for (const bool second : B::second) bends = bends || second;
   EXPECT_EQ(is_flat<B>, !bends);
@@ -203,7 +212,9 @@ TYPED_TEST(BasisTest, LowerOrdersAreTheSameNumbers) {
         EXPECT_EQ(s2.d1[a][i], s3.d1[a][i]);
       }
       for (int k = 0; k < this->K; ++k)
-        if (TypeParam::second[k]) EXPECT_EQ(s2.d2[k][i], s3.d2[k][i]);
+        if (TypeParam::second[k]) {
+          EXPECT_EQ(s2.d2[k][i], s3.d2[k][i]);
+        }
     }
   }
 }

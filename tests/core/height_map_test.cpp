@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/height_tree.hpp"
+#include "worst.hpp"
 
 namespace {
 
@@ -296,9 +297,9 @@ TEST(HeightMap, ConvergesWithFourthOrder) {
     const Height height = Height::map(sampled(MapBoundary::periodic, level == 0 ? 32 : 128, 0.0, 1.0, f));
     for (double s = 0.0; s < 1.0; s += 0.0007) {
       const HeightJet<1, double> at = jet(height, s);
-      error[level][0] = std::max(error[level][0], std::fabs(at.h - f(s)));
-      error[level][1] = std::max(error[level][1], std::fabs(at.h1[0] - f1(s)));
-      error[level][2] = std::max(error[level][2], std::fabs(at.h2[0] - f2(s)));
+      test::raise(error[level][0], std::fabs(at.h - f(s)));
+      test::raise(error[level][1], std::fabs(at.h1[0] - f1(s)));
+      test::raise(error[level][2], std::fabs(at.h2[0] - f2(s)));
     }
   }
   // 32 samples: (4 pi / 32)^2 = 0.15 is the relative size of the next term; over two halvings log2(1.15)/2 =

@@ -21,6 +21,7 @@
 #include "core/height_tree.hpp"
 #include "core/thread.hpp"
 #include "lanes.hpp"
+#include "worst.hpp"
 
 namespace {
 
@@ -163,9 +164,9 @@ Remainder<T> taylor_remainder(const HeightNode& root, const double (&s)[T], cons
       d2 += direction[a] * at.h2[k] * direction[b];
       d3 += direction[a] * rate.h2[k].d * direction[b];
       predicted += t * at.h2[k] * direction[b] + t * t / 2 * rate.h2[k].d * direction[b];
-      r.hessian = std::max(r.hessian, std::fabs(there.h2[k] - at.h2[k] - t * rate.h2[k].d));
+      test::raise(r.hessian, std::fabs(there.h2[k] - at.h2[k] - t * rate.h2[k].d));
     }
-    r.gradient = std::max(r.gradient, std::fabs(there.h1[a] - predicted));
+    test::raise(r.gradient, std::fabs(there.h1[a] - predicted));
   }
   r.value = std::fabs(there.h - (at.h + t * d1 + t * t / 2 * d2 + t * t * t / 6 * d3));
   return r;

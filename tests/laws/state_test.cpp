@@ -7,6 +7,7 @@
 
 #include "law_elements.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace laws {
 namespace {
@@ -38,7 +39,7 @@ TEST(Cone, TractionNeverExceedsMuTimesPressure) {
       for (std::size_t i = 0; i < r.status.size(); ++i) {
         if (r.status[i] != ENTS_OK || !(r.flags[i] & ENTS_FLAG_CONTACT)) continue;
         const double limit = 0.3 * r.pressure[i], t = length_of(&r.traction[i * d], d);
-        worst = std::max(worst, (t - limit) / limit);
+        test::raise(worst, (t - limit) / limit);
         if (r.flags[i] & ENTS_FLAG_SLIP) {
           ++slips;
           EXPECT_NEAR(t, limit, 1e-14 * limit);
@@ -76,8 +77,8 @@ TEST(Balance, OfForcesAndOfMomentsWithFriction) {
         for (int c = 0; c < 3; ++c) moment[c] += p[(c + 1) % 3] * f[(c + 2) % 3] - p[(c + 2) % 3] * f[(c + 1) % 3];
       }
       const double scale = mechanics::largest_entry(R, n);
-      worst_force = std::max(worst_force, length_of(force, 3) / scale);
-      worst_moment = std::max(worst_moment, length_of(moment, 3) / scale);
+      test::raise(worst_force, length_of(force, 3) / scale);
+      test::raise(worst_moment, length_of(moment, 3) / scale);
     }
   }
   EXPECT_LE(worst_force, 1e-13);
@@ -118,8 +119,9 @@ TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
         ++compared;
         const double t = length_of(&a.traction[i * d], d);
         // the size of the segment for the gap; the traction follows from the pressure and from slip times stiffness (80)
-        worst = std::max({worst, std::fabs(a.gap[i] - b.gap[i]), std::fabs(a.pressure[i] - b.pressure[i]) / (a.pressure[i] + 10.0),
-                          std::fabs(t - length_of(&b.traction[i * d], d)) / (t + 10.0)});
+        test::raise(worst, std::fabs(a.gap[i] - b.gap[i]));
+        test::raise(worst, std::fabs(a.pressure[i] - b.pressure[i]) / (a.pressure[i] + 10.0));
+        test::raise(worst, std::fabs(t - length_of(&b.traction[i * d], d)) / (t + 10.0));
       }
     }
   EXPECT_GT(compared, mechanics::samples(10000));
@@ -244,7 +246,7 @@ TEST_P(RowOfSegments, SlidesLikeOneLongSegment) {
     one.evaluate_at(x);
     row.evaluate_at(x);
     for (std::size_t k = 0; k < 2; ++k) // the slave's; nodes share differently
-      worst = std::max(worst, std::fabs(one.results.residual[k] - row.results.residual[k]));
+      test::raise(worst, std::fabs(one.results.residual[k] - row.results.residual[k]));
     EXPECT_EQ(one.results.flags, row.results.flags) << "increment " << increment;
     one.commit();
     row.commit();

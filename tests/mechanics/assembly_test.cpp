@@ -8,6 +8,7 @@
 
 #include "mesh_surface.hpp"
 #include "scene.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -336,18 +337,17 @@ protected:
     ents_report report = new_report();
     ASSERT_EQ(assemble(matrix, assembled, places, report), ENTS_OK) << report.message;
     double force = 0.0, stiffness = 0.0, worst = 0.0;
-    for (const double r : residual) force = std::max(force, std::fabs(r));
-    for (const double k : tangent) stiffness = std::max(stiffness, std::fabs(k));
+    for (const double r : residual) test::raise(force, std::fabs(r));
+    for (const double k : tangent) test::raise(stiffness, std::fabs(k));
     ASSERT_GT(force, 0.01);
     for (std::size_t i = 0; i < residual.size(); ++i)
-      worst = std::max(worst, std::fabs(residual[i] - assembled[i]) / force);
+      test::raise(worst, std::fabs(residual[i] - assembled[i]) / force);
     for (std::int64_t i = 0; i < rows_; ++i)
       for (Index at = matrix.row_begin[static_cast<std::size_t>(i)];
            at < matrix.row_begin[static_cast<std::size_t>(i) + 1]; ++at) {
         const auto k = static_cast<std::size_t>(at);
-        worst = std::max(worst, std::fabs(matrix.values[k] -
-                                          tangent[static_cast<std::size_t>(i * rows_ + matrix.columns[k])]) /
-                                    stiffness);
+        const double expected = tangent[static_cast<std::size_t>(i * rows_ + matrix.columns[k])];
+        test::raise(worst, std::fabs(matrix.values[k] - expected) / stiffness);
       }
     EXPECT_LT(worst, 1e-14); // the same products, added in another order
   }
@@ -387,7 +387,7 @@ TEST_P(AssemblyWithFriction, IsTheSumOfTheElements) {
   expect(residual, tangent);
   double asymmetry = 0.0;
   for (std::size_t n = static_cast<std::size_t>(rows_), i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < i; ++j) asymmetry = std::max(asymmetry, std::fabs(tangent[i * n + j] - tangent[j * n + i]));
+    for (std::size_t j = 0; j < i; ++j) test::raise(asymmetry, std::fabs(tangent[i * n + j] - tangent[j * n + i]));
   EXPECT_GT(asymmetry, 0.01);
   expect_sums();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 
@@ -72,7 +73,7 @@ inline double times_direction(const double* matrix, const double* v, std::size_t
 
 inline double largest_entry(const double* v, std::size_t n) {
   double m = 0.0;
-  for (std::size_t i = 0; i < n; ++i) m = std::fabs(v[i]) > m ? std::fabs(v[i]) : m;
+  for (std::size_t i = 0; i < n; ++i) test::raise(m, std::fabs(v[i]));
   return m;
 }
 

@@ -11,6 +11,7 @@
 
 #include "differences.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -103,10 +104,10 @@ TEST_P(Equilibrium, ForcesAndMomentsBalance) {
                         const Vec3 m = moment(f, u, slave);
                         if (dimension() == 3)
                           moment_worst.see(std::fabs(dot(m, scene.ray)) / norm(scene.ray) / scale, where);
-                        unbalanced_moment = std::max(unbalanced_moment, largest(m) / scale);
+                        test::raise(unbalanced_moment, largest(m) / scale);
                       } else {
                         moment_worst.see(largest(moment(f, u, scene.ray)) / scale, where);
-                        unbalanced_force = std::max(unbalanced_force, sum);
+                        test::raise(unbalanced_force, sum);
                       }
                     });
   EXPECT_GE(elements_, samples(1000));

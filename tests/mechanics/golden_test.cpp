@@ -9,6 +9,7 @@
 
 #include "bases.hpp"
 #include "library.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -39,7 +40,7 @@ std::vector<json> cases_of(const std::string& basis) {
 
 double largest(const std::vector<double>& v) {
   double m = 0.0;
-  for (const double x : v) m = std::max(m, std::fabs(x));
+  for (const double x : v) test::raise(m, std::fabs(x));
   return m;
 }
 
@@ -50,7 +51,7 @@ double segment_size(const std::vector<double>& master, int dimension) {
     double square = 0.0;
     for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c)
       square += (master[i + c] - master[c]) * (master[i + c] - master[c]);
-    size = std::max(size, std::sqrt(square));
+    test::raise(size, std::sqrt(square));
   }
   return size;
 }
@@ -66,7 +67,7 @@ struct Worst {
     double difference = 0.0;
     for (std::size_t i = 0; i < got.size(); ++i) {
       ASSERT_TRUE(std::isfinite(got[i])) << where_now;
-      difference = std::max(difference, std::fabs(got[i] - expected[i]));
+      test::raise(difference, std::fabs(got[i] - expected[i]));
     }
     EXPECT_LE(difference, tolerance * scale) << where_now;
     ++compared;

@@ -329,11 +329,12 @@ json rescale_height(const json& height, double height_factor, double coordinate_
     scale("center", coordinate_factor);
     scale("width", coordinate_factor);
   }
-  if (type == "thread") { // its heights are in units of its lengths along s
+  if (type == "thread") {
     for (const char* key : {"pitch", "crest", "root", "rounding", "offset"}) scale(key, coordinate_factor);
     if (height.contains("turn")) scale("turn", coordinate_factor);
-    const json factor = {{"type", "constant"}, {"value", height_factor / coordinate_factor}};
-    return {{"type", "product"}, {"of", json::array({factor, out})}};
+    if (height_factor != coordinate_factor) // the flanks keep their angles, which have bounds
+      return {{"type", "product"},
+              {"of", json::array({{{"type", "constant"}, {"value", height_factor / coordinate_factor}}, out})}};
   }
   if (type == "map") {
     scale("values", height_factor);

@@ -7,6 +7,7 @@
 
 #include "differences.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -102,7 +103,7 @@ protected:
     if (scale == 0.0) scale = largest_entry(expected.data(), expected.size());
     double error = 0.0;
     for (std::size_t i = 0; i < expected.size(); ++i)
-      error = std::max(error, std::fabs(got[i] - expected[i]) / scale);
+      test::raise(error, std::fabs(got[i] - expected[i]) / scale);
     worst_.see(error, [&] { return std::string(name) + ", " + place_; });
     ++compared_;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesh_surface.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -150,11 +151,11 @@ TEST_P(PatchElements, AreTheElementOfTheSegmentTheSlaveIsOn) {
         for (std::size_t j = 0; j < (matrix ? n : 1); ++j)
           for (std::size_t i = 0; i < n; ++i) {
             expected[matrix ? place(j) * all + place(i) : place(i)] = local[j * n + i];
-            size_of = std::max(size_of, std::fabs(local[j * n + i]));
+            test::raise(size_of, std::fabs(local[j * n + i]));
           }
         double worst = 0.0;
         for (std::size_t i = 0; i < expected.size(); ++i)
-          worst = std::max(worst, std::fabs(spread[i] - expected[i]));
+          test::raise(worst, std::fabs(spread[i] - expected[i]));
         EXPECT_LT(worst, 1e-11 * size_of) << what; // both projections have converged, not to the same bit
       };
       same(whole.residual.data(), part.residual.data(), false, "residual");

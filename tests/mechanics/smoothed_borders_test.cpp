@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "smoothed_surface.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -101,7 +102,7 @@ Jumps jumps_of(const HostMesh& mesh, const std::string& basis, bool textured) {
       const SurfacePoints a = smoothed.evaluate(model, edge.facet[0], on_edge(mesh, edge.corner[0], u)),
                           b = smoothed.evaluate(model, edge.facet[1], on_edge(mesh, edge.corner[1], -u));
       const auto see = [&](double& worst, const std::vector<double>& x, const std::vector<double>& y) {
-        worst = std::max(worst, norm(vec3(x.data(), 3) - vec3(y.data(), 3)));
+        test::raise(worst, norm(vec3(x.data(), 3) - vec3(y.data(), 3)));
       };
       see(jumps.normal[edge.kind], a.normal, b.normal);
       if (i % 20 == 0) see(jumps.at_nodes, a.normal, b.normal);

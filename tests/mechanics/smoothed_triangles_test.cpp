@@ -4,6 +4,7 @@
 #include <set>
 
 #include "smoothed_surface.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -129,7 +130,7 @@ TEST(SmoothedTriangles, CornersLieOnTheLimitOfSubdivision) {
         }
         const SurfacePoints at =
             smoothed.evaluate(plain(), f, {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0});
-        worst = std::max(worst, norm(vec3(at.point.data(), 3) - x));
+        test::raise(worst, norm(vec3(at.point.data(), 3) - x));
         valences.insert(around.size());
       }
   }

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "smoothed_surface.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -133,7 +134,8 @@ TEST(Smoothing, OfACircleOfEightNodes) {
         EXPECT_NEAR(at.normal[4 + k], next.normal[k], 1e-15 * 8.0);
       }
       const double between = std::hypot(at.point[2], at.point[3]);
-      lowest = std::min(lowest, between), highest = std::max(highest, between);
+      test::lower(lowest, between);
+      test::raise(highest, between);
     }
     EXPECT_NEAR(lowest, highest, 1e-15 * 4.0) << basis;
     std::cout << basis << ": radius " << radius << " at the nodes, " << lowest
@@ -293,8 +295,8 @@ TEST(Smoothing, CornersLieOnTheLimitOfSubdivision) {
       }
       const SurfacePoints at = smoothed.evaluate(
           plain("bspline16"), facet, {corner == 1 || corner == 2 ? 1.0 : -1.0, corner > 1 ? 1.0 : -1.0});
-      worst = std::max(worst, norm(vec3(at.point.data(), 3) - limit));
-      worst_normal = std::max(worst_normal, norm(vec3(at.normal.data(), 3) - (1.0 / norm(normal)) * normal));
+      test::raise(worst, norm(vec3(at.point.data(), 3) - limit));
+      test::raise(worst_normal, norm(vec3(at.normal.data(), 3) - (1.0 / norm(normal)) * normal));
     }
   }
   EXPECT_EQ(extraordinary, 8 + 8 + 3);

@@ -6,6 +6,7 @@
 
 #include "differences.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -118,7 +119,7 @@ TEST_P(TangentKinds, SmallGapDropsTermsOfFirstOrderInTheGap) {
       for (std::size_t e = 0; e < count; ++e) {
         double difference = 0.0;
         for (std::size_t k = e * n2; k < (e + 1) * n2; ++k)
-          difference = std::max(difference, std::fabs(a.gap_hessian[k] - b.gap_hessian[k]));
+          test::raise(difference, std::fabs(a.gap_hessian[k] - b.gap_hessian[k]));
         dropped.back().push_back(difference);
       }
     }
@@ -126,8 +127,8 @@ TEST_P(TangentKinds, SmallGapDropsTermsOfFirstOrderInTheGap) {
       // over three decades; at g = 0.01 terms of second order may still show (0.01 / 0.1 radius of curvature:
       // 4 %)
       const double slope = std::log10(dropped.front()[e] / dropped.back()[e]) / 3.0;
-      smallest = std::min(smallest, slope);
-      largest = std::max(largest, slope);
+      test::lower(smallest, slope);
+      test::raise(largest, slope);
     }
   });
   EXPECT_GE(smallest, 0.95);
@@ -148,7 +149,7 @@ TEST_P(TangentKinds, SmallGapIsExactAtZeroGap) {
     for (std::size_t e = 0; e < static_cast<std::size_t>(elements.count); ++e) {
       double difference = 0.0;
       for (std::size_t k = e * n2; k < (e + 1) * n2; ++k)
-        difference = std::max(difference, std::fabs(a.gap_hessian[k] - b.gap_hessian[k]));
+        test::raise(difference, std::fabs(a.gap_hessian[k] - b.gap_hessian[k]));
       worst.see(difference / largest_entry(&a.gap_hessian[e * n2], n2), [&] { return scene.model().dump(); });
     }
   });

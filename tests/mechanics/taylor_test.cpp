@@ -7,6 +7,7 @@
 
 #include "differences.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -62,9 +63,8 @@ protected:
       for (std::size_t k = 0; k < points; ++k) {
         double largest = 0.0;
         for (std::size_t n = 0; n < dofs; ++n)
-          largest =
-              std::max(largest, std::fabs(r.residual[(first + k) * dofs + n] - centre.residual[i * dofs + n] -
-                                          steps_[k] * times_direction(tangent, &v[i * dofs], dofs, n)));
+          test::raise(largest, std::fabs(r.residual[(first + k) * dofs + n] - centre.residual[i * dofs + n] -
+                                         steps_[k] * times_direction(tangent, &v[i * dofs], dofs, n)));
         remainders.push_back(largest);
       }
       if (remainders.back() < 20.0 * rounding * largest_entry(tangent, dofs * dofs)) {
@@ -73,7 +73,7 @@ protected:
       }
       ++checked_;
       const double slope = slope_of(steps_, remainders);
-      if (slope >= smallest_) continue;
+      if (slope >= smallest_ || std::isnan(smallest_)) continue;
       smallest_ = slope;
       where_ =
           basis.name + " " + scene.projection + " " + scene.height.dump() + " element " + std::to_string(e);

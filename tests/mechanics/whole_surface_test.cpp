@@ -7,6 +7,7 @@
 
 #include "mesh_surface.hpp"
 #include "samples.hpp"
+#include "worst.hpp"
 
 namespace mechanics {
 namespace {
@@ -46,7 +47,7 @@ Contact contact_of(const Model& model, const MeshSurface& surface, Detector& det
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
+  for (std::size_t k = 0; k < a.size(); ++k) test::raise(most, std::fabs(a[k] - b[k]));
   return most;
 }
 
@@ -105,7 +106,7 @@ Jumps slide(const std::string& basis_name, bool textured) {
     const Contact now = at(x + coarse);
     if (before.segment < 0 || now.segment < 0) throw std::runtime_error("no contact at " + std::to_string(x));
     if (now.segment == before.segment) {
-      jumps.inside = std::max(jumps.inside, largest_difference(now.force, before.force) / length(now.force));
+      test::raise(jumps.inside, largest_difference(now.force, before.force) / length(now.force));
     } else { // where exactly?
       double low = x, high = x + coarse;
       Contact left = before, right = now;
@@ -119,8 +120,8 @@ Jumps slide(const std::string& basis_name, bool textured) {
           high = middle, right = there;
       }
       ++jumps.borders;
-      jumps.force = std::max(jumps.force, largest_difference(left.force, right.force) / length(right.force));
-      jumps.normal = std::max(jumps.normal, largest_difference(left.normal, right.normal));
+      test::raise(jumps.force, largest_difference(left.force, right.force) / length(right.force));
+      test::raise(jumps.normal, largest_difference(left.normal, right.normal));
     }
     before = now;
   }
@@ -200,7 +201,8 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
       ASSERT_EQ(one.segment < 0, many.segment < 0);
       if (one.segment < 0) continue;
       ++compared;
-      worst = std::max({worst, std::fabs(one.gap - many.gap), largest_difference(one.force, many.force)});
+      test::raise(worst, std::fabs(one.gap - many.gap));
+      test::raise(worst, largest_difference(one.force, many.force));
     }
   }
   std::cout << compared
