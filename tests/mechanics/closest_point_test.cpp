@@ -72,7 +72,7 @@ TEST_P(ClosestPoint, IsFoundByTheSearch) {
             << " in the mean, at most " << most_spent << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, ClosestPoint, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, ClosestPoint, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
