@@ -69,11 +69,7 @@ std::int64_t count_of(const Case& c) {
 
 std::string Case::name() const { return basis + "/" + variant + "/" + level + "/" + call_name(call); }
 
-std::vector<std::string> basis_names() {
-  std::vector<std::string> names = mechanics::basis_names();
-  names.push_back("bezier15"); // the patches of smoothed triangles
-  return names;
-}
+std::vector<std::string> basis_names() { return mechanics::all_basis_names(); }
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;

@@ -64,12 +64,15 @@ Cases are interleaved at random, so that a slow second of the machine does not h
 exit status: 0 done; 1 a case failed; 2 the command line is wrong, or --peers finds nothing built in)");
 }
 
+bool case_failed = false;
+
 void register_case(const bench::Case& c) {
   const auto run = [c](benchmark::State& state) {
     std::unique_ptr<bench::Job> job;
     try {
       job = std::make_unique<bench::Job>(c);
     } catch (const std::exception& error) {
+      case_failed = true;
       state.SkipWithError(error.what());
       return;
     }
@@ -154,9 +157,9 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, pointers.data());
   if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
   for (const bench::Case& c : bench::all_cases()) register_case(c);
-  if (!summary) return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 1;
+  if (!summary) return benchmark::RunSpecifiedBenchmarks() > 0 && !case_failed ? 0 : 1;
   bench::Medians medians;
   if (benchmark::RunSpecifiedBenchmarks(&medians) == 0) return 1;
   bench::print_summary(std::cout, medians);
-  return 0;
+  return case_failed ? 1 : 0;
 }

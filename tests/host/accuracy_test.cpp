@@ -7,6 +7,7 @@
 
 #include "program.hpp"
 #include "support.hpp"
+#include "worst.hpp"
 
 namespace host {
 namespace {
@@ -21,13 +22,15 @@ constexpr double tolerance =
 /// Largest r[n] / r[n-1]^2 over the iterations in which no slave node opened or closed, as long as r[n] is
 /// above the tolerance. The residuals are relative to the forces, so the constant compares the second
 /// derivative of the forces with the first, over a step that changes them by as much as themselves: 1 or less
-/// for a gently curved master, and for a rough one as much more as its slope changes between two nodes. A
-/// tangent that is not the derivative has no such constant.
+/// for a gently curved master, and for a rough one as much more as its slope changes between two nodes.
+/// This shows that the iteration converges fast, not that its tangent is exact: on the four gently curved scenes
+/// the terms that the first variation leaves out are so small that it keeps the bound of 1 as well (constants
+/// of 1e-5 to 0.03 with either). AnApproximateTangentIsSeen shows it on the rough one.
 double quadratic_constant(const std::vector<double>& residuals, const std::vector<int>& changes) {
   double constant = 0;
   for (std::size_t n = 1; n < residuals.size(); ++n)
     if (changes[n] == 0 && residuals[n] > tolerance)
-      constant = std::max(constant, residuals[n] / (residuals[n - 1] * residuals[n - 1]));
+      ::test::raise(constant, residuals[n] / (residuals[n - 1] * residuals[n - 1]));
   return constant;
 }
 
@@ -134,7 +137,7 @@ TEST(Accuracy, AnApproximateTangentIsSeen) {
     double constant = 0;
     for (const StepRecord& record : solve(simulation, {}))
       for (const IncrementRecord& increment : record.increments)
-        constant = std::max(constant, quadratic_constant(increment.residuals, increment.status_changes));
+        ::test::raise(constant, quadratic_constant(increment.residuals, increment.status_changes));
     std::printf("%s: r[n] <= %.1e r[n-1]^2\n", tangent, constant);
     if (tangent == std::string("consistent"))
       EXPECT_LT(constant, 100);

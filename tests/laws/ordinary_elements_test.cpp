@@ -35,7 +35,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.basis << " " << c.hei
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const std::string& basis : mechanics::basis_names())
+  for (const std::string& basis : mechanics::all_basis_names())
     for (const std::string& height : mechanics::height_kinds())
       for (const Method& method : methods())
         if (method.normal["type"] == "penalty" || method.normal["type"] == "power")
@@ -256,8 +256,9 @@ TEST_F(OrdinaryElements, SayWhatElementsOneByOneSay) {
         for (std::size_t i = 0; i < entries; ++i)
           ASSERT_NEAR(a[e * entries + i], b[e * entries + i], tolerance) << what << " " << testing::PrintToString(c) << " element " << e;
       };
-      close(block.residual, alone.residual, n, 1e-12, "residual");
-      close(block.tangent, alone.tangent, n * n, 1e-11, "tangent");
+      const double bent = c.basis == "bezier15" ? 4.0 : 1.0; // control points drawn at random bend a quartic more sharply
+      close(block.residual, alone.residual, n, bent * 1e-12, "residual");
+      close(block.tangent, alone.tangent, n * n, bent * 1e-11, "tangent");
       close(block.state, alone.state, size, 1e-12, "state");
       ASSERT_NEAR(block.gap[e], alone.gap[e], 1e-14);
       ASSERT_NEAR(block.pressure[e], alone.pressure[e], 1e-11);

@@ -28,7 +28,7 @@ TEST(Cone, TractionNeverExceedsMuTimesPressure) {
   Random random(5);
   double worst = 0.0;
   std::int64_t slips = 0;
-  for (const Basis& basis : mechanics::bases())
+  for (const Basis& basis : mechanics::all_bases())
     for (const char* projection : mechanics::projections) {
       const mechanics::Scene scene = draw_scene(random, basis, "sine", projection);
       const mechanics::Model model = model_of(scene, coulomb);
@@ -55,7 +55,7 @@ TEST(Cone, TractionNeverExceedsMuTimesPressure) {
 TEST(Balance, OfForcesAndOfMomentsWithFriction) {
   Random random(6);
   double worst_force = 0.0, worst_moment = 0.0;
-  for (const Basis& basis : mechanics::bases()) {
+  for (const Basis& basis : mechanics::all_bases()) {
     const mechanics::Scene scene = draw_scene(random, basis, "sine", "normal");
     const mechanics::Model model = model_of(scene, coulomb);
     const LawElements e = draw(random, scene, model, mechanics::samples(1000), 0.05);
@@ -92,7 +92,7 @@ TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
   double worst = 0.0;
   std::int64_t compared = 0;
   for (const Method& method : methods())
-    for (const Basis& basis : mechanics::bases()) {
+    for (const Basis& basis : mechanics::all_bases()) {
       if (method.friction.is_null()) continue;
       const mechanics::Scene scene = draw_scene(random, basis, "sine", "normal");
       const mechanics::Model model = model_of(scene, method);
@@ -184,7 +184,7 @@ TEST(State, WhatSlippedSticksUntilItMoves) {
   Random random(41);
   std::int64_t slipped = 0, again = 0;
   for (const Method& law : laws)
-    for (const Basis& basis : mechanics::bases())
+    for (const Basis& basis : mechanics::all_bases())
       for (const char* projection : mechanics::projections) {
         const mechanics::Scene scene = draw_scene(random, basis, "sine", projection);
         const mechanics::Model model = model_of(scene, law);

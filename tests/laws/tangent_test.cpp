@@ -111,7 +111,7 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   int round = 0;
   while (count_.checked < goal && round < 50) {
     ++round;
-    for (const Basis& basis : mechanics::bases())
+    for (const Basis& basis : mechanics::all_bases())
       for (const char* projection : mechanics::projections)
         for (const char* height : {"none", "sine", "gaussian"}) {
           const mechanics::Scene scene = draw_scene(random, basis, height, projection);

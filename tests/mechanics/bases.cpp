@@ -107,24 +107,38 @@ const std::vector<Basis>& bases() {
   return table;
 }
 
+const std::vector<Basis>& all_bases() {
+  static const std::vector<Basis> table = [] {
+    std::vector<Basis> all = bases();
+    all.push_back({"bezier15",
+                   Family::bernstein,
+                   3,
+                   true,
+                   {{0, 0}, {1, 0}, {0, 1}, {0.25, 0}, {0.5, 0}, {0.75, 0}, {0.75, 0.25}, {0.5, 0.5}, {0.25, 0.75},
+                    {0, 0.75}, {0, 0.5}, {0, 0.25}, {0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5}}});
+    return all;
+  }();
+  return table;
+}
+
 const Basis& basis_named(const std::string& name) {
-  static const Basis bezier{"bezier15",
-                            Family::bernstein,
-                            3,
-                            true,
-                            {{0, 0}, {1, 0}, {0, 1}, {0.25, 0}, {0.5, 0}, {0.75, 0}, {0.75, 0.25}, {0.5, 0.5}, {0.25, 0.75},
-                             {0, 0.75}, {0, 0.5}, {0, 0.25}, {0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5}}};
-  if (name == bezier.name) return bezier;
-  for (const Basis& basis : bases())
+  for (const Basis& basis : all_bases())
     if (basis.name == name) return basis;
   throw std::invalid_argument(name);
 }
 
-std::vector<std::string> basis_names() {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<Basis>& some) {
   std::vector<std::string> names;
-  for (const Basis& basis : bases()) names.push_back(basis.name);
+  for (const Basis& basis : some) names.push_back(basis.name);
   return names;
 }
+
+} // namespace
+
+std::vector<std::string> basis_names() { return names_of(bases()); }
+std::vector<std::string> all_basis_names() { return names_of(all_bases()); }
 
 std::vector<double> shape_values(const Basis& basis, const double* xi) {
   std::vector<double> out;

@@ -23,10 +23,13 @@ struct Basis {
   int dofs() const { return dimension * (node_count() + 1); }
 };
 
+// Those of meshes of nodes
 const std::vector<Basis>& bases();
-// One of bases(), or bezier15, the patches of smoothed triangles: their nodes are no positions of a mesh.
-const Basis& basis_named(const std::string& name);
 std::vector<std::string> basis_names();
+// And bezier15, the patches of smoothed triangles: control points, without golden vectors
+const std::vector<Basis>& all_bases();
+std::vector<std::string> all_basis_names();
+const Basis& basis_named(const std::string& name); // one of all_bases()
 
 // Shape functions at xi, and with them their first derivatives.
 std::vector<double> shape_values(const Basis& basis, const double* xi);

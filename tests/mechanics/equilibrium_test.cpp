@@ -229,7 +229,7 @@ TEST_P(Equilibrium, TangentOfRigidMotions) {
             << rotations.error << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, Equilibrium, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, Equilibrium, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace

@@ -301,7 +301,7 @@ TEST_P(Invariance, Units) {
   report();
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, Invariance, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, Invariance, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace

@@ -546,8 +546,8 @@ TEST(SurfaceAdmissibility, ContinuityWithFriction) {
   EXPECT_EQ(of(waves(0.01, 1.0), {{"normal", normal}, {"friction", friction}}, "consistent").violated, 0);
 }
 
-// Random textures on distorted surfaces of all bases, far below the bounds of single segments: only their neighbours are
-// torn, or overlap, by the height on the edge times the angle between them.
+// Random textures on distorted surfaces of all bases that are not smoothed, far below the bounds of single segments: only their
+// neighbours are torn, or overlap, by the height on the edge times the angle between them.
 TEST(SurfaceAdmissibility, RandomSurfacesBelowEveryBound) {
   Random random(4);
   for (const Basis& basis : bases()) {

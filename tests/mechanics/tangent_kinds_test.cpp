@@ -201,7 +201,7 @@ TEST_P(TangentKinds, RigidMasterIsTheSlavesPartOfTheElement) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, TangentKinds, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, TangentKinds, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace

@@ -102,7 +102,7 @@ TEST_P(Taylor, RemainderOfTheResidualIsOfSecondOrder) {
             << " nearly straight, smallest slope " << smallest_ << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, Taylor, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, Taylor, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace

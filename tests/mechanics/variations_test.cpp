@@ -112,7 +112,7 @@ TEST_P(Variations, AreTheDerivativesOfGapAndProjectionPoint) {
   std::cout << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Basis, Variations, testing::ValuesIn(basis_names()),
+INSTANTIATE_TEST_SUITE_P(Basis, Variations, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
