@@ -25,6 +25,7 @@ constexpr SceneKind kinds[] = {
     {"rough_afm", "rough_afm", 0.2, 3},     {"cattaneo_mindlin", "cattaneo_mindlin", 0.5, 0},
     {"ironing", "ironing", 1, 12},          {"slope", "slope", 1, 0},
     {"chatter", "chatter", 1, 0},           {"patch_test", "patch_test", 1, 0},
+    {"thread", "thread", 1, 0},
     {"wavy3d_friction", "wavy3d", 0.5, 3},  {"cattaneo_soft", "cattaneo_mindlin", 0.5, 0},
 };
 

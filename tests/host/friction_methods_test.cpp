@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sliding.hpp"
+#include "worst.hpp"
 
 namespace host {
 namespace {
@@ -85,9 +86,9 @@ TEST_P(Sliding, DoesNotDependOnTheUnits) {
     const StepRecord &a = mm.records[step], &b = m.records[step];
     const double scale = std::hypot(a.contact_force[0], a.contact_force[1]);
     for (std::size_t i = 0; i < 2; ++i)
-      worst = std::max(worst, std::abs(a.contact_force[i] - b.contact_force[i]) / scale);
+      ::test::raise(worst, std::abs(a.contact_force[i] - b.contact_force[i]) / scale);
     for (std::size_t k = 0; k < a.fields.pressure.size(); ++k)
-      worst = std::max(worst, std::abs(a.fields.pressure[k] - 1e-6 * b.fields.pressure[k]) / a.peak_pressure);
+      ::test::raise(worst, std::abs(a.fields.pressure[k] - 1e-6 * b.fields.pressure[k]) / a.peak_pressure);
     for (std::size_t k = 0; k < a.fields.flags.size(); ++k)
       if (a.fields.flags[k] !=
           b.fields.flags[k]) // rounding decides on the border of the cone, and only there

@@ -15,6 +15,7 @@
 #include "chart/work.hpp"
 #include "chart/work_page.hpp"
 #include "support.hpp"
+#include "worst.hpp"
 
 namespace host::chart {
 namespace {
@@ -185,8 +186,7 @@ TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
     for (std::size_t k = 2; k + 2 < static_cast<std::size_t>(n); ++k)
       for (const double xi : {-0.7, -0.5, 0.3, 0.7}) {
         const std::vector<double> at = point(master, k, xi);
-        largest =
-            std::max(largest, std::abs(at[1] - (0.0005 - 0.0005 * std::cos(2 * 3.141592653589793 * at[0]))));
+        ::test::raise(largest, std::abs(at[1] - (0.0005 - 0.0005 * std::cos(2 * 3.141592653589793 * at[0]))));
       }
     worst.push_back(largest);
   }
