@@ -66,6 +66,7 @@ extern "C" int32_t ents_model_check(const ents_model* model, const double* maste
     if (status != ENTS_OK)
       return ents::report_message(report, status, -1, "the segment itself: %s", ents_status_text(status));
     ents_admissibility out = *known;
+    out.samples = a.samples;
     out.continuity = a.continuity;
     set(out.fold, out.fold_xi, a.fold);
     set(out.edge_height, out.edge_height_xi, a.edge_height);

@@ -550,7 +550,7 @@ ENTS_API int32_t ents_surface_evaluate(const ents_model *model, int64_t count,
  * regular grid of `samples` points per direction). Worst values and where they are. */
 typedef struct ents_admissibility {
   int32_t struct_size;
-  int32_t samples;            /* in: points per direction, 2 .. 4096; 0: as fine as the height asks for. Not written */
+  int32_t samples;            /* in: points per direction, 2 .. 4096; 0: as fine as the height asks for. out: taken (0 again for another segment) */
   int32_t continuity;         /* h is C^continuity; 1000: smooth */
   int32_t reserved;           /* 0 */
   double fold;                /* max |h| |kappa| over the segment; >= 1: rho_e folds over itself */

@@ -151,10 +151,12 @@ TEST_F(NeedsOfElements, IterationIsCounted) {
     e[state_begin].clear();
     for (double& x : e[start]) x += 0.1;
     Results results(model.layout);
-    // with the tangent: residuals alone may go with the ordinary elements where an approximate tangent does not
-    ASSERT_EQ(test::evaluate(model, e, ENTS_ITERATIONS | ENTS_RESIDUAL | ENTS_TANGENT, results), ENTS_OK) << model.text();
+    ASSERT_EQ(test::evaluate(model, e, ENTS_ITERATIONS | ENTS_RESIDUAL, results), ENTS_OK) << model.text();
     if (!needs(model, ENTS_NEEDS_ITERATION)) {
-      EXPECT_EQ(results.iterations, needs(model, ENTS_NEEDS_ONE_BY_ONE) ? 2 : 1) << model.text();
+      const bool alone = needs(model, ENTS_NEEDS_ONE_BY_ONE), approximate = model.text().find("\"tangent\"") != std::string::npos;
+      EXPECT_LE(results.iterations, alone ? 2 : 1) << model.text();
+      EXPECT_GE(results.iterations, alone && !approximate ? 2 : 1) // residuals may be an ordinary element's although the tangent is not
+          << model.text();
     } else if (needs(model, ENTS_NEEDS_SLOPE)) {
       EXPECT_GE(results.iterations, 3) << model.text();
     } else {
