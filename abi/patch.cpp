@@ -112,8 +112,7 @@ private:
       const double distance = distance_to_box(d_, in_.slave, box);
       if (segment_ < 0 || distance < least) segment_ = s, least = distance;
     }
-    const bool triangle = plan_.nodes == 3 || plan_.nodes == 6 || plan_.nodes == 15;
-    for (double& xi : found.at.xi) xi = d_ == 3 && triangle ? 1.0 / 3.0 : 0.0;
+    for (double& xi : found.at.xi) xi = plan_.simplex ? 1.0 / 3.0 : 0.0;
     return Status::ok;
   }
 

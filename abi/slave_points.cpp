@@ -53,10 +53,7 @@ namespace {
 
 const BasisEntry* facet_named(const char* name) {
   for (const BasisEntry& entry : basis_table)
-    if (std::strcmp(entry.name, name) == 0 && entry.basis != Basis::catmull_rom4 &&
-        entry.basis != Basis::bspline4 && entry.basis != Basis::catmull_rom16 &&
-        entry.basis != Basis::bspline16 && entry.basis != Basis::bezier15)
-      return &entry;
+    if (!entry.smoothed && std::strcmp(entry.name, name) == 0) return &entry;
   return nullptr;
 }
 

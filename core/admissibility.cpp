@@ -58,7 +58,7 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
                            const double* surface_coordinates, int samples, Admissibility& result) {
   const double* coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   const int n = samples > 0 ? samples : samples_for(plan, coordinates);
-  const bool triangle = model.basis == Basis::tri3 || model.basis == Basis::tri6 || model.basis == Basis::bezier15;
+  const bool triangle = plan.simplex;
   const bool surface = plan.parameters == 2;
   constexpr double infinity = Height::unbounded;
   result = {n, model.height.continuity(), {-1.0, {}}, {-1.0, {}}, {infinity, {}}, {infinity, {}}, infinity, -infinity};

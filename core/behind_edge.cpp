@@ -38,7 +38,7 @@ public:
 
   bool closest(BorderPoint& best) const {
     best.distance = infinity;
-    const int edges = plan_.parameters == 1 ? 2 : (triangle() ? 3 : 4);
+    const int edges = plan_.parameters == 1 ? 2 : plan_.simplex ? 3 : 4;
     for (int edge = 0; edge < edges; ++edge) closest_on(edge, best);
     return best.distance < infinity;
   }
@@ -47,12 +47,12 @@ public:
   bool corner(const BorderPoint& near, Corner& out) const {
     constexpr double step = 1e-4;
     double at[2] = {near.xi[0] > 0.0 ? 1.0 : -1.0, near.xi[1] > 0.0 ? 1.0 : -1.0};
-    if (triangle()) at[0] = std::round(near.xi[0]), at[1] = std::round(near.xi[1]);
+    if (plan_.simplex) at[0] = std::round(near.xi[0]), at[1] = std::round(near.xi[1]);
     BorderPoint here;
     if (!evaluate(at, here)) return false;
     for (int e = 0; e < 2; ++e) {
       double xi[2] = {at[0], at[1]};
-      if (!triangle()) {
+      if (!plan_.simplex) {
         xi[e] -= step * xi[e];
       } else if (xi[0] + xi[1] == 0.0) {
         xi[e] += step;
@@ -74,14 +74,12 @@ public:
   }
 
 private:
-  bool triangle() const { return plan_.nodes == 3 || plan_.nodes == 6 || plan_.nodes == 15; }
-
   // u in [0, 1] along an edge
   bool evaluate(int edge, double u, BorderPoint& out) const {
     double xi[2] = {};
     if (plan_.parameters == 1) {
       xi[0] = 2.0 * edge - 1.0;
-    } else if (triangle()) {
+    } else if (plan_.simplex) {
       xi[0] = edge == 1 ? 0.0 : u, xi[1] = edge == 0 ? 0.0 : (edge == 1 ? u : 1.0 - u);
     } else {
       const double along = 2.0 * u - 1.0, side = edge < 2 ? -1.0 : 1.0;

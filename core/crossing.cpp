@@ -214,7 +214,7 @@ private:
       const int rows = f_.corners() == 3 ? f_.n : 1;
       for (const auto& [i, j] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
         const int next_i = visit.i + i, next_j = visit.j + j;
-        if (next_i < 0 || next_j < 0 || next_j >= rows || next_i >= (c_.simplex() ? f_.n - next_j : f_.n)) continue;
+        if (next_i < 0 || next_j < 0 || next_j >= rows || next_i >= (c_.plan.simplex ? f_.n - next_j : f_.n)) continue;
         waiting.push_back({next_i, next_j, {at.xi[0], at.xi[1]}});
       }
     }

@@ -29,7 +29,7 @@ int Facets::pieces(const Cell& c, Piece (&out)[2]) const {
 }
 
 Facets::Facets(const SurfaceChecker& c, int wanted)
-    : surface_(c.plan.parameters == 2), simplex_(c.simplex()) {
+    : surface_(c.plan.parameters == 2), simplex_(c.plan.simplex) {
   const std::int64_t segments = c.mesh.segments;
   const double each = 262144.0 / static_cast<double>(std::max<std::int64_t>(segments, 1));
   n = std::clamp(static_cast<int>(surface_ ? std::sqrt(each) : each), 2, std::max(wanted, 2));

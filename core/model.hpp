@@ -31,21 +31,23 @@ struct BasisEntry {
   const char* name;
   std::int32_t nodes;      // m
   std::int32_t parameters; // convective coordinates = surface coordinates; dimension of space - 1
+  bool simplex;            // xi >= 0, sum xi <= 1; else -1 .. 1 per direction
+  bool smoothed;           // over several segments: its nodes are not the corners of the segment
 };
 
 inline constexpr BasisEntry basis_table[] = {
-    {Basis::line2, "line2", 2, 1},
-    {Basis::line3, "line3", 3, 1},
-    {Basis::catmull_rom4, "catmull_rom4", 4, 1},
-    {Basis::bspline4, "bspline4", 4, 1},
-    {Basis::tri3, "tri3", 3, 2},
-    {Basis::tri6, "tri6", 6, 2},
-    {Basis::quad4, "quad4", 4, 2},
-    {Basis::quad8, "quad8", 8, 2},
-    {Basis::quad9, "quad9", 9, 2},
-    {Basis::catmull_rom16, "catmull_rom16", 16, 2},
-    {Basis::bspline16, "bspline16", 16, 2},
-    {Basis::bezier15, "bezier15", 15, 2},
+    {Basis::line2, "line2", 2, 1, false, false},
+    {Basis::line3, "line3", 3, 1, false, false},
+    {Basis::catmull_rom4, "catmull_rom4", 4, 1, false, true},
+    {Basis::bspline4, "bspline4", 4, 1, false, true},
+    {Basis::tri3, "tri3", 3, 2, true, false},
+    {Basis::tri6, "tri6", 6, 2, true, false},
+    {Basis::quad4, "quad4", 4, 2, false, false},
+    {Basis::quad8, "quad8", 8, 2, false, false},
+    {Basis::quad9, "quad9", 9, 2, false, false},
+    {Basis::catmull_rom16, "catmull_rom16", 16, 2, false, true},
+    {Basis::bspline16, "bspline16", 16, 2, false, true},
+    {Basis::bezier15, "bezier15", 15, 2, true, true},
 };
 
 constexpr const BasisEntry& basis_entry(Basis basis) { return basis_table[static_cast<std::int32_t>(basis)]; }

@@ -70,7 +70,7 @@ void check_occlusion(const SurfaceChecker& c, const Facets& f) {
   const Vector3d light = vector_of(c.plan.ray, c.plan.dimension);
   for (std::int64_t s = 0; s < c.mesh.segments; ++s)
     for (int j = 0; j < (surface ? f.n : 1); ++j)
-      for (int i = 0; i < (c.simplex() ? f.n - j : f.n); ++i) {
+      for (int i = 0; i < (c.plan.simplex ? f.n - j : f.n); ++i) {
         const auto k = static_cast<std::size_t>(f.sample(s, i, j));
         if (!f.known[k]) continue;
         const Vector3d ray = emitter ? Vector3d(light - f.points[k]) : light;
@@ -79,8 +79,8 @@ void check_occlusion(const SurfaceChecker& c, const Facets& f) {
         // facets at the sample itself: closer than its neighbours
         double spacing = 0.0;
         for (const int step : {-1, 1}) {
-          const bool in_row = i + step >= 0 && i + step < (c.simplex() ? f.n - j : f.n);
-          const bool in_column = surface && j + step >= 0 && j + step < (c.simplex() ? f.n - i : f.n);
+          const bool in_row = i + step >= 0 && i + step < (c.plan.simplex ? f.n - j : f.n);
+          const bool in_column = surface && j + step >= 0 && j + step < (c.plan.simplex ? f.n - i : f.n);
           if (in_row)
             spacing = std::max(spacing, (f.points[static_cast<std::size_t>(f.sample(s, i + step, j))] - f.points[k]).norm());
           if (in_column)

@@ -90,6 +90,7 @@ Plan make_plan(const Model& model) {
   plan.dimension = basis.parameters + 1;
   plan.nodes = basis.nodes;
   plan.parameters = basis.parameters;
+  plan.simplex = basis.simplex;
   plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
   plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
   plan.state = make_state_layout(basis.parameters, model.law);

@@ -182,6 +182,7 @@ struct Plan {
   double border;             // natural coordinates by which the segment reaches beyond its edges
   double hull_spread;        // of a segment over its nodes: see segment_box
   std::int32_t dimension, nodes, parameters;
+  bool simplex;              // xi >= 0, sum xi <= 1
   std::int32_t multipliers;  // dofs after those of the nodes
   std::int32_t dofs;         // with multipliers
   StateLayout state;

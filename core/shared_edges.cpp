@@ -68,7 +68,7 @@ bool side_at(const SurfaceChecker& c, const Corners& corners, const SegmentNodes
              Side& out) {
   const double* from = corners.xi[edge.first];
   const double* to = corners.xi[edge.second];
-  const double middle = c.simplex() ? 1.0 / 3.0 : 0.0;
+  const double middle = c.plan.simplex ? 1.0 / 3.0 : 0.0;
   double inner[2];
   for (int a = 0; a < 2; ++a) {
     out.xi[a] = from[a] + t * (to[a] - from[a]);

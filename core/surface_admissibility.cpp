@@ -34,14 +34,14 @@ double size_of(const Plan& plan, const MasterMesh& mesh) {
 // Move xi to the largest value nearby: a compass search, whose steps start at the distance of the samples.
 double climb(const SurfaceChecker& c, double step, double (&xi)[2], double value,
              const std::function<double(const double*)>& f) {
-  const double low = c.simplex() ? 0.0 : -1.0;
+  const double low = c.plan.simplex ? 0.0 : -1.0;
   for (int evaluations = 0; step > 1e-8 && evaluations < 1000;) {
     bool better = false;
     for (int a = 0; a < c.plan.parameters; ++a)
       for (const double sign : {-1.0, 1.0}) {
         double next[2] = {xi[0], xi[1]};
         next[a] = std::clamp(next[a] + sign * step, low, 1.0);
-        if (c.simplex()) next[a] = std::min(next[a], 1.0 - next[1 - a]);
+        if (c.plan.simplex) next[a] = std::min(next[a], 1.0 - next[1 - a]);
         ++evaluations;
         const double there = f(next);
         if (!(there > value)) continue;
@@ -95,7 +95,7 @@ Status check_segments(const SurfaceChecker& c, const SurfaceLimits& limits, std:
   segment = -1;
   if (c.mesh.segments == 0) return Status::ok;
 
-  const double step = (c.simplex() ? 1.0 : 2.0) / (coarsest - 1.0);
+  const double step = (c.plan.simplex ? 1.0 : 2.0) / (coarsest - 1.0);
   const auto point = [&](const SegmentNodes& nodes, const double* xi, const SurfacePoint& out) {
     return c.plan.surface(c.plan, nodes.positions, nodes.surface_coordinates, xi, out) == Status::ok;
   };

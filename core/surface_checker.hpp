@@ -34,14 +34,7 @@ struct SurfaceChecker {
   double size; // of the box around the nodes
   SurfaceAdmissibility& result;
 
-  bool simplex() const {
-    return model.basis == Basis::tri3 || model.basis == Basis::tri6 || model.basis == Basis::bezier15;
-  }
-  // Over several segments: its nodes are not the corners of the segment.
-  bool smoothed() const {
-    return model.basis == Basis::catmull_rom4 || model.basis == Basis::bspline4 ||
-           model.basis == Basis::catmull_rom16 || model.basis == Basis::bspline16 || model.basis == Basis::bezier15;
-  }
+  bool smoothed() const { return basis_entry(model.basis).smoothed; }
   Finding& finding(int which) const { return result.findings[which]; }
   // Keep the place if its value is the worst so far; a segment without a place is one where the value holds everywhere.
   bool keep(int which, bool worse, double value, std::int64_t segment, const double* xi, std::int64_t other = -1,

@@ -104,7 +104,7 @@ void check_two_projections(const SurfaceChecker& c, const Facets& f, const std::
   const double apart = same_place * c.size;
   for (std::int64_t s = 0; s < c.mesh.segments; ++s)
     for (int j = 0; j < (surface ? f.n : 1); ++j)
-      for (int i = 0; i < (c.simplex() ? f.n - j : f.n); ++i) {
+      for (int i = 0; i < (c.plan.simplex ? f.n - j : f.n); ++i) {
         const auto k = static_cast<std::size_t>(f.sample(s, i, j));
         if (!f.known[k]) continue;
         const Vector3d &p = f.points[k], &n = f.normals[k];
