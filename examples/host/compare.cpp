@@ -7,6 +7,7 @@
 
 #include "check_extent.hpp"
 #include "commands.hpp"
+#include "output/text_file.hpp"
 #include "output_folder.hpp"
 #include "result.hpp"
 

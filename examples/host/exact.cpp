@@ -33,8 +33,23 @@ HertzPoint hertz_point(double approach, double radius, double contact_modulus) {
   return {force, contact_radius, 3 * force / (2 * pi * squared(contact_radius))};
 }
 
+double hertz_pressure(double peak, double half_width, double x) {
+  return peak * std::sqrt(std::max(0., 1 - squared(x / half_width)));
+}
+
 double westergaard_full_contact(double amplitude, double wavelength, double contact_modulus) {
   return pi * contact_modulus * amplitude / wavelength;
+}
+
+double westergaard_half_width(double full, double mean, double wavelength) {
+  return wavelength / pi * std::asin(std::sqrt(std::min(mean / full, 1.)));
+}
+
+double westergaard_pressure(double full, double mean, double x, double wavelength) {
+  if (mean >= full) return mean + full * std::cos(2 * pi * x / wavelength);
+  const double edge = mean / full; // sin^2(pi a / lambda)
+  const double rest = edge - squared(std::sin(pi * x / wavelength));
+  return rest > 0 ? 2 * mean * std::cos(pi * x / wavelength) / edge * std::sqrt(rest) : 0;
 }
 
 double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus) {
@@ -112,7 +127,7 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const double edge = contact_edge(state, exact.wavelength / 2);
     const EdgeBracket bracket = edge_bracket(state);
     const double sine = std::sin(pi * edge / exact.wavelength);
-    const double exact_edge = std::asin(std::sqrt(std::min(1., state.mean_pressure / full))) / pi;
+    const double exact_edge = westergaard_half_width(full, state.mean_pressure, 1);
     return {quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
             quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
             {"last closed node / lambda", "", bracket.closed / exact.wavelength},

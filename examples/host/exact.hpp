@@ -26,8 +26,17 @@ struct HertzPoint {
 /// @param approach  of the sphere relative to points far away
 HertzPoint hertz_point(double approach, double radius, double contact_modulus);
 
+/// Pressure at a distance x from the middle of a contact, line or point, of this half width or radius.
+double hertz_pressure(double peak, double half_width, double x);
+
 /// p* = pi E* Delta / lambda: mean pressure of full contact with the sine of amplitude Delta.
 double westergaard_full_contact(double amplitude, double wavelength, double contact_modulus);
+
+/// Half width of the contact where the mean pressure of the wave is `mean`, below or at p*.
+double westergaard_half_width(double full, double mean, double wavelength);
+
+/// Pressure at a distance x from a crest, for mean pressures below and above p*.
+double westergaard_pressure(double full, double mean, double x, double wavelength);
 
 /// sqrt(2) pi E* Delta / lambda: the same for Delta cos(2 pi x / lambda) cos(2 pi y / lambda).
 double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus);

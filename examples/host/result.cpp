@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 
 namespace host {
 namespace {
@@ -190,13 +189,6 @@ std::string exact_table(const std::vector<StepRecord>& records) {
     table.row(std::move(row));
   }
   return table.text();
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw JobError(file.string() + ": cannot be written");
 }
 
 } // namespace host

@@ -44,7 +44,4 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
 /// Difference against segments per direction: compare.svg and .png.
 void draw_comparison(const Scene& scene, const Comparison& comparison, const std::filesystem::path& folder);
 
-/// @throws JobError naming the file
-void write_text(const std::filesystem::path& file, const std::string& text);
-
 } // namespace host

@@ -56,20 +56,17 @@ Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
     case ExactSpec::Type::hertz_line: {
       const HertzLine reference = hertz_line(state.force / setup.thickness, scene.exact.radius, modulus);
       end = reference.half_width;
-      return reference.peak_pressure * std::sqrt(std::max(0., 1 - x * x));
+      return hertz_pressure(reference.peak_pressure, 1, x);
     }
     case ExactSpec::Type::hertz_point: {
       const HertzPoint reference = hertz_point(state.approach, scene.exact.radius, modulus);
       end = reference.radius;
-      return reference.peak_pressure * std::sqrt(std::max(0., 1 - x * x));
+      return hertz_pressure(reference.peak_pressure, 1, x);
     }
     case ExactSpec::Type::westergaard: {
       const double full = westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, modulus);
-      const double mean = std::min(state.mean_pressure, full), sine = std::sqrt(mean / full);
-      end = scene.exact.wavelength / pi * std::asin(sine);
-      const double at = std::sin(pi * x * end / scene.exact.wavelength);
-      return 2 * mean * std::cos(pi * x * end / scene.exact.wavelength) / (sine * sine) *
-             std::sqrt(std::max(0., sine * sine - at * at));
+      end = westergaard_half_width(full, state.mean_pressure, scene.exact.wavelength);
+      return westergaard_pressure(full, state.mean_pressure, x * end, scene.exact.wavelength);
     }
     default:
       return 0.;

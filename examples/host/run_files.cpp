@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "output/text_file.hpp"
 #include "output_folder.hpp"
 #include "restart.hpp"
 #include "result.hpp"

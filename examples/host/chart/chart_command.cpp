@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json, chart.html and the pictures.
 #include <cstdio>
-#include <fstream>
 
 #include "chart/chart_page.hpp"
 #include "chart/map.hpp"
@@ -13,6 +12,7 @@
 #include "chart/wrong_heights.hpp"
 #include "commands.hpp"
 #include "output/table.hpp"
+#include "output/text_file.hpp"
 #include "output_folder.hpp"
 #include "stopwatch.hpp"
 
@@ -81,13 +81,6 @@ constexpr const char* introduction =
     "quarter of the stiffness away, if two half increments end at the same place; follows a closed node, but "
     "searches an open one anew; takes ENTS_FLAG_BEHIND_EDGE and ENTS_FLAG_AMBIGUOUS for no answer. The lines "
     "&quot;no rules&quot; in the tables are the same host without all this.</p>";
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError("--out: " + file.string() + " cannot be written");
-}
 
 /// Where the scenes are: as the user says, or beside the build tree this program lies in, or here.
 std::filesystem::path scenes_folder(const std::filesystem::path& given) {

@@ -17,31 +17,19 @@ constexpr double pi = std::numbers::pi;
 
 double contact_modulus(const Scene& scene) { return scene.parts.front().setup.material.contact_modulus(); }
 
-double hertz_pressure(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+double pressure_of_cylinder(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
   const HertzLine hertz = hertz_line(record.force, scene.exact.radius, contact_modulus(scene));
-  const double rest = 1 - std::pow(place[0] / hertz.half_width, 2);
-  return rest > 0 ? hertz.peak_pressure * std::sqrt(rest) : 0;
+  return hertz_pressure(hertz.peak_pressure, hertz.half_width, place[0]);
 }
 
-/// Westergaard (Johnson, Contact Mechanics, 1985, section 13.2).
-/// @param full  mean pressure of full contact
-double sine_pressure(double full, double mean, double x, double wave) {
-  if (mean >= full) return mean + full * std::cos(2 * pi * x / wave);
-  const double edge = mean / full; // sin^2(pi a / lambda)
-  const double rest = edge - std::pow(std::sin(pi * x / wave), 2);
-  return rest > 0 ? 2 * mean * std::cos(pi * x / wave) / edge * std::sqrt(rest) : 0;
-}
-
-double westergaard_pressure(const Scene& scene, const StepRecord& record,
-                            const std::array<double, 3>& place) {
+double pressure_of_wave(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
   const double full =
       westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
-  return sine_pressure(full, record.mean_pressure, place[0], scene.exact.wavelength);
+  return westergaard_pressure(full, record.mean_pressure, place[0], scene.exact.wavelength);
 }
 
 /// Known in full contact only.
-double double_sine_pressure(const Scene& scene, const StepRecord& record,
-                            const std::array<double, 3>& place) {
+double pressure_of_two_waves(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
   const double wave = 2 * pi / scene.exact.wavelength;
   const double full =
       double_sine_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
@@ -126,11 +114,10 @@ void elastic_master(Json& scene, const Way& way) {
   scene.erase("compare");
 }
 
-double westergaard_two_bodies(const Scene& scene, const StepRecord& record,
-                              const std::array<double, 3>& place) {
+double pressure_of_two_bodies(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
   (void)scene;
   const double one = 1000 / (1 - 0.3 * 0.3), modulus = one / (1 + 1 / stiffness_ratio);
-  return sine_pressure(westergaard_full_contact(0.0005, 1, modulus), record.mean_pressure, place[0], 1);
+  return westergaard_pressure(westergaard_full_contact(0.0005, 1, modulus), record.mean_pressure, place[0], 1);
 }
 
 const char* const pieces_x = "/parts/0/x/pieces/0/divisions";
@@ -160,7 +147,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     if (quick) p.levels.resize(1);
     p.ways = quick ? all_ways(p.levels, {15, 60}, {15}, true)
                    : all_ways(p.levels, {7, 15, 30, 60, 120, 240, 480}, {7, 15, 30, 60}, true);
-    p.pressure = westergaard_pressure;
+    p.pressure = pressure_of_wave;
     problems.push_back(std::move(p));
   }
   {
@@ -178,7 +165,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     if (quick) p.levels.resize(1);
     p.ways = quick ? all_ways(p.levels, {23, 95}, {23}, true)
                    : all_ways(p.levels, {6, 11, 23, 47, 95, 191, 383}, {11, 23, 47}, true);
-    p.pressure = hertz_pressure;
+    p.pressure = pressure_of_cylinder;
     problems.push_back(std::move(p));
   }
   {
@@ -200,7 +187,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     p.ways = quick ? all_ways(p.levels, {7, 29}, {7}, true)
                    : all_ways(p.levels, {5, 9, 15, 19, 23, 29, 59}, {5, 9, 15}, true);
     p.ways.push_back({Family::enriched, 1, (p.levels.size() - 1) / 2, automatic_tangent});
-    p.pressure = double_sine_pressure;
+    p.pressure = pressure_of_two_waves;
     problems.push_back(std::move(p));
   }
   {
@@ -225,7 +212,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
       for (const int n : quick ? std::vector<int>{8, 32} : std::vector<int>{8, 16, 32, 64, 128, 256})
         p.ways.push_back({Family::facets, n, k});
     }
-    p.pressure = westergaard_two_bodies;
+    p.pressure = pressure_of_two_bodies;
     problems.push_back(std::move(p));
   }
   {

@@ -10,6 +10,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "text_file.hpp"
+
 namespace host::vtu {
 namespace {
 
@@ -122,13 +124,6 @@ CellList cell_list(const Grid& grid, std::size_t points) {
     }
   }
   return list;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written (folder, permission or disk?)");
 }
 
 constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
