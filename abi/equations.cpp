@@ -152,17 +152,13 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
   return ENTS_OK;
 }
 
-// Where an earlier call has found the entries of an element: for node a and node b, the begin of each row's d entries, counted from 1.
-// Null: not all of them are known.
+// Where an earlier call has found the entries of an element: segment + 1, negative once all of them are known; then for node a and node
+// b, the begin of each row's d entries, counted from 1, or 0. Null: not all of them are known.
 inline const std::int64_t* Equations::known_places(std::int64_t e) const noexcept {
   if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return nullptr;
   const std::int64_t* places = system_->places + e * system_->places_size;
   const std::int64_t segment = call_.segment(e);
-  if (segment < 0 || places[0] != segment + 1) return nullptr;
-  ++places;
-  std::int64_t unknown = 0; // negative: there was one of 0
-  for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) unknown |= places[i] - 1;
-  return unknown < 0 ? nullptr : places;
+  return segment >= 0 && places[0] == -(segment + 1) ? places + 1 : nullptr;
 }
 
 // Known places mean that all equations of the element have been looked at, and none is left out.
@@ -237,6 +233,8 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
     });
     if (status != ENTS_OK) return status;
   }
+  if (places && plan_.multipliers == 0 && std::find(places + 1, places + 1 + d * count * count, 0) == places + 1 + d * count * count)
+    places[0] = -places[0];
   return plan_.multipliers > 0 ? add_block(e, multipliers, multipliers, tangent, nullptr) : ENTS_OK;
 }
 
