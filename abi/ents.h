@@ -571,7 +571,7 @@ ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
 /* Conditions of a whole surface (sections 2 and 3 and Fig. 4 of the paper): name, place in the arrays below, and the bound that the
  * worst value is held against. Grids and facets measure them: what is smaller than the distance of the samples may be missed. */
 #define ENTS_CONDITION_TABLE(X)                                                                                        \
-  X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; 3 for the consistent tangent with friction")              \
+  X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; with 3 the exact tangent of friction is continuous, too") \
   X(ENTS_CHECK_FOLD, 1, "max |h| |kappa| of rho: below 1, else rho_e folds over itself")                               \
   X(ENTS_CHECK_EDGE, 2, "max |h| on the edges [L]: 0 for a local enrichment (s = xi, not smoothed); else not judged")  \
   X(ENTS_CHECK_JUMP, 3, "max distance of the two rho_e on an edge of two segments [L]: 0")                             \

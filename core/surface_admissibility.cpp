@@ -125,11 +125,10 @@ void set_bounds(const SurfaceChecker& c, const SurfaceLimits& limits) {
   const bool local = c.plan.height && !c.mesh.surface_coordinates && !c.plan.surface_coordinates && !c.smoothed();
   const bool normal = c.plan.projection == ProjectionKind::normal;
   const double reach = limits.reach > 0.0 ? limits.reach : c.plan.penetration_limit;
-  const bool third = c.plan.law.has_friction() && c.plan.tangent == TangentKind::consistent;
   const auto set = [&](int which, double bound, bool judged) {
     c.finding(which).bound = bound, c.finding(which).judged = judged && c.mesh.segments > 0;
   };
-  set(condition::continuity, third ? 3.0 : 2.0, true);
+  set(condition::continuity, 2.0, true);
   set(condition::fold, 1.0, true);
   set(condition::edge, local ? rounding * c.size : 0.0, local);
   set(condition::jump, rounding * c.size, true);

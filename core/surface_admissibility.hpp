@@ -12,7 +12,7 @@ namespace ents {
 
 namespace condition {
 enum : int {
-  continuity, // derivatives of h: 2, with friction and its exact tangent 3
+  continuity, // derivatives of h: 2
   fold,       // largest |h| |kappa| of rho: < 1
   edge,       // largest |h| on the edges: 0 for a local enrichment
   jump,       // largest distance of the two rho_e on a shared edge: 0

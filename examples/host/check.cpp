@@ -29,7 +29,7 @@ struct Condition {
 
 constexpr Condition conditions[] = {
     {ENTS_CHECK_CONTINUITY, "continuity", "continuous derivatives of h", ">=", "",
-     "the tangent jumps where a derivative of h does (friction asks for one more); take a smoother height"},
+     "the tangent jumps where a derivative of h does; take a smoother height"},
     {ENTS_CHECK_FOLD, "fold", "rho_e does not fold over itself: max |h| kappa", "<", "",
      "the height exceeds the radius of curvature of rho; lower it, or refine the segments"},
     {ENTS_CHECK_EDGE, "edge", "height on the edges of segments: max |h|", "<=", "",
@@ -65,6 +65,8 @@ public:
     if (status > 0) throw JobError(describe(model.library(), status, report));
   }
 
+  /// Of friction's exact tangent, which has third derivatives of h.
+  bool tangent_jumps() const { return result_.value[ENTS_CHECK_CONTINUITY] < 3; }
   bool admissible() const { return result_.violated == 0; }
   bool judged(const Condition& c) const { return ((result_.judged >> c.index) & 1) != 0; }
   bool violated(const Condition& c) const { return ((result_.violated >> c.index) & 1) != 0; }
@@ -140,7 +142,7 @@ private:
   std::size_t d_;
 };
 
-void print(const Answer& answer, std::size_t segments) {
+void print(const Answer& answer, std::size_t segments, bool friction) {
   Table table;
   table.column("condition").column("worst").column("bound").column("").column("missing").column("where");
   for (const Condition& c : conditions) {
@@ -154,6 +156,9 @@ void print(const Answer& answer, std::size_t segments) {
     if (answer.violated(c))
       std::printf("not admissible: %s is %s (bound %s) at %s: %s\n", c.what, answer.value_text(c).c_str(),
                   answer.bound_text(c).c_str(), answer.place(c).c_str(), c.remark);
+  if (friction && answer.tangent_jumps())
+    std::printf("note: the third derivatives of h jump between the cells of a map or thread, and with them the exact tangent of friction: "
+                "Newton's iteration does not suffer (examples/host/README.md)\n");
   std::size_t failing = 0;
   for (const std::int64_t bits : answer.violations()) failing += bits != 0;
   if (answer.admissible())
@@ -194,7 +199,7 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
     std::printf("%s\n", result.dump(2).c_str());
   } else {
     std::printf("%s%s", describe_needs(model.layout(), law).c_str(), describe(extent).c_str());
-    print(answer, surface.segments());
+    print(answer, surface.segments(), (model.layout().needs & ENTS_NEEDS_FRICTION) != 0);
   }
   if (!options.out.empty()) {
     const pictures::Outcome outcome =

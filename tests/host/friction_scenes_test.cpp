@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scenes with friction, and every normal method on Hertz's, against what is exact or published.
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -164,6 +166,37 @@ TEST(FrictionScene, ThreadSharesItsLoad) {
 
   const Json comparison = run_scene("thread", "--compare 512");
   EXPECT_LT(comparison.at("explicit")[0].at("difference").get<double>(), 2e-3);
+}
+
+// The third derivatives of a map jump between its cells, and with them the tangent of friction: that costs no iteration.
+TEST(FrictionScene, FrictionOverACubicMap) {
+  const auto run = [](const std::function<void(Json&)>& edit) {
+    const Scene scene = test::shipped_scene("texture", [&](Json& json) { edit(json["contact"]["model"]); });
+    Simulation simulation(scene, &test::library());
+    return solve(simulation, {});
+  };
+  const auto iterations = [](const std::vector<StepRecord>& records) {
+    int sum = 0;
+    for (const StepRecord& record : records) sum += record.iterations();
+    return sum;
+  };
+  constexpr int samples = 16; // of a wave
+  const auto as_map = [&](Json& model) {
+    const Json& sine = model.at("height");
+    Json map{{"type", "map"}, {"boundary", "periodic"}, {"values", Json::array()}, {"size", {1 / sine.at("wave_vector")[0].get<double>()}}};
+    for (int i = 0; i < samples; ++i) map["values"].push_back(sine.at("amplitude").get<double>() * std::sin(2 * std::numbers::pi * i / samples));
+    model["height"] = map;
+  };
+  const std::vector<StepRecord> wave = run([](Json&) {}), map = run(as_map);
+  const std::vector<StepRecord> map_without = run([&](Json& model) {
+    as_map(model);
+    model["tangent"] = "first_variation";
+  });
+  std::printf("iterations: %d over a sine, %d over its map, %d with first variations alone\n", iterations(wave), iterations(map),
+              iterations(map_without));
+  EXPECT_NEAR(iterations(map), iterations(wave), 0.02 * iterations(wave));
+  EXPECT_GT(iterations(map_without), 1.1 * iterations(map));
+  EXPECT_NEAR(map.back().force, wave.back().force, 1e-3 * wave.back().force);
 }
 
 struct Method {
