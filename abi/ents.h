@@ -274,7 +274,7 @@ typedef struct ents_input {
                                         multiplier dofs are held at zero */
   int64_t area_stride;
   const double *state_begin;         /* [state_size] begin of increment, read only; null: no history.
-                                        A state that has seen a projection overrides `start` */
+                                        A state in contact overrides `start` */
   int64_t state_begin_stride;
   const double *multiplier;          /* [multipliers] values of the multiplier dofs: lambda_n [F/A], then with friction
                                         lambda_a [F L/A], covariant in xi; required if the layout has any */
@@ -355,10 +355,10 @@ typedef struct ents_output {
  * For a kinematic quantity alone the segment has no border: xi may lie outside. An element whose slave is so far beside the segment
  * that there is no projection is open (ENTS_FLAG_OUTSIDE): its xi, gap, normal and point are where the iteration left off.
  * A model with a "patch" has elements of several segments (for hosts whose elements have fixed nodes): m is then the number of the
- * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does, from the one in `state_begin` on; xi and its
- * variations are those of that segment. In the increment in which a slave with friction changes its segment, the anchor moves over in the
- * current positions, whose change the tangent leaves out (up to a third of its largest entry; exact with "surface_coordinates" or a rigid
- * master). A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
+ * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does: a slave in contact is followed from `state_begin` on,
+ * an open one is searched anew; xi and its variations are those of that segment. In the increment in which a slave with friction changes
+ * its segment, the anchor moves over in the current positions, whose change the tangent leaves out (up to a third of its largest entry;
+ * exact with "surface_coordinates" or a rigid master). A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
  * functions of whole surfaces take such a model's segments one by one.
  * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
  * visited, the recoverable status of the first element that has one. */

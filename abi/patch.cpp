@@ -43,14 +43,14 @@ public:
     double state_begin[most_state], state_end[most_state];
     if (in_.state_begin) {
       std::copy_n(in_.state_begin, plan_.state.size, state_begin);
-      if (has_history() && before() != segment_) {
+      if (in_contact() && before() != segment_) {
         SegmentNodes old;
         if (const Status status = gather(plan_, mesh_, before(), old); status != Status::ok) return status;
         const Status status = plan_.transfer(plan_, old.positions, old.surface_coordinates, nodes.positions,
                                              nodes.surface_coordinates, in_.state_begin, state_begin);
         if (status != Status::ok) return status;
       }
-      if (has_history())
+      if (in_contact())
         for (int t = 0; t < plan_.parameters; ++t) state_begin[StateLayout::xi_at + t] = found.at.xi[t];
     }
     const ElementInput element = {in_.slave,     nodes.positions, nodes.surface_coordinates,
@@ -82,7 +82,8 @@ public:
 private:
   bool spreads() const { return plan_.dofs != d_ + plan_.multipliers; } // a rigid master has no dofs
   std::int64_t before() const { return static_cast<std::int64_t>(in_.state_begin[plan_.state.size]); }
-  bool has_history() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] != 0.0; }
+  // At the begin of the increment. An open slave may be over another segment by now.
+  bool in_contact() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] > 1.0; }
   bool known_state() const {
     const double segment = in_.state_begin[plan_.state.size];
     return is_state(plan_.state, in_.state_begin) && segment >= 0.0 &&
@@ -92,14 +93,14 @@ private:
   // The segment of before while the slave is on it; else the best of all; where there is none, the nearest,
   // and the kernel finds that it is open there.
   Status choose(Detection& found) {
-    found.segment = has_history() ? before() : -1;
+    found.segment = in_contact() ? before() : -1;
     for (int t = 0; t < plan_.parameters; ++t)
-      found.at.xi[t] = has_history() ? in_.state_begin[StateLayout::xi_at + t] : 0.0;
+      found.at.xi[t] = in_contact() ? in_.state_begin[StateLayout::xi_at + t] : 0.0;
     if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok)
       return status;
     segment_ = found.segment;
     if (segment_ >= 0) {
-      const bool doubtful = found.at.ambiguous && found.at.gap < 0.0 && !has_history();
+      const bool doubtful = found.at.ambiguous && found.at.gap < 0.0 && !in_contact();
       return doubtful ? Status::ambiguous_projection : Status::ok;
     }
     if (found.behind_edge) return Status::no_projection;

@@ -117,14 +117,14 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   Target t;
   if (!set_target<D>(plan, in.slave, t)) return Status::grazing_ray;
 
-  // start: the history, else the caller's, else the whole segment
+  // start: that of a history in contact, else the caller's, else the whole segment: a slave that is open may be over another flank by now
   Projection<B, H> p;
   std::int32_t spent = 0;
   const double* start = in.start;
   History history = History::none;
   if (in.state_begin) {
     history = static_cast<History>(static_cast<int>(in.state_begin[StateLayout::history_at]));
-    if (history != History::none && !(in.start_first && start)) start = in.state_begin + StateLayout::xi_at;
+    if (history > History::open && !(in.start_first && start)) start = in.state_begin + StateLayout::xi_at;
   }
   std::int32_t flags = 0;
   Found found = Found::not_converged;

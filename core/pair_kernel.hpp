@@ -22,7 +22,7 @@ ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& bloc
   return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride : plan.surface_coordinates;
 }
 
-// What an element starts from: its history, else the caller's start. Null: the whole segment has to be searched, or an input is
+// What an element starts from, as evaluate_element() has it. Null: the whole segment has to be searched, or an input is
 // wrong that would not be noticed later.
 template <class B, bool H> ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
   if constexpr (!H)
@@ -33,8 +33,8 @@ template <class B, bool H> ENTS_INLINE const double* start_of(const Plan& plan, 
     const double* state = block.state_begin + e * block.state_begin_stride;
     if (state[StateLayout::tag_at] != plan.state.tag || !is_finite(state, plan.state.size)) return nullptr;
     const double history = state[StateLayout::history_at];
-    if (history == 1.0 || history == 2.0 || history == 3.0) return block.start_first && start ? start : state + StateLayout::xi_at;
-    if (history != 0.0) return nullptr;
+    if (history == 2.0 || history == 3.0) return block.start_first && start ? start : state + StateLayout::xi_at;
+    if (history != 0.0 && history != 1.0) return nullptr;
   }
   return start;
 }

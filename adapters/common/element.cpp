@@ -199,7 +199,7 @@ void begin_state(const Element& e, const LoadedModel& model, double* state) {
   if (!any) ents_state_init(model.model, 1, state, model.layout.state_size, nullptr);
 }
 
-/// Projection on the segment without its height. A state that has seen a projection overrides it.
+/// Projection on the segment without its height. A state in contact overrides it.
 /// @return false: there is none, the library shall search
 bool find_start(const LoadedModel& model, const ents_input& input, double* start) {
   if (!model.base) return false;

@@ -146,6 +146,38 @@ TEST_F(State, RestartGivesTheSameBits) {
   }
 }
 
+// A slave crosses a groove, open and in small steps: what it is over now is what its start says, or the search of the whole segment,
+// and not where it was last seen.
+TEST_F(State, OpenDoesNotHoldTheProjection) {
+  for (const bool friction : {false, true}) {
+    const std::string law = friction ? R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 50})" : "";
+    const Model model(R"({"segment": "line2", "height": {"type": "polynomial", "coefficients": [0, 0, 3]},
+                          "contact": {"normal": {"type": "penalty", "stiffness": 100})" + law + "}}");
+    const std::vector<double> nodes = {-1, 0, 1, 0};
+    for (const bool started : {false, true})
+      for (const bool many : {false, true}) { // one call for eight of them takes other kernels
+        const int64_t count = many ? 8 : 1, size = model.layout.state_size;
+        std::vector<double> begin(static_cast<std::size_t>(count * size)), end(begin), gap(static_cast<std::size_t>(count));
+        ents_report report = new_report();
+        ASSERT_EQ(call::state_init(model.get(), count, begin.data(), size, &report), ENTS_OK);
+        for (const double x : {-0.55, -0.2, 0.2, 0.6, 0.72, 0.74}) { // the right flank is at x = 0.707 where y = 1.5
+          const double slave[2] = {x, 1.5}, start = x > 0 ? 0.7 : -0.7;
+          ents_input in{};
+          in.struct_size = sizeof in;
+          in.slave = slave, in.master = nodes.data(), in.start = started ? &start : nullptr;
+          in.state_begin = begin.data(), in.state_begin_stride = size;
+          ents_output out{};
+          out.struct_size = sizeof out;
+          out.wanted = ENTS_GAP | ENTS_STATE;
+          out.gap = gap.data(), out.gap_stride = 1, out.state_end = end.data(), out.state_end_stride = size;
+          ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, count, &in, &out, &report), ENTS_OK) << report.message;
+          for (const double g : gap) EXPECT_EQ(g < 0, x > 0.707) << x << " " << g << " " << friction << started << many;
+          begin = end;
+        }
+      }
+  }
+}
+
 TEST_F(State, TransferAndAugmentRefuseForeignBlocks) {
   const Model model(text({"quad4", "none", "normal", "", 9}));
   const std::vector<double> nodes = flat_master(basis("quad4"));
