@@ -35,6 +35,9 @@ Status evaluate_surface_point(const Plan& plan, const double* master, const doub
   if (!evaluate_surface<2>(g, at, p.N, p.s) || !enriched_normal(p.s, normal)) return Status::degenerate_segment;
   double h = 0.0;
   if constexpr (H) h = p.s.height.h;
+  double zero = 0.0 * h;
+  for (int c = 0; c < D; ++c) zero += 0.0 * p.s.d[c] + 0.0 * normal[c];
+  if (zero != 0.0) return Status::out_of_range; // NaN, too
   for (int c = 0; c < D; ++c) {
     const double point = master[c] - p.s.d[c];
     if (out.point) out.point[c] = point;

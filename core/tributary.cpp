@@ -60,7 +60,7 @@ template <class B> bool add_facet(const std::int64_t* nodes, const double* posit
   }
   if (!(area > 0.0) || !(area < 1e300)) return false;
   constexpr bool linear = M <= (D == 2 ? 2 : (B::simplex ? 3 : 4));
-  for (int i = 0; i < M; ++i) areas[nodes[i]] += linear ? share[i] : area * square[i] / squares;
+  for (int i = 0; i < M; ++i) areas[nodes[i]] += linear ? share[i] : area * (square[i] / squares);
   return true;
 }
 

@@ -380,6 +380,18 @@ TEST_F(Arguments, SlaveSurfaces) {
   EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
 }
 
+// Quadratic facets are shared out by squares of areas, which leave the range of numbers long before the areas do.
+TEST_F(Arguments, AreasOfAnySize) {
+  const int64_t connectivity[] = {0, 1, 2};
+  for (const double size : {1.0, 1e-82, 1e-140, 1e78, 1e140}) {
+    const double line[] = {0, 0, 2 * size, 0, size, 0};
+    double areas[3] = {};
+    ASSERT_EQ(call::tributary_areas("line3", int64_t{1}, connectivity, int64_t{3}, line, size, areas, &report), ENTS_OK) << report.message;
+    EXPECT_NEAR((areas[0] + areas[1] + areas[2]) / size / size, 2.0, 1e-14) << size;
+    EXPECT_NEAR(areas[2] / areas[0], 4.0, 1e-13) << size;
+  }
+}
+
 // In space the areas are areas, whatever the thickness.
 TEST_F(Arguments, ThicknessIsOfThePlaneOnly) {
   const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};

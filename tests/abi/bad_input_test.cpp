@@ -194,6 +194,11 @@ TEST(BadInput, SegmentsWithoutArea) {
   surface.xi = xi.data();
   EXPECT_EQ(call::surface_evaluate(model.get(), int64_t{1}, &surface, &report), ENTS_DEGENERATE_SEGMENT);
   EXPECT_EQ(report.element, 0);
+  const std::vector<double> regular = flat_master(basis("tri3")), beyond = {1e308, 1e308};
+  double point[3] = {7.0, 7.0, 7.0};
+  surface.master = regular.data(), surface.xi = beyond.data(), surface.point = point;
+  EXPECT_EQ(call::surface_evaluate(model.get(), int64_t{1}, &surface, &report), ENTS_OUT_OF_RANGE);
+  EXPECT_EQ(point[0], 7.0);
   const int64_t connectivity[] = {0, 1, 2};
   double areas[3];
   EXPECT_EQ(call::tributary_areas("tri3", 1, connectivity, 3, e[master].data(), 1.0, areas, &report),
