@@ -200,9 +200,15 @@ ENTS_INLINE void end_state(const Plan& plan, const ElementInput& in, const Proje
   }
   if (s.multiplier_at >= 0) {
     end[s.multiplier_at] = pair ? -c.normal.force : 0.0;
-    if (s.anchor_at >= 0)
+    if (s.anchor_at >= 0) {
+      double kept = 1.0;
+      if (c.friction && c.tangential.slip && c.tangential.limit > 0.0) {
+        const double (&metric)[symmetric_size<T>] = c.tangential.metric;
+        kept = kept_multiplier(c.tangential.limit, plan.law.friction_stiffness * c.area * square_root(metric[0] + metric[symmetric_size<T> - 1]));
+      }
       for (int a = 0; a < T; ++a)
-        end[s.multiplier_at + 1 + a] = c.friction && c.area > 0.0 ? c.tangential.force[a] / c.area : 0.0;
+        end[s.multiplier_at + 1 + a] = c.friction && c.area > 0.0 ? kept * c.tangential.force[a] / c.area : 0.0;
+    }
   }
 }
 

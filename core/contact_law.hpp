@@ -111,13 +111,19 @@ ENTS_INLINE NormalForce normal_force(const ContactLaw& law, double gap, double m
   return open;
 }
 
-// The part of xi - xi_0 that a slipping element keeps as its elastic slip, L / |t|, and a little less, so that the next increment,
-// which begins at the limit, begins inside of it whatever rounding does to xi: or equal elements would stick here and slip there.
+// What a slipping element keeps is a little less than the limit, so that the next increment, which begins there, begins inside of it
+// whatever rounding does to xi: or equal elements would stick here and slip there.
+inline constexpr double rounding_of_xi = 4e-15, rounding_of_limit = 1e-13;
+// The part of xi - xi_0 that is left as elastic slip: L / |t|
 template <int T> ENTS_INLINE double kept_elastic_slip(double limit, double trial_norm, const double (&moved)[T]) {
-  constexpr double rounding_of_xi = 4e-15;
   double longest = absolute(moved[0]);
   if (T == 2 && absolute(moved[T - 1]) > longest) longest = absolute(moved[T - 1]);
-  const double kept = limit / trial_norm * (1.0 - 1e-13) - rounding_of_xi / longest;
+  const double kept = limit / trial_norm * (1.0 - rounding_of_limit) - rounding_of_xi / longest;
+  return kept > 0.0 ? kept : 0.0;
+}
+// The part of L that a multiplier takes along. force_of_xi: of a unit of xi
+ENTS_INLINE double kept_multiplier(double limit, double force_of_xi) {
+  const double kept = 1.0 - rounding_of_limit - rounding_of_xi * force_of_xi / limit;
   return kept > 0.0 ? kept : 0.0;
 }
 

@@ -179,8 +179,11 @@ TEST(State, SticksThenSlipsAtTheConeAndComesBack) {
 // With this stiffness a rounding of xi is 1e-10 of the elastic slip. Penalty with normal projection: many at once; others: one by one.
 TEST(State, WhatSlippedSticksUntilItMoves) {
   const json friction = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e5}};
+  json sheared = friction; // which stays where a pressure that is augmented moves the limit
+  sheared["shear_limit"] = 0.01;
   const Method laws[] = {{"penalty", coulomb.normal, friction},
-                         {"exponential", {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}}, friction}};
+                         {"exponential", {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}}, friction},
+                         {"augmented", {{"type", "augmented"}, {"stiffness", 100.0}}, sheared}};
   Random random(41);
   std::int64_t slipped = 0, again = 0;
   for (const Method& law : laws)
@@ -199,8 +202,9 @@ TEST(State, WhatSlippedSticksUntilItMoves) {
         std::int64_t again_here = 0;
         for (std::size_t i = 0; i < before.status.size(); ++i) {
           if (before.status[i] != ENTS_OK || after.status[i] != ENTS_OK || !(before.flags[i] & ENTS_FLAG_SLIP)) continue;
+          if (e.layout.augmentable && !(before.flags[i] & ENTS_FLAG_SHEAR_LIMIT)) continue;
           ++slipped;
-          again_here += (after.flags[i] & ENTS_FLAG_SLIP) != 0;
+          again_here += (after.flags[i] & ENTS_FLAG_SLIP) && (!e.layout.augmentable || (after.flags[i] & ENTS_FLAG_SHEAR_LIMIT));
         }
         EXPECT_EQ(again_here, 0) << law.name << ", " << basis.name << ", " << projection;
         again += again_here;
