@@ -203,6 +203,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   const double(&ray)[3] = target.ray;
 
   const auto limit = [&] { return out.segment < 0 ? reach : std::min(reach, out.at.rank + out.at.tie); };
+  const bool normal = plan.projection == ProjectionKind::normal;
   const Status status = visit_segments(
       Tree(plan, mesh.segments), tree, [&](const double* box) { return least_rank(plan, slave, ray, box); }, limit,
       [&](std::int64_t segment) {
@@ -213,11 +214,16 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
         double box[6];
         plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
         if (!(least_rank(plan, slave, ray, box) <= limit())) return Status::ok;
+        // a rank counts what lies beyond the edge, too; the reach does not
+        double farthest = reach;
+        for (int k = 0; k < plan.dimension; ++k) farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
+        if (out.segment >= 0) farthest = std::min(farthest, out.at.rank + out.at.tie);
         SegmentProjection candidate;
-        if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, limit(), candidate))
-          consider(plan.dimension, segment, candidate, out);
-        else
+        if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
+          if (!normal || std::fabs(candidate.gap) <= reach) consider(plan.dimension, segment, candidate, out);
+        } else {
           doubtful = doubtful || candidate.ambiguous;
+        }
         return Status::ok;
       });
   if (status != Status::ok) return status;
@@ -227,7 +233,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
   else
     out.at.ambiguous = doubtful;
-  out.behind_edge = out.segment < 0 && plan.projection == ProjectionKind::normal &&
+  out.behind_edge = out.segment < 0 && normal &&
                     is_behind_edge(plan, mesh, tree, slave, reach);
   return Status::ok;
 }

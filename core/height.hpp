@@ -56,7 +56,7 @@ struct MapHeight {
   double inverse_spacing[2];
   double period[2];         // in spacings; 0: clamped
   double inverse_period[2]; // 0: clamped
-  double low[2], high[2];   // range of u beyond which the map is constant; +-infinity when periodic
+  double low[2], high[2];   // range of u; beyond it a clamped map is constant, a periodic one out of the range of numbers
   double first_cell[2], last_cell[2];
   double bound; // of |h|
 };

@@ -21,7 +21,7 @@ std::int32_t dimension_of(const std::vector<double>& vector) {
   return static_cast<std::int32_t>(vector.size());
 }
 
-// Coefficients beside the samples that a cell may read: cells -1 .. n when clamped, 0 .. n - 1 when periodic.
+// Coefficients beside the samples that cells -1 .. n may read.
 constexpr std::int64_t padding_before = 2;
 constexpr std::int64_t padding_after = 3;
 
@@ -154,10 +154,8 @@ Height Height::spline(const HeightMap& map) {
     view.inverse_spacing[a] = 1.0 / spacing;
     view.period[a] = periodic ? n : 0.0;
     view.inverse_period[a] = periodic ? 1.0 / n : 0.0;
-    view.low[a] = periodic ? -unbounded : -1.0;
-    view.high[a] = periodic ? unbounded : n;
-    view.first_cell[a] = periodic ? 0.0 : -1.0;
-    view.last_cell[a] = periodic ? n - 1.0 : n;
+    view.low[a] = view.first_cell[a] = -1.0; // periodic: what rounding may make of 0 and n
+    view.high[a] = view.last_cell[a] = n;
     height.feature_length_[a] = spacing;
   }
   const std::int64_t before_rows = map.dimension == 2 ? padding_before : 0;

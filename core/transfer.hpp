@@ -50,16 +50,46 @@ ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::d
   return max_norm(xi) < 1e6;
 }
 
-// Is rho_e(xi) the slave's place? Beyond its border a segment goes on in its own way: it may be off by as much as the place is away
-// from its middle. Coordinates with a seam between the segments lead a whole turn away.
+// Where a segment without its height is, seen from the slave.
+template <class B, bool H> ENTS_INLINE Vec<double, B::dim> base_of(const Surface<B, H, double>& s) {
+  if constexpr (H) return s.d + s.height.h * s.n;
+  else return s.d;
+}
+
+// Is xi of the new segment the place that old_xi was on the old one? Beyond its border a segment goes on in its own way, and coordinates
+// with a seam between the segments, or the same ones on each, lead elsewhere: what counts is how far beyond the borders both are.
 template <class B, bool H>
-ENTS_INLINE bool is_there(const Geometry<B>& g, const double (&xi)[B::dim - 1], Projection<B, H>& p) {
-  double middle[B::dim - 1];
-  domain_centre<B>(middle);
-  if (!evaluate_surface<1>(g, middle, p.N, p.s)) return false;
-  double way = square_root(dot(p.s.d, p.s.d));
-  for (const auto& tangent : p.s.e) way += square_root(dot(tangent, tangent));
-  return evaluate_surface<1>(g, xi, p.N, p.s) && dot(p.s.d, p.s.d) <= way * way;
+ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old, const double (&old_xi)[B::dim - 1],
+                          const double (&xi)[B::dim - 1], Projection<B, H>& p) {
+  if (!evaluate_surface<1>(g, xi, p.N, p.s)) return false;
+  // `old` is seen from the old segment's first node, the slave of g is rho_e of it
+  Vec<double, B::dim> miss = base_of(p.s);
+  if constexpr (H) add_scaled(miss, -old.height.h, old.n);
+  double size = 0.0, beyond = 0.0;
+  for (int a = 0; a < B::dim - 1; ++a) {
+    const double before = square_root(dot(old.a[a], old.a[a])), now = square_root(dot(p.s.a[a], p.s.a[a]));
+    size = before + now > size ? before + now : size;
+    const double length = beyond_segment<B>(old_xi) * before + beyond_segment<B>(xi) * now;
+    beyond = length > beyond ? length : beyond;
+  }
+  const double most = 0.5 * beyond + 1e-6 * size;
+  return dot(miss, miss) <= most * most;
+}
+
+// The closest place of the segment, or of what it goes on as beyond its border: a search of the segment, and what is near the
+// projection on the segment without its height.
+template <class B, bool H> ENTS_INLINE bool closest_place(const Plan& plan, const Geometry<B>& g, Projection<B, H>& p) {
+  Target t{};
+  t.kind = ProjectionKind::normal;
+  const bool found = search<B, H>(g, t, plan, p).found == Found::yes;
+  Projection<B, false> base;
+  domain_centre<B>(base.xi);
+  if (project(g, t, base) != Found::yes) return found;
+  Projection<B, H> near;
+  for (int a = 0; a < B::dim - 1; ++a) near.xi[a] = base.xi[a];
+  if (project(g, t, near) != Found::yes || !is_minimum(near.f2, near.metric)) return found;
+  if (!found || dot(near.s.d, near.s.d) < dot(p.s.d, p.s.d)) p = near;
+  return true;
 }
 
 template <class B, bool H>
@@ -94,12 +124,10 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     bool located = old_coordinates && new_coordinates;
     if (located) {
       coordinates_at<B>(old_coordinates, from.xi, s, s1);
-      located = locate_coordinates<B>(new_coordinates, s, xi) && is_there<B, H>(g, xi, to);
+      located = locate_coordinates<B>(new_coordinates, s, xi) && is_there<B, H>(g, from.s, from.xi, xi, to);
     }
     if (!located) {
-      Target t{};
-      t.kind = ProjectionKind::normal;
-      const bool found = search<B, H>(g, t, plan, to).found == Found::yes;
+      const bool found = closest_place(plan, g, to);
       if (!found && which == 1) return Status::no_projection;
       // Where the next projection starts is no history: a slave that went far may start from the middle.
       if (!found) domain_centre<B>(to.xi);

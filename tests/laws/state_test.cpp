@@ -307,6 +307,46 @@ TEST(State, MovesWhereCoordinatesAreConstantAlongADirection) {
   }
 }
 
+// A texture with the same coordinates on every segment: they say nothing of where a point is.
+TEST(State, MovesWhereCoordinatesRepeat) {
+  for (const int d : {2, 3}) {
+    const std::string height = R"("height": {"type": "sine", "amplitude": 0.001, "wave_vector": )" + std::string(d == 2 ? "[1]" : "[1, 0]") + "}";
+    const mechanics::Model model(R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + "\", " + height +
+                                 R"(, "contact": {"normal": {"type": "penalty", "stiffness": 100},
+                                     "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})");
+    const ents_layout layout = layout_of(model.handle());
+    std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
+    ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
+    const auto t = static_cast<std::size_t>(d - 1);
+    state[1] = 2.0, state[3] = 1.002, state[3 + t] = 0.98; // just beyond the end, the anchor before it
+    const double line[2][4] = {{0, 0, 1, 0}, {1, 0, 2, 0}}, line_s[2] = {0, 1};
+    const double quad[2][12] = {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0}}, quad_s[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    const double* s = d == 2 ? line_s : quad_s;
+    ASSERT_EQ(ents_state_transfer(model.handle(), d == 2 ? line[0] : quad[0], s, d == 2 ? line[1] : quad[1], s, state.data(), moved.data(), nullptr),
+              ENTS_OK);
+    EXPECT_NEAR(moved[3], -0.998, 1e-4) << d; // heights repeat with the texture, not beyond the border
+    EXPECT_NEAR(moved[3 + t], -1.02, 1e-3) << d;
+  }
+}
+
+// The anchor just beyond the new segment's edge, on a steep texture: not some other place of the segment that is closest to it.
+TEST(State, MovesToTheClosestPlaceOfASteepTexture) {
+  for (const double amplitude : {0.05, 0.2}) { // slopes 0.6 and 2.5
+    const mechanics::Model model(R"({"segment": "line2", "height": {"type": "sine", "amplitude": )" + std::to_string(amplitude) +
+                                 R"(, "wave_vector": [1]}, "contact": {"normal": {"type": "penalty", "stiffness": 100},
+                                     "friction": {"type": "rough", "stiffness": 10}}})");
+    const ents_layout layout = layout_of(model.handle());
+    std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
+    const double before[4] = {0, 0, 1, 0}, after[4] = {1, 0, 2, 0};
+    for (const double lag : {0.02, 0.06, 0.1}) {
+      ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
+      state[1] = 2.0, state[3] = state[4] = 1.0 - lag;
+      ASSERT_EQ(ents_state_transfer(model.handle(), before, nullptr, after, nullptr, state.data(), moved.data(), nullptr), ENTS_OK);
+      EXPECT_NEAR(moved[4], -1.0 - lag, 1e-9) << amplitude << ", " << lag;
+    }
+  }
+}
+
 // A multiplier may pull for an iteration while the pair is still counted as closed: no friction then, and nothing undefined.
 TEST(State, AMultiplierThatPullsHasNoFriction) {
   Slide s(R"({"type": "multiplier", "stiffness": 100})");

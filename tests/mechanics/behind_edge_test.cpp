@@ -161,6 +161,21 @@ TEST(BehindEdge, APatchBetweenFreeEdgesIsOpen) {
   EXPECT_EQ(residual, std::vector<double>(10, 0.0));
 }
 
+// The border closes the wedge of a valley. What lies beyond the edge is no part of the gap, and the reach is of the gap.
+TEST(BehindEdge, TheReachIsOfTheGap) {
+  const MeshSurface valley = surface_of("line2", {0, 1, 1, 2}, {-1, 1, 0, 0, 1, 1});
+  const Model model(R"({"segment": "line2", "border": 0.3})");
+  const std::vector<double> slave = {0.0, -0.1}; // 0.0707 behind both flanks, as much beyond their edges
+  for (const double reach : {0.2, 0.12, 0.08, 0.07})
+    for (const bool followed : {false, true}) {
+      Detector::Found found;
+      if (followed) found.segment = {0}, found.xi = {0.95};
+      Detector(model, valley).detect(slave, reach, found);
+      EXPECT_EQ(found.segment[0] >= 0, reach > 0.0708) << reach << followed;
+      if (reach > 0.0708) EXPECT_NEAR(found.gap[0], -0.1 * std::sqrt(0.5), 1e-12) << reach << followed;
+    }
+}
+
 // Behind two grooves that are equally far: lost behind either.
 TEST(BehindEdge, GroovesThatAreEquallyFarAreSeen) {
   const MeshSurface grooves = surface_of("line2", {0, 1, 1, 2, 2, 3, 3, 4}, {-2, 1, -1, 0, 0, 0.1, 1, 0, 2, 1});
