@@ -8,11 +8,11 @@ usage() {
   cat <<'HELP'
 usage: sh tests/windows/run.sh [-DNAME=VALUE ...]
 
-Builds libents.dll and the tests of core, abi, mechanics, laws and clients for Windows (x86-64) in build-windows/ and runs them
-with wine; the clients' output is compared with that of the same programs in build/. Takes twice as long as sh tests/run.sh.
+Builds libents.dll, the tests of core, of the model's reader, of mechanics and laws, and the clients for Windows (x86-64) in
+build-windows/ and runs them with wine; the clients' output is compared with that of the same programs in build/.
 Needs (Debian): g++-mingw-w64-x86-64-posix gfortran-mingw-w64-x86-64-posix googletest wine64 wine, and what examples/setup.sh installs.
 Afterwards some of them, by name:
-  ctest --test-dir build-windows -R Westergaard --output-on-failure
+  WINEPREFIX=$PWD/build-windows/wine ctest --test-dir build-windows -R OrdinaryElements --output-on-failure
 
 exit status: 0 all tests passed; 1 a test or the build failed; 2 a program is missing, or the command line is wrong
 HELP
@@ -55,7 +55,7 @@ echo "== testing"
 wine wineboot >/dev/null 2>&1 || true
 ctest --test-dir "$build" --parallel "$(nproc)" --output-on-failure --no-tests=error || exit 1
 
-for program in first_c client_c; do
+for program in first_c first_cpp first_f90 client_c client_cpp client_f90; do
   [ -x "$root/build/bin/$program" ] || { echo "== build/bin/$program is not built: nothing to compare with"; continue; }
   "$root/build/bin/$program" >"$build/$program.here"
   wine "$build/bin/$program.exe" | tr -d '\r' >"$build/$program.windows"
