@@ -188,7 +188,7 @@ typedef struct ents_layout {
 #define ENTS_NEEDS_MASTER      (1 << 4)  /* a master that deforms: R and K of its dofs, too; else ("master": "rigid") of the slave's alone */
 #define ENTS_NEEDS_FRICTION    (1 << 5)  /* tangential forces and their limit; else K is symmetric and no anchor is kept */
 #define ENTS_NEEDS_HISTORY     (1 << 6)  /* the force depends on ents_input.state_begin (friction, multipliers in the state); else on positions
-                                            alone, and the state serves as start of the projection */
+                                            alone, and the state serves as start of the projection of a slave in contact */
 #define ENTS_NEEDS_MULTIPLIERS (1 << 7)  /* dofs of multipliers after those of the nodes */
 #define ENTS_NEEDS_ONE_BY_ONE  (1 << 8)  /* residual and tangent from the general kernel, element by element: the model has something that
                                             the kernels of ordinary elements, which take as many at once as a register holds, do not
