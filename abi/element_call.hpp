@@ -47,6 +47,8 @@ inline bool writes_start(const ents_model& model, const ents_input& in, const en
 // "`asks`, but the model has no contact"
 std::int32_t refuse_without_contact(const char* asks, ents_report* report);
 
+class StagedResults;
+
 struct ElementCall {
   const ents_model* model;
   const Plan* plan; // of one segment
@@ -106,6 +108,10 @@ struct ElementCall {
   }
 
 private:
+  // staged: where results go that no cache holds, or null
+  std::int32_t evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged, std::int32_t& result, ents_report* report) const;
+  // apart: these results lie on the stack
+  ENTS_NOINLINE std::int32_t evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const;
   std::int32_t check_open(std::int64_t e) const;
   void write_open(std::int64_t e) const;
   void hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const;

@@ -6,8 +6,7 @@
 
 #include "abi/element_block.hpp"
 #include "abi/guard.hpp"
-#include "core/pair_kernels.hpp"
-#include "core/past_caches.hpp"
+#include "abi/staged_results.hpp"
 
 namespace ents {
 
@@ -90,43 +89,35 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
 }
 
 std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const {
+  const std::int32_t known = pair_results(*model, out->wanted);
+  if (known != out->wanted || !StagedResults::pays(*model, *out, known, count)) return evaluate_blocks(first, count, nullptr, result, report);
+  return evaluate_staged(first, count, result, report);
+}
+
+std::int32_t ElementCall::evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const {
+  StagedResults staged(*plan, *out, out->wanted);
+  return evaluate_blocks(first, count, &staged, result, report);
+}
+
+std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged, std::int32_t& result,
+                                          ents_report* report) const {
   // Some results may be the element kernel's alone: then it does all of the element, but for what the block kernel writes otherwise.
   const std::int32_t known = pair_results(*model, out->wanted);
   const bool mixed = known == 0 || known != out->wanted;
-  // Tangents that no cache holds are written block by block into one that does, and copied from there: an element per lane, they would
-  // be written a piece here and a piece there.
-  constexpr std::int64_t room = 8192, nearest = 2304, beyond_caches = std::int64_t{1} << 19; // numbers: here, in the first cache, in all
-  const std::int64_t entries = std::int64_t{plan->dofs} * plan->dofs;
-  alignas(64) double tangents[room];
-  // whole registers; few, so that computing the next ones overlaps with what the memory still has to take of these
-  const std::int64_t staged = std::max<std::int64_t>(8, nearest / entries & ~std::int64_t{7});
-  const bool copies = !mixed && (known & want::tangent) != 0 && staged * entries <= room && count > beyond_caches / entries &&
-                      leading_dimension(*model, *out) == plan->dofs;
-  const std::int64_t most = mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, copies ? staged : count);
+  const std::int64_t most =
+      mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, staged ? StagedResults::block_size(*plan) : count);
   BlockNodes nodes;
-  const auto copy_past_caches = best_pair_kernels().copy_past_caches;
-  struct Finish {
-    bool copies;
-    ~Finish() {
-      if (copies) portable::finish_past_caches();
-    }
-  } const finish{copies};
   PairBlock block = pair_block(*model, *in, *out, first);
   block.start_first = start_first;
   for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
     size = std::min(count, most);
     std::uint64_t done = 0;
     PairBlock here = block;
-    if (copies) {
-      begin_at_first(here);
-      here.tangent = tangents, here.tangent_stride = entries;
-    }
+    if (staged) staged->redirect(here);
     if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
-    const bool whole = copies && out->tangent_stride == entries && done == ~std::uint64_t{0} >> (64 - size);
-    if (whole) copy_past_caches(tangents, size * entries, at(out->tangent, entries, first));
+    if (staged) staged->keep(first, size, done);
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
-        if (copies && !whole) std::copy_n(tangents + k * entries, entries, at(out->tangent, out->tangent_stride, first + k));
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }

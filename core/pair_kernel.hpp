@@ -345,10 +345,12 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
     if constexpr (one_by_one) {
       TangentOf<F, Rigid, B, H, double> one[W];
       t.hand_out_lanes(one);
-      for (int k = 0; k < W; ++k)
+      for (int k = 0; k < W; ++k) {
+        copy_beside(block.last, N * N);
         if (contact >> k & 1) write_tangent<B::dim>(one[k], out[k], block.leading);
-    } else if constexpr (N <= 12) write_tangent<B::dim>(t, out, block.leading, contact);
-    else write_long_tangent<B::dim>(t, out, block.leading, contact);
+      }
+    } else if constexpr (N <= 12) write_tangent<B::dim>(t, out, block.leading, contact, block.last);
+    else write_long_tangent<B::dim>(t, out, block.leading, contact, block.last);
   }
 }
 

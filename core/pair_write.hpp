@@ -8,6 +8,7 @@
 #pragma once
 
 #include "core/dof_rows.hpp"
+#include "core/past_caches.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -188,9 +189,9 @@ template <class Tangent, class One, int W, class... Pick> ENTS_INLINE void hand_
   for (int k = 0; k < W; ++k) one[k].curved_law = t.curved_law;
 }
 
-// Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.
+// Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is. `last` is copied beside.
 template <int D, class Tangent, int W>
-ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used) {
+ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used, DeferredCopy* last) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, weights = std::extent_v<decltype(t.weights)>;
   using S = Lanes<W>;
   S kept[Tangent::symmetric ? N * (N + 1) / 2 : N * N];
@@ -198,6 +199,7 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
   for (int n = 0; n < M; ++n)
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
+      copy_beside(last, W * N);
       S of_column[weights];
       for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
       const auto add = [&](int m, auto r) ENTS_LAMBDA_INLINE {

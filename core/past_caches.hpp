@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/scalar.hpp"
+#include "core/plan.hpp"
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -38,6 +38,18 @@ inline void copy_past_caches(const double* from, std::int64_t count, double* to)
   copy(0, first);
   for (std::int64_t i = first; i < last; i += past_caches_width) store_past_caches(to + i, from + i);
   copy(last, count);
+}
+// About `count` of the numbers still to be copied: up to the end of a line.
+ENTS_NOINLINE inline void copy_some(DeferredCopy& of, std::int64_t count) {
+  const std::int64_t beyond = static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(of.to + count) % 64 / sizeof(double));
+  if (count > beyond) count -= beyond;
+  if (count > of.count) count = of.count;
+  copy_past_caches(of.from, count, of.to);
+  of.from += count, of.to += count, of.count -= count;
+}
+// The memory takes few lines at a time: whoever computes hands them over in between, as many as are computed meanwhile.
+ENTS_INLINE void copy_beside(DeferredCopy* of, std::int64_t count) {
+  if (of) copy_some(*of, count);
 }
 inline void finish_past_caches() {
 #if defined(__SSE2__) || defined(_M_X64)

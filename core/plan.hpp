@@ -143,6 +143,13 @@ using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* m
 // A box [d] around all of the enriched segment.
 using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low, double* high);
 
+// `count` numbers to be copied past the caches, some now, some later
+struct DeferredCopy {
+  const double* from;
+  std::int64_t count;
+  double* to;
+};
+
 // Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in numbers; arrays that are not
 // wanted or not given are null.
 struct PairBlock {
@@ -159,6 +166,7 @@ struct PairBlock {
       tangent_stride, state_end_stride, traction_stride, slip_stride, age_stride, flags_stride, iterations_stride;
   std::int64_t leading, first;
   bool start_first = false; // before the history's xi
+  DeferredCopy* last = nullptr; // results of the block before, still to be copied; or none
 };
 // Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the others are left to the element kernel.
 using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t count);

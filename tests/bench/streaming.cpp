@@ -114,8 +114,8 @@ void run_streaming(std::ostream& out, std::int64_t most) {
   out << "residual and tangent in array calls, frictionless; ns per element (thread CPU time, medians of "
       << rounds
       << " in turns)\n"
-         "memory: one call for all, results one behind the other; floor: bytes of the results at the rate of "
-         "plain stores to the same memory; past: of stores past the caches\n"
+         "memory: one call for all, results one behind the other; plain, past: their bytes alone, stored to the same "
+         "memory through the caches and past them; % stores: what the faster of the two would take\n"
          "reused: calls of "
       << per_call
       << ", results in the same places; copied: the same, each call's results then copied to main memory\n"
@@ -123,7 +123,7 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       << most << "\n\n"
       << std::setw(71) << "memory" << std::setw(26) << "reused"
       << "\n"
-      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "floor" << std::setw(7) << "past" << std::setw(9) << "ns"
+      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "plain" << std::setw(7) << "past" << std::setw(9) << "ns"
       << std::setw(10) << "% stores" << std::setw(8) << "slope" << std::setw(8) << "copied"
       << "  ";
   std::vector<std::int64_t> sizes;
@@ -158,14 +158,14 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       reused.push_back(seconds[2 + 2 * i]);
       streamed.push_back(seconds[3 + 2 * i]);
     }
-    const double floor = 1e9 * seconds[0] / static_cast<double>(elements.count()),
+    const double plain = 1e9 * seconds[0] / static_cast<double>(elements.count()),
                  past = 1e9 * seconds[1] / static_cast<double>(elements.count()),
                  memory = 1e9 * streamed.back() / counts.back();
     out << std::left << std::setw(22)
         << kind.basis + (kind.enriched ? " enriched" : " plain") + (kind.padding ? ", padded" : "")
         << std::right << std::fixed << std::setprecision(0) << std::setw(9) << counts.back() << std::setw(7)
-        << elements.bytes() << std::setw(7) << floor << std::setw(7) << past << std::setw(9) << memory << std::setw(10)
-        << 100.0 * floor / memory << std::setprecision(2) << std::setw(8) << slope(counts, streamed)
+        << elements.bytes() << std::setw(7) << plain << std::setw(7) << past << std::setw(9) << memory << std::setw(10)
+        << 100.0 * std::min(plain, past) / memory << std::setprecision(2) << std::setw(8) << slope(counts, streamed)
         << std::setprecision(0) << std::setw(8)
         << 1e9 * seconds.back() / static_cast<double>(elements.count()) << std::setprecision(1) << "  ";
     for (std::size_t i = 0; i < sizes.size(); ++i) out << std::setw(8) << 1e9 * reused[i] / counts[i];

@@ -106,7 +106,34 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
   }
 }
 
-// Calls whose tangents no cache holds are written another way.
+// Calls whose results no cache holds write them block by block to one that does, and copy them beside the next: once by elements, once
+// by columns.
+TEST_F(OrdinaryElements, HaveTheSameBitsInLongCallsOfEveryKind) {
+  const Method frictionless = {"penalty", {{"type", "penalty"}, {"stiffness", 100.0}}, nullptr};
+  Method friction = frictionless;
+  friction.friction = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}};
+  for (const char* basis : {"line2", "tri3", "quad4", "quad9"})
+    for (const char* height : {"none", "sine"})
+      for (const Method& method : {frictionless, friction}) {
+        Random random(6);
+        const mechanics::Scene scene = mechanics::draw_scene(random, mechanics::basis_named(basis), height, "normal");
+        const mechanics::Model model = model_of(scene, method);
+        const std::int64_t dofs = draw(random, scene, model, 1, 0.05).layout.dofs, many = (std::int64_t{1} << 19) / (dofs * dofs) + 100;
+        LawElements elements = draw(random, scene, model, many, 0.05);
+        const ents_layout& l = elements.layout;
+        for (std::int64_t e = 70; e < many; e += 200) // blocks that are not ordinary as a whole
+          elements.state[static_cast<std::size_t>(e * l.state_size + 3)] += 0.7;
+        for (const std::int32_t results : {wanted, ENTS_RESIDUAL | ENTS_TANGENT, +ENTS_TANGENT}) {
+          LawResults all;
+          evaluate(model, elements, results, all);
+          for (std::int64_t first = 0; first < many; first += 60) {
+            LawResults some;
+            evaluate(model, part(elements, first, std::min<std::int64_t>(60, many - first)), results, some);
+            ASSERT_TRUE(same(all, some, first, l)) << basis << " " << height << " " << method.friction << " element " << first;
+          }
+        }
+      }
+}
 TEST_F(OrdinaryElements, HaveTheSameBitsInLongCalls) {
   constexpr std::int64_t many = 15000, padded = 50; // more than 2^19 numbers of 6 x 6
   const Method method = {"penalty", {{"type", "penalty"}, {"stiffness", 100.0}}, nullptr};
