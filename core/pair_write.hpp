@@ -194,12 +194,14 @@ template <int D, class Tangent, int W>
 ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used, DeferredCopy* last) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, weights = std::extent_v<decltype(t.weights)>;
   using S = Lanes<W>;
+  constexpr bool few = N < W; // columns: then all at once
+  if constexpr (few) copy_beside(last, W * N * N);
   S kept[Tangent::symmetric ? N * (N + 1) / 2 : N * N];
   S* entry = kept;
   for (int n = 0; n < M; ++n)
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
-      copy_beside(last, W * N);
+      if constexpr (!few) copy_beside(last, W * N);
       S of_column[weights];
       for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
       const auto add = [&](int m, auto r) ENTS_LAMBDA_INLINE {
