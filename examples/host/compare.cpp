@@ -7,6 +7,7 @@
 
 #include "check_extent.hpp"
 #include "commands.hpp"
+#include "error.hpp"
 #include "output/text_file.hpp"
 #include "output_folder.hpp"
 #include "result.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 /// Finest explicit mesh that is solved for the price at equal error, segments per direction.
 constexpr double finest_line = 20000, finest_patch = 1024;
+
+/// Differences that fall more slowly with the segment length do not converge.
+constexpr double least_order = 0.1;
 
 /// By so much a mesh may miss the difference that the fit has promised.
 constexpr double within_fit = 4. / 3;
@@ -124,10 +128,17 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
     comparison.explicit_meshes.push_back(other.row);
   }
   fit_order(comparison);
-  if (!equal_error || !(comparison.order > 0)) return comparison;
+  if (!equal_error || !(comparison.order > least_order)) return comparison;
   const double needed = std::pow(comparison.constant / comparison.error, 1 / comparison.order);
   if (needed > (scene.dimension == 2 ? finest_line : finest_patch)) return comparison;
-  Solution other = solve_once(scene, library, std::max(1, static_cast<int>(std::ceil(needed))), observer);
+  const int asked = std::max(1, static_cast<int>(std::ceil(needed)));
+  Solution other;
+  try {
+    other = solve_once(scene, library, asked, observer);
+  } catch (const JobError& error) { // this mesh is nobody's choice: the others keep their table
+    comparison.unsolved = std::to_string(asked) + " segments per direction: " + error.what();
+    return comparison;
+  }
   measure_difference(scene, enriched, other);
   (other.row.difference <= within_fit * comparison.error ? comparison.equal_error : comparison.missed).push_back(other.row);
   return comparison;
@@ -185,6 +196,7 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
               {"explicit", Json::array()},
               {"explicit_at_equal_error", Json::array()},
               {"explicit_from_fit", Json::array()}};
+  if (!comparison.unsolved.empty()) result["explicit_unsolved"] = comparison.unsolved;
   for (const CompareRow& row : comparison.explicit_meshes) result["explicit"].push_back(row_json(row));
   for (const CompareRow& row : comparison.equal_error)
     result["explicit_at_equal_error"].push_back(row_json(row));
@@ -204,7 +216,7 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
     std::printf("one mesh shows no order of convergence; give two or more\n");
     return 0;
   }
-  if (!(comparison.order > 0)) {
+  if (!(comparison.order > least_order)) {
     std::printf("the differences do not fall with the segment length: there is no order of convergence\n");
     return 0;
   }
@@ -214,6 +226,8 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
     std::printf("a difference of %s is not reached: the fit asks for %d segments per direction, and these come within %s; "
                 "finer meshes in the list make a better fit\n",
                 wanted.c_str(), comparison.missed[0].divisions, format_number(comparison.missed[0].difference, 2).c_str());
+  else if (!comparison.unsolved.empty())
+    std::printf("the mesh that the fit asks for at a difference of %s cannot be solved, %s\n", wanted.c_str(), comparison.unsolved.c_str());
   else if (comparison.equal_error.empty())
     std::printf("an explicit mesh that comes within %s of it is out of reach here\n", wanted.c_str());
   return 0;

@@ -2,6 +2,7 @@
 // One enriched segment against explicit meshes of plain segments on the same scene.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "ents_library.hpp"
@@ -28,6 +29,7 @@ struct Comparison {
   double error = 0;    ///< at which the prices are compared
   std::vector<CompareRow> equal_error; ///< the explicit mesh that reaches it, solved; empty if out of reach
   std::vector<CompareRow> missed; ///< the same, where the fit has promised too much
+  std::string unsolved; ///< the same, where it cannot be solved: which mesh, and why not
 };
 
 /// @param equal_error  also solve the explicit mesh that the fit says reaches the scene's /compare/error
