@@ -40,7 +40,7 @@ public:
     begin_at_first(block);
     block.tangent = tangents_[turn_], block.tangent_stride = entries_;
     if (residuals_too_) block.residual = residuals_, block.residual_stride = dofs_;
-    block.last = &last_;
+    block.last = last_.count > 0 ? &last_ : nullptr;
   }
 
   // The block is there: `size` elements from `first` on, those with a bit in `done`.
@@ -66,7 +66,7 @@ private:
   static constexpr std::int64_t nearest = 2304, beyond_caches = std::int64_t{1} << 19, room = 7200, narrow = 6 * PairBlock::most;
 
   void copy_last() noexcept {
-    copy_past_caches_(last_.from, last_.count, last_.to);
+    if (last_.count > 0) copy_past_caches_(last_.from, last_.count, last_.to);
     last_.count = 0;
   }
 
