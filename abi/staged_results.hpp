@@ -14,7 +14,7 @@ namespace ents {
 
 class StagedResults {
 public:
-  // Of elements first .. first + count - 1; `known`: results of the block kernel
+  // `known`: results of the block kernel
   StagedResults(const Plan& plan, const ents_output& out, std::int32_t known) noexcept
       : dofs_(plan.dofs), entries_(std::int64_t{plan.dofs} * plan.dofs), out_(out),
         residuals_too_((known & want::residual) != 0 && out.residual_stride == plan.dofs) {}
