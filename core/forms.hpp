@@ -14,11 +14,24 @@
 
 namespace ents::ENTS_ISA {
 
+// Vectors on delta a_kl, k = 11 | 11, 12, 22: those that the basis has
+template <class B, class V> struct OnCurvatures {
+  static constexpr int before(int k) {
+    int count = 0;
+    for (int i = 0; i < k; ++i) count += B::second[i];
+    return count;
+  }
+  static constexpr int count = before(symmetric_size<B::dim - 1>);
+  V of[count > 0 ? count : 1];
+  ENTS_INLINE V& operator[](int k) { return of[before(k)]; }
+  ENTS_INLINE const V& operator[](int k) const { return of[before(k)]; }
+};
+
 template <class B, class S> struct Form {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  Vec<S, D> x;      // on delta X
-  Vec<S, D> a[T];   // on delta a_k
-  Vec<S, D> a2[K];  // on delta a_kl, where the basis bends
+  static constexpr int D = B::dim, T = D - 1;
+  Vec<S, D> x;                     // on delta X
+  Vec<S, D> a[T];                  // on delta a_k
+  OnCurvatures<B, Vec<S, D>> a2;   // on delta a_kl, where the basis bends
 };
 
 // Which parts of a form are present (known at compile time).
@@ -82,7 +95,7 @@ ENTS_INLINE void form_of_slope(const Surface<B, H, S>& s, const Vec<S, B::dim>& 
     S up[T];
     contravariant(s, c, up);
     if constexpr (bent)
-      for (int k = 0; k < symmetric_size<T>; ++k) f.a2[k] = Vec<S, D>::zero();
+      for (auto& v : f.a2.of) v = Vec<S, D>::zero();
     unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
       S along_n = -(s.height.h1[A] * up[k]);
       if constexpr (bent) {
@@ -96,7 +109,7 @@ ENTS_INLINE void form_of_slope(const Surface<B, H, S>& s, const Vec<S, B::dim>& 
       f.a[k] = along_n * s.n;
       if constexpr (bent) {
         add_scaled(f.a[k], -(h * up[k]), s.n1[A]);
-        f.a2[symmetric_index(k, A)] = -(h * up[k]) * s.n;
+        if constexpr (B::second[symmetric_index(k, A)]) f.a2[symmetric_index(k, A)] = -(h * up[k]) * s.n;
       }
       if constexpr (k == A) f.a[k] = f.a[k] + c;
     });

@@ -54,7 +54,7 @@ template <int Parts, class B> ENTS_INLINE double sum_of_absolutes(const Form<B, 
   if constexpr ((Parts & on_tangents) != 0)
     for (const auto& v : f.a) s += sum_of_absolutes(v);
   if constexpr ((Parts & on_curvatures) != 0)
-    for (const auto& v : f.a2) s += sum_of_absolutes(v);
+    for (const auto& v : f.a2.of) s += sum_of_absolutes(v);
   return s;
 }
 

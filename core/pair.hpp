@@ -204,7 +204,7 @@ template <class B, bool H, class S> struct Pair {
 template <class B, bool H, bool Rigid, class S> struct PairTangent {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
   static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
-  static constexpr bool symmetric = true, has_rest = false;
+  static constexpr bool symmetric = true, has_rest = false, one_by_one = !turns;
   static constexpr int products = turns ? 3 * T : T; // that an entry is the sum of
   S weights[1][M]; // s
   DofArray<S, N> v[T];

@@ -4,9 +4,8 @@
 
 #include <cstring>
 
-#include "core/pair_friction.hpp"
 #include "core/pair_kernels.hpp"
-#include "core/pair_write.hpp"
+#include "core/pair_reduced_friction.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -120,7 +119,7 @@ ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const P
 }
 
 template <bool F, bool Rigid, class B, bool H, class S>
-using TangentOf = std::conditional_t<F, PairFrictionTangent<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
+using TangentOf = std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
 
 inline constexpr std::int32_t beside_forces = PairBlock::results & ~(want::residual | want::tangent);
 
@@ -339,10 +338,8 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
     tangent<F, Rigid>(plan, p, f, t);
     double* out[W];
     places(block.tangent, block.tangent_stride, out);
-    // Of few products it is faster to write element by element, computing both triangles, than to transpose the entries; not those of a tri3
-    // with friction in eight lanes, which are more.
-    constexpr bool one_by_one = !TangentOf<F, Rigid, B, H, S>::turns && N >= W && (W < 8 || !F || N != 12);
-    if constexpr (one_by_one) {
+    using Tangent = TangentOf<F, Rigid, B, H, S>;
+    if constexpr (Tangent::one_by_one && N >= W) {
       TangentOf<F, Rigid, B, H, double> one[W];
       t.hand_out_lanes(one);
       for (int k = 0; k < W; ++k) {

@@ -3,8 +3,8 @@
 //
 // One element: the columns of K are computed along the rows, as many at a time as a register holds. One element per lane: the
 // lower triangle is computed for all lanes, then transposed, so that each element is written in one go; or, where an entry is the sum
-// of few products, these are handed out to the elements. The entries are the same expressions in the same order, so the bits are the
-// same.
+// of few products, these are handed out to the elements (Tangent::one_by_one): computing both triangles is faster than transposing.
+// The entries are the same expressions in the same order, so the bits are the same.
 #pragma once
 
 #include "core/dof_rows.hpp"
@@ -189,7 +189,26 @@ template <class Tangent, class One, int W, class... Pick> ENTS_INLINE void hand_
   for (int k = 0; k < W; ++k) one[k].curved_law = t.curved_law;
 }
 
-// Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is. `last` is copied beside.
+// Where column j begins. Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.
+template <int N, int W>
+ENTS_INLINE void column_places(double* const (&out)[W], int j, std::int64_t leading, std::uint32_t used, double* (&column)[W]) {
+  for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
+}
+// All columns; entry(N j + i), a reference
+template <int N, int W, class Entry>
+ENTS_INLINE void write_columns(double* const (&out)[W], std::int64_t leading, std::uint32_t used, Entry&& entry) {
+  if (leading == N) {
+    write_lanes<N * N>(out, entry);
+    return;
+  }
+  for (int j = 0; j < N; ++j) {
+    double* column[W];
+    column_places<N>(out, j, leading, used, column);
+    write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE -> const Lanes<W>& { return entry(N * j + i); });
+  }
+}
+
+// `last` is copied beside.
 template <int D, class Tangent, int W>
 ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used, DeferredCopy* last) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, weights = std::extent_v<decltype(t.weights)>;
@@ -230,19 +249,18 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
     if constexpr (Tangent::symmetric) return kept[kept_table<N>.of[i]];
     else return kept[i];
   };
-  if (!Tangent::has_rest && leading == N) {
-    write_lanes<N * N>(out, entry_at);
-    return;
-  }
-  for (int j = 0; j < N; ++j) {
-    double* column[W];
-    for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
-    const auto at_row = [&](int i) ENTS_LAMBDA_INLINE {
-      return t.template add_rest<S>(entry_at(N * j + i), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
-    };
-    if (Tangent::has_rest && t.curved_law) write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; });
-    else if constexpr (Tangent::has_rest) write_lanes<N>(column, at_row);
-    else write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entry_at(N * j + i); });
+  if constexpr (!Tangent::has_rest) {
+    write_columns<N>(out, leading, used, entry_at);
+  } else {
+    for (int j = 0; j < N; ++j) {
+      double* column[W];
+      column_places<N>(out, j, leading, used, column);
+      const auto at_row = [&](int i) ENTS_LAMBDA_INLINE {
+        return t.template add_rest<S>(entry_at(N * j + i), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
+      };
+      if (t.curved_law) write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; });
+      else write_lanes<N>(column, at_row);
+    }
   }
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #define ENTS_ISA counted
-#include "core/pair_write.hpp"
-#include "core/pair_friction.hpp"
+#include "core/pair_reduced_friction.hpp"
 
 namespace ents::counted {
 

@@ -48,10 +48,14 @@ template <class Tangent> void count_entry(const Tangent& tangent, int i, int j, 
 template <class Tangent, class... Pieces> void count_tangent(const ents::Plan& plan, const Pieces&... pieces) {
   Tangent tangent;
   tangent.evaluate(plan, pieces...);
-  for (int j = 0; j < Tangent::N; ++j) {
-    for (int i = Tangent::symmetric ? j : 0; i < Tangent::N; ++i) count_entry(tangent, i, j, false);
-    if constexpr (Tangent::has_rest)
-      for (int i = 0; i < Tangent::N; ++i) count_entry(tangent, i, j, true);
+  if constexpr (Reduced<Tangent>) {
+    for (int c = 0; c < Tangent::D; ++c) expand_columns(tangent, c, [] {}, [](int, int, const auto&) {});
+  } else {
+    for (int j = 0; j < Tangent::N; ++j) {
+      for (int i = Tangent::symmetric ? j : 0; i < Tangent::N; ++i) count_entry(tangent, i, j, false);
+      if constexpr (Tangent::has_rest)
+        for (int i = 0; i < Tangent::N; ++i) count_entry(tangent, i, j, true);
+    }
   }
 }
 
@@ -90,7 +94,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   if (friction) {
     rub.evaluate(plan, pair, anchor, Counted(1.0));
     friction_residual<false>(pair, rub, residual);
-    if (wants_tangent) count_tangent<PairFrictionTangent<B, H, false, Counted>>(plan, pair, rub);
+    if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
   } else {
     pair.template residual<false>(residual);
     if (wants_tangent) count_tangent<PairTangent<B, H, false, Counted>>(plan, pair);
