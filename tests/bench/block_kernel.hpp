@@ -27,5 +27,7 @@ private:
 
 // Compiled with fused multiply-add; null where it is not built in (-DENTS_BENCH_FUSED=ON).
 ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction);
+// Reads what the kernel reads and writes residuals of the same size, computing nothing; null as above.
+ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool friction);
 
 } // namespace bench

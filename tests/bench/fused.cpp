@@ -1,5 +1,5 @@
-// The kernels once more, as they are not built: multiplications and additions fused where the compiler can, for this machine. What
-// equal bits on every machine cost.
+// The kernels once more for this machine, as they are not built: with multiplications and additions fused where the compiler can, which is what
+// equal bits on every machine cost; and without any computation.
 #if defined(ENTS_BENCH_FUSED)
 #define ENTS_ISA fused
 #include "core/pair_table.hpp"
@@ -10,6 +10,54 @@
 namespace bench {
 
 #if defined(ENTS_BENCH_FUSED)
+namespace {
+
+// Inputs into lanes, and as many numbers as a residual has out of them.
+template <class B, bool H, bool F> std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block, std::int32_t count) {
+  using namespace ents::fused;
+  std::uint64_t done = 0;
+#if defined(ENTS_HAS_LANES)
+  constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>, W = register_width;
+  using S = Lanes<W>;
+  if constexpr (W > 1)
+    for (std::int32_t at = 0; at + W <= count; at += W) {
+      const std::int64_t e = block.first + at;
+      const PairLanes<B, H, W> in(plan, block, e);
+      S r[N], anchor[T];
+      for (int c = 0; c < D; ++c) r[c] = in.area;
+      for (int a = 0; a < T; ++a) r[a] = in.xi[a];
+      if constexpr (F) {
+        const double* from[W];
+        double history[W];
+        for (int k = 0; k < W; ++k) from[k] = anchor_of<T>(plan, block, e + k, history[k]);
+        read_lanes<W>(from, anchor);
+        for (int a = 0; a < T; ++a) r[a] = r[a] - anchor[a];
+        r[D - 1] = r[D - 1] + load<S>(history);
+      }
+      for (int i = 0; i < B::nodes; ++i)
+        for (int c = 0; c < D; ++c) r[D * (i + 1) + c] = in.nodes.y[i][c];
+      double* out[W];
+      for (int k = 0; k < W; ++k) out[k] = block.residual + (e + k) * block.residual_stride;
+      write_lanes<N>(out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+      done |= std::uint64_t{in.known} << at;
+    }
+#endif
+  return done;
+}
+template <class B> ents::PairKernel moving_kernel_of(bool enriched, bool friction) {
+  if (enriched) return friction ? move_numbers<B, true, true> : move_numbers<B, true, false>;
+  return friction ? move_numbers<B, false, true> : move_numbers<B, false, false>;
+}
+
+} // namespace
+
+ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool friction) {
+  using namespace ents::fused;
+  if (basis == "line2") return moving_kernel_of<Line2>(enriched, friction);
+  if (basis == "tri3") return moving_kernel_of<Tri3>(enriched, friction);
+  if (basis == "quad4") return moving_kernel_of<Quad4>(enriched, friction);
+  return moving_kernel_of<Quad9>(enriched, friction);
+}
 ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
   using namespace ents::fused;
   if (basis == "line2") return pair_kernels_of<Line2>.of[enriched][friction];
@@ -19,6 +67,7 @@ ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool fric
 }
 #else
 ents::PairKernel fused_kernel(const std::string&, bool, bool) { return nullptr; }
+ents::PairKernel moving_kernel(const std::string&, bool, bool) { return nullptr; }
 #endif
 
 } // namespace bench
