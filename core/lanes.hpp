@@ -45,21 +45,23 @@ template <int W> struct Lanes; // where the compiler has them
 #if defined(__GNUC__) && !defined(__clang__)
 #define ENTS_HAS_LANES 1
 
-// halves: two half registers that lie apart in memory, as one. Reading does what an exchange between registers would.
+// halves: two half registers that lie apart in memory, as one; of each `count` numbers are read, the others are 0. Reading does what an
+// exchange between registers would. pairs: two numbers of each row.
 template <int W> struct VectorOf;
 template <> struct VectorOf<2> {
   typedef double Numbers __attribute__((vector_size(16)));
   typedef long long Integers __attribute__((vector_size(16)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x}; }
-  static ENTS_INLINE Numbers halves(const double* low, const double* high) { return Numbers{*low, *high}; }
+  template <int count = 1> static ENTS_INLINE Numbers halves(const double* low, const double* high) { return Numbers{*low, *high}; }
 };
 #if defined(__AVX__)
 template <> struct VectorOf<4> {
   typedef double Numbers __attribute__((vector_size(32)));
   typedef long long Integers __attribute__((vector_size(32)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x}; }
-  static ENTS_INLINE Numbers halves(const double* low, const double* high) {
-    return (Numbers)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
+  template <int count = 2> static ENTS_INLINE Numbers halves(const double* low, const double* high) {
+    if constexpr (count == 1) return Numbers{*low, 0.0, *high, 0.0};
+    else return (Numbers)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
   }
 };
 #endif
@@ -68,8 +70,18 @@ template <> struct VectorOf<8> {
   typedef double Numbers __attribute__((vector_size(64)));
   typedef long long Integers __attribute__((vector_size(64)));
   static ENTS_INLINE Numbers all(double x) { return Numbers{x, x, x, x, x, x, x, x}; }
-  static ENTS_INLINE Numbers halves(const double* low, const double* high) {
-    return (Numbers)_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(_mm256_loadu_pd(low)), _mm256_loadu_pd(high), 1);
+  template <int count = 4> static ENTS_INLINE Numbers halves(const double* low, const double* high) {
+    return (Numbers)_mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(half<count>(low)), half<count>(high), 1);
+  }
+  static ENTS_INLINE Numbers pairs(const double* a, const double* b, const double* c, const double* d) {
+    const __m512d low = _mm512_maskz_insertf64x2(0xff, _mm512_castpd128_pd512(_mm_loadu_pd(a)), _mm_loadu_pd(b), 1);
+    return (Numbers)_mm512_maskz_insertf64x2(0xff, _mm512_maskz_insertf64x2(0xff, low, _mm_loadu_pd(c), 2), _mm_loadu_pd(d), 3);
+  }
+
+private:
+  template <int count> static ENTS_INLINE __m256d half(const double* from) {
+    if constexpr (count == 4) return _mm256_loadu_pd(from);
+    else return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, count > 1 ? -1 : 0, count > 2 ? -1 : 0, 0));
   }
 };
 #endif
@@ -244,12 +256,15 @@ template <int W, int Distance, int Count> ENTS_INLINE void transpose(typename Ve
     transpose<W, Distance / 2>(r);
   }
 }
-// W rows of Count numbers, W or half of it, as columns; the k-th row lies at row(k).
-template <int W, int Count, class Row> ENTS_INLINE void read_transposed(Row&& row, typename VectorOf<W>::Numbers (&r)[Count]) {
+// W rows of Count numbers, W or half of it, as columns; the k-th row lies at row(k). Of a row no more than Read numbers are read.
+template <int W, int Count, int Read = Count, class Row> ENTS_INLINE void read_transposed(Row&& row, typename VectorOf<W>::Numbers (&r)[Count]) {
   constexpr int half = W / 2;
   unroll<half>([&](auto k) ENTS_LAMBDA_INLINE {
     const double *a = row(k), *b = row(k + half);
-    unroll<Count / half>([&](auto part) ENTS_LAMBDA_INLINE { r[k + part * half] = VectorOf<W>::halves(a + part * half, b + part * half); });
+    unroll<Count / half>([&](auto part) ENTS_LAMBDA_INLINE {
+      constexpr int left = Read - part.value * half, count = left < half ? left : half;
+      r[k + part * half] = VectorOf<W>::template halves<count>(a + part * half, b + part * half);
+    });
   });
   transpose<W, half / 2>(r);
 }

@@ -238,50 +238,87 @@ template <int W> ENTS_INLINE void prefetch(const double* from, std::int64_t stri
 }
 
 // Inputs of W elements from e on.
-template <class B, bool H, int W> struct PairLanes {
+template <class B, bool H, bool F, int W> struct PairLanes {
   static constexpr int D = B::dim, T = D - 1;
   using S = Lanes<W>;
   PairNodes<B, S> nodes;
   S xi[T], area;
-  std::uint32_t known; // bit k: element e + k has a start
+  S anchor[T], history; // friction: that of the state, and 1 where there is one
+  std::uint32_t known;  // bit k: element e + k has a start
 
   ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
-    static const double centre[T] = {};
     prefetch_inputs(plan, block, e + 2 * W);
-    // nothing but a number to be looked at
-    const bool plain_start = block.start && !block.state_begin && (H || !block.surface_coordinates);
-    const double *start[W], *slave[W], *master[W];
-    known = 0;
-    for (int k = 0; k < W; ++k) {
-      slave[k] = block.slave + (e + k) * block.slave_stride;
-      master[k] = block.master + (e + k) * block.master_stride;
-      start[k] = plain_start ? block.start + (e + k) * block.start_stride : start_of<B, H>(plan, block, e + k);
-      if (start[k]) known |= 1u << k;
-      else start[k] = centre;
-    }
+    const double* from[W];
+    const auto rows = [&](const double* data, std::int64_t stride) ENTS_LAMBDA_INLINE {
+      for (int k = 0; k < W; ++k) from[k] = data + (e + k) * stride;
+    };
     S x[D], y[D * B::nodes];
-    read_lanes<W>(slave, x);
-    read_lanes<W>(master, y);
+    rows(block.slave, block.slave_stride);
+    read_lanes<W>(from, x);
+    rows(block.master, block.master_stride);
+    read_lanes<W>(from, y);
     for (int i = 0; i < B::nodes; ++i)
       for (int c = 0; c < D; ++c) nodes.y[i][c] = y[D * i + c] - x[c];
     nodes.has_coordinates = H && coordinates_of(plan, block, e);
     if (nodes.has_coordinates) {
-      const double* coordinates[W];
-      for (int k = 0; k < W; ++k) coordinates[k] = coordinates_of(plan, block, e + k);
-      read_lanes<W>(coordinates, nodes.coordinates);
+      for (int k = 0; k < W; ++k) from[k] = coordinates_of(plan, block, e + k);
+      read_lanes<W>(from, nodes.coordinates);
     }
     nodes.height = plan.height;
-    area = S(1.0);
-    if (block.area) area = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return block.area[(e + k) * block.area_stride]; });
-    read_lanes<W>(start, xi);
-    if (plain_start) {
-      S zero = 0.0 * xi[0];
-      if constexpr (T == 2) zero = zero + 0.0 * xi[1];
-      known = bits_of(zero >= 0.0);
+    area = block.area ? read_lanes<W>(block.area + e * block.area_stride, block.area_stride) : S(1.0);
+    known = (1u << W) - 1;
+    if constexpr (!H)
+      if (block.surface_coordinates)
+        for (int k = 0; k < W; ++k)
+          if (!is_finite(coordinates_of(plan, block, e + k), T * B::nodes)) known &= ~(1u << k);
+    if (block.start) {
+      if constexpr (T == 1) {
+        xi[0] = read_lanes<W>(block.start + e * block.start_stride, block.start_stride);
+      } else {
+        rows(block.start, block.start_stride);
+        read_lanes<W>(from, xi);
+      }
+      known &= bits_of(are_finite(xi));
+    }
+    if (block.state_begin) {
+      rows(block.state_begin, block.state_begin_stride);
+      read_states(plan, block, from);
+    } else {
+      if (!block.start) known = 0;
+      history = S(0.0);
+      for (S& x_0 : anchor) x_0 = S(0.0);
+    }
+    if (known != (1u << W) - 1) { // others begin anywhere
+      double begin[W];
+      for (int k = 0; k < W; ++k) begin[k] = known >> k & 1 ? 1.0 : 0.0;
+      const Truth<S> has_start = load<S>(begin) > 0.5;
+      for (S& x_0 : xi) x_0 = select(has_start, x_0, S(0.0));
     }
   }
 
 private:
+  template <int Count> static ENTS_INLINE Truth<S> are_finite(const S (&numbers)[Count]) {
+    S zero = 0.0 * numbers[0];
+    for (int i = 1; i < Count; ++i) zero = zero + 0.0 * numbers[i];
+    return zero >= 0.0;
+  }
+  // As start_of() has it
+  ENTS_INLINE void read_states(const Plan& plan, const PairBlock& block, const double* const (&from)[W]) {
+    S state[F ? StateLayout::xi_at + 2 * T + 1 : StateLayout::xi_at + T];
+    read_lanes<W>(from, state);
+    const auto is = [](const S& a, double b) ENTS_LAMBDA_INLINE { return both(a >= b, a <= b); };
+    const S& last = state[StateLayout::history_at];
+    const Truth<S> touched = either(is(last, 2.0), is(last, 3.0)), free = either(is(last, 0.0), is(last, 1.0));
+    const bool first = block.start_first && block.start;
+    known &= bits_of(both(both(is(state[StateLayout::tag_at], plan.state.tag), are_finite(state)), either(touched, free)));
+    if (!block.start) known &= bits_of(touched);
+    if (!first)
+      for (int a = 0; a < T; ++a) xi[a] = block.start ? select(touched, state[StateLayout::xi_at + a], xi[a]) : state[StateLayout::xi_at + a];
+    if constexpr (F) {
+      history = select(touched, S(1.0), S(0.0));
+      for (int a = 0; a < T; ++a) anchor[a] = state[StateLayout::xi_at + T + a];
+    }
+  }
   // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight ends with every page.
   static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
     const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
@@ -353,21 +390,13 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
 
 // W projected elements from e on, those with a bit in `far` clearly open; bit k: element e + k was ordinary and is written.
 template <class B, bool H, bool F, int W>
-ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p, std::uint32_t known, std::uint32_t far,
-                                           std::int64_t e) {
-  constexpr int D = B::dim, T = D - 1;
+ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block, const PairLanes<B, H, F, W>& in, Pair<B, H, Lanes<W>>& p,
+                                           std::uint32_t far, std::int64_t e) {
+  constexpr int D = B::dim;
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
-  S anchor[T], history;
-  if constexpr (F) {
-    const double* at[W];
-    double of_lane[W];
-    for (int k = 0; k < W; ++k) at[k] = anchor_of<T>(plan, block, e + k, of_lane[k]);
-    history = load<S>(of_lane);
-    read_lanes<W>(at, anchor);
-  }
-  press<F>(plan, block.wanted, p, f, anchor, history);
-  const std::uint32_t done = known & (bits_of(p.ordinary) | far);
+  press<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  const std::uint32_t done = in.known & (bits_of(p.ordinary) | far);
   if (!done) return 0;
   const std::uint32_t contact = done & bits_of(p.contact) & ~far;
   if (contact && plan.dofs == D) write_forces<F, true>(plan, block, p, f, e, contact);
@@ -391,14 +420,14 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
   if constexpr (register_width > 1)
     for (constexpr int W = register_width; k + W <= count;) {
       constexpr std::uint32_t all = (1u << W) - 1;
-      const auto far_of = [&](const PairLanes<B, H, W>& lanes, const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
+      const auto far_of = [&](const PairLanes<B, H, F, W>& lanes, const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
         return block.wanted & forces_only ? lanes.known & bits_of(both(pair.has_area(), pair.is_clearly_open(plan))) : 0u;
       };
       // a line's few numbers leave registers free for two projections at once
       constexpr bool in_pairs = std::is_same_v<B, Line2> && H;
       const bool two = in_pairs && k + 2 * W <= count;
       const std::int64_t e = block.first + k;
-      const PairLanes<B, H, W> a(plan, block, e);
+      const PairLanes<B, H, F, W> a(plan, block, e);
       Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
       p.area = a.area;
       const std::uint32_t far = far_of(a, p);
@@ -409,15 +438,15 @@ template <class B, bool H, bool F> std::uint64_t evaluate_pairs(const Plan& plan
         continue;
       }
       if (two) {
-        const PairLanes<B, H, W> b(plan, block, e + W);
+        const PairLanes<B, H, F, W> b(plan, block, e + W);
         Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
         q.area = b.area;
         if constexpr (in_pairs) project_both(p, q);
-        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, q, b.known, far_of(b, q), e + W)} << (k + W);
+        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, b, q, far_of(b, q), e + W)} << (k + W);
       } else {
         p.project();
       }
-      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, p, a.known, far, e)} << k;
+      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, a, p, far, e)} << k;
       k += two ? 2 * W : W;
     }
 #endif

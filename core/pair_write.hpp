@@ -137,18 +137,38 @@ template <int W, class Number> ENTS_INLINE Lanes<W> each_lane(Number&& number) {
   return each_lane<W>(number, std::make_integer_sequence<int, W>());
 }
 
-// Numbers 0 .. count - 1 of each lane's array.
+// Numbers 0 .. Count - 1 of each lane's array.
 template <int W, int Count> ENTS_INLINE void read_lanes(const double* const (&from)[W], Lanes<W> (&out)[Count]) {
-  if constexpr (Count < W) {
+  constexpr int half = W / 2;
+  const auto piece = [&](auto first, auto width, auto read) ENTS_LAMBDA_INLINE {
+    typename VectorOf<W>::Numbers r[width.value];
+    read_transposed<W, width.value, read.value>([&](int k) ENTS_LAMBDA_INLINE { return from[k] + first.value; }, r);
+    for (int i = 0; i < read; ++i) out[first.value + i].v = r[i];
+  };
+  if constexpr (Count == 1 || W < 4) {
     for (int i = 0; i < Count; ++i) out[i] = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k][i]; });
+  } else if constexpr (W == 8 && Count == 2) {
+    typename VectorOf<W>::Numbers r[2];
+    for (int i = 0; i < 2; ++i) r[i] = VectorOf<W>::pairs(from[i], from[i + 2], from[i + 4], from[i + 6]);
+    transpose<W, 1>(r);
+    for (int i = 0; i < 2; ++i) out[i].v = r[i];
+  } else if constexpr (Count <= half) {
+    piece(Index<0>{}, Index<half>{}, Index<Count>{});
+  } else if constexpr (Count < W) {
+    piece(Index<0>{}, Index<half>{}, Index<half>{});
+    piece(Index<Count - half>{}, Index<half>{}, Index<half>{});
   } else {
-    unroll<pieces(Count, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
-      constexpr int first = piece_at(Count, W, piece.value), width = piece_width(Count, W, piece.value);
-      typename VectorOf<W>::Numbers r[width];
-      read_transposed<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k] + first; }, r);
-      for (int i = 0; i < width; ++i) out[first + i].v = r[i];
+    unroll<pieces(Count, W)>([&](auto at) ENTS_LAMBDA_INLINE {
+      constexpr int width = piece_width(Count, W, at.value);
+      piece(Index<piece_at(Count, W, at.value)>{}, Index<width>{}, Index<width>{});
     });
   }
+}
+// A number of each of W elements, `stride` apart
+template <int W> ENTS_INLINE Lanes<W> read_lanes(const double* from, std::int64_t stride) {
+  if (stride == 1) return load<Lanes<W>>(from);
+  if (stride == 0) return Lanes<W>(*from);
+  return each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k * stride]; });
 }
 
 // Each lane's numbers to an element of its own: to(lane)

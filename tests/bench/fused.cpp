@@ -22,18 +22,11 @@ template <class B, bool H, bool F> std::uint64_t move_numbers(const ents::Plan& 
   if constexpr (W > 1)
     for (std::int32_t at = 0; at + W <= count; at += W) {
       const std::int64_t e = block.first + at;
-      const PairLanes<B, H, W> in(plan, block, e);
-      S r[N], anchor[T];
+      const PairLanes<B, H, F, W> in(plan, block, e);
+      S r[N];
       for (int c = 0; c < D; ++c) r[c] = in.area;
-      for (int a = 0; a < T; ++a) r[a] = in.xi[a];
-      if constexpr (F) {
-        const double* from[W];
-        double history[W];
-        for (int k = 0; k < W; ++k) from[k] = anchor_of<T>(plan, block, e + k, history[k]);
-        read_lanes<W>(from, anchor);
-        for (int a = 0; a < T; ++a) r[a] = r[a] - anchor[a];
-        r[D - 1] = r[D - 1] + load<S>(history);
-      }
+      for (int a = 0; a < T; ++a) r[a] = F ? in.xi[a] - in.anchor[a] : in.xi[a];
+      if constexpr (F) r[D - 1] = r[D - 1] + in.history;
       for (int i = 0; i < B::nodes; ++i)
         for (int c = 0; c < D; ++c) r[D * (i + 1) + c] = in.nodes.y[i][c];
       double* out[W];
