@@ -112,7 +112,8 @@ void run_limits(std::ostream& out) {
       << with_fused << "\n\n"
       << std::setw(50) << "single" << std::setw(69) << "of 64" << "\n"
       << std::setw(32) << "call" << std::setw(9) << "kernel" << std::setw(9) << "in turn" << std::setw(12) << "call" << std::setw(9) << "kernel"
-      << std::setw(9) << "in turn" << std::setw(9) << "stores" << std::setw(9) << "moves" << std::setw(9) << "oper." << std::setw(12) << "operations" << std::setw(9) << "fused"
+      << std::setw(9) << "in turn" << std::setw(9) << "stores" << std::setw(9) << "moves" << std::setw(9) << "oper." << std::setw(12) << "operations"
+      << std::setw(9) << "fused"
       << "\n";
   for (const char* basis : {"line2", "tri3", "quad4", "quad9"})
     for (const bool enriched : {false, true})
