@@ -95,7 +95,9 @@ struct LawResults {
   std::vector<double> gap, residual, tangent, pressure, traction, state;
 };
 
-inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r) {
+// What ents_evaluate returns. start: ents_input.start; empty: none
+inline std::int32_t try_evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r, ents_report& report,
+                                 const std::vector<double>& start = {}) {
   const ents_layout& l = e.layout;
   const std::int64_t count = e.at.count, d = l.dimension, n = l.dofs;
   const auto sized = [&](auto& array, std::int64_t entries) { array.resize(static_cast<std::size_t>(count * entries)); };
@@ -115,6 +117,7 @@ inline void evaluate(const mechanics::Model& model, const LawElements& e, std::i
   in.master_stride = d * l.nodes;
   in.surface_coordinates = e.at.surface_coordinates.empty() ? nullptr : e.at.surface_coordinates.data();
   in.surface_coordinates_stride = l.parameters * l.nodes;
+  if (!start.empty()) in.start = start.data(), in.start_stride = l.parameters;
   in.area = e.at.area.data();
   in.area_stride = 1;
   in.state_begin = e.state.data();
@@ -140,9 +143,13 @@ inline void evaluate(const mechanics::Model& model, const LawElements& e, std::i
   out.traction_stride = d;
   out.state_end = r.state.data();
   out.state_end_stride = l.state_size;
-  ents_report report{};
+  report = {};
   report.struct_size = sizeof report;
-  if (ents_evaluate(model.handle(), 0, count, &in, &out, &report) < 0) throw std::runtime_error(report.message);
+  return ents_evaluate(model.handle(), 0, count, &in, &out, &report);
+}
+inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r) {
+  ents_report report;
+  if (try_evaluate(model, e, wanted, r, report) < 0) throw std::runtime_error(report.message);
 }
 
 inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method, const char* master = "deformable") {
