@@ -200,6 +200,24 @@ template <class B, bool H, class S> struct Pair {
   }
 };
 
+// Of g g^T = A (W'' - W'/g) dg dg^T = (m - 1) A W'/g dg dg^T, where the law is not linear
+template <class B, bool H, class S> ENTS_INLINE void form_of_g(const Plan& plan, const Pair<B, H, S>& pair, Form<B, S>& g) {
+  const S root = square_root(pair.area * pair.per_gap);
+  form_of_p<B, H>(pair.projector.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, g);
+}
+// False: the law is linear, and g zero.
+template <bool Rigid, class B, bool H, class S>
+ENTS_INLINE bool set_g(const Plan& plan, const Pair<B, H, S>& pair, DofArray<S, dof_count<B, Rigid>>& g) {
+  if (plan.law.twice_exponent > 2) {
+    Form<B, S> form;
+    form_of_g(plan, pair, form);
+    expand_to_dofs<B, Rigid, parts_of_p<H>>(form, pair.projector.N, g);
+    return true;
+  }
+  for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
+  return false;
+}
+
 // K = s s^T I - sum_a v_a v_a^T + sum_a (w_a z_a^T + z_a w_a^T) [ + g g^T ]
 template <class B, bool H, bool Rigid, class S> struct PairTangent {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
@@ -241,14 +259,7 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
         expand_to_nodes<B>(p.N.d1[a], n, w[a]);
       }
     }
-    curved_law = plan.law.twice_exponent > 2;
-    if (curved_law) { // (m - 1) W'/g dg dg^T
-      Form<B, S> gf;
-      form_of_p<B, H>(p.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, gf);
-      expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
-    } else {
-      for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
-    }
+    curved_law = set_g<Rigid>(plan, pair, g);
   }
 
   // Each lane's to one[lane]

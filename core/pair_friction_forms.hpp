@@ -141,12 +141,6 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     set_form_rate<parts_of_z>(moving_z, drift.y, Z);
     add_form<parts_of_z>(Z, stiffness, z);
   }
-
-  // Of g g^T, where the law is not linear
-  static ENTS_INLINE void set_g(const Plan& plan, const Pair<B, H, S>& pair, Form<B, S>& g) {
-    const S root = square_root(pair.area * pair.per_gap);
-    form_of_p<B, H>(pair.projector.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal, g);
-  }
 };
 
 } // namespace ents::ENTS_ISA

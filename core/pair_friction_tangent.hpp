@@ -33,14 +33,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
       Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
       if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(stiffness, drift); });
     });
-    curved_law = plan.law.twice_exponent > 2;
-    if (curved_law) {
-      Form<B, S> gf;
-      Forms::set_g(plan, pair, gf);
-      expand_to_dofs<B, Rigid, parts_of_p<H>>(gf, p.N, g);
-    } else {
-      for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
-    }
+    curved_law = set_g<Rigid>(plan, pair, g);
   }
 
   // Each lane's to one[lane]

@@ -37,7 +37,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
       if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(drift); });
     });
     curved_law = plan.law.twice_exponent > 2;
-    if (curved_law) Forms::set_g(plan, pair, g);
+    if (curved_law) form_of_g(plan, pair, g);
     else unroll<fields_of_g>([&](auto f) ENTS_LAMBDA_INLINE { on_field<f.value>(g) = V::zero(); });
   }
 
