@@ -99,14 +99,15 @@ template <int T, class S> ENTS_INLINE HeightJet<T, S> constant_height(double val
   return jet;
 }
 
-template <int T, class S> ENTS_INLINE HeightJet<T, S> sine_height(const SineHeight& p, const S (&s)[T]) {
+template <int T, class S> ENTS_INLINE S turns_of(const SineHeight& p, const S (&s)[T]) {
   S turns = p.wave_vector[0] * s[0];
   if constexpr (T == 2) turns = turns + p.wave_vector[1] * s[1];
-  S sine, cosine;
-  sin_cos_turns(turns, p.phase, sine, cosine);
+  return turns;
+}
+// h: amplitude times sine; slope: times cosine
+template <int T, class S> ENTS_INLINE HeightJet<T, S> sine_height(const SineHeight& p, const S& h, const S& slope) {
   HeightJet<T, S> jet;
-  jet.h = p.amplitude * sine;
-  const S slope = p.amplitude * cosine;
+  jet.h = h;
   int k = 0;
   for (int a = 0; a < T; ++a) {
     const double wa = two_pi * p.wave_vector[a];
@@ -114,6 +115,11 @@ template <int T, class S> ENTS_INLINE HeightJet<T, S> sine_height(const SineHeig
     for (int b = a; b < T; ++b) jet.h2[k++] = -(wa * (two_pi * p.wave_vector[b])) * jet.h;
   }
   return jet;
+}
+template <int T, class S> ENTS_INLINE HeightJet<T, S> sine_height(const SineHeight& p, const S (&s)[T]) {
+  S sine, cosine;
+  sin_cos_turns(turns_of(p, s), p.phase, sine, cosine);
+  return sine_height<T>(p, p.amplitude * sine, p.amplitude * cosine);
 }
 
 template <class S> ENTS_INLINE HeightJet<1, S> polynomial_height(const PolynomialHeight& p, const S (&s)[1]) {
@@ -307,11 +313,6 @@ template <int T, class S> HeightJet<T, S> evaluate_height(const HeightNode& node
   }
   }
   return constant_height<T, S>(0.0);
-}
-
-// The same where a call would cost as much as a sine.
-template <int T, class S> ENTS_INLINE HeightJet<T, S> evaluate_height_here(const HeightNode& node, const S (&s)[T]) {
-  return node.kind == HeightKind::sine ? sine_height(node.sine, s) : evaluate_height(node, s);
 }
 
 // The jet at s, in `d` its derivative along y. A sine's is known from the jet itself.

@@ -29,13 +29,14 @@ ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
 
 template <class S> using Truth = decltype(S(0.0) < S(0.0));
 
-// 1 / x where x may be zero: whoever divides before knowing that must not use the result. (The sanitizers are told.)
+// a / x, 1 / x where x may be zero: whoever divides before knowing that must not use the result. (The sanitizers are told.)
 #if defined(__SANITIZE_ADDRESS__)
-__attribute__((no_sanitize("float-divide-by-zero"))) inline double unchecked_inverse(double x) { return 1.0 / x; }
+__attribute__((no_sanitize("float-divide-by-zero"))) inline double unchecked_ratio(double a, double x) { return a / x; }
 #else
-ENTS_INLINE double unchecked_inverse(double x) { return 1.0 / x; }
+ENTS_INLINE double unchecked_ratio(double a, double x) { return a / x; }
 #endif
-template <class S> ENTS_INLINE S unchecked_inverse(S x) { return 1.0 / x; }
+template <class S> ENTS_INLINE S unchecked_ratio(S a, S x) { return a / x; }
+template <class S> ENTS_INLINE S unchecked_inverse(S x) { return unchecked_ratio(S(1.0), x); }
 template <class S> ENTS_INLINE Dual<S> unchecked_inverse(Dual<S> x) { return 1.0 / x; }
 
 ENTS_INLINE double lane(double x, int) { return x; }

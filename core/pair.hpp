@@ -87,10 +87,10 @@ template <class B, bool H, class S> struct Pair {
       for (int count = 1; count < max_pair_evaluations; ++count) {
         p.evaluate(xi);
         evaluations = select(active, evaluations + 1.0, evaluations);
-        const S q = unchecked_inverse(determinant(p.f2));
         if constexpr (T == 1) {
-          step[0] = p.r[0] * q;
+          step[0] = unchecked_ratio(p.r[0], p.f2[0]);
         } else {
+          const S q = unchecked_inverse(determinant(p.f2));
           step[0] = (p.f2[2] * p.r[0] - p.f2[1] * p.r[1]) * q;
           step[1] = (p.f2[0] * p.r[1] - p.f2[1] * p.r[0]) * q;
         }
@@ -141,7 +141,7 @@ template <class B, bool H, class S> struct Pair {
     S across; // g |m|
     if constexpr (is_flat<B> && !H) across = dot(p.offset, m);
     else across = dot(p.s.d, m);
-    gap_vector = (across * unchecked_inverse(area2_e)) * m;
+    gap_vector = unchecked_ratio(across, area2_e) * m;
     if (measures) {
       const S q = unchecked_inverse(square_root(area2_e));
       normal = q * m;

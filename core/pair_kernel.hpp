@@ -207,6 +207,9 @@ template <class B, bool H, int W> ENTS_INLINE void project_both(Pair<B, H, Lanes
   for (int i = 0; i < T; ++i) a.xi[i] = p.xi[i].low, b.xi[i] = p.xi[i].high;
   a.evaluations = p.evaluations.low, b.evaluations = p.evaluations.high;
   a.ordinary = p.ordinary.low, b.ordinary = p.ordinary.high;
+  const auto& sine = p.projector.sine;
+  a.projector.sine = {sine.turns.low, sine.h.low, sine.slope.low};
+  b.projector.sine = {sine.turns.high, sine.h.high, sine.slope.high};
 }
 
 // Residuals and tangents of the elements e + k whose bit is set in `contact`.

@@ -7,7 +7,7 @@
 //   smoothed                  cubic in each direction; Bezier triangles: of degree four
 #pragma once
 
-#include "core/lanes.hpp"
+#include "core/pair_sine.hpp"
 #include "core/polynomial.hpp"
 #include "core/surface.hpp"
 
@@ -21,12 +21,14 @@ template <class B, class S> struct PairNodes {
   bool has_coordinates;     // else s = xi
   const HeightNode* height; // enriched
 
+  // `sine` moves there
   template <int Order>
-  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, HeightJet<T, S>& h) const {
+  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, SineAt<S>& sine, HeightJet<T, S>& h) const {
+    const auto height_at = [&](const S (&s)[T]) ENTS_LAMBDA_INLINE { return move_height(sine, *height, s); };
     if (has_coordinates) {
-      evaluate_height_by_xi<B, Order>(*height, coordinates, xi, N, h);
+      evaluate_height_by_xi<B, Order>(height_at, coordinates, xi, N, h);
     } else { // number by number: as a whole it would go through memory
-      const HeightJet<T, S> jet = evaluate_height_here(*height, xi);
+      const HeightJet<T, S> jet = height_at(xi);
       h.h = jet.h;
       for (int a = 0; a < T; ++a) h.h1[a] = jet.h1[a];
       for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = jet.h2[k];
@@ -42,7 +44,8 @@ template <class B, class S> struct PairNodes {
     for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
     Shape<Dual<S>, T, B::nodes> N;
     B::template shape<2>(moving, N);
-    evaluate_height_by_xi<B, 2>(*height, coordinates, moving, N, h);
+    const auto height_at = [&](const Dual<S> (&s)[T]) ENTS_LAMBDA_INLINE { return ents::ENTS_ISA::evaluate_height(*height, s); };
+    evaluate_height_by_xi<B, 2>(height_at, coordinates, moving, N, h);
   }
 };
 

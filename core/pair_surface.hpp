@@ -32,6 +32,7 @@ template <class B, bool H, class S> struct PairProjector {
   Rho<B, S> rho;
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
+  SineAt<S> sine;
   S r[T], metric[K], f2[K], twice_merit;
   S inverse_area2; // enriched
 
@@ -42,7 +43,7 @@ template <class B, bool H, class S> struct PairProjector {
     if constexpr (H) {
       AreaVector<S, D> v;
       rho.area_vector(s, v);
-      nodes.template evaluate_height<2>(xi, N, s.height);
+      nodes.template evaluate_height<2>(xi, N, sine, s.height);
       const S area2 = dot(v.m, v.m);
       s.area = square_root(area2);
       inverse_area2 = unchecked_inverse(area2);
@@ -116,6 +117,7 @@ struct PairProjector<B, H, S> {
   const PairNodes<B, S>& nodes;
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
+  SineAt<S> sine;
   Vec<S, D> offset; // x_s - rho at xi = 0
   S base[K], area2, foot[T], zeta;
   S r[T], metric[K], f2[K], twice_merit;
@@ -158,7 +160,7 @@ struct PairProjector<B, H, S> {
       if constexpr (T == 2) lowered[a] = lowered[a] + base[symmetric_index(a, 1)] * off[1];
     }
     if (nodes.has_coordinates) B::template shape<2>(xi, N);
-    nodes.template evaluate_height<2>(xi, N, s.height);
+    nodes.template evaluate_height<2>(xi, N, sine, s.height);
     const auto& h = s.height;
     const S above = zeta - h.h;
     for (int a = 0; a < T; ++a) r[a] = lowered[a] + h.h1[a] * above;
@@ -197,11 +199,12 @@ struct PairProjector<B, H, S> {
 template <bool H, class S> struct QuadDescent {
   static constexpr double rounding = 1e-13; // twice_merit is a difference of squares of the distance
   const PairNodes<Quad4, S>& nodes;
+  SineAt<S>& sine;
   S g00, g01, g02, g0x, g11, g12, g1x, g22, g2x, gxx; // c_i . c_j; x: 12
   S p0, p1, p2, px, m00, m01, m02, m11, m12, m22;     // enriched: of P, of m . m
   S r[2], metric[3], f2[3], twice_merit;
 
-  ENTS_INLINE explicit QuadDescent(const PairProjector<Quad4, H, S>& p) : nodes(p.nodes) {
+  ENTS_INLINE explicit QuadDescent(PairProjector<Quad4, H, S>& p) : nodes(p.nodes), sine(p.sine) {
     const auto& [c, c1, c2, c12] = p.rho;
     g00 = dot(c, c), g01 = dot(c, c1), g02 = dot(c, c2), g0x = dot(c, c12);
     g11 = dot(c1, c1), g12 = dot(c1, c2), g1x = dot(c1, c12), g22 = dot(c2, c2), g2x = dot(c2, c12), gxx = dot(c12, c12);
@@ -228,7 +231,7 @@ template <bool H, class S> struct QuadDescent {
       HeightJet<2, S> h;
       Shape<S, 2, 4> N;
       if (nodes.has_coordinates) Quad4::shape<2>(xi, N);
-      nodes.template evaluate_height<2>(xi, N, h);
+      nodes.template evaluate_height<2>(xi, N, sine, h);
       const S half_1 = m01 + x * m11 + y * m12, half_2 = m02 + x * m12 + y * m22; // (m . m)_,a / 2
       const S area2 = (m00 + x * m01 + y * m02) + x * half_1 + y * half_2;
       const S q2 = unchecked_inverse(area2), q = square_root(area2) * q2; // neither waits for the other

@@ -62,13 +62,13 @@ template <class B, bool H, class S> struct Surface {
   V e2[K];  // rho_e,ab
 };
 
-// h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi
-template <class B, int Order, class S, class C>
-ENTS_INLINE void evaluate_height_by_xi(const HeightNode& height, const C* coordinates, const S (&xi)[B::dim - 1],
+// h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
+template <class B, int Order, class Height, class S, class C>
+ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, const S (&xi)[B::dim - 1],
                                        const Shape<S, B::dim - 1, B::nodes>& N, HeightJet<B::dim - 1, S>& out) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
   if (!coordinates) {
-    out = evaluate_height<T>(height, xi);
+    out = height(xi);
     return;
   }
   S s[T], s1[T][T], s2[K][T];  // s, s_,a, s_,ab
@@ -95,7 +95,7 @@ ENTS_INLINE void evaluate_height_by_xi(const HeightNode& height, const C* coordi
   }
   if constexpr (is_range<S>)
     for (int t = 0; t < T; ++t) s[t] = s[t] + coordinates[t];
-  const HeightJet<T, S> j = evaluate_height<T>(height, s);
+  const HeightJet<T, S> j = height(s);
   out.h = j.h;
   for (int a = 0; a < T; ++a) {
     out.h1[a] = j.h1[0] * s1[a][0];
@@ -173,7 +173,8 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
-    evaluate_height_by_xi<B, Order>(*g.height, g.surface_coordinates, xi, N, s.height);
+    const auto height_at = [&](const S (&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
+    evaluate_height_by_xi<B, Order>(height_at, g.surface_coordinates, xi, N, s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
     if constexpr (bent) {

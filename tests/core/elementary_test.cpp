@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-#include "lanes.hpp"
+#include "test_lanes.hpp"
 #include "worst.hpp"
 
 namespace {

@@ -20,7 +20,7 @@
 #include "core/height_map.hpp"
 #include "core/height_tree.hpp"
 #include "core/thread.hpp"
-#include "lanes.hpp"
+#include "test_lanes.hpp"
 #include "worst.hpp"
 
 namespace {
