@@ -4,91 +4,11 @@
 
 #include <cstring>
 
-#include "core/pair_inputs.hpp"
 #include "core/pair_kernels.hpp"
 #include "core/pair_reduced_friction.hpp"
+#include "core/pair_results.hpp"
 
 namespace ents::ENTS_ISA {
-
-// Where the anchor of lane k is at the end, and how far the slave slipped: the elastic slip that is left belongs to the force that
-// is left.
-template <class B, bool H, class S>
-ENTS_INLINE double move_anchor(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, int k, double* anchor) {
-  constexpr int T = B::dim - 1;
-  if (!(bits_of(f.active) >> k & 1)) {
-    for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k);
-    return 0.0;
-  }
-  double moved[T];
-  for (int a = 0; a < T; ++a) moved[a] = lane(f.moved[a], k);
-  const double kept = bits_of(f.slip) >> k & 1 ? kept_elastic_slip(lane(f.limit, k), lane(f.norm, k), moved) : 1.0;
-  for (int a = 0; a < T; ++a) anchor[a] = lane(p.xi[a], k) - kept * moved[a];
-  const double scale = lane(f.scale, k);
-  return kept < 1.0 && scale > 0.0 ? (1.0 - kept) * lane(f.norm, k) / scale : 0.0;
-}
-
-// t^a / A of lane k
-template <class B, bool H, class S> ENTS_INLINE double traction(const PairFriction<B, H, S>& f, double area, int a, int k) {
-  if (!(bits_of(f.active) >> k & 1) || !(area > 0.0)) return 0.0;
-  return (bits_of(f.slip) >> k & 1 ? lane(f.limit, k) * lane(f.raised[a], k) : lane(f.scale, k) * lane(f.moved[a], k)) / area;
-}
-
-// Small results of one lane.
-template <class B, bool H, bool F, class S>
-ENTS_INLINE void write_scalars(const Plan& plan, const PairBlock& block, const Pair<B, H, S>& p, const PairFriction<B, H, S>& f, int k,
-                               std::int64_t e) {
-  constexpr int T = B::dim - 1;
-  const std::int32_t wanted = block.wanted;
-  const bool pair = bits_of(p.contact) >> k & 1, beyond = bits_of(p.outside) >> k & 1;
-  if (wanted & want::xi)
-    for (int a = 0; a < T; ++a) block.xi[e * block.xi_stride + a] = lane(p.xi[a], k);
-  const double gap = lane(p.gap, k), per_gap = lane(p.per_gap, k), area = lane(p.area, k);
-  if (wanted & want::gap) block.gap[e * block.gap_stride] = gap;
-  if (wanted & want::normal_gap) block.normal_gap[e * block.normal_gap_stride] = gap;
-  for (int c = 0; c < B::dim; ++c) {
-    if (wanted & want::normal) block.normal[e * block.normal_stride + c] = lane(p.normal[c], k);
-    if (wanted & want::point)
-      block.point[e * block.point_stride + c] = block.slave[e * block.slave_stride + c] - lane(p.projector.s.d[c], k);
-    if (wanted & want::traction) { // t^a rho_e,a / A
-      double sum = 0.0;
-      if constexpr (F)
-        for (int a = 0; a < T; ++a) sum += traction(f, area, a, k) * lane(p.projector.s.e[a][c], k);
-      block.traction[e * block.traction_stride + c] = sum;
-    }
-  }
-  if (wanted & want::pressure) block.pressure[e * block.pressure_stride] = pair ? 0.0 - per_gap * gap : 0.0;
-  if (wanted & want::energy)
-    block.energy[e * block.energy_stride] = pair ? area * (per_gap * gap * gap / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
-  if (wanted & want::iterations) block.iterations[e * block.iterations_stride] = static_cast<std::int32_t>(lane(p.evaluations, k));
-  if (!(wanted & (want::state | want::flags | want::age | want::slip))) return;
-  const double* begin = element_at(block.state_begin, block.state_begin_stride, e);
-  bool active = false, slips = false, sheared = false;
-  if constexpr (F) {
-    active = bits_of(f.active) >> k & 1;
-    slips = bits_of(f.slip) >> k & 1;
-    sheared = bits_of(f.at_shear_limit) >> k & 1;
-  }
-  const double now = static_cast<double>(!pair ? History::open : slips ? History::slip : History::stick);
-  const bool changed = begin && !same_status(begin[StateLayout::history_at], now);
-  const double age = begin && !changed ? begin[StateLayout::age_at] + 1.0 : 0.0;
-  if (wanted & want::flags)
-    block.flags[e * block.flags_stride] = (pair ? flag::contact : 0) | (beyond ? flag::outside : 0) | (changed ? flag::changed : 0) |
-                                          (active ? (slips ? flag::slip : flag::stick) : 0) | (sheared ? flag::shear_limit : 0);
-  if (wanted & want::age) block.age[e * block.age_stride] = age;
-  double anchor[T], slipped = 0.0;
-  if constexpr (F) slipped = (begin ? begin[plan.state.slip_at] : 0.0) + move_anchor(p, f, k, anchor);
-  if (wanted & want::slip) block.slip[e * block.slip_stride] = slipped;
-  if (!(wanted & want::state)) return;
-  double* end = block.state_end + e * block.state_end_stride;
-  end[StateLayout::tag_at] = plan.state.tag;
-  end[StateLayout::history_at] = now;
-  end[StateLayout::age_at] = age;
-  for (int a = 0; a < T; ++a) end[StateLayout::xi_at + a] = lane(p.xi[a], k);
-  if constexpr (F) {
-    for (int a = 0; a < T; ++a) end[plan.state.anchor_at + a] = anchor[a];
-    end[plan.state.slip_at] = slipped;
-  }
-}
 
 template <bool F, bool Rigid, class B, bool H, class S>
 using TangentOf = std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
@@ -184,7 +104,7 @@ template <class B, bool H, bool F> ENTS_INLINE bool pair_of_one(const Plan& plan
   if (!p.contact) write_zeros(block, e, plan.dofs);
   else if (plan.dofs == D) write_forces<F, true>(plan, block, p, f, e);
   else write_forces<F, false>(plan, block, p, f, e);
-  if (block.wanted & beside_forces) write_scalars<B, H, F>(plan, block, p, f, 0, e);
+  if (block.wanted & beside_forces) SmallResults<B, F, double>(p, f).write(plan, block, 0, e);
   return true;
 }
 
@@ -262,11 +182,13 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
   else if (contact) write_forces<F, false>(plan, block, p, f, e, contact);
   for (int k = 0; k < W; ++k)
     if ((done & ~contact) >> k & 1) write_zeros(block, e + k, plan.dofs);
-  if (block.wanted & beside_forces)
+  if (block.wanted & beside_forces) {
+    const SmallResults<B, F, S> small(p, f);
     for (int k = 0; k < W; ++k) {
       if (far >> k & 1) write_open(block, e + k);
-      else if (done >> k & 1) write_scalars<B, H, F>(plan, block, p, f, k, e + k);
+      else if (done >> k & 1) small.write(plan, block, k, e + k);
     }
+  }
   return done;
 }
 #endif

@@ -48,7 +48,11 @@ template <class S> ENTS_INLINE void move_sine(SineAt<S>& at, const SineHeight& p
 
 // evaluate_height() at one s after the other
 template <int T, class S> ENTS_INLINE HeightJet<T, S> move_height(SineAt<S>& at, const HeightNode& node, const S (&s)[T]) {
-  if (node.kind != HeightKind::sine) return evaluate_height(node, s);
+  if (node.kind != HeightKind::sine) {
+    S copy[T]; // what a function out of line is told the address of lies in memory, with all that it is part of
+    for (int a = 0; a < T; ++a) copy[a] = s[a];
+    return evaluate_height(node, copy);
+  }
   move_sine(at, node.sine, turns_of(node.sine, s));
   return sine_height<T>(node.sine, at.h, at.slope);
 }
