@@ -24,7 +24,7 @@ template <class B, class S> struct PairNodes {
   // `sine` moves there
   template <int Order>
   ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, SineAt<S>& sine, HeightJet<T, S>& h) const {
-    const auto height_at = [&](const S (&s)[T]) ENTS_LAMBDA_INLINE { return move_height(sine, *height, s); };
+    const auto height_at = [&](const S (&s)[T]) ENTS_LAMBDA_INLINE { return move_height<is_flat<B>>(sine, *height, s); };
     if (has_coordinates) {
       evaluate_height_by_xi<B, Order>(height_at, coordinates, xi, N, h);
     } else { // number by number: as a whole it would go through memory

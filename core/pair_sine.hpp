@@ -46,10 +46,12 @@ template <class S> ENTS_INLINE void move_sine(SineAt<S>& at, const SineHeight& p
   at.turns = turns, at.h = h, at.slope = slope;
 }
 
-// evaluate_height() at one s after the other
-template <int T, class S> ENTS_INLINE HeightJet<T, S> move_height(SineAt<S>& at, const HeightNode& node, const S (&s)[T]) {
+// evaluate_height() at one s after the other. What a function out of line is told the address of lies in memory, with all that it is part of:
+// Apart, it is told that of a copy. Faster where registers hold most of a projection's numbers.
+template <bool Apart, int T, class S> ENTS_INLINE HeightJet<T, S> move_height(SineAt<S>& at, const HeightNode& node, const S (&s)[T]) {
   if (node.kind != HeightKind::sine) {
-    S copy[T]; // what a function out of line is told the address of lies in memory, with all that it is part of
+    if constexpr (!Apart) return evaluate_height(node, s);
+    S copy[T];
     for (int a = 0; a < T; ++a) copy[a] = s[a];
     return evaluate_height(node, copy);
   }
