@@ -43,21 +43,25 @@ template <class S, int D> ENTS_INLINE void set_constant(Vec<Dual<S>, D>& a, cons
   set_dual(a, value, Vec<S, D>::zero());
 }
 
-template <class S, int D> ENTS_INLINE Vec<S, D> operator+(Vec<S, D> a, const Vec<S, D>& b) {
-  for (int i = 0; i < D; ++i) a.c[i] = a.c[i] + b.c[i];
-  return a;
+template <class S, int D> ENTS_INLINE Vec<S, D> operator+(const Vec<S, D>& a, const Vec<S, D>& b) {
+  Vec<S, D> v;
+  for (int i = 0; i < D; ++i) v.c[i] = a.c[i] + b.c[i];
+  return v;
 }
-template <class S, int D> ENTS_INLINE Vec<S, D> operator-(Vec<S, D> a, const Vec<S, D>& b) {
-  for (int i = 0; i < D; ++i) a.c[i] = a.c[i] - b.c[i];
-  return a;
+template <class S, int D> ENTS_INLINE Vec<S, D> operator-(const Vec<S, D>& a, const Vec<S, D>& b) {
+  Vec<S, D> v;
+  for (int i = 0; i < D; ++i) v.c[i] = a.c[i] - b.c[i];
+  return v;
 }
-template <class S, int D> ENTS_INLINE Vec<S, D> operator-(Vec<S, D> a) {
-  for (int i = 0; i < D; ++i) a.c[i] = -a.c[i];
-  return a;
+template <class S, int D> ENTS_INLINE Vec<S, D> operator-(const Vec<S, D>& a) {
+  Vec<S, D> v;
+  for (int i = 0; i < D; ++i) v.c[i] = -a.c[i];
+  return v;
 }
-template <class S, int D> ENTS_INLINE Vec<S, D> operator*(S s, Vec<S, D> a) {
-  for (int i = 0; i < D; ++i) a.c[i] = s * a.c[i];
-  return a;
+template <class S, int D> ENTS_INLINE Vec<S, D> operator*(const S& s, const Vec<S, D>& a) {
+  Vec<S, D> v;
+  for (int i = 0; i < D; ++i) v.c[i] = s * a.c[i];
+  return v;
 }
 // a += s b
 template <class S, int D> ENTS_INLINE void add_scaled(Vec<S, D>& a, S s, const Vec<S, D>& b) {
