@@ -55,11 +55,29 @@ template <> struct ReducedExpansion<Quad4> {
   }
 };
 
+// of the fields to the nodes
+template <class Tangent, class V, int Fields, int M> ENTS_INLINE void expand_fields(const Tangent& t, const V (&field)[Fields], V (&at)[M]) {
+  if constexpr (M == 1) at[0] = field[0];
+  else Tangent::Expansion::expand(t.xi, field, at);
+}
+
+// f(a) of each natural coordinate. Code for eight elements, written once for each coordinate, would not fit into the cache of instructions.
+template <int T, class S, class F> ENTS_INLINE void for_each_coordinate(F&& f) {
+  if constexpr (std::is_same_v<S, double> || register_width < 8) {
+    for (int a = 0; a < T; ++a) f(a);
+  } else {
+    ENTS_ROLLED
+    for (int a = 0; a < T; ++a) f(a);
+  }
+}
+
 template <class Tangent>
 concept Reduced = requires { typename Tangent::Expansion; };
 
 // component c of v += x
-template <class S, int D> ENTS_INLINE void add_to_component(Vec<S, D>& v, int c, const S& x) { v[c] = v[c] + x; }
+template <class S, int D> ENTS_INLINE void add_to_component(Vec<S, D>& v, int c, const S& x) {
+  for (int i = 0; i < D; ++i) v[i] = i == c ? v[i] + x : v[i];
+}
 #if defined(__AVX__) && defined(__GNUC__) && !defined(__clang__)
 inline constexpr long long component_masks[5] = {0, 0, -1, 0, 0};
 ENTS_INLINE void add_to_component(Vec<double, 3>& v, int c, double x) {
@@ -75,29 +93,35 @@ ENTS_INLINE void add_to_component(Vec<double, 3>& v, int c, double x) {
 template <Reduced Tangent, class Between, class Block> ENTS_INLINE void expand_columns(const Tangent& t, int c, Between&& between, Block&& block) {
   constexpr int fields = Tangent::fields, M = Tangent::M;
   using V = typename Tangent::V;
-  V along[fields][M];
+  V along[M][fields];
   unroll<fields>([&](auto column) ENTS_LAMBDA_INLINE {
-    V of[fields];
+    V of[fields], at[M];
     unroll<fields>([&](auto row) ENTS_LAMBDA_INLINE { of[row] = t.template entries<row.value, column.value>(c); });
-    if (t.curved_law) t.template add_curved_law<column.value>(c, of);
-    if constexpr (M == 1) along[column][0] = of[0];
-    else Tangent::Expansion::expand(t.xi, of, along[column]);
+    expand_fields(t, of, at);
+    for (int m = 0; m < M; ++m) along[m][column] = at[m];
     between();
   });
   for (int m = 0; m < M; ++m) {
-    V row[fields], at[M];
-    for (int f = 0; f < fields; ++f) row[f] = along[f][m];
-    if constexpr (M == 1) at[0] = row[0];
-    else Tangent::Expansion::expand(t.xi, row, at);
+    V at[M];
+    expand_fields(t, along[m], at);
     for (int n = 0; n < M; ++n) block(m, n, at[n]);
   }
+}
+
+// + g g^T
+template <int D, Reduced Tangent> ENTS_NOINLINE void add_curved_law(const Tangent& t, double* out, std::int64_t leading) {
+  for (int n = 0; n < Tangent::M; ++n)
+    for (int c = 0; c < D; ++c)
+      for (int m = 0; m < Tangent::M; ++m)
+        for (int i = 0; i < D; ++i) out[(D * n + c) * leading + D * m + i] += t.g[n][c] * t.g[m][i];
 }
 
 template <int D, Reduced Tangent> ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
   for (int c = 0; c < D; ++c)
     expand_columns(
         t, c, []() ENTS_LAMBDA_INLINE {},
-        [&](int m, int n, const Vec<double, D>& v) ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + D * m); });
+        [&](int m, int n, const auto& v) ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + D * m); });
+  if (t.curved_law) add_curved_law<D>(t, out, leading);
 }
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
 // A vector of each lane to an element of its own: to(lane)
@@ -112,11 +136,14 @@ template <int D, Reduced Tangent, int W>
 ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used, DeferredCopy* last) {
   constexpr int N = Tangent::N, steps = D * Tangent::fields;
   using S = Lanes<W>;
-  S entries[N * N];
   const auto between = [&]() ENTS_LAMBDA_INLINE { copy_beside(last, (W * N * N + steps - 1) / steps); };
-  unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
-    expand_columns(t, c, between, [&](int m, int n, const Vec<S, D>& v) ENTS_LAMBDA_INLINE { store(v, entries + (D * n + c) * N + D * m); });
-  });
+  S entries[N * N];
+  ENTS_ROLLED // as in for_each_coordinate()
+  for (int c = 0; c < D; ++c)
+    expand_columns(t, c, between, [&](int m, int n, auto& v) ENTS_LAMBDA_INLINE {
+      if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
+      store(v, entries + (D * n + c) * N + D * m);
+    });
   write_columns<N>(out, leading, used, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entries[i]; });
 }
 #endif

@@ -23,7 +23,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
   Form<B, S> Z[turns ? T : 1], z[bends ? T : 1];
   Form<B, S> bent_z[bends ? fields - D : 1]; // sum of y^b z_a over both orders of ab
   S stiffness, y[T], xi[T];
-  Form<B, S> g;
+  V g[M]; // at the nodes
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction) {
@@ -37,8 +37,16 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
       if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(drift); });
     });
     curved_law = plan.law.twice_exponent > 2;
-    if (curved_law) form_of_g(plan, pair, g);
-    else unroll<fields_of_g>([&](auto f) ENTS_LAMBDA_INLINE { on_field<f.value>(g) = V::zero(); });
+    if (curved_law) {
+      Form<B, S> form;
+      form_of_g(plan, pair, form);
+      V of[fields];
+      unroll<fields>([&](auto f) ENTS_LAMBDA_INLINE {
+        if constexpr (f.value < fields_of_g) of[f] = on_field<f.value>(form);
+        else of[f] = V::zero();
+      });
+      expand_fields(*this, of, g);
+    }
   }
 
   // What K has on field `Row`, of component c of field `Column`, but for g g^T
@@ -54,11 +62,6 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
     else if constexpr (Row == 0 && Column <= T) add_to_component(sum, c, -y[Column - 1]);
     else if constexpr (Column == 0 && Row <= T) add_to_component(sum, c, -y[Row - 1]);
     return sum;
-  }
-  // Of g g^T
-  template <int Column> ENTS_INLINE void add_curved_law(int c, V (&column)[fields]) const {
-    if constexpr (Column < fields_of_g)
-      unroll<fields_of_g>([&](auto row) ENTS_LAMBDA_INLINE { add(column[row], on_field<Column>(g)[c], on_field<row.value>(g)); });
   }
 
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
@@ -79,7 +82,8 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
     if constexpr (turns) hand_out_vector(n, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].n; });
     if constexpr (bends) hand_out_vector(n_rate, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].n_rate; });
     if constexpr (bends) form(Index<slopes>{}, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.bent_z[0]; });
-    if (curved_law) form(Index<fields_of_g>{}, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.g; });
+    if (curved_law)
+      for (int m = 0; m < M; ++m) hand_out_vector(g[m], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g[m]; });
     for (int k = 0; k < 4; ++k) {
       one[k].curved_law = curved_law;
       one[k].stiffness = lane(stiffness, k);
@@ -124,13 +128,13 @@ private:
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     const typename Forms::ChangeOfForce change(plan, pair, friction);
-    for (int a = 0; a < T; ++a) {
+    for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> Yf, Pf;
       Forms::template set_Y_and_P<true>(a, drift, stiffness, f, xf, change, Yf, Pf);
       keep<Forms::parts>(xf[a], x[a]);
       keep<Forms::parts_of_rate>(Yf, Y[a]);
       keep<Forms::parts_of_rate>(Pf, P[a]);
-    }
+    });
   }
 
   ENTS_INLINE void set_height_terms(const Drift& drift) {
@@ -138,12 +142,12 @@ private:
     forms_of_z<B>(drift.s, moving_z);
     n = drift.p.s.n;
     Form<B, S> zf[T];
-    for (int a = 0; a < T; ++a) {
+    for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> Zf;
       Forms::set_Z(moving_z[a], drift, stiffness, zf[a], Zf);
       keep<Forms::parts_of_z_rate>(Zf, Z[a]);
       if constexpr (bends) keep<Forms::parts_of_z>(zf[a], z[a]);
-    }
+    });
     if constexpr (bends) {
       n_rate = derivative_of(drift.s.n);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {

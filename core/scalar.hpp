@@ -17,6 +17,15 @@
 #define ENTS_ISA portable
 #endif
 
+// Before a loop that stays one, however few its turns
+#if defined(__clang__)
+#define ENTS_ROLLED _Pragma("clang loop unroll(disable)")
+#elif defined(__GNUC__)
+#define ENTS_ROLLED _Pragma("GCC unroll 1")
+#else
+#define ENTS_ROLLED
+#endif
+
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ENTS_INLINE inline  // instrumented code inlined by force would take minutes to compile
 #define ENTS_LAMBDA_INLINE
