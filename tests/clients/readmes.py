@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+"""readmes.py ROOT BUILD: what the READMEs show is what is there.
+
+listings   a fenced block of code is a part, unchanged, of a file that its README links to
+links      relative links name files, and headings of READMEs
+commands   programs, files, and tests that a command names exist: a filter of tests that matches none is a mistake
+heights    the library accepts every height of the top README
+size       the top README has at most 160 lines; its lines of prose have at most 120 characters
+
+BUILD has bin/ with the programs and CTestTestfile.cmake; ENTS_LIBRARY names libents.so. Exit status 3: no NumPy.
+"""
+import functools
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+sys.path.insert(0, str(root / "adapters" / "python"))
+mistakes = []
+counts = dict.fromkeys(["READMEs", "listings", "links", "commands", "filters", "heights"], 0)
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+RUN_ELSEWHERE = {"adapters/README.md": "python"}  # python_test.py runs this block
+
+
+def slug(heading):
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+    return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+
+
+def blocks(lines):
+    """(number of the line, language or None for indented code, lines) of every block of code; and the lines of prose"""
+    found, prose, inside = [], [], None
+    for number, line in enumerate(lines, 1):
+        if line.startswith("```"):
+            if inside is None:
+                inside = (number, line[3:].strip(), [])
+                found.append(inside)
+            else:
+                inside = None
+        elif inside:
+            inside[2].append(line)
+        elif line.startswith("    "):
+            found.append((number, None, [line[4:]]))
+        else:
+            prose.append((number, line))
+    return found, prose
+
+
+def listing_is_shown(code, files):
+    for file in files:
+        text = file.read_text(errors="replace").splitlines()
+        if any(text[i:i + len(code)] == code for i in range(len(text) - len(code) + 1)):
+            return True
+    return False
+
+
+def check_link(where, folder, target):
+    if re.match(r"[a-z]+:", target):
+        return
+    counts["links"] += 1
+    path, _, anchor = target.partition("#")
+    file = (folder / path).resolve() if path else where[0]
+    if not file.exists():
+        mistakes.append(f"{where[1]}: no such file: {target}")
+        return
+    if file.is_dir():
+        file = file / "README.md"
+    if anchor and anchor not in {slug(h) for h in re.findall(r"(?m)^#+ (.*)$", file.read_text())}:
+        mistakes.append(f"{where[1]}: no such heading: {target}")
+
+
+def ctest_lists(*options):
+    command = [shutil.which("ctest"), "--test-dir", build, "-N", *options]
+    return subprocess.run(command, capture_output=True, text=True).stdout
+
+
+@functools.cache
+def all_tests_are_built():
+    return (build / "CTestTestfile.cmake").exists() and "_NOT_BUILT" not in ctest_lists()
+
+
+def check_command(where, text):
+    """`text` is a line of a block of commands, or code within prose."""
+    for word in re.findall(r"(?<![\w./-])(?:examples|tests|adapters|abi|core)/[\w./-]+\w", text):
+        if re.search(r"(^|/)[A-Z]+(/|$)", word):  # examples/SCENE/scene.json: for the reader to fill in
+            continue
+        counts["commands"] += 1
+        if not (root / word).exists():
+            mistakes.append(f"{where}: no such file: {word}")
+    for program in re.findall(r"build/bin/([\w-]+)", text):
+        counts["commands"] += 1
+        if not re.search(rf"\b{program}\b", targets):
+            mistakes.append(f"{where}: no such program: {program}")
+        pattern = re.search(r"--gtest_filter='?([^'\s`]+)", text)
+        if pattern and (build / "bin" / program).exists():
+            counts["filters"] += 1
+            listed = subprocess.run([build / "bin" / program, "--gtest_list_tests", f"--gtest_filter={pattern[1]}"],
+                                    capture_output=True, text=True).stdout
+            if "\n  " not in listed:
+                mistakes.append(f"{where}: {program} has no test {pattern[1]}")
+    option = re.search(r"^ctest .*?(-[LR]) +'?([^'\s]+)", text)
+    if option and not option[2].isupper() and all_tests_are_built():
+        counts["filters"] += 1
+        if "Total Tests: 0" in ctest_lists(*option.groups()):
+            mistakes.append(f"{where}: ctest finds no test: {text}")
+
+
+def check_readme(file):
+    counts["READMEs"] += 1
+    name, folder = str(file.relative_to(root)), file.parent
+    code, prose = blocks(file.read_text().splitlines())
+    text = "\n".join(line for _, line in prose)
+    linked = [folder / path for path in LINK.findall(text) if (folder / path).is_file()]
+    for number, language, lines in code:
+        where = f"{name}:{number}"
+        if language is None:
+            check_command(where, lines[0])
+        elif RUN_ELSEWHERE.get(name) != language:
+            counts["listings"] += 1
+            if not listing_is_shown(lines, linked):
+                mistakes.append(f"{where}: this listing is no part of a file that the README links to")
+    for number, line in prose:
+        where = f"{name}:{number}"
+        for target in LINK.findall(re.sub(r"`[^`]*`", "", line)):
+            check_link((file, where), folder, target)
+        for command in re.findall(r"`((?:sh |build/bin/|ctest |python3 )[^`]+)`", line):
+            check_command(where, command)
+
+
+def check_top(file):
+    text = file.read_text()
+    lines = text.splitlines()
+    if len(lines) > 160:
+        mistakes.append(f"README.md has {len(lines)} lines, more than 160")
+    for number, line in blocks(lines)[1]:
+        if len(line) > 120 and not line.startswith(("|", "![")):
+            mistakes.append(f"README.md:{number}: {len(line)} characters, more than 120")
+    try:
+        import ents
+    except ImportError as error:
+        print(f"not run: {error}")
+        sys.exit(3)
+    for height in re.findall(r"`(\{\"type\".*?\})`", text):
+        counts["heights"] += 1
+        try:
+            ents.Model({"segment": "quad4", "height": json.loads(height)}, directory=str(root / "examples" / "rough_afm"))
+        except (ValueError, ents.Error) as error:
+            mistakes.append(f"README.md: {height}: {error}")
+
+
+skipped = {"build", "out", "node_modules"}
+targets = "\n".join(p.read_text() for p in root.rglob("CMakeLists.txt") if not p.relative_to(root).parts[0].startswith("build"))
+for readme in sorted(root.rglob("README.md")):
+    top = readme.relative_to(root).parts[0]
+    if top not in skipped and not top.startswith(("build", ".")):
+        check_readme(readme)
+check_top(root / "README.md")
+print(", ".join(f"{count} {what}" for what, count in counts.items()))
+if min(count for what, count in counts.items() if what != "filters") == 0 or mistakes:
+    print("\n".join(mistakes) or "nothing was checked of one kind", file=sys.stderr)
+    sys.exit(1)
