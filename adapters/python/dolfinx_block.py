@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""dolfinx and PETSc's SNES solve block.json, on any number of processes: bulk, matrix and Newton's iteration are theirs, contact comes from ents.py.
+"""dolfinx and PETSc's SNES solve block.json, on any number of processes: bulk, matrix and Newton's iteration are theirs, contact comes from ents.
 
 usage: dolfinx_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
        mpirun -n 2 python3 -m mpi4py dolfinx_block.py ...

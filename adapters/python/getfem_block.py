@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact comes from ents.py.
+"""GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact comes from ents.
 
 usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
 

@@ -1,4 +1,4 @@
-"""python_test.py ents.py-FOLDER LAYOUT-PROGRAM FIRST-PROGRAM: the Python module against ents.h, as the C compiler sees it, and against the library.
+"""python_test.py FOLDER-OF-ents LAYOUT-PROGRAM FIRST-PROGRAM: the Python module against ents.h, as the C compiler sees it, and against the library.
 
 LAYOUT-PROGRAM prints constants, sizes and offsets of ents.h (abi/header_layout.sh), FIRST-PROGRAM is clients/first.c. The library is the one of
 the environment's ENTS_LIBRARY. Exit status 3: no NumPy here, nothing was tested.

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact elements of libents.so in Python: abi/ents.h through ctypes, with NumPy arrays. Nothing is compiled.
+
+    import ents
+    model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 5e3}}})
+    result = model.evaluate(slave, master, want="gap residual tangent")     # arrays by name
+
+Conventions are those of ents.h: current positions, indices from 0, dofs node by node (slave, then master nodes, then multipliers), units of
+the host. Matrices here are ordinary ones: tangent[e, i, j] = dR_i / du_j of element e. Arrays are converted to float64 / int64 and copied where they are
+not so already; indices may be floating point numbers if they are whole. Calls release the interpreter's lock: threads that evaluate the same model run at the same time.
+
+Mistakes raise ents.Error with the library's own message. What a cut of the step can cure (0 < status < 100) is no exception: "status" of
+the result holds it for every element, "step_factor" and "message" say what to do.
+"""
+try:
+    import numpy  # noqa: F401
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError("ents needs NumPy: apt-get install python3-numpy, or python3 -m pip install numpy") from error
+
+from ._arrays import Error, _new  # noqa: F401
+from ._library import Library, library  # noqa: F401
+from ._model import Model  # noqa: F401
+from ._structs import *  # noqa: F401,F403
+from ._surface import Tree  # noqa: F401
+from ._system import System  # noqa: F401

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A contact model, and what its elements return."""
+import ctypes
+import json
+import os
+import pathlib
+
+import numpy as np
+
+from . import _library
+from ._arrays import Error, _address, _array, _new
+from ._structs import _STRIDED, QUANTITIES, Data, Input, Layout, Output, Status, Surface
+
+
+class Model:
+    """A contact model, immutable.
+
+    source     dict or JSON text (it begins with "{"), else the name of a JSON file; abi/model.schema.json says what it may hold
+    data       {name: array}: height maps that the text refers to by name; copied
+    directory  where relative names of height maps in a text start; a file's own folder if `source` is one
+    """
+
+    def __init__(self, source, data=None, directory=None, library=None):
+        self.library = library or _library.library()
+        self._handle = ctypes.c_void_p()
+        arrays = {name: np.atleast_2d(np.ascontiguousarray(values, np.float64)) for name, values in (data or {}).items()}
+        names = [name.encode() for name in arrays]
+        structs = (Data * len(arrays))(*(_new(Data, name=ctypes.cast(ctypes.c_char_p(name), ctypes.c_void_p), values=_address(values),
+                                              rows=values.shape[0], columns=values.shape[1])
+                                         for name, values in zip(names, arrays.values())))
+        if isinstance(source, dict):
+            source = json.dumps(source)
+        elif not (isinstance(source, str) and source.lstrip().startswith("{")) and arrays:
+            directory = directory or os.path.dirname(os.path.abspath(source))
+            with open(source, encoding="utf-8") as file:
+                source = file.read()
+        if isinstance(source, str) and source.lstrip().startswith("{"):
+            text = source.encode()
+            folder = None if directory is None else os.fsencode(directory)
+            self.library.call("model_create", text, len(text), folder, structs, len(arrays), ctypes.byref(self._handle))
+        else:
+            self.library.call("model_create_from_file", os.fsencode(source), ctypes.byref(self._handle))
+        text = source if isinstance(source, str) and source.lstrip().startswith("{") else pathlib.Path(source).read_text(encoding="utf-8")
+        parsed = json.loads(text)
+        self.segment, self.patch = parsed["segment"], parsed.get("patch")
+        self.layout = _new(Layout)
+        """Sizes: dimension, nodes, parameters, dofs, state_size, symmetric_tangent, multipliers, friction, augmentable; needs (see Need) and instruction_set."""
+        self._call("model_layout", self.layout)
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            self.library.c.ents_model_destroy(ctypes.byref(self._handle), None)
+
+    def _call(self, name, *arguments):
+        return self.library.call(name, self._handle, *arguments)
+
+    def state_init(self, count):
+        """[count][state_size]: states of elements without history."""
+        state = np.zeros((count, self.layout.state_size))
+        self._call("state_init", count, state, self.layout.state_size)
+        return state
+
+    def state_augment(self, state_begin, state_end):
+        """Uzawa's step: multipliers of `state_end` into `state_begin` (an array of state_init), in its place."""
+        size = self.layout.state_size
+        _array("state_begin", state_begin, (None, size))
+        end = _array("state_end", state_end, (len(state_begin), size))
+        if not (state_begin.flags.c_contiguous and state_begin.dtype == np.float64):
+            raise Error(Status.BAD_VALUE, "state_begin: give the array that state_init made, it is changed in its place")
+        self._call("state_augment", len(end), state_begin, size, end, size)
+
+    def state_transfer(self, old_master, new_master, state, old_surface_coordinates=None, new_surface_coordinates=None):
+        """A slave moves on to another segment: its `state` [state_size] as seen from there. Masters [m][d] at the begin of the increment, surface
+        coordinates [m][d-1]. Returns (status, moved): status 0, or recoverable (cut the step)."""
+        lay = self.layout
+        segments = [_array(name, value, (lay.nodes, lay.dimension)) for name, value in (("old_master", old_master), ("new_master", new_master))]
+        coordinates = [None if value is None else _array(name, value, (lay.nodes, lay.dimension - 1)) for name, value in (
+            ("old_surface_coordinates", old_surface_coordinates), ("new_surface_coordinates", new_surface_coordinates))]
+        state, moved = _array("state", state, (lay.state_size,)), np.zeros(lay.state_size)
+        report = self._call("state_transfer", *(x for pair in zip(segments, coordinates) for x in pair), state, moved)
+        return report.status, moved
+
+    def evaluate(self, slave, master=None, want="residual tangent", *, tree=None, segment=None, surface_coordinates=None, start=None,
+                 area=None, state=None, multiplier=None, first=0, count=None, out=None):
+        """Contact elements, one slave node and one segment each.
+
+        slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
+        want       names of QUANTITIES, as one string or a list
+        surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers]: one for
+                   all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
+        first, count  evaluates a range of the n (threads that share `out`)
+        out        the result of a former call with the same n and `want`, filled again; new arrays else
+
+        Returns {name: array [n]...} and "status" [n] (0, or recoverable: nothing else is written for that element), "step_factor", "message": those
+        of this call's range. Where ranges share `out`, the last call's are left in it: look at "status".
+        """
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
+                                   state_begin=state, multiplier=multiplier)
+        result, block_out = self._output(len(slave), want, out)
+        report = self._call("evaluate", first, len(slave) - first if count is None else count, block, block_out)
+        result.update(step_factor=report.step_factor, message=report.message.decode())
+        return result
+
+    def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None):
+        """Residual and tangent are added to `system` (System), by the library. slave [n][d]: positions of the slave points; tree and segment [n]
+        as detect gives them (-1: open); the rest as for evaluate. Returns what evaluate does, for all n elements. After an error or a
+        recoverable status the system holds a part of the sum."""
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier)
+        result, block_out = self._output(len(slave), want, None)
+        report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, tree, len(slave)))
+        result.update(step_factor=report.step_factor, message=report.message.decode())
+        return result
+
+    def _input(self, slave, tree, segment, **inputs):
+        """ents_input, and the arrays that it points to."""
+        lay = self.layout
+        d, m, n = lay.dimension, lay.nodes, len(slave)
+        given = {"slave": slave}
+        block = _new(Input, slave=slave.ctypes.data, slave_stride=d)
+        shapes = {"master": (m, d), "surface_coordinates": (m, d - 1), "start": (d - 1,), "area": (), "state_begin": (lay.state_size,),
+                  "multiplier": (lay.multipliers,)}
+        for name, value in inputs.items():
+            if value is None:
+                continue
+            shape = shapes[name]
+            number = np.ndim(value) == 0 and len(shape) < 2  # of all elements and all entries
+            shared = number or np.ndim(value) == len(shape)
+            given[name] = np.full(shape, value, np.float64) if number else _array(name, value, shape if shared else (n, *shape))
+            setattr(block, name, given[name].ctypes.data)
+            setattr(block, name + "_stride", 0 if shared else int(np.prod(shape)))
+        if tree is not None:
+            given["segment"] = _array("segment", segment, (n,), np.int64)
+            block.mesh, block.segment, block.segment_stride = ctypes.addressof(tree.mesh), given["segment"].ctypes.data, 1
+        return given, block
+
+    def _output(self, n, want, out):
+        """ents_output, and the arrays that it points to: new ones, or those of `out`."""
+        lay = self.layout
+        d, dofs, own = lay.dimension, lay.dofs, lay.dofs - lay.multipliers
+        names = want.split() if isinstance(want, str) else list(want)
+        unknown = [name for name in names if name not in QUANTITIES]
+        if unknown:
+            raise Error(Status.BAD_MASK, f"want: there is no {', '.join(unknown)}; take some of {', '.join(QUANTITIES)}")
+        shapes = {"xi": (d - 1,), "normal": (d,), "point": (d,), "traction": (d,), "gap_gradient": (own,), "gap_hessian": (own, own),
+                  "xi_gradient": (d - 1, own), "xi_hessian": (d - 1, own, own), "residual": (dofs,), "tangent": (dofs, dofs),
+                  "state_end": (lay.state_size,)}
+        result = {} if out is None else out
+
+        def target(name, shape, dtype):
+            """Address of the quantity's array, a new one or that of `out`. The library's matrices are column-major: seen from Python, transposed."""
+            turned = name in ("tangent", "gap_hessian", "xi_hessian")
+            if out is None:
+                array = np.zeros((n, *shape), dtype)
+                result[name] = np.swapaxes(array, -1, -2) if turned else array
+            array = result.get(name)
+            memory = np.swapaxes(array, -1, -2) if turned and np.ndim(array) > 1 else array
+            if not isinstance(array, np.ndarray) or array.shape != (n, *shape) or array.dtype != dtype or not memory.flags.c_contiguous:
+                raise Error(Status.BAD_COUNT, f"out: {name} is not that of a result for {n} elements and the same `want`")
+            return array.ctypes.data
+
+        block_out = _new(Output, wanted=sum(QUANTITIES[name] for name in set(names)), status=target("status", (), np.int32), status_stride=1)
+        for name, kind in _STRIDED:
+            if name in names:
+                shape = shapes.get(name, ())
+                setattr(block_out, name, target(name, shape, np.int32 if kind == "i" else np.float64))
+                setattr(block_out, name + "_stride", int(np.prod(shape)))
+        return result, block_out
+
+    def blocks(self, slave, tree, segment, slave_equations, master_equations, rows, multiplier_equations=None, want="", **inputs):
+        """Residual and tangent in the equations of the host.
+
+        segment              [n] of tree.detect; -1: open
+        slave_equations      [n][d] row of each dof of the slaves; master_equations [nodes][d] of the nodes of `tree` (None: rigid). -1:
+                             prescribed, left out. multiplier_equations [n][multipliers]
+        area, state ...      as for evaluate; with a leading [n]
+        Returns R [rows], (values, (i, j)), result: scipy.sparse.coo_matrix(values_ij, (rows, rows)) adds up what falls on one place. `result`
+        is that of evaluate for the elements result["closed"] (indices), the others are open (with multipliers: evaluate those yourself).
+        """
+        lay = self.layout
+        slave = _array("slave", slave, (None, lay.dimension))
+        segment = _array("segment", segment, (len(slave),), np.int64)
+        closed = np.flatnonzero(segment >= 0)
+        if lay.multipliers and len(closed) < len(segment):
+            raise Error(Status.BAD_VALUE, "segment: an element with multiplier dofs needs a segment, open ones too (their equation: multiplier = 0)")
+        own = {name: np.asarray(value)[closed] if np.ndim(value) and len(value) == len(slave) else value for name, value in inputs.items()}
+        result = self.evaluate(slave[closed], None, f"residual tangent {want}", tree=tree, segment=segment[closed], **own)
+        parts = [_array("slave_equations", slave_equations, (len(slave), lay.dimension), np.int64)[closed]]
+        if lay.dofs - lay.multipliers > lay.dimension:
+            of_nodes = _array("master_equations", master_equations, (tree.mesh.nodes, lay.dimension), np.int64)
+            parts.append(of_nodes[tree.connectivity[segment[closed]]].reshape(len(closed), lay.nodes * lay.dimension))
+        if lay.multipliers:
+            parts.append(_array("multiplier_equations", multiplier_equations, (len(slave), lay.multipliers), np.int64)[closed])
+        equations = np.concatenate(parts, axis=1)
+        residual = np.zeros(rows)
+        kept = equations >= 0
+        np.add.at(residual, equations[kept], result["residual"][kept])
+        i, j = np.broadcast_arrays(equations[:, :, None], equations[:, None, :])
+        kept = (i >= 0) & (j >= 0) & (result["tangent"] != 0)
+        result["closed"] = closed
+        return residual, (result["tangent"][kept], (i[kept], j[kept])), result
+
+    def surface(self, master, xi, surface_coordinates=None):
+        """Points of one enriched segment, for pictures: master [m][d], xi [n][d-1]. Returns dict: point, normal, height, base_point, base_normal."""
+        d = self.layout.dimension
+        master, xi = _array("master", master, (self.layout.nodes, d)), _array("xi", xi, (None, d - 1))
+        if surface_coordinates is not None:
+            surface_coordinates = _array("surface_coordinates", surface_coordinates, (self.layout.nodes, d - 1))
+        out = {name: np.zeros(len(xi) if name == "height" else (len(xi), d)) for name in "point normal height base_point base_normal".split()}
+        self._call("surface_evaluate", len(xi), _new(
+            Surface, master=master.ctypes.data, surface_coordinates=_address(surface_coordinates), xi=xi.ctypes.data,
+            **{name: array.ctypes.data for name, array in out.items()}))
+        return out
