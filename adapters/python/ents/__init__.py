@@ -3,7 +3,9 @@
 
     import ents
     model = ents.Model({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 5e3}}})
-    result = model.evaluate(slave, master, want="gap residual tangent")     # arrays by name
+    result = model.evaluate(slave, master, want="gap residual tangent")     # arrays by name: single elements
+    contact = ents.Contact(model, positions, slave_facets, master_facets)   # two surfaces of your mesh (needs SciPy)
+    residual, tangent = contact.update(u)
 
 Conventions are those of ents.h: current positions, indices from 0, dofs node by node (slave, then master nodes, then multipliers), units of
 the host. Matrices here are ordinary ones: tangent[e, i, j] = dR_i / du_j of element e. Arrays are converted to float64 / int64 and copied where they are
@@ -23,3 +25,4 @@ from ._model import Model  # noqa: F401
 from ._structs import *  # noqa: F401,F403
 from ._surface import Tree  # noqa: F401
 from ._system import System  # noqa: F401
+from .contact import Contact, CutStep  # noqa: F401
