@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""dolfinx and PETSc's SNES solve block.json, on any number of processes: bulk, matrix and Newton's iteration are theirs, contact comes from ents.
+"""dolfinx and PETSc's SNES solve block.json, on any number of processes: bulk, matrix and Newton's iteration are theirs, contact is ents.Contact.
 
 usage: dolfinx_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
        mpirun -n 2 python3 -m mpi4py dolfinx_block.py ...
@@ -23,7 +23,7 @@ ARGUMENTS = block.arguments(__doc__) if __name__ == "__main__" else None  # befo
 try:
     import dolfinx
     import numpy as np
-    import scipy.sparse as sparse
+    import scipy  # noqa: F401
     import ufl
     from dolfinx import fem
     from dolfinx.fem import petsc as fem_petsc
@@ -66,54 +66,21 @@ class Contact:
 
     def __init__(self, scene, parts, owned):
         contact = scene["contact"]
-        self.slaves, masters = parts.sides[contact["slave"]], parts.sides[contact["master"]["faces"]]
-        self.nodes = np.concatenate([self.slaves, masters])
-        self.start = parts.nodes[self.nodes]
-        chain = lambda n: np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points out of the lower block
-        self.model = ents.Model(contact["model"])
-        segments, points, basis = chain(len(masters)), sparse.identity(len(masters), format="csr"), contact["model"]["segment"]
-        if basis != "line2":  # ents-host repeats the nodes at the ends
-            segments, (begin, of, weights) = self.model.library.smooth("line2", basis, segments, len(masters), ents.ENDS_REPEATED)
-            points = sparse.csr_matrix((weights, of, begin), (len(begin) - 1, len(masters)))
-        self.points = points
-        start = points @ parts.nodes[masters]
-        surface = start[segments][:, :, :1] if "surface_coordinates" in contact["master"] else None  # s is the reference x
-        self.tree = ents.Tree(self.model, segments, start, surface)
-        self.area = self.model.library.tributary_areas("line2", chain(len(self.slaves)), parts.nodes[self.slaves])
-        ns = 2 * len(self.slaves)
-        self.slave_dofs = np.arange(ns).reshape(-1, 2)
-        self.point_dofs = ns + np.arange(2 * points.shape[0]).reshape(-1, 2)
-        # control points of the smoothed surface -> nodes
-        self.spread = sparse.block_diag([sparse.identity(ns), sparse.kron(points, sparse.identity(2))]).T.tocsr()
-        self.segment, self.xi = np.full(len(self.slaves), -1, np.int64), np.zeros((len(self.slaves), 1))
-        self.mine = owned[self.slaves]
-        # The begin of the increment, with friction: states (of the own slaves), segments and places of the master's points.
-        self.history = bool(self.model.layout.friction)
-        self.state_begin, self.segment_begin, self.points_begin = self.model.state_init(len(self.slaves)), self.segment, start
+        slaves, masters = parts.sides[contact["slave"]], parts.sides[contact["master"]["faces"]]
+        self.nodes = np.concatenate([slaves, masters])
+        chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points out of the lower block
+        self.surfaces = ents.Contact(
+            contact["model"], parts.nodes[self.nodes], chain(0, len(slaves)), chain(len(slaves), len(masters)), reach=0.25, elements=owned[slaves],
+            surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
 
     def evaluate(self, displacement):
         """displacement [nodes][2]: R, and K as a sparse matrix."""
-        now = self.start + displacement
-        slave = now[:len(self.slaves)]
-        self.tree.move(self.points @ now[len(self.slaves):])
-        found = self.tree.detect(slave, 0.25, self.segment, self.xi)
-        self.segment, self.xi = found["segment"], found["xi"]
-        size = self.spread.shape[1]
-        own = np.where(self.mine, self.segment, -1)
-        status, state = self.tree.state_transfer(self.state_begin, self.segment_begin, own, self.points_begin) if self.history else (0, None)
-        r, (values, places), result = self.model.blocks(
-            slave, self.tree, own, self.slave_dofs, self.point_dofs, size, want="state_end" if self.history else "", area=self.area, start=self.xi,
-            state=state)
-        if status or result["status"].any():
-            raise SystemExit(result["message"] or ents.Status(status))
-        self.result = result
-        return self.spread @ r, (self.spread @ sparse.coo_matrix((values, places), (size, size)) @ self.spread.T).tocoo()
+        residual, tangent = self.surfaces.update(displacement)
+        return residual, tangent.tocoo()
 
     def accept(self):
         """What the last evaluation found is the begin of the next increment."""
-        if self.history:
-            self.segment_begin, self.points_begin = self.segment, self.tree.positions.copy()
-            self.state_begin[self.result["closed"]] = self.result["state_end"]
+        self.surfaces.commit()
 
 
 class Host:

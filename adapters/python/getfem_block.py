@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact comes from ents.
+"""GetFEM solves block.json: a block is pressed into a textured one. Bulk and its tangent are GetFEM's, contact is ents.Contact.
 
 usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
 
@@ -95,25 +95,11 @@ def solve(scene, refine=1, report=print):
     slave_block, slave_side = contact["slave"].split(".")
     master_block, master_side = contact["master"]["faces"].split(".")
     slaves, masters = blocks[slave_block].side(slave_side), blocks[master_block].side(master_side)
-    slave_dofs, master_dofs = blocks[slave_block].dofs(slaves), blocks[master_block].dofs(masters)
-    slave_start, master_start = blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]
-    # Left to right: the normal of segments is their tangent turned by +90 degrees, out of the lower block.
-    segments = np.column_stack([np.arange(len(masters) - 1), np.arange(1, len(masters))])
-    model = ents.Model(contact["model"])
-    points = sparse.identity(len(masters), format="csr")  # control points of the segments, from nodes
-    if contact["model"]["segment"] != "line2":  # ents-host repeats the nodes at the ends
-        segments, (begin, of, weights) = model.library.smooth("line2", contact["model"]["segment"], segments, len(masters), ents.ENDS_REPEATED)
-        points = sparse.csr_matrix((weights, of, begin), (len(begin) - 1, len(masters)))
-    surface = None
-    if "surface_coordinates" in contact["master"]:
-        surface = (points @ master_start)[segments][:, :, :1]  # s is the reference x
-    tree = ents.Tree(model, segments, points @ master_start, surface)
-    # The elements' equations: all of the model, then the control points', which `spread` puts on the nodes'.
-    point_dofs = size + np.arange(2 * points.shape[0]).reshape(-1, 2)
-    of_nodes = sparse.csr_matrix((np.ones(master_dofs.size), (np.arange(master_dofs.size), master_dofs.ravel())), (master_dofs.size, size))
-    spread = sparse.vstack([sparse.identity(size), sparse.kron(points, sparse.identity(2)) @ of_nodes]).T.tocsr()
-    facets = np.column_stack([np.arange(len(slaves) - 1), np.arange(1, len(slaves))])
-    areas = model.library.tributary_areas("line2", facets, slave_start)
+    chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points out of the lower block
+    surfaces = ents.Contact(
+        contact["model"], np.vstack([blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]]), chain(0, len(slaves)),
+        chain(len(slaves), len(masters)), dofs=np.vstack([blocks[slave_block].dofs(slaves), blocks[master_block].dofs(masters)]), rows=size, reach=0.25,
+        surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
 
     prescribed = np.zeros(size)
     fixed = np.zeros(size, bool)
@@ -129,11 +115,6 @@ def solve(scene, refine=1, report=print):
     steps, tolerance = scene["steps"]["values"][0]["count"], scene.get("solver", {}).get("tolerance", 1e-12)
     u = np.zeros(size)
     forces, iterations = [], []
-    segment = np.full(len(slaves), -1, np.int64)
-    xi = np.zeros((len(slaves), 1))
-    # The begin of the increment, with friction: states, segments and places of the master's points.
-    history = bool(model.layout.friction)
-    state_begin, segment_begin, points_begin = model.state_init(len(slaves)), segment, points @ master_start
     for step in range(1, steps + 1):
         increment = prescribed * step / steps - np.where(fixed, u, 0)
         for iteration in range(ITERATIONS + 1):
@@ -142,18 +123,13 @@ def solve(scene, refine=1, report=print):
             k = md.tangent_matrix()
             k = sparse.csc_matrix((k.csc_val(), k.csc_ind()[1], k.csc_ind()[0]), (size, size))
             residual = -md.rhs()
-            slave, master = slave_start + u[slave_dofs], master_start + u[master_dofs]
-            tree.move(points @ master)
-            found = tree.detect(slave, 0.25, segment, xi)
-            segment, xi = found["segment"], found["xi"]
-            status, state = tree.state_transfer(state_begin, segment_begin, segment, points_begin) if history else (0, None)
-            r, (values, places), result = model.blocks(slave, tree, segment, slave_dofs, point_dofs, spread.shape[1], want="state_end" if history else "",
-                                                       area=areas, start=xi, state=state)
-            if status or result["status"].any():
-                raise SystemExit(f"step {step}: {result['message'] or ents.Status(status)}")
-            residual = residual + spread @ r
-            k = k + spread @ sparse.coo_matrix((values, places), (len(r), len(r))) @ spread.T
-            scale = max(np.linalg.norm(residual[fixed]), np.linalg.norm(spread @ r))
+            try:
+                r, tangent = surfaces.update(u)
+            except ents.CutStep as cut:
+                raise SystemExit(f"step {step}: {cut}") from None
+            residual = residual + r
+            k = k + tangent
+            scale = max(np.linalg.norm(residual[fixed]), np.linalg.norm(r))
             error = np.linalg.norm(residual[free]) / scale if scale else 1
             if not increment.any() and error <= tolerance:
                 break
@@ -165,9 +141,7 @@ def solve(scene, refine=1, report=print):
             if not np.isfinite(u).all():
                 raise SystemExit(f"step {step}: the displacements are not finite after {iteration + 1} iterations; smaller steps?")
             increment = np.zeros(size)
-        if history:
-            segment_begin, points_begin = segment, points @ master
-            state_begin[result["closed"]] = result["state_end"]
+        surfaces.commit()
         forces.append(residual[bottom].sum(axis=0))
         iterations.append(iteration)
         report(f"step {step}/{steps}  iterations {iteration:2d}  |r| {error:.0e}  force on the support {forces[-1][0]:+.12f} {forces[-1][1]:+.12f}")

@@ -39,6 +39,7 @@ class Contact:
     sampling   0: slave points are nodes, with their tributary areas; n: n points per direction inside each slave facet
     surface_coordinates  in which the height is given: "x" (3D: "xy", "xz" ...), undeformed coordinates; or an array
                [facets][nodes of a facet][d-1] (not smoothed); default: the model's own, else natural coordinates
+    elements   [slave points] bool: those that are assembled; the others belong to another process. Default: all
     ends       smoothed masters: ENDS_STRAIGHT or ENDS_REPEATED, see ents.h
 
     After update(), for each slave point: .gap [L] (nan: nothing within reach), .pressure [F/A], .traction (friction) [d], .flags (see Flag), .segment (-1: none),
@@ -46,7 +47,7 @@ class Contact:
     """
 
     def __init__(self, model, positions, slave, master, *, master_positions=None, dofs=None, rows=None, reach=None, thickness=1.0, sampling=0,
-                 surface_coordinates=None, ends=ENDS_STRAIGHT):
+                 surface_coordinates=None, elements=None, ends=ENDS_STRAIGHT):
         import scipy.sparse as sparse
         self._sparse = sparse
         self.model = model = model if isinstance(model, Model) else Model(model)
@@ -98,6 +99,7 @@ class Contact:
         parts = [wide(self._slave) @ unknowns] + ([] if self.rigid else [wide(self._master) @ unknowns])
         self._spread = sparse.vstack(parts, "csr")
         count = len(self.areas)
+        self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool)
         self._slave_rows = np.arange(count * d).reshape(count, d)
         self._master_rows = None if self.rigid else count * d + np.arange(len(start) * d).reshape(len(start), d)
 
@@ -124,11 +126,11 @@ class Contact:
         self.tree.move(self._master @ (now if self._own is None else self._own))
         # A closed point is followed; an open one is searched anew, for it may have moved over another flank.
         found = self.tree.detect(points, self.reach, self.segment, self._xi)
-        lost = np.flatnonzero(found["flags"] & Flag.BEHIND_EDGE)
+        lost = np.flatnonzero(self._elements & (found["flags"] & Flag.BEHIND_EDGE != 0))
         if len(lost):
             raise CutStep(Status.NO_PROJECTION, f"slave point {lost[0]} lies behind a concave edge of the master: take a smaller step, widen "
                           '"border" in the model, or smooth the master', int(lost[0]), 0.5)
-        segment = found["segment"]
+        segment = np.where(self._elements, found["segment"], -1)
         status, state = self.tree.state_transfer(self._state_begin, self._segment_begin, segment, self._tree_begin)
         want = "state_end gap pressure flags" + (" traction" if model.layout.friction else "")
         if status:
