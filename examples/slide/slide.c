@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
       for (int i = 0; i < n && error > 1e-11; i++) { /* Newton's step of each slave node */
         const double *k = K[2 * i], *r = R + 2 * i, det = k[0] * k[3] - k[1] * k[2];
         x[i][0] -= (k[3] * r[0] - k[1] * r[1]) / det, x[i][1] -= (k[0] * r[1] - k[2] * r[0]) / det;
-        if (gap[i] > 0) segment[i] = -1; /* an open node is searched anew: it may be over another flank */
+        if (gap[i] > 0) segment[i] = -1; /* search open nodes anew: they may have moved over a flank */
       }
     }
     memcpy(begin, end, (size_t)(n * m) * sizeof *begin); /* the step is accepted */

@@ -89,7 +89,7 @@ program slide
       do i = 1, n ! Newton's step of each slave node
         step_r = [K(2, 2, i)*R(1, i) - K(2, 1, i)*R(2, i), K(1, 1, i)*R(2, i) - K(1, 2, i)*R(1, i)]
         x(:, i) = x(:, i) - step_r/(K(1, 1, i)*K(2, 2, i) - K(1, 2, i)*K(2, 1, i))
-        if (gap(i) > 0) segment(i) = -1 ! an open node is searched anew: it may be over another flank
+        if (gap(i) > 0) segment(i) = -1 ! search open nodes anew: they may have moved over a flank
       end do
     end do
     begin = end ! the step is accepted
