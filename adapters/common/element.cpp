@@ -21,6 +21,8 @@ struct Arguments {
   const ElementRow* row = nullptr; ///< of the table, if it has one for this element
   double area = 0;
   int options = 0;
+  int slave_nodes = 1; ///< of the face that a slave point lies in; 1: the slave is a node
+  double weights[largest_slave_nodes] = {1};
   const double* surface_coordinates = nullptr; ///< null: the model's own, else s = xi
   double own_coordinates[2 * (largest_nodes - 1)];
 };
@@ -45,7 +47,7 @@ void say(Result& result, const Element& e, const std::string& text) {
 
 /// The options that a host has, for who has taken another.
 std::string known_options(const Host& host) {
-  std::string text = "1 (selfcheck)";
+  std::string text = "1 (selfcheck), 8 (slave point), 16 (may leave its segments)";
   if (host.options & option_old_displacement) text += ", 2 (displacements lack the increment)";
   if (host.options & option_negative_tangent) text += ", 4 (the opposite sign)";
   return text;
@@ -97,20 +99,46 @@ std::string read_properties(const Element& e, Arguments& arguments) {
   return "";
 }
 
+/// The slave as a point: from the table, or from properties with option 8.
+/// @return what is wrong; "" if nothing
+std::string read_slave_point(const Element& e, Arguments& arguments) {
+  const LoadedModel& model = *arguments.model;
+  if (arguments.options & option_slave_point) {
+    const auto entry = [&](int i) { return e.host->properties + std::to_string(i); };
+    const double count = e.property_count > 3 ? e.properties(3) : 0;
+    if (!(count >= 1 && count <= largest_slave_nodes) || count != std::floor(count) ||
+        e.property_count < 4 + count)
+      return entry(4) + " is the number of the slave's nodes with option 8, 1 .. " +
+             std::to_string(largest_slave_nodes) + ", and as many weights follow";
+    arguments.slave_nodes = static_cast<int>(count);
+    for (int i = 0; i < arguments.slave_nodes; ++i) arguments.weights[i] = e.properties(4 + i);
+    if (const std::string wrong = wrong_weights(arguments.weights, arguments.slave_nodes); !wrong.empty())
+      return entry(5) + " and following: " + wrong;
+  } else if (arguments.row && model.slave_nodes > 1) {
+    arguments.slave_nodes = model.slave_nodes;
+    std::copy(arguments.row->weights.begin(), arguments.row->weights.end(), arguments.weights);
+  }
+  return "";
+}
+
 /// @return what is wrong with the element's sizes; "" if nothing
-std::string check_sizes(const Element& e, const LoadedModel& model) {
+std::string check_sizes(const Element& e, const Arguments& arguments) {
+  const LoadedModel& model = *arguments.model;
   const ents_layout& layout = model.layout;
   if (layout.multipliers && !e.host->multipliers)
     return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
                         "contact.normal.type, "
                         "\"augmented\" for one";
-  const int needed = 1 + layout.nodes + (layout.multipliers ? 1 : 0);
-  if (layout.nodes + 1 > largest_nodes || layout.multipliers > largest_multipliers ||
+  const int slave_nodes = arguments.slave_nodes,
+            needed = slave_nodes + layout.nodes + (layout.multipliers ? 1 : 0);
+  if (layout.nodes + slave_nodes > largest_nodes || layout.multipliers > largest_multipliers ||
       layout.state_size > largest_state)
     return model.file + " has " + std::to_string(layout.nodes) + " master nodes; the adapters take " +
            std::to_string(largest_nodes - 1);
   if (e.nodes < needed || (e.nodes > needed && !e.host->spare_nodes))
-    return model.file + " needs " + std::to_string(needed) + " nodes, the slave node, " +
+    return model.file + " needs " + std::to_string(needed) + " nodes, " +
+           (slave_nodes == 1 ? std::string("the slave node, ")
+                             : std::to_string(slave_nodes) + " of the slave's face, ") +
            std::to_string(layout.nodes) + " master nodes" +
            (layout.multipliers ? ", one that carries multipliers" : "") + "; the element has " +
            std::to_string(e.nodes) + ". Write " + e.host->nodes + std::to_string(needed);
@@ -130,20 +158,22 @@ std::string read_coordinates(const Element& e, Arguments& arguments) {
   const LoadedModel& model = *arguments.model;
   const int wanted = model.layout.nodes * model.layout.parameters;
   // Hosts with a fixed number of properties fill up with zeros: a segment without extent is none given.
+  const int before = 3 + (arguments.options & option_slave_point ? 1 + arguments.slave_nodes : 0);
   int count = e.property_count;
-  while (count > 3 && e.properties(count - 1) == 0) --count;
-  if (count > 3) {
+  while (count > before && e.properties(count - 1) == 0) --count;
+  if (count > before) {
     const auto entry = [&](int i) { return e.host->properties + std::to_string(i); };
-    const bool too_few = e.property_count < 3 + wanted;
-    if (too_few || count > 3 + wanted)
-      return entry(4) + " and the following are " + std::to_string((too_few ? e.property_count : count) - 3) +
-             " surface coordinates, " + model.file + " needs " + std::to_string(wanted) + ", " +
+    const bool too_few = e.property_count < before + wanted;
+    if (too_few || count > before + wanted)
+      return entry(before + 1) + " and the following are " +
+             std::to_string((too_few ? e.property_count : count) - before) + " surface coordinates, " +
+             model.file + " needs " + std::to_string(wanted) + ", " +
              std::to_string(model.layout.parameters) + " for each of its " +
-             std::to_string(model.layout.nodes) + " master nodes. Write " + std::to_string(3 + wanted) +
-             " properties, or 3";
+             std::to_string(model.layout.nodes) + " master nodes. Write " + std::to_string(before + wanted) +
+             " properties, or " + std::to_string(before);
     for (int i = 0; i < wanted; ++i)
-      if (arguments.own_coordinates[i] = e.properties(3 + i); !std::isfinite(e.properties(3 + i)))
-        return entry(4 + i) + ", a surface coordinate, is not finite";
+      if (arguments.own_coordinates[i] = e.properties(before + i); !std::isfinite(e.properties(before + i)))
+        return entry(before + 1 + i) + ", a surface coordinate, is not finite";
     arguments.surface_coordinates = arguments.own_coordinates;
   }
   if (arguments.row && !arguments.row->surface_coordinates.empty())
@@ -154,42 +184,79 @@ std::string read_coordinates(const Element& e, Arguments& arguments) {
 /// @return what is wrong with the element's description; "" if nothing
 std::string read(const Element& e, Arguments& arguments) {
   std::string wrong = read_properties(e, arguments);
-  if (wrong.empty()) wrong = check_sizes(e, *arguments.model);
+  if (wrong.empty()) wrong = read_slave_point(e, arguments);
+  if (wrong.empty()) wrong = check_sizes(e, arguments);
   if (wrong.empty()) wrong = read_coordinates(e, arguments);
   return wrong;
 }
 
 /// Current positions of slave and master nodes, then multipliers. @return all finite
-bool gather(const Element& e, const ents_layout& layout, double* unknowns) {
+bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
+  const ents_layout& layout = arguments.model->layout;
+  const auto current = [&](int i, int node) {
+    double x = e.position(i, node);
+    if (e.displacement) x += e.displacement(i, node);
+    if (e.increment) x += e.increment(i, node);
+    return x;
+  };
+  const int slave_nodes = arguments.slave_nodes, host_nodes = slave_nodes + layout.nodes;
   bool finite = true;
   double* out = unknowns;
-  for (int node = 0; node <= layout.nodes; ++node)
+  for (int i = 0; i < layout.dimension; ++i, ++out) {
+    *out = arguments.weights[0] * current(i, 0);
+    for (int k = 1; k < slave_nodes; ++k) *out += arguments.weights[k] * current(i, k);
+    finite = finite && std::isfinite(*out);
+  }
+  for (int node = slave_nodes; node < host_nodes; ++node)
     for (int i = 0; i < layout.dimension; ++i, ++out) {
-      *out = e.position(i, node);
-      if (e.displacement) *out += e.displacement(i, node);
-      if (e.increment) *out += e.increment(i, node);
+      *out = current(i, node);
       finite = finite && std::isfinite(*out);
     }
   for (int i = 0; i < layout.multipliers; ++i, ++out) {
-    *out = e.displacement ? e.displacement(i, layout.nodes + 1) : 0.0;
-    if (e.increment) *out += e.increment(i, layout.nodes + 1);
+    *out = e.displacement ? e.displacement(i, host_nodes) : 0.0;
+    if (e.increment) *out += e.increment(i, host_nodes);
     finite = finite && std::isfinite(*out);
   }
   return finite;
 }
 
-/// Residual and tangent from the library's packed order to the host's: all other entries stay zero.
-void scatter(const Element& e, const ents_layout& layout, const double* residual, const double* tangent) {
-  const int of_nodes = layout.dofs - layout.multipliers;
-  const auto node = [&](int i) { return i < of_nodes ? i / layout.dimension : layout.nodes + 1; };
-  const auto dof = [&](int i) { return i < of_nodes ? i % layout.dimension : i - of_nodes; };
-  for (int column = 0; column < layout.dofs; ++column) {
-    if (e.residual) e.residual(dof(column), node(column)) = e.sign * residual[column];
-    if (e.tangent)
+/// Residual and tangent from the library's packed order to the host's, those of a slave point to the nodes of
+/// its face in proportion to their weights: all other entries stay zero.
+void scatter(const Element& e, const Arguments& arguments, const double* residual, const double* tangent) {
+  const ents_layout& layout = arguments.model->layout;
+  const int of_nodes = layout.dofs - layout.multipliers, d = layout.dimension,
+            slave_nodes = arguments.slave_nodes;
+  const auto copies = [&](int i) { return i < d ? slave_nodes : 1; };
+  const auto node = [&](int i, int copy) {
+    return i < d ? copy : slave_nodes + (i < of_nodes ? i / d - 1 : layout.nodes);
+  };
+  const auto dof = [&](int i) { return i < of_nodes ? i % d : i - of_nodes; };
+  const auto weight = [&](int i, int copy) { return i < d ? arguments.weights[copy] : 1.0; };
+  for (int column = 0; column < layout.dofs; ++column)
+    for (int c = 0; c < copies(column); ++c) {
+      if (e.residual)
+        e.residual(dof(column), node(column, c)) = e.sign * weight(column, c) * residual[column];
+      if (!e.tangent) continue;
       for (int row = 0; row < layout.dofs; ++row)
-        e.tangent(node(row) * e.dofs + dof(row), node(column) * e.dofs + dof(column)) =
-            e.tangent_sign * tangent[row + layout.dofs * column];
-  }
+        for (int r = 0; r < copies(row); ++r)
+          e.tangent(node(row, r) * e.dofs + dof(row), node(column, c) * e.dofs + dof(column)) =
+              e.tangent_sign * (weight(row, r) * weight(column, c) * tangent[row + layout.dofs * column]);
+    }
+}
+
+/// A slave that was in contact at the begin of the increment and is now beyond the border of its segments,
+/// below the surface that goes on there: the contact would be lost without a word. (Above it, it has lifted
+/// off.)
+bool has_left(const Arguments& arguments, const ents_input& input, int32_t flags, double gap) {
+  constexpr int32_t left = ENTS_FLAG_OUTSIDE | ENTS_FLAG_CHANGED;
+  return input.state_begin && (flags & left) == left && gap < 0 && !(arguments.options & option_may_leave);
+}
+
+std::string place_of(const double* slave, int dimension) {
+  char text[120];
+  std::snprintf(text, sizeof text, dimension == 2 ? "(%.6g, %.6g)" : "(%.6g, %.6g, %.6g)", slave[0], slave[1],
+                slave[2]);
+  return text;
 }
 
 /// The host's history as a state block; hosts begin with zeros.
@@ -223,7 +290,7 @@ void describe(const ents_layout& layout, Result& result) {
 int options(const Row<const double>& properties, int count) {
   if (count < 3) return 0;
   const double value = properties(2);
-  return value >= 0 && value <= 7 && value == std::floor(value) ? static_cast<int>(value) : -1;
+  return value >= 0 && value <= 31 && value == std::floor(value) ? static_cast<int>(value) : -1;
 }
 
 void negative_product(const Grid<const double>& matrix, int n, const double* vector, double* result) {
@@ -259,7 +326,7 @@ Result evaluate(const Element& e) {
   Result result;
   result.message[0] = 0;
   describe(layout, result);
-  if (!gather(e, layout, unknowns)) { // a diverged iteration of the host
+  if (!gather(e, arguments, unknowns)) { // a diverged iteration of the host
     result.outcome = Outcome::cut;
     result.step_factor = 0.5;
     say(result, e, "the host's displacements are not finite");
@@ -283,8 +350,9 @@ Result evaluate(const Element& e) {
   double gap = 0, normal[3] = {};
   ents_output output{};
   output.struct_size = sizeof output;
-  output.wanted = ENTS_FLAGS | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) | (e.energy ? ENTS_ENERGY : 0) |
-                  (e.history_end ? ENTS_STATE : 0) | (checked ? ENTS_GAP | ENTS_NORMAL : 0);
+  output.wanted = ENTS_FLAGS | ENTS_GAP | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) |
+                  (e.energy ? ENTS_ENERGY : 0) | (e.history_end ? ENTS_STATE : 0) |
+                  (checked ? ENTS_NORMAL : 0);
   output.flags = &flags;
   output.gap = &gap;
   output.normal = normal;
@@ -299,7 +367,16 @@ Result evaluate(const Element& e) {
     return result;
   }
   result.contact = (flags & ENTS_FLAG_CONTACT) != 0;
-  scatter(e, layout, residual, tangent);
+  if (has_left(arguments, input, flags, gap)) {
+    result.outcome = Outcome::cut;
+    result.step_factor = 0.5;
+    say(result, e,
+        model.file + ": the slave at " + place_of(unknowns, layout.dimension) +
+            " was in contact and has left its segments. Write a wider \"patch\", with the segments " +
+            "that lie there; if the master ends there, add 16 to " + e.host->properties + "3");
+    return result;
+  }
+  scatter(e, arguments, residual, tangent);
   if (e.energy) *e.energy = energy;
   if (e.history_end)
     for (int i = 0; i < layout.state_size; ++i) e.history_end(i) = state_end[i];

@@ -25,32 +25,44 @@ template <class T> struct Row {
 };
 
 /// What a deck may add up in property 3.
-enum Option { option_selfcheck = 1, option_old_displacement = 2, option_negative_tangent = 4 };
+enum Option {
+  option_selfcheck = 1,
+  option_old_displacement = 2,
+  option_negative_tangent = 4,
+  option_slave_point =
+      8, ///< properties 4 .. are n and n weights of the slave's nodes, before surface coordinates
+  option_may_leave =
+      16 ///< a slave that leaves its segments while in contact is open, without a word: the master ends there
+};
+inline constexpr int common_options = option_selfcheck | option_slave_point | option_may_leave;
 
 /// What a host calls the things that a user can get wrong: a number is put behind each.
 struct Host {
-  const char* nodes;              ///< "*USER ELEMENT, NODES="
-  const char* history;            ///< "*USER ELEMENT, VARIABLES="
-  const char* properties;         ///< "*UEL PROPERTY, entry "
-  std::string (*directory)();     ///< the job's directory, see model_number
-  bool spare_nodes = false;       ///< the host's element may have more nodes than needed
-  bool multipliers = true;        ///< its elements can carry them as unknowns
-  int options = option_selfcheck; ///< those that mean something there
-  const char* numbers = "";       ///< what to know of the elements' numbers where one is not in the table
+  const char* nodes;            ///< "*USER ELEMENT, NODES="
+  const char* history;          ///< "*USER ELEMENT, VARIABLES="
+  const char* properties;       ///< "*UEL PROPERTY, entry "
+  std::string (*directory)();   ///< the job's directory, see model_number
+  bool spare_nodes = false;     ///< the host's element may have more nodes than needed
+  bool multipliers = true;      ///< its elements can carry them as unknowns
+  int options = common_options; ///< those that mean something there
+  const char* numbers = "";     ///< what to know of the elements' numbers where one is not in the table
 };
 
 /// Properties of an element, in this order in every host:
 ///   1  k, whole number: the model is ents_k.json
 ///   2  tributary area of the slave node [A], > 0; 0: from ents_k.txt
 ///   3  a sum of the options that the host has. May be absent
-///   4 ..  surface coordinates [m][d-1] of the master nodes. May be absent; zeros at the end do not count
+///   4 ..  with option 8: n, then n weights of the slave's nodes; surface coordinates [m][d-1] of the master
+///   nodes.
+///         May be absent; zeros at the end do not count
 struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none
   bool listed = true;       ///< the number is that of an element, which ents_k.txt may have a line for
-  int nodes = 0; ///< slave, master nodes of the segment, then one for the multipliers if the model has any
-  int dofs = 0;  ///< per node
-  int coordinates = 0;         ///< per node
+  int nodes = 0;       ///< slave (or the nodes of the face that a slave point lies in), master nodes of the
+                       ///< segment, then one for the multipliers if the model has any
+  int dofs = 0;        ///< per node
+  int coordinates = 0; ///< per node
   Grid<const double> position; ///< (coordinate, node) reference, or current with no displacement, [L]
   Grid<const double>
       displacement;             ///< (dof, node) or null; multipliers are the "displacements" of the last node

@@ -6,6 +6,7 @@
 namespace ents_adapter {
 
 inline constexpr int largest_nodes = 1 + 32;
+inline constexpr int largest_slave_nodes = 9; // of the face that a slave point lies in
 inline constexpr int largest_multipliers = 3;
 inline constexpr int largest_dofs = 3 * largest_nodes + largest_multipliers;
 inline constexpr int largest_state = 64;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model_cache.hpp"
 
+#include "limits.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -9,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -31,6 +34,18 @@ bool read_numbers(const std::string& line, std::vector<double>& numbers) {
   }
 }
 
+/// The line "slave_nodes n". @return n; 0: it is another line. @throws std::string
+int read_slave_nodes(const std::string& line, const std::string& where, bool first) {
+  constexpr std::string_view key = "slave_nodes";
+  if (line.compare(0, key.size(), key) != 0) return 0;
+  std::vector<double> number;
+  if (!first || !read_numbers(line.substr(key.size()), number) || number.size() != 1 ||
+      !(number[0] >= 1 && number[0] <= largest_slave_nodes) || number[0] != std::floor(number[0]))
+    throw where + "write slave_nodes and a whole number from 1 to " + std::to_string(largest_slave_nodes) +
+        ", before the first element";
+  return static_cast<int>(number[0]);
+}
+
 /// @throws std::string what is wrong, with the line
 void read_rows(const std::string& file, LoadedModel& loaded) {
   std::error_code error;
@@ -45,18 +60,31 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
   std::vector<double> numbers;
   for (int number = 1; std::getline(in, line); ++number) {
     const std::string where = file + ", line " + std::to_string(number) + ": ";
+    if (const int n = read_slave_nodes(line, where, loaded.rows.empty())) {
+      loaded.slave_nodes = n;
+      continue;
+    }
     if (!read_numbers(line, numbers)) throw where + "not a list of numbers";
     if (numbers.empty()) continue;
-    if (numbers.size() != 2 && numbers.size() != 2 + coordinates)
-      throw where + "write ELEMENT AREA, or ELEMENT AREA and " + std::to_string(coordinates) +
-          " surface coordinates of the master nodes";
+    const std::size_t weights = loaded.slave_nodes > 1 ? static_cast<std::size_t>(loaded.slave_nodes) : 0;
+    if (numbers.size() != 2 + weights && numbers.size() != 2 + weights + coordinates)
+      throw where + "write ELEMENT AREA" +
+          (weights ? " and " + std::to_string(weights) + " weights of the slave's nodes" : std::string()) +
+          ", or behind that " + std::to_string(coordinates) + " surface coordinates of the master nodes";
     if (numbers[0] < 1 || numbers[0] > 9e15 || numbers[0] != std::floor(numbers[0]))
       throw where + "the first number is the element's, a whole number > 0";
     if (numbers[1] <= 0)
       throw where + "the area is " + (numbers[1] < 0 ? "negative" : "0") +
           "; write the tributary area of the slave node, > 0";
-    loaded.rows.push_back(
-        {static_cast<std::int64_t>(numbers[0]), numbers[1], {numbers.begin() + 2, numbers.end()}});
+    const auto behind = numbers.begin() + 2 + static_cast<std::ptrdiff_t>(weights);
+    ElementRow row{static_cast<std::int64_t>(numbers[0]),
+                   numbers[1],
+                   {numbers.begin() + 2, behind},
+                   {behind, numbers.end()}};
+    if (const std::string wrong = wrong_weights(row.weights.data(), static_cast<int>(weights));
+        !wrong.empty())
+      throw where + wrong;
+    loaded.rows.push_back(std::move(row));
   }
   if (in.bad()) throw file + " cannot be read to its end";
   const auto earlier = [](const ElementRow& a, const ElementRow& b) { return a.element < b.element; };
@@ -107,6 +135,14 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
 }
 
 } // namespace
+
+std::string wrong_weights(const double* weights, int count) {
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += weights[i];
+  if (count == 0 || std::abs(sum - 1) <= 1e-6) return "";
+  return "the weights of the slave's nodes add up to " + std::to_string(sum) +
+         "; those of a point add up to 1";
+}
 
 const ElementRow* LoadedModel::row(std::int64_t element) const {
   const auto at =

@@ -14,10 +14,13 @@ namespace ents_adapter {
 
 inline constexpr int largest_model_number = 9999;
 
-/// A line of ents_k.txt: "ELEMENT AREA [S ...]", # starts a comment.
+/// A line of ents_k.txt: "ELEMENT AREA [W ...] [S ...]", # starts a comment. Weights W are there if a line
+/// "slave_nodes n" with n > 1 comes first: the slave is then a point of a face, the sum of W times the
+/// positions of the element's first n nodes.
 struct ElementRow {
   std::int64_t element = 0;                ///< the host's number
   double area = 0;                         ///< [A] tributary area of the slave node, > 0
+  std::vector<double> weights;             ///< [slave_nodes]; empty for 1
   std::vector<double> surface_coordinates; ///< [m][d-1] of the master nodes; or empty
 };
 
@@ -31,10 +34,14 @@ struct LoadedModel {
   std::string file; ///< ents_k.json with its folder
   std::string error;
   std::vector<ElementRow> rows; ///< sorted by element
+  int slave_nodes = 1;          ///< of each row
 
   /// @return null if there is no such line
   const ElementRow* row(std::int64_t element) const;
 };
+
+/// @return what is wrong with weights that shall make a point of nodes; "" if nothing
+std::string wrong_weights(const double* weights, int count);
 
 /// The model with this number. It is read at the first call, by one thread, and lives until the process ends;
 /// a failure is remembered, too. Any number of threads.

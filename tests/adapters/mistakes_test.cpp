@@ -67,16 +67,16 @@ Ending run(const HostKind& kind, const Elements& elements, const std::vector<dou
 /// How a host calls what a user can get wrong; null: its user cannot.
 struct Words {
   const char *host, *nodes, *history, *area;
-  int options = 1; ///< that it has
+  int options = 25; ///< that it has, a sum
 };
 constexpr Words words[] = {
-    {"abaqus_uel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 7},
-    {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 5},
+    {"abaqus_uel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 31},
+    {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 29},
     {"calculix", "*USER ELEMENT, NODES=5", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry 2"},
     {"opensees", "with nodes: 5", nullptr, "element entsContact, property 2"},
     {"feap", "nodes of the elements: 5", nullptr, "MATErial, user 7, entry 2"},
     {"ansys", "USRELEM, NNODES=5", "USRELEM, NSAVEVARS=", "real constant R, entry 2"},
-    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 3},
+    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 27},
     {"lsdyna", nullptr, "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry 2"}, // always a solid of eight nodes
 };
 
@@ -161,7 +161,7 @@ TEST_P(Mistakes, EndTheJobWithAdvice) {
 TEST_P(Mistakes, OptionsThatMeanNothingAreRefused) {
   const auto option = [](int value) { return [value](Elements& e) { e.options = value; }; };
   const std::string area = own().area, property = area.substr(0, area.size() - 1) + "3 is ";
-  for (const int value : {1, 2, 3, 4, 5, 6, 7, 8, -1}) {
+  for (const int value : {1, 2, 3, 4, 5, 6, 7, 16, 17, 32, 33, -1}) {
     if (value > 0 && (value & ~own().options) == 0) {
       Elements elements = problem_.elements;
       elements.options = value;
@@ -171,6 +171,7 @@ TEST_P(Mistakes, OptionsThatMeanNothingAreRefused) {
       expect("option", option(value), property + std::to_string(value), "here 1");
     }
   }
+  expect("a slave point without weights", option(8), area.substr(0, area.size() - 1) + "4", "number of the slave's nodes");
 }
 
 TEST_P(Mistakes, AnAreaOfNothingIsRefusedWhereThereIsNoTable) {

@@ -15,7 +15,7 @@ constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
                     .history = "*USER ELEMENT, VARIABLES=",
                     .properties = "*UEL PROPERTY, entry ",
                     .directory = abaqus::job_directory,
-                    .options = option_selfcheck | option_old_displacement | option_negative_tangent,
+                    .options = common_options | option_old_displacement | option_negative_tangent,
                     .numbers = abaqus::numbers};
 
 /// LFLAGS(3): what is to be formed.

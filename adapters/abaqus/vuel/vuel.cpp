@@ -17,7 +17,7 @@ constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
                     .properties = "*UEL PROPERTY, entry ",
                     .directory = abaqus::job_directory,
                     .multipliers = false,
-                    .options = option_selfcheck | option_negative_tangent,
+                    .options = common_options | option_negative_tangent,
                     .numbers = abaqus::numbers};
 
 enum Operation { form_mass = 1, form_internal_force = 2, form_external_force = 3 }; // lflags(3)

@@ -20,7 +20,7 @@ constexpr Host host{.nodes = "nodes of the element: ",
                     .properties = "GEOMETRY, EGEOM",
                     .directory = [] { return std::string(); },
                     .spare_nodes = true,
-                    .options = option_selfcheck | option_old_displacement};
+                    .options = common_options | option_old_displacement};
 
 enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // iflag
 
