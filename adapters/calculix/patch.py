@@ -4,7 +4,7 @@
 
 usage: patch.py CCX_SOURCES OUT
 
-Writes the six changed files to OUT. ccx itself is not part of this project (GPL); its files are read from CCX_SOURCES, the folder
+Writes the nine changed files to OUT. ccx itself is not part of this project (GPL); its files are read from CCX_SOURCES, the folder
 with ccx_2.20.c. Every place that is changed must be there exactly once: another version of ccx is refused, not damaged."""
 import pathlib
 import sys
@@ -24,6 +24,9 @@ PATCHES = {
         "     &  calcul_cauchy,calcul_qa,nelem,ento\n"), (
         "      if(lakon(nelem)(2:2).eq.'1') then\n",
         "      ento=0\n"
+        "      if((nmethod.eq.2).and.((lakon(nelem)(2:3).eq.'1E').or.\n"
+        "     &     (lakon(nelem)(2:3).eq.'1A')))\n"
+        "     &     call ents_ccx_linear_step(nelem,lakon(nelem))\n"
         "      if((iperturb(1).eq.-1).and.((lakon(nelem)(2:3).eq.'1E').or.\n"
         "     &     (lakon(nelem)(2:3).eq.'1A'))) then\n"
         "         if(lakon(nelem)(2:3).eq.'1E') then\n"
@@ -75,6 +78,29 @@ PATCHES = {
         "    if((ipkon[i]>=0)&&((strcmp1(&lakon[8*i],\"U1E\")==0)||(strcmp1(&lakon[8*i],\"U1A\")==0))) ents=1;\n"
         "  }\n"
         "  if(ents){\n    elementcpuload(neaparm,nebparm,ne,ipkon,&num_cpus);\n  }else if(nec>0){\n")],
+    # A contact pair makes a step nonlinear (contactpairs.f: iterations, and strains as the step says); elements U1E and U1A do so, too.
+    "calinput.f": [(
+        "      elseif(textpart(1)(1:12).eq.'*USERELEMENT') then\n",
+        "      elseif(textpart(1)(1:12).eq.'*USERELEMENT') then\n"
+        "        do i=2,n\n"
+        "          if(((textpart(i)(1:8).eq.'TYPE=U1E').or.\n"
+        "     &         (textpart(i)(1:8).eq.'TYPE=U1A')).and.\n"
+        "     &         (iperturb(1).eq.0)) iperturb(1)=2\n"
+        "        enddo\n")],
+    # User elements are no shells or beams: without this one of them crashes a job with elements of one or two dimensions (CalculiX issue 170).
+    "gen3delem.f": [(
+        "     &         (lakon(i)(1:4).ne.'MASS')) then\n",
+        "     &         (lakon(i)(1:1).ne.'U').and.\n"
+        "     &         (lakon(i)(1:4).ne.'MASS')) then\n")],
+    # Nodes of shells, beams and plane elements that U1E or U1A has, too, are tied to the solid that ccx makes of these, as for springs.
+    "gen3dconnect.f": [
+        ("         if((lakon(i)(7:7).ne.' ').and.(lakon(i)(1:1).ne.'E')) cycle\n",
+         "         if((lakon(i)(7:7).ne.' ').and.(lakon(i)(1:1).ne.'E').and.\n"
+         "     &      (lakon(i)(1:3).ne.'U1E').and.(lakon(i)(1:3).ne.'U1A')) cycle\n"),
+        ("         if(lakon(i)(4:4).eq.'4') then\n            nope=4\n",
+         "         if((lakon(i)(1:3).eq.'U1E').or.(lakon(i)(1:3).eq.'U1A')) then\n"
+         "            nope=ichar(lakon(i)(8:8))\n"
+         "         elseif(lakon(i)(4:4).eq.'4') then\n            nope=4\n")],
     "nonlingeo.c": [(
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,",
         "  _Static_assert(sizeof(ITG)==4,\"libents_calculix has integers of 4 bytes: compile ccx without LONGLONG\");\n"

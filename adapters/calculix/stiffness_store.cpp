@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace ccx {
 
@@ -23,15 +24,27 @@ void stop(const char* label, const char* message) {
 
 void check_history(const char* label, int element, int size, const double* begin, const double* end) {
   if (size == 0 || (begin && end)) return;
+  stop_linear(label, element);
+}
+
+void stop_linear(const char* label, int element) {
   char text[200];
   std::snprintf(text, sizeof text,
-                "ents, element %d: this step is linear, and ccx keeps no history in it: write *STEP, NLGEOM "
-                "(*BUCKLE and *FREQUENCY are linear, too)",
+                "ents, element %d: this step is linear (*BUCKLE, *FREQUENCY, PERTURBATION ...), and ccx "
+                "keeps no history of "
+                "contact in it: write *STATIC steps alone",
                 element);
   stop(label, text);
 }
 
 } // namespace ccx
+
+/// A frequency step: ccx would take the stiffness where it begins, which has not been verified with contact
+/// elements.
+extern "C" __attribute__((visibility("default"))) void
+ents_ccx_linear_step_(const int* nelem, const char* lakonl, std::size_t) {
+  ccx::stop_linear(std::string(lakonl, 3).c_str(), *nelem);
+}
 
 /// Stiffness pass of U1E and U1A: s = K, no mass, no load.
 extern "C" __attribute__((visibility("default"))) void
@@ -39,12 +52,14 @@ ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm,
   const int dofs = 3 * static_cast<unsigned char>(lakonl[7]);
   if (dofs > ccx::leading_dimension) ccx::stop("U1E, U1A", "more than 20 nodes");
   const std::vector<double>& kept = ccx::stiffness(*nelem);
-  const bool known = kept.size() == static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs);
+  // A nonlinear step asks for forces first. One that does not would take the contact for open.
+  if (kept.size() != static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs))
+    ccx::stop_linear(std::string(lakonl, 3).c_str(), *nelem);
   for (int j = 0; j < dofs; ++j) {
     ff[j] = 0;
     for (int i = 0; i < dofs; ++i) {
       sm[i + ccx::leading_dimension * j] = 0;
-      s[i + ccx::leading_dimension * j] = known ? kept[static_cast<std::size_t>(i + dofs * j)] : 0;
+      s[i + ccx::leading_dimension * j] = kept[static_cast<std::size_t>(i + dofs * j)];
     }
   }
 }

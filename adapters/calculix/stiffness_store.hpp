@@ -22,4 +22,7 @@ std::vector<double>& stiffness(int element);
 /// Stops where ccx has made no room for `size` history variables: in linear steps.
 void check_history(const char* label, int element, int size, const double* begin, const double* end);
 
+/// Stops a step that is linear.
+[[noreturn]] void stop_linear(const char* label, int element);
+
 } // namespace ccx
