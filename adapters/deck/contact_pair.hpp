@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a deck says about its contact: pairs, laws, steps; and what of it cannot be done with user elements.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "mesh.hpp"
+
+namespace ents_deck {
+
+enum class Program { calculix, abaqus };
+
+struct ContactPair {
+  std::string slave, master, interaction;
+  const Statement* statement = nullptr; ///< *CONTACT PAIR; null: named on the command line alone
+  Place line;                           ///< its data line
+  std::optional<double> adjust;         ///< [L] ADJUST=
+};
+
+/// All of *CONTACT PAIR, in the order of the deck.
+std::vector<ContactPair> contact_pairs(const Mesh& mesh);
+
+/// What a law needs to know where the deck leaves a number to the program.
+struct Bodies {
+  double first_young = 0; ///< of the first *ELASTIC; 0: there is none
+  double largest_young = 0;
+  double face_size = 0; ///< mean size of the master's faces, [L]
+};
+Bodies bodies_of(const Mesh& mesh);
+
+struct Law {
+  nlohmann::ordered_json contact;   ///< key "contact" of a model
+  std::vector<std::string> remarks; ///< what was chosen, a sentence each
+};
+
+/// *SURFACE BEHAVIOR and *FRICTION of the pair's interaction.
+/// @param stiffness  [F/L^3] instead of the deck's or of the proposal
+/// @throws Error with the line for TIED and for tables and behaviours that no law fits
+Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Program program,
+           std::optional<double> stiffness);
+
+/// @throws Error with the line of a step, a procedure or a keyword that user elements cannot follow
+void refuse_what_cannot_be_done(const Mesh& mesh, const ContactPair& pair, Program program);
+
+/// Range of prescribed motion over all steps, per direction, [L]: what one body may slide over the other.
+Point prescribed_motion(const Mesh& mesh);
+
+} // namespace ents_deck

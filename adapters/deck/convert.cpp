@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "convert.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <ents.h>
+
+#include "facet_tree.hpp"
+#include "library.hpp"
+#include "surface_coordinates.hpp"
+
+namespace ents_deck {
+namespace {
+
+using nlohmann::ordered_json;
+using std::string;
+
+/// CalculiX has room for 20 nodes in an element, the adapters for 33.
+int largest_element(Program program) { return program == Program::calculix ? 20 : 33; }
+
+constexpr double default_border = 0.05; ///< natural coordinates: nodes on the border of the master stay on it
+
+ordered_json model_file(const std::filesystem::path& path) {
+  if (path.empty()) return ordered_json::object();
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error("the model " + path.string() + " cannot be read");
+  try {
+    ordered_json out = ordered_json::parse(stream);
+    if (!out.is_object()) throw Error("the model " + path.string() + " is not a JSON object");
+    return out;
+  } catch (const nlohmann::json::exception& error) {
+    throw Error("the model " + path.string() + ": " + error.what());
+  }
+}
+
+/// Height maps name their files from the folder of the model: here, from the working folder of the job.
+void resolve_files(ordered_json& node, const std::filesystem::path& folder) {
+  if (node.is_object()) {
+    if (node.contains("file") && node["file"].is_string()) {
+      const std::filesystem::path file = node["file"].get<string>();
+      if (file.is_relative())
+        node["file"] = std::filesystem::absolute(folder / file).lexically_normal().string();
+    }
+    for (auto& [key, value] : node.items()) resolve_files(value, folder);
+  } else if (node.is_array()) {
+    for (auto& value : node) resolve_files(value, folder);
+  }
+}
+
+std::vector<ContactPair> wanted_pairs(const Mesh& mesh, const Options& options) {
+  std::vector<ContactPair> all = contact_pairs(mesh);
+  if (options.pairs.empty()) {
+    if (all.empty())
+      throw Error(mesh.source.files[0].name +
+                  ": there is no *CONTACT PAIR; name two surfaces or sets with --pair SLAVE,MASTER");
+    return all;
+  }
+  std::vector<ContactPair> out;
+  for (const auto& [slave, master] : options.pairs) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&, s = upper(slave), m = upper(master)](const ContactPair& p) {
+          return upper(p.slave) == s && upper(p.master) == m;
+        });
+    if (found == all.end()) {
+      const bool turned = std::any_of(all.begin(), all.end(), [&](const ContactPair& p) {
+        return upper(p.slave) == upper(master) && upper(p.master) == upper(slave);
+      });
+      if (turned)
+        throw Error("--pair " + slave + "," + master + ": in the deck '" + master +
+                    "' is the slave; write --pair " + master + "," + slave);
+    }
+    out.push_back(found != all.end() ? *found : ContactPair{slave, master, "", nullptr, {0, 1}, {}});
+  }
+  return out;
+}
+
+void check_kinds(const Mesh& mesh, const Side& side, Program program) {
+  for (const Face& face : side.faces) {
+    if (mesh.kind(face.element) == Kind::shell)
+      mesh.source.fail(side.place, "'" + side.name +
+                                       "' has faces of shells: their contact surface is half a thickness "
+                                       "away from their nodes, which a contact element does not know");
+    if (program == Program::calculix &&
+        mesh.nodes[static_cast<std::size_t>(face.nodes[0])].instance != no_instance)
+      mesh.source.fail(side.place, "ccx has no *PART and *INSTANCE; this deck is Abaqus's: --for abaqus");
+  }
+}
+
+bool is_linear(Shape shape) { return node_count(shape) == corner_count(shape); }
+
+double mean_size(const Mesh& mesh, const Side& side) {
+  double sum = 0;
+  for (const Face& face : side.faces) {
+    const double n = length(face_normal(mesh, face));
+    sum += corner_count(face.shape) == 2 ? n : std::sqrt(corner_count(face.shape) == 3 ? n / 2 : n / 2);
+  }
+  return side.faces.empty() ? 0 : sum / static_cast<double>(side.faces.size());
+}
+
+ordered_json raised(ordered_json height, double rise) {
+  const ordered_json constant{{"type", "constant"}, {"value", rise}};
+  return height.is_null() ? constant : ordered_json{{"type", "sum"}, {"of", {height, constant}}};
+}
+
+/// ADJUST=: nodes nearer to the master than that are put on it, as the programs do before they begin.
+void adjust(Mesh& mesh, Contact& contact, std::vector<Move>& moves) {
+  if (!contact.pair.adjust) return;
+  const auto set = mesh.node_sets.find(upper(contact.pair.statement->value("ADJUST")));
+  std::set<int> named;
+  if (set != mesh.node_sets.end()) named.insert(set->second.begin(), set->second.end());
+  const FacetTree tree(mesh, contact.master.faces);
+  const std::vector<Point> normals = node_normals(mesh, contact.slave);
+  int moved = 0;
+  double farthest = 0;
+  for (std::size_t i = 0; i < contact.slave.nodes.size(); ++i) {
+    Node& node = mesh.nodes[static_cast<std::size_t>(contact.slave.nodes[i])];
+    const FacetTree::Closest under = tree.closest(node.x, normals[i]);
+    if (under.face < 0) continue;
+    const Face& face = contact.master.faces[static_cast<std::size_t>(under.face)];
+    Point n = face_normal(mesh, face);
+    const double size = length(n), scale = corner_count(face.shape) == 2 ? size : std::sqrt(size);
+    for (double& c : n) c /= size;
+    const double gap = dot(minus(node.x, under.point), n);
+    const bool ahead = under.distance - std::abs(gap) <= 0.1 * scale;
+    const bool wanted = set != mesh.node_sets.end() ? named.count(contact.slave.nodes[i]) != 0
+                                                    : ahead && gap <= *contact.pair.adjust;
+    if (!wanted || std::abs(gap) <= 1e-9 * scale) continue;
+    for (std::size_t j = 0; j < 3; ++j) node.x[j] -= gap * n[j];
+    moves.push_back({contact.slave.nodes[i], node.x});
+    ++moved;
+    farthest = std::max(farthest, std::abs(gap));
+  }
+  if (moved == 0) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "ADJUST: %d nodes are put on the master in their *NODE lines, the farthest by %.4g", moved,
+                farthest);
+  contact.remarks.push_back(text);
+}
+
+/// Points inside of faces carry what a face carries to all its nodes, as contact between surfaces does. Nodes
+/// have their shares of areas alone, and where both meshes match they lie on kinks of the master.
+int points_per_direction(const Contact& contact, const Options& options) {
+  if (contact.slave.faces.empty()) {
+    if (options.points && *options.points > 0)
+      throw Error("--points: the slave '" + contact.pair.slave + "' is of nodes alone");
+    return 0;
+  }
+  return options.points.value_or(is_linear(contact.slave.faces[0].shape) ? 2 : 3);
+}
+
+/// One pair: sides, law, patches.
+Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, const ordered_json& base,
+                std::vector<Move>& moves) {
+  refuse_what_cannot_be_done(mesh, pair, options.program);
+  Contact out;
+  out.pair = pair;
+  out.slave = side_of(mesh, pair.slave, pair.line);
+  out.master = side_of(mesh, pair.master, pair.line);
+  check_kinds(mesh, out.slave, options.program);
+  check_kinds(mesh, out.master, options.program);
+  if (out.master.faces.empty())
+    mesh.source.fail(out.master.place, "the master '" + pair.master + "' has no faces of a body");
+
+  adjust(mesh, out, moves);
+  Bodies bodies = bodies_of(mesh);
+  bodies.face_size = mean_size(mesh, out.master);
+  out.model = base;
+  const string segment = segment_name(out.master.faces[0].shape);
+  if (out.model.contains("segment") && out.model["segment"] != segment)
+    throw Error("the model says \"segment\": " + out.model["segment"].dump() + ", the faces of '" +
+                pair.master + "' are " + segment + ": leave the key out");
+  for (const char* key : {"patch", "surface_coordinates"})
+    if (out.model.contains(key))
+      throw Error(string("the model has \"") + key + "\", which follows from the deck" +
+                  (key[0] == 's' ? " (--coordinates)" : "") + ": leave the key out");
+  out.model["segment"] = segment;
+  if (!out.model.contains("contact")) {
+    Law law = law_of(mesh, pair, bodies, options.program, options.stiffness);
+    out.model["contact"] = std::move(law.contact);
+    out.remarks = std::move(law.remarks);
+  } else if (options.stiffness) {
+    throw Error("--stiffness and \"contact\" of the model contradict each other: leave one out");
+  }
+  if (!out.model.contains("border")) out.model["border"] = default_border;
+
+  const bool height = out.model.contains("height") && !out.model["height"].is_null();
+  PatchRequest request;
+  request.motion = prescribed_motion(mesh);
+  request.slide = options.slide;
+  request.largest = largest_element(options.program);
+  const ordered_json& law = out.model["contact"];
+  out.plane_coordinates =
+      !height && options.coordinates.empty() && law.contains("friction") && !law["friction"].is_null();
+  request.turn = !height || !options.coordinates.empty();
+  const int per_direction = points_per_direction(out, options);
+  out.points = per_direction == 0 ? slave_nodes(mesh, out.slave, out.master, options.program, out.remarks)
+                                  : points_in_faces(mesh, out.slave, per_direction, options.program);
+  out.patches = patches_of(mesh, out.points, out.master, request);
+  if (out.patches.list.empty())
+    mesh.source.fail(out.slave.place, "no node of '" + pair.slave + "' lies ahead of '" + pair.master +
+                                          "', nor within its slide of it");
+  if (height && options.coordinates.empty() && out.master.faces.size() > 1)
+    out.remarks.push_back(
+        "the height repeats on every face of the master (s = xi); --coordinates spreads it over the surface");
+  if (!options.coordinates.empty())
+    out.face_coordinates =
+        coordinates_of_faces(mesh, out.master, options.coordinates, options.coordinate_file);
+  return out;
+}
+
+/// What rounding leaves of a gap of zero, in parts of a face's size: decks are written with as few as seven
+/// digits.
+constexpr double touch_share = 1e-6, rise_share = 1e-9;
+
+/// A body that only contact holds, and that begins on the master with a gap of zero, would be loose in the
+/// first iteration: elements at zero gap are open. The master is raised until the nodes on it are in contact.
+void raise_master(const Mesh& mesh, Contact& contact) {
+  const double size = mean_size(mesh, contact.master);
+  contact.touch = touch_share * size;
+  const Findings found = findings_of(mesh, contact, contact.touch);
+  if (found.touching == 0) return;
+  contact.rise = found.widest_touch + rise_share * size;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "%d points lie on the master; it is raised by %.3g, so that they begin in contact and nothing is loose",
+      found.touching, contact.rise);
+  contact.remarks.push_back(text);
+}
+
+} // namespace
+
+int dimension_of(const Side& master) { return corner_count(master.faces.at(0).shape) == 2 ? 2 : 3; }
+
+Job convert(const Options& options) {
+  Job job;
+  job.mesh = read_mesh(read_source(options.deck));
+  ordered_json base = model_file(options.model);
+  resolve_files(base, options.model.parent_path());
+  std::map<string, int> by_text;
+  for (const ContactPair& pair : wanted_pairs(job.mesh, options)) {
+    Contact contact = prepare(job.mesh, pair, options, base, job.moves);
+    contact.first_element = job.elements.size();
+    raise_master(job.mesh, contact);
+    const auto parameters = static_cast<std::size_t>(dimension_of(contact.master) - 1);
+    for (const Patch& patch : contact.patches.list) {
+      ContactElement element;
+      element.slave = contact.points[static_cast<std::size_t>(patch.slave)];
+      for (const int node : element.slave.nodes)
+        if (std::find(patch.nodes.begin(), patch.nodes.end(), node) != patch.nodes.end())
+          job.mesh.source.fail(pair.line,
+                               "node " + job.mesh.node_label(node) + " belongs to slave and master");
+      element.masters = patch.nodes;
+      if (!contact.face_coordinates.empty())
+        element.surface_coordinates = coordinates_of_patch(contact.master, patch, contact.face_coordinates,
+                                                           parameters, options.coordinates);
+      else if (contact.plane_coordinates)
+        element.surface_coordinates = plane_coordinates(job.mesh, contact.master, patch);
+      ordered_json text = contact.model;
+      text["segment"] = segment_name(contact.master.faces[static_cast<std::size_t>(patch.face)].shape);
+      if (patch.topology.size() > 1 || patch.topology[0].size() != patch.nodes.size())
+        text["patch"] = patch.topology;
+      if (contact.rise > 0)
+        text["height"] = raised(contact.model.value("height", ordered_json()), contact.rise);
+      const auto [entry, is_new] = by_text.emplace(text.dump() + std::to_string(element.slave.nodes.size()),
+                                                   static_cast<int>(job.models.size()));
+      if (is_new)
+        job.models.push_back(checked_model(std::move(text), static_cast<int>(job.models.size()) + 1,
+                                           static_cast<int>(element.slave.nodes.size())));
+      element.model = entry->second;
+      job.elements.push_back(std::move(element));
+    }
+    job.coordinates_in_elements =
+        job.coordinates_in_elements || !job.elements.back().surface_coordinates.empty();
+    contact.element_count = job.elements.size() - contact.first_element;
+    job.contacts.push_back(std::move(contact));
+  }
+  return job;
+}
+
+} // namespace ents_deck

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "library.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <unordered_map>
+
+#include <ents.h>
+
+namespace ents_deck {
+namespace {
+
+using std::string;
+
+struct Destroy {
+  void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
+};
+using Handle = std::unique_ptr<ents_model, Destroy>;
+
+/// The contact's model for faces of a shape.
+nlohmann::ordered_json text_for(const Contact& contact, Shape shape) {
+  auto out = contact.model;
+  out["segment"] = segment_name(shape);
+  return out;
+}
+
+Handle model_of(const nlohmann::ordered_json& json) {
+  ents_report report{};
+  report.struct_size = sizeof report;
+  ents_model* model = nullptr;
+  const string text = json.dump();
+  if (ents_model_create(text.data(), static_cast<int64_t>(text.size()), nullptr, nullptr, 0, &model,
+                        &report) != ENTS_OK)
+    throw Error(string("the model: ") + report.message);
+  return Handle(model);
+}
+
+ents_layout layout_of(const ents_model* model) {
+  ents_layout layout{};
+  layout.struct_size = sizeof layout;
+  ents_model_layout(model, &layout, nullptr);
+  return layout;
+}
+
+/// The master surface as the library takes it.
+struct Master {
+  std::vector<int64_t> connectivity;
+  std::vector<double> positions, coordinates;
+  std::vector<int> faces; ///< [segments] of the contact's master
+  std::unordered_map<int, int64_t> index;
+  ents_master_mesh mesh{};
+
+  /// The faces of one shape: a model has one.
+  Master(const Mesh& deck, const Contact& contact, Shape shape, std::size_t d) {
+    for (std::size_t f = 0; f < contact.master.faces.size(); ++f) {
+      const Face& face = contact.master.faces[f];
+      if (face.shape != shape) continue;
+      faces.push_back(static_cast<int>(f));
+      for (const int node : face.nodes) add(deck, node, d), connectivity.push_back(index.at(node));
+      if (contact.face_coordinates.empty()) continue;
+      coordinates.insert(coordinates.end(), contact.face_coordinates[f].begin(),
+                         contact.face_coordinates[f].end());
+    }
+    mesh.struct_size = sizeof mesh;
+    mesh.segments = static_cast<int64_t>(faces.size());
+    mesh.connectivity = connectivity.data();
+    mesh.nodes = static_cast<int64_t>(index.size());
+    mesh.positions = positions.data();
+    mesh.surface_coordinates = coordinates.empty() ? nullptr : coordinates.data();
+  }
+
+private:
+  void add(const Mesh& deck, int node, std::size_t d) {
+    if (!index.emplace(node, static_cast<int64_t>(index.size())).second) return;
+    const Point& x = deck.nodes[static_cast<std::size_t>(node)].x;
+    positions.insert(positions.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
+  }
+};
+
+void judge(const ents_surface_admissibility& found, const std::vector<int>& faces, Findings& out) {
+#define ENTS_DECK_CONDITION(name, value, text) {value, text},
+  static const std::vector<std::pair<int, const char*>> conditions{ENTS_CONDITION_TABLE(ENTS_DECK_CONDITION)};
+#undef ENTS_DECK_CONDITION
+  for (const auto& [i, text] : conditions) {
+    if ((found.violated >> i & 1) == 0) continue;
+    char line[300];
+    const bool somewhere = found.segment[i] >= 0;
+    std::snprintf(line, sizeof line, "%s; it is %.3g, by %.3g too bad%s%s", text, found.value[i],
+                  found.missing[i], somewhere ? ", on face " : "",
+                  somewhere ? std::to_string(faces[static_cast<std::size_t>(found.segment[i])] + 1).c_str()
+                            : "");
+    out.violations.emplace_back(line);
+  }
+}
+
+} // namespace
+
+Model checked_model(nlohmann::ordered_json text, int number, int slave_nodes) {
+  if (number > 9999)
+    throw Error(
+        "the faces meet in more than 9999 different ways, which is as many models as elements can name");
+  const Handle handle = model_of(text);
+  const ents_layout layout = layout_of(handle.get());
+  Model out;
+  out.number = number;
+  out.text = std::move(text);
+  out.slave_nodes = slave_nodes;
+  out.master_nodes = layout.nodes;
+  out.parameters = layout.parameters;
+  out.state_size = layout.state_size;
+  out.symmetric = layout.symmetric_tangent != 0;
+  if (layout.multipliers)
+    throw Error("the model's contact has multipliers as unknowns, for which every element needs a node of "
+                "its own; take \"penalty\" or \"augmented\"");
+  if (!out.text.contains("contact")) throw Error("the model has no \"contact\"");
+  return out;
+}
+
+namespace {
+
+/// Extent of all points together, [L]: no gap is larger.
+double extent(const std::vector<double>& a, const std::vector<double>& b, std::size_t d) {
+  double sum = 0;
+  for (std::size_t j = 0; j < d; ++j) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto* all : {&a, &b})
+      for (std::size_t i = j; i < all->size(); i += d)
+        low = std::min(low, (*all)[i]), high = std::max(high, (*all)[i]);
+    sum += high - low;
+  }
+  return sum;
+}
+
+void find(const Mesh& mesh, const Contact& contact, Shape shape, double touch, Findings& out) {
+  const Handle model = model_of(text_for(contact, shape));
+  const auto d = static_cast<std::size_t>(layout_of(model.get()).dimension);
+  const Master master(mesh, contact, shape, d);
+  ents_report report{};
+  report.struct_size = sizeof report;
+  const auto failed = [&] { return Error("the master '" + contact.pair.master + "': " + report.message); };
+
+  ents_surface_admissibility surface{};
+  surface.struct_size = sizeof surface;
+  if (ents_surface_check(model.get(), &master.mesh, &surface, &report) != ENTS_OK) throw failed();
+  judge(surface, master.faces, out);
+  out.lowest = std::min(out.lowest, surface.height_min);
+  out.highest = std::max(out.highest, surface.height_max);
+
+  std::vector<double> slaves;
+  for (const Patch& patch : contact.patches.list) {
+    if (contact.master.faces[static_cast<std::size_t>(patch.face)].shape != shape) continue;
+    const Point& x = contact.points[static_cast<std::size_t>(patch.slave)].x;
+    slaves.insert(slaves.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
+  }
+  const std::size_t count = slaves.size() / d;
+  std::vector<int64_t> segment(count, -1);
+  std::vector<double> xi(count * (d - 1)), gap(count);
+  int64_t size = 0;
+  ents_tree_size(model.get(), master.mesh.segments, &size, nullptr);
+  std::vector<double> tree(static_cast<std::size_t>(size));
+  ents_detection detection{};
+  detection.struct_size = sizeof detection;
+  detection.slave = slaves.data();
+  detection.reach = extent(slaves, master.positions, d);
+  detection.segment = segment.data();
+  detection.xi = xi.data();
+  detection.gap = gap.data();
+  if (ents_tree_build(model.get(), &master.mesh, tree.data(), size, &report) != ENTS_OK ||
+      ents_detect(model.get(), &master.mesh, tree.data(), size, 0, static_cast<int64_t>(count), &detection,
+                  &report) != ENTS_OK)
+    throw failed();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (segment[i] < 0) continue;
+    ++out.near;
+    if (std::abs(gap[i]) <= touch)
+      ++out.touching, out.widest_touch = std::max(out.widest_touch, gap[i]);
+    else if (gap[i] < 0)
+      ++out.penetrating, out.deepest = std::max(out.deepest, -gap[i]);
+    else
+      out.nearest = std::min(out.nearest, gap[i]);
+  }
+}
+
+} // namespace
+
+Findings findings_of(const Mesh& mesh, const Contact& contact, double touch) {
+  Findings out;
+  out.nearest = std::numeric_limits<double>::infinity();
+  std::set<Shape> shapes;
+  for (const Face& face : contact.master.faces) shapes.insert(face.shape);
+  for (const Shape shape : shapes) find(mesh, contact, shape, touch, out);
+  return out;
+}
+
+SampledSurface sampled(const Mesh& mesh, const Contact& contact, int n) {
+  SampledSurface out;
+  std::map<Shape, Handle> models;
+  const auto d = static_cast<std::size_t>(dimension_of(contact.master));
+  for (std::size_t f = 0; f < contact.master.faces.size(); ++f) {
+    const Face& face = contact.master.faces[f];
+    Handle& model = models[face.shape];
+    if (!model) model = model_of(text_for(contact, face.shape));
+    std::vector<double> nodes, xi;
+    for (const int node : face.nodes) {
+      const Point& x = mesh.nodes[static_cast<std::size_t>(node)].x;
+      nodes.insert(nodes.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
+    }
+    const bool triangle = corner_count(face.shape) == 3;
+    const auto at = [&](int i) { return triangle ? double(i) / n : 2.0 * i / n - 1; };
+    const int first = static_cast<int>(out.points.size());
+    std::vector<std::vector<int>> number(static_cast<std::size_t>(n + 1));
+    int next = first;
+    for (int j = 0; j <= (d == 2 ? 0 : n); ++j)
+      for (int i = 0; i <= (triangle ? n - j : n); ++i) {
+        xi.push_back(at(i));
+        if (d == 3) xi.push_back(at(j));
+        number[static_cast<std::size_t>(j)].push_back(next++);
+      }
+    const auto count = static_cast<std::size_t>(next - first);
+    std::vector<double> points(count * d), heights(count);
+    ents_surface surface{};
+    surface.struct_size = sizeof surface;
+    surface.master = nodes.data();
+    surface.surface_coordinates =
+        contact.face_coordinates.empty() ? nullptr : contact.face_coordinates[f].data();
+    surface.xi = xi.data();
+    surface.point = points.data();
+    surface.height = heights.data();
+    if (ents_surface_evaluate(model.get(), static_cast<int64_t>(count), &surface, nullptr) != ENTS_OK)
+      continue; // said by the check
+    for (std::size_t i = 0; i < count; ++i) {
+      Point p{};
+      for (std::size_t k = 0; k < d; ++k) p[k] = points[i * d + k];
+      out.points.push_back(p);
+      out.heights.push_back(heights[i]);
+    }
+    if (d == 2)
+      for (int i = 0; i < n; ++i) out.cells.push_back({first + i, first + i + 1});
+    for (std::size_t j = 0; d == 3 && j < static_cast<std::size_t>(n); ++j)
+      for (std::size_t i = 0; i + 1 < number[j].size(); ++i) {
+        const bool right = i + 1 < number[j + 1].size();
+        if (!triangle) {
+          out.cells.push_back({number[j][i], number[j][i + 1], number[j + 1][i + 1], number[j + 1][i]});
+        } else {
+          out.cells.push_back({number[j][i], number[j][i + 1], number[j + 1][i]});
+          if (right) out.cells.push_back({number[j][i + 1], number[j + 1][i + 1], number[j + 1][i]});
+        }
+      }
+  }
+  return out;
+}
+
+} // namespace ents_deck

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents-deck: the command line, and what it says.
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <numeric>
+
+#include <CLI/CLI.hpp>
+
+#include "convert.hpp"
+#include "library.hpp"
+#include "picture.hpp"
+#include "write.hpp"
+
+namespace {
+
+using namespace ents_deck;
+using std::string;
+
+struct CommandLine {
+  Options options;
+  std::vector<string> pairs, coordinates;
+  string program, out;
+  double slide = -1, stiffness = 0;
+  int points = -1;
+  bool explain = false, pictures = true;
+};
+
+string shown(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+string counted(std::size_t n, const string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// SLAVE,MASTER; names with commas cannot be named.
+std::pair<string, string> pair_of(const string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == string::npos || comma == 0 || comma + 1 == text.size())
+    throw Error("--pair " + text + ": expected SLAVE,MASTER");
+  return {string(trimmed(text.substr(0, comma))), string(trimmed(text.substr(comma + 1)))};
+}
+
+void read_coordinates(CommandLine& line) {
+  const auto& words = line.coordinates;
+  if (words.empty()) return;
+  const auto axis = [](const string& w) { return w == "x" || w == "y" || w == "z"; };
+  if (words.size() == 2 && words[0] == "cylinder" && axis(words[1])) {
+    line.options.coordinates = "cylinder " + words[1];
+  } else if (words.size() == 1 &&
+             (axis(words[0]) || (words[0].size() == 2 && axis(words[0].substr(0, 1)) &&
+                                 axis(words[0].substr(1)) && words[0][0] != words[0][1]))) {
+    line.options.coordinates = words[0];
+  } else if (words.size() == 1 && std::filesystem::is_regular_file(words[0])) {
+    line.options.coordinates = "file";
+    line.options.coordinate_file = words[0];
+  } else {
+    throw Error("--coordinates: expected two letters such as xy, \"cylinder z\", or a file with lines \"NODE "
+                "S1 S2\"");
+  }
+}
+
+void report(const Job& job, const Contact& contact, const Findings& found, Program program) {
+  const auto& patches = contact.patches;
+  std::printf("pair %s (slave), %s (master)%s\n", contact.pair.slave.c_str(), contact.pair.master.c_str(),
+              contact.pair.statement ? (" of " + job.mesh.source.at(contact.pair.line)).c_str() : "");
+  const bool points = contact.points[0].nodes.size() > 1;
+  std::printf("  slave     %s, one per %s, on %s%s\n", counted(contact.element_count, "element").c_str(),
+              points ? "point inside of a face" : "node", counted(contact.slave.faces.size(), "face").c_str(),
+              patches.left_out
+                  ? (" (" + counted(static_cast<std::size_t>(patches.left_out), points ? "point" : "node") +
+                     " beside the master left out)")
+                        .c_str()
+                  : "");
+  double area = 0;
+  for (std::size_t i = 0; i < contact.element_count; ++i)
+    area += job.elements[contact.first_element + i].slave.area;
+  std::printf("  areas     %s in all\n", shown(area).c_str());
+  std::printf("  master    %s; elements of at most %d nodes (%s: %d), slide %s%s\n",
+              counted(contact.master.faces.size(), "face").c_str(), patches.widest,
+              program == Program::calculix ? "ccx" : "Abaqus", program == Program::calculix ? 20 : 33,
+              shown(patches.slide).c_str(),
+              std::isfinite(patches.reserve)
+                  ? (", and at least " + shown(patches.reserve) + " to a patch's border").c_str()
+                  : ", and every patch is the whole surface");
+  std::printf("  law       %s\n", contact.model.at("contact").dump().c_str());
+  std::printf(
+      "  gaps      %s ahead of the surface: %d on it, %d penetrate%s%s\n",
+      counted(static_cast<std::size_t>(found.near), points ? "point" : "node").c_str(), found.touching,
+      found.penetrating, found.penetrating ? (" (by up to " + shown(found.deepest) + ")").c_str() : "",
+      std::isfinite(found.nearest) ? (", the nearest other gap is " + shown(found.nearest)).c_str() : "");
+  const bool height = contact.model.contains("height") && !contact.model["height"].is_null();
+  if (height)
+    std::printf("  height    from %s to %s\n", shown(found.lowest).c_str(), shown(found.highest).c_str());
+  for (const string& violation : found.violations) std::printf("  NOT ADMISSIBLE  %s\n", violation.c_str());
+  for (const string& remark : contact.remarks) std::printf("  note      %s\n", remark.c_str());
+}
+
+int run(CommandLine& line) {
+  for (const string& pair : line.pairs) line.options.pairs.push_back(pair_of(pair));
+  read_coordinates(line);
+  line.options.program = line.program == "calculix" ? Program::calculix : Program::abaqus;
+  if (line.slide >= 0) line.options.slide = line.slide;
+  if (line.points >= 0) line.options.points = line.points;
+  if (line.stiffness > 0) line.options.stiffness = line.stiffness;
+  const Job job = convert(line.options);
+  bool admissible = true;
+  for (const Contact& contact : job.contacts) {
+    const Findings found = findings_of(job.mesh, contact, 2 * contact.touch);
+    report(job, contact, found, line.options.program);
+    admissible = admissible && found.violations.empty();
+  }
+  const bool friction =
+      std::any_of(job.models.begin(), job.models.end(), [](const Model& m) { return !m.symmetric; });
+  std::printf("elements  %lld .. %lld, %s%s\n", static_cast<long long>(first_free_element(job)),
+              static_cast<long long>(first_free_element(job)) + static_cast<long long>(job.elements.size()) -
+                  1,
+              counted(job.models.size(), "model").c_str(), friction ? ", unsymmetric stiffness" : "");
+  if (line.explain) {
+    std::printf("nothing is written (--explain)\n");
+    return 0;
+  }
+  const auto files = write_job(job, line.options, line.out);
+  std::printf("deck      %s\n", files.front().string().c_str());
+  for (std::size_t i = 0; line.pictures && i < job.contacts.size(); ++i) {
+    const Pictures pictures = draw(job, job.contacts[i], line.out, "pair_" + std::to_string(i + 1));
+    std::printf("pictures ");
+    for (const auto& file : pictures.files) std::printf(" %s", file.string().c_str());
+    std::printf("%s%s\n", pictures.problem.empty() ? "" : "; ", pictures.problem.c_str());
+  }
+  std::printf("next      %s\n",
+              line.options.program == Program::calculix
+                  ? "run ccx with U1E (adapters/calculix/run.sh builds it) in that folder"
+                  : "run Abaqus with libents_abaqus.so as user library (adapters/abaqus/uel) in that folder");
+  if (!admissible)
+    std::printf(
+        "The surface is NOT ADMISSIBLE, see above: results near these places are not to be trusted.\n");
+  return 0;
+}
+
+int program(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app{"Contact pairs of an Abaqus or CalculiX deck become contact elements of ents.\n", "ents-deck"};
+  app.footer("Every line of the deck but those of the pairs stays as it is, byte for byte. Exit codes: 0 "
+             "done, 2 the command line or the deck is wrong,\n"
+             "or asks for what contact elements cannot do (the message names file and line).\n\n"
+             "Examples:\n"
+             "  ents-deck job.inp --for calculix --out job_ents\n"
+             "  ents-deck job.inp --pair SLAVE,MASTER --model scan.json --coordinates xy --for abaqus --out "
+             "job_ents\n"
+             "  ents-deck job.inp --for calculix --explain");
+  app.add_option("deck", line.options.deck, "deck (.inp) as its program or mesher wrote it")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--pair", line.pairs,
+                 "surfaces of a *CONTACT PAIR, or surfaces or sets of a deck without one [all pairs]")
+      ->type_name("SLAVE,MASTER");
+  app.add_option("--model", line.options.model,
+                 "model with height, law ...; what it does not say comes from the deck [no height]")
+      ->type_name("FILE");
+  app.add_option("--for", line.program, "calculix or abaqus")
+      ->required()
+      ->check(CLI::IsMember({"calculix", "abaqus"}))
+      ->type_name("PROGRAM");
+  app.add_option("--points", line.points,
+                 "elements per direction of a slave face, at points inside of it; 0: one per slave node [2, "
+                 "3 on quadratic faces; nodes where the slave is of nodes alone]")
+      ->check(CLI::Range(0, 8))
+      ->type_name("N");
+  CLI::Option* out = app.add_option("--out", line.out, "folder of the new job")->type_name("DIR");
+  app.add_option("--slide", line.slide, "how far slave nodes slide [from the deck's *BOUNDARY]")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("LENGTH");
+  app.add_option("--stiffness", line.stiffness, "of a penalty law [*SURFACE BEHAVIOR, or a proposal]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("NUMBER");
+  app.add_option("--coordinates", line.coordinates,
+                 "surface coordinates of the height: xy, yz ... (positions), cylinder x|y|z (angle, height), "
+                 "or a file \"NODE S1 S2\" [natural coordinates of each face]")
+      ->expected(1, 2)
+      ->type_name("HOW");
+  app.add_flag("--explain", line.explain, "say what would be done and write nothing");
+  app.add_flag_callback(
+      "--no-pictures", [&] { line.pictures = false; }, "leave the pictures out");
+  try {
+    app.parse(argc, argv);
+    if (!line.explain && out->count() == 0) throw CLI::RequiredError("--out DIR (or --explain)");
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error); // --help
+    std::fprintf(stderr, "ents-deck: %s\nents-deck --help lists what there is\n", error.what());
+    return 2;
+  }
+  try {
+    return run(line);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "ents-deck: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "ents-deck: %s\n", error.what());
+    return 1;
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const int code = program(argc, argv);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::fprintf(stderr, "ents-deck: stdout cannot be written: %s\n", std::strerror(errno));
+  return code == 0 ? 1 : code;
+}
