@@ -122,12 +122,10 @@ def check_readme(file):
             counts["listings"] += 1
             if not listing_is_shown(lines, linked):
                 mistakes.append(f"{where}: this listing is no part of a file that the README links to")
-    for number, line in prose:
-        where = f"{name}:{number}"
-        for target in LINK.findall(re.sub(r"`[^`]*`", "", line)):
-            check_link((file, where), folder, target)
-        for command in re.findall(r"`((?:sh |build/bin/|ctest |python3 )[^`]+)`", line):
-            check_command(where, command)
+    for target in LINK.findall(re.sub(r"`[^`]*`", "", text)):
+        check_link((file, name), folder, target)
+    for command in re.findall(r"`((?:sh |build/bin/|ctest |python3 )[^`]+)`", text):
+        check_command(name, command.replace("\n", " "))
 
 
 def check_top(file):
