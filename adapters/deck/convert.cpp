@@ -270,7 +270,8 @@ Job convert(const Options& options) {
       const auto [entry, is_new] = by_text.emplace(text.dump() + std::to_string(element.slave.nodes.size()),
                                                    static_cast<int>(job.models.size()));
       if (is_new)
-        job.models.push_back(checked_model(std::move(text), static_cast<int>(job.models.size()) + 1,
+        job.models.push_back(checked_model(std::move(text),
+                                           options.first_model + static_cast<int>(job.models.size()),
                                            static_cast<int>(element.slave.nodes.size())));
       element.model = entry->second;
       job.elements.push_back(std::move(element));

@@ -172,6 +172,10 @@ int program(int argc, char** argv) {
                  "3 on quadratic faces; nodes where the slave is of nodes alone]")
       ->check(CLI::Range(0, 8))
       ->type_name("N");
+  app.add_option("--first-model", line.options.first_model,
+                 "k of the first ents_k.json, for jobs that have others [1]")
+      ->check(CLI::Range(1, 9000))
+      ->type_name("K");
   CLI::Option* out = app.add_option("--out", line.out, "folder of the new job")->type_name("DIR");
   app.add_option("--slide", line.slide, "how far slave nodes slide [from the deck's *BOUNDARY]")
       ->check(CLI::NonNegativeNumber)
