@@ -5,7 +5,7 @@
 #   libents-dev   header, source of the Fortran module, files for CMake and pkg-config, JSON Schema, examples/slide
 #   ents-adapters the adapters, in the private folder below
 #   python3-ents  the Python package
-#   ents-tools    ents-host and the scenes
+#   ents-tools    ents-host, ents-deck and the scenes
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_LIBRARY_ARCHITECTURE OR ENTS_SANITIZE)
   return()
 endif()
@@ -63,6 +63,9 @@ if(TARGET ents-host)
   install(FILES ${generated}/libents.so DESTINATION ${private}/lib COMPONENT ents-tools EXCLUDE_FROM_ALL)
   install(DIRECTORY examples/ DESTINATION share/ents/examples COMPONENT ents-tools EXCLUDE_FROM_ALL FILES_MATCHING
     REGEX "/[a-z0-9_]+/[a-zA-Z0-9_]+\\.(json|inp|txt)$" PATTERN CMakeLists.txt EXCLUDE PATTERN host EXCLUDE PATTERN fortran_host EXCLUDE PATTERN slide EXCLUDE)
+  if(TARGET ents-deck)
+    install(TARGETS ents-deck RUNTIME DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
+  endif()
   list(APPEND components ents-tools)
 endif()
 
@@ -127,7 +130,7 @@ ents_describe(ents-adapters science "${same}"
 ents_describe(python3-ents python "${same}, python3, python3-numpy"
   "This package has the Python module: NumPy arrays in, residuals and SciPy\nmatrices out. Contact joins two surfaces of a finite element program.")
 ents_describe(ents-tools science "${same}"
-  "This package has ents-host, a small finite element program that solves contact\nscenes, checks whether a height is admissible on a mesh, and draws pictures.\nThe scenes lie in /usr/share/ents/examples.")
+  "This package has ents-host, a small finite element program that solves contact\nscenes, checks whether a height is admissible on a mesh, and draws pictures,\nand ents-deck, which puts contact elements into decks of CalculiX and Abaqus.\nThe scenes lie in /usr/share/ents/examples.")
 string(TOUPPER libents${soversion} name)
 set(CPACK_DEBIAN_${name}_PACKAGE_SHLIBDEPS ON)
 file(WRITE ${generated}/shlibs "libents ${soversion} ${same}\n")
@@ -149,7 +152,7 @@ include(CPack)
 add_custom_target(packages
   COMMAND ${CMAKE_CPACK_COMMAND} -G DEB --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
   WORKING_DIRECTORY ${PROJECT_BINARY_DIR} DEPENDS ents ${adapters} VERBATIM)
-foreach(target ents-host wheel)
+foreach(target ents-host ents-deck wheel)
   if(TARGET ${target})
     add_dependencies(packages ${target})
   endif()

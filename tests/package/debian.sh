@@ -55,6 +55,7 @@ begin=$(now)
 must inside ents-host run /usr/share/ents/examples/rough_afm/scene.json --out /tmp/out
 [ -s "$root/tmp/out/pressure_map.png" ] || { echo "debian.sh: no picture" >&2; exit 1; }
 say "one command to the first picture: $(since "$begin")"
+must inside ents-deck --help
 must inside ents-host check /usr/share/ents/examples/rough_afm/model.json
 must inside $install python3-scipy $(cd "$root" && ls packages/python3-ents_*.deb | sed "s|^|/|") # SciPy brings g++
 must inside python3 -m ents doctor
