@@ -31,10 +31,10 @@
  *                                       middle four: the corners of catmull_rom16 are points 5, 6, 10, 9, in the order of quad4
  *   bezier15                  triangle  control points: corners as tri3, then three on each of the sides 01, 12, 20, in its direction,
  *                                       then the three inner ones, each next to its corner
- * The normal has to point out of the master's body, to the slave nodes. 2D: it is on the left hand of who walks from the first end of the
- * line to the other (to +y if that is to +x). 3D: it points at who sees the corners go round counter-clockwise (to +z if they do
- * so in the plane of x and y). The library cannot see a wrong order: a segment the other way round takes open nodes for
- * penetrating ones and the reverse, one with its middles between the corners is another surface.
+ * The normal has to point out of the master's body, to the slave nodes. 2D: it is on the left of the direction from the first end of
+ * the line to the other (towards +y if that is +x). 3D: seen from its tip, the corners go round counter-clockwise (it is +z if they
+ * do so in the plane of x and y). The library cannot detect a wrong order: a segment with the reversed normal takes open nodes for
+ * penetrating ones and penetrating ones for open ones; one with its middles between the corners is another surface.
  *
  * Rules
  *   - a model is the only handle. It is immutable: any number of threads may evaluate it at once;
@@ -240,14 +240,14 @@ typedef struct ents_detection {
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
  *   normal   the closest of all projections on all segments
- *   shadow   the lit point: of all points on the ray the one nearest to the light
+ *   shadow   of all points on the ray the one that is nearest to the light
  * A slave with a projection of before that is still on that segment and within reach keeps it: it stays on the branch it was
  * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
  * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
  * one on the segment with the smaller number is given), or the proof took too long.
  * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
- * concave edge between segments (a kink of a plain mesh) that is a penetration that nobody sees: the normals of both
- * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE says so (normal projection): cut the step, widen the border, or
+ * concave edge between segments (a kink of a plain mesh) a penetrating slave has no projection either, because the normals of both segments
+ * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE is set (normal projection): cut the step, widen the border, or
  * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open. (At a point where more than 64
  * segments meet nothing is proved: a slave without a projection is flagged.)
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
@@ -457,7 +457,7 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *   tri3  -> bezier15       near the nodes; any mesh. Quartic patches: Loop's subdivision surface (1987), C2, where six facets meet in
  *                           every corner; else as above, with a kink of 2 to 7 % for nodes of 3 to 8 facets. Straight ends only: the
  *                           nodes of facets at a border are reflected in it, which makes regular borders the splines of
- *                           their nodes; x is at x / 2 + (sum of its six neighbours) / 12. Searches on bezier15 are slow (README)
+ *                           their nodes; x is at x / 2 + (sum of its six neighbours) / 12. Searches on bezier15 are slow (tests/bench/README.md)
  * Free ends and borders: `ends`, in both directions beyond a corner (straight: 4 x_00 - 2 x_10 - 2 x_01 + x_11). Straight ends
  * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
  * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
