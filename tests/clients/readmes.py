@@ -149,12 +149,16 @@ def check_top(file):
             mistakes.append(f"README.md: {height}: {error}")
 
 
-skipped = {"build", "out", "node_modules"}
-targets = "\n".join(p.read_text() for p in root.rglob("CMakeLists.txt") if not p.relative_to(root).parts[0].startswith("build"))
-for readme in sorted(root.rglob("README.md")):
-    top = readme.relative_to(root).parts[0]
-    if top not in skipped and not top.startswith(("build", ".")):
-        check_readme(readme)
+FOLDERS = ("core", "abi", "adapters", "examples", "tests")  # and nothing of a build
+
+
+def sources(name):
+    return [root / name, *sorted(path for folder in FOLDERS for path in (root / folder).rglob(name))]
+
+
+targets = "\n".join(path.read_text() for path in sources("CMakeLists.txt"))
+for readme in sources("README.md"):
+    check_readme(readme)
 check_top(root / "README.md")
 print(", ".join(f"{count} {what}" for what, count in counts.items()))
 if min(count for what, count in counts.items() if what != "filters") == 0 or mistakes:
