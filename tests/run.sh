@@ -23,7 +23,7 @@ for option; do
   esac
 done
 
-# A browser opens the page of charts.
-sh "$root/examples/setup.sh" --with chromium "$@"
+# A browser opens the page of charts; ents.Contact makes SciPy's matrices; the wheel is installed into a venv.
+sh "$root/examples/setup.sh" --with chromium --with python3-scipy --with python3-venv "$@"
 echo "== testing"
 ctest --test-dir "$root/build" --parallel "$(nproc)" --output-on-failure --no-tests=error || exit 1

@@ -200,6 +200,21 @@ class Forces(unittest.TestCase):
             np.testing.assert_allclose(-residual[1::2], 20 * np.array([0.1, 0.15, 0.3, 0.25]), rtol=0, atol=1e-13)
 
 
+    def test_elements_of_two_processes_add_up(self):
+        rng = np.random.default_rng(7)
+        x, slave, master = strips(rng)
+        mine = np.array([True, False, True, True, False])
+        whole, one, other = (ents.Contact(CASES["friction"][1], x, slave, master, surface_coordinates="x", reach=0.3, elements=elements)
+                             for elements in (None, mine, ~mine))
+        for u in (np.zeros(x.size), 1e-3 * rng.uniform(-1, 1, x.size)):
+            (r, k), (r1, k1), (r2, k2) = (contact.update(u) for contact in (whole, one, other))
+            self.assertTrue(np.abs(r1).max() > 0 and np.abs(r2).max() > 0)
+            np.testing.assert_allclose(r1 + r2, r, rtol=0, atol=1e-13 * np.abs(r).max())
+            np.testing.assert_allclose((k1 + k2).toarray(), k.toarray(), rtol=0, atol=1e-13 * np.abs(k).max())
+            for contact in (whole, one, other):
+                contact.commit()
+
+
 class Mistakes(unittest.TestCase):
     def test_messages(self):
         x, slave, master = strips(np.random.default_rng(0))
