@@ -16,6 +16,9 @@ done
 for name in libents.so ents.pc ents-config.cmake; do
   find "$scratch/prefix" -name "$name" | grep -q . || { echo "not installed: $name" >&2; exit 1; }
 done
+for program in "$scratch"/prefix/bin/*; do
+  [ ! -e "$program" ] || env -u LD_LIBRARY_PATH "$program" --help >"$scratch/help" 2>&1 || { cat "$scratch/help" >&2; exit 1; }
+done
 if grep -rlF -e "$source" -e "$build" -e "$scratch" "$scratch/prefix"; then
   echo "the files above name a path of this machine" >&2
   exit 1
