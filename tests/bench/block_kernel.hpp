@@ -1,4 +1,4 @@
-// The library's kernel of ordinary elements without the library's door: what ents_evaluate calls once it has checked a call.
+// The library's kernel of ordinary elements, as ents_evaluate calls it after its checks of the arguments.
 #pragma once
 
 #include "abi/handle.hpp"

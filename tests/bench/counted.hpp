@@ -1,4 +1,4 @@
-// A kernel scalar that counts its operations: how much arithmetic an element is made of, whatever it runs on.
+// A kernel scalar that counts its operations: the arithmetic of an element, on any processor.
 #pragma once
 
 #define ENTS_ISA counted

@@ -91,7 +91,7 @@ void run_limits(std::ostream& out) {
   const char* with_fused = fused_kernel("line2", false, false) ? "" : " (cmake -DENTS_BENCH_FUSED=ON)";
   const double guard = 1e9 * interleaved_seconds({read_control_word})[0] / static_cast<double>(guards);
   out << std::fixed << std::setprecision(1)
-      << "What calls are made of; ns per element (thread CPU time, medians in turns).\n"
+      << "Calls beside their parts; ns per element (thread CPU time, medians in turns).\n"
          "  call        through the library\n"
          "  kernel      the compiled kernel of the library alone: no check of arguments, strides or handle; what the call costs more are those, and\n"
          "              the control word of floating point, read twice so that traps, rounding and sticky flags stay the caller's: "

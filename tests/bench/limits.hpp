@@ -1,4 +1,4 @@
-// What a call is made of, and what none of its parts can be faster than.
+// The time of a call beside that of its parts: kernel, chain of operations, stores, arithmetic.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,4 @@
-// How much arithmetic an element is made of.
+// The number of arithmetic operations of an element.
 #pragma once
 
 #include <string>

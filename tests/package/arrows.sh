@@ -1,5 +1,5 @@
 #!/bin/sh
-# arrows.sh ROOT: who may include whom. core knows mechanics and nothing of C, JSON, files or hosts; abi is the only door to it;
+# arrows.sh ROOT: who may include whom. core knows mechanics and nothing of C, JSON, files or hosts; it is reached through abi only;
 # examples and adapters see ents.h and nothing else of ours.
 set -eu
 cd "$1"
@@ -33,7 +33,7 @@ forbid "core takes no lock and starts no thread" '<(thread|mutex|shared_mutex|at
 forbid "POSIX is not portable C++" '<(unistd|fcntl|dlfcn|pthread|signal|sys/.*)\.?h?>' core abi
 forbid "abi does not know hosts or tests" '["<](.*/)?(adapters|examples|tests)/.*[">]' abi
 forbid "only abi may see core" '["<](.*/)?core/.*[">]' examples adapters
-forbid "the door is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters core
+forbid "the interface is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters core
 
 # No detour either: a name without a folder that exists only in core or in abi.
 for folder in examples adapters; do
