@@ -12,12 +12,14 @@ from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, Report, Sta
 
 
 def _installed():
-    """The library of a wheel lies in this folder, that of PREFIX/share/ents/python in PREFIX/lib."""
+    """The library of a wheel lies in this folder, that of PREFIX/share/ents/python in PREFIX/lib, that of the source tree in build/lib."""
     here = pathlib.Path(__file__).resolve().parent
-    for file in (here / "libents.so.1", *([here.parents[3] / "lib" / "libents.so.1"] if here.parts[-4:-1] == ("share", "ents", "python") else [])):
-        if file.exists():
-            return file
-    return ctypes.util.find_library("ents") or "libents.so.1"
+    files = [here / "libents.so.1"]
+    if here.parts[-4:-1] == ("share", "ents", "python"):
+        files.append(here.parents[3] / "lib" / "libents.so.1")
+    if here.parts[-3:-1] == ("adapters", "python"):
+        files.append(here.parents[2] / "build" / "lib" / "libents.so.1")
+    return next((file for file in files if file.exists()), None) or ctypes.util.find_library("ents") or "libents.so.1"
 
 
 class Library:
