@@ -180,7 +180,7 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
     throw InputError(options.model.string() + ": /patch: the segments are those of --mesh here; leave the key out");
   const std::string name = text.at("segment").get<std::string>();
   const MasterSurface surface = read_surface(options.mesh, name, model.layout());
-  make_output_folder(options.out);
+  const OutputFolder folder(options.out);
   const Answer answer(model, surface, options);
   const SurfaceExtent extent = extent_of(model, text, options.model.parent_path(), surface);
   const bool law = text.contains("contact");

@@ -2,10 +2,9 @@
 // Simulation: everything that later increments depend on, as JSON. Numbers are written with as many digits as
 // reading them back to the same bits takes.
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <limits>
 
+#include "hash.hpp"
 #include "simulation.hpp"
 
 namespace host {
@@ -51,23 +50,6 @@ void check_same_scene(const JsonValue& theirs, const Scene& scene) {
               " there and " + text(here) +
               " here; later steps, solver, exact, words, and the model's tangent and penetration_limit may change");
 }
-
-class Hash { // FNV-1a
-public:
-  template <class Values> void add_all(const Values& values) { add(values.data(), values.size() * sizeof(values[0])); }
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211u;
-  }
-  std::string text() const {
-    char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_));
-    return text;
-  }
-
-private:
-  std::uint64_t hash_ = 14695981039346656037u;
-};
 
 } // namespace
 

@@ -149,7 +149,7 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   const std::vector<int>& divisions =
       options.compare_divisions.empty() ? scene.compare.divisions : options.compare_divisions;
   if (divisions.empty()) throw InputError("--compare: give N1,N2,...; the scene has no list of its own");
-  make_output_folder(options.out);
+  const OutputFolder folder(options.out);
   const EntsLibrary library(common.library);
   RunObserver observer;
   if (!common.json) observer.line = [](const std::string& line) {

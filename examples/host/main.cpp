@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -114,8 +115,8 @@ int run_program(int argc, char** argv) {
       ->required()
       ->type_name("FILE");
   run_app->add_option("--out", run.out,
-                      "folder for result.json, the VTU series (open result.pvd in ParaView) and the pictures; without "
-                      "it only the terminal is told")
+                      "folder for result.json, the VTU series (open result.pvd in ParaView), checkpoints and the pictures; no "
+                      "other run may write into it meanwhile; without it only the terminal is told")
       ->type_name("DIR");
   std::string names; // install_adapter checks the name
   for (const std::string& name : adapter_names())
@@ -144,7 +145,8 @@ int run_program(int argc, char** argv) {
                     "before the increments solve others (the whole step; with --cut random now and then some parts) and "
                     "throw them away: the result must not change by a bit, see \"fingerprint\" in it");
   run_app->add_option("--last-step", run.last_step, "stop after this step")->check(integer(1, 1000000));
-  run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder")
+  run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder, or from checkpoint_before.json, that of "
+                      "one step before; the same folder keeps the earlier steps in result.pvd")
       ->check(CLI::ExistingFile);
   add_common(*run_app);
   run_app->footer("A scene needs dimension, formulation (2D), materials, parts and steps; and supports, springs or a half_space, to hold the bodies.\n"
@@ -152,6 +154,11 @@ int run_program(int argc, char** argv) {
                   "Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
                   "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1;\n"
                   "what was solved before is told and written all the same.\n\n"
+                  "Friction: slip begins where \"traction\", per area of the surface, reaches mu times the pressure. A penalty leaves a gap g\n"
+                  "at which the force on the slave node is another one: tangential over normal force is mu / (1 - kappa |g|) in slip, with\n"
+                  "the curvature kappa of the enriched surface along it (> 0 on crests); a stiffer penalty or a multiplier brings it to mu.\n\n"
+                  "A file is replaced when the new one is on the disk: a run that is killed or finds the disk full leaves the files of the\n"
+                  "last whole step, of which checkpoint.json has a checksum.\n\n"
                   "Examples:\n"
                   "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface on ONE segment\n"
                   "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 plain segments\n"
@@ -261,6 +268,7 @@ int run_program(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN); // a file that the shell's limit cuts off is told as one on a full disk
   const int code = run_program(argc, argv);
   // Answers that never arrived shall not look like success.
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

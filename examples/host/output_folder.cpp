@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output_folder.hpp"
 
+#include <cerrno>
+
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "error.hpp"
 
 namespace host {
 
-void make_output_folder(const std::filesystem::path& folder) {
+OutputFolder::OutputFolder(const std::filesystem::path& folder) {
   if (folder.empty()) return;
   const std::string name = "--out: " + folder.string();
   // "--out --json" forgot the name, and a folder called --json helps nobody
@@ -21,6 +25,15 @@ void make_output_folder(const std::filesystem::path& folder) {
   if (error) throw InputError(name + ": " + error.message() + "; name a folder that can be made");
   if (access(folder.c_str(), W_OK | X_OK) != 0)
     throw InputError(name + ": nothing can be written into this folder");
+  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw InputError(
+      name + ": another ents-host is writing into this folder; name another one, or wait until it has ended");
+}
+
+OutputFolder::~OutputFolder() {
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 } // namespace host

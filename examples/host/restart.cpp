@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "hash.hpp"
 #include "output/table.hpp"
 
 namespace host {
@@ -38,23 +39,58 @@ void check_steps(const JsonValue& values, const Simulation& simulation, int step
                 "value, and that is another one in this scene; keep the last value");
 }
 
+/// Of the values, whatever spaces stand between them.
+std::string checksum(const Json& checkpoint) {
+  const std::string text = checkpoint.dump();
+  Hash hash;
+  hash.add_all(text);
+  return hash.text();
+}
+
+/// Where a damaged checkpoint leaves its user.
+std::string other_checkpoint(const std::filesystem::path& file) {
+  const std::filesystem::path before = file.parent_path() / checkpoint_before_name;
+  std::error_code error;
+  if (file.filename() != checkpoint_name || !std::filesystem::exists(before, error)) return "";
+  return "; the one of the step before is " + before.string();
+}
+
+/// The file's checkpoint without its checksum.
+/// @throws InputError if it is damaged, or none
+Json read_whole(const std::filesystem::path& file) {
+  Json json;
+  try {
+    json = parse_json_file(file);
+  } catch (const InputError& error) {
+    throw InputError(error.what() + other_checkpoint(file));
+  }
+  if (!json.contains("step") || !json.contains("displacement"))
+    throw InputError(file.string() +
+                     ": this is no checkpoint; --restart takes the checkpoint.json that a run leaves in "
+                     "its --out folder" +
+                     other_checkpoint(file));
+  const std::string wanted = json.contains("checksum") ? json.at("checksum").dump() : "missing";
+  json.erase("checksum");
+  if (wanted != Json(checksum(json)).dump())
+    throw InputError(file.string() + ": the checkpoint is damaged or was edited: its checksum is " + wanted +
+                     ", that of its values \"" + checksum(json) + "\"" + other_checkpoint(file));
+  return json;
+}
+
 } // namespace
 
-Json checkpoint_after(const Simulation& simulation, int step) {
+std::string checkpoint_text(const Simulation& simulation, int step) {
   const std::vector<double>& steps = simulation.scene().steps;
   Json json = simulation.checkpoint();
   json["step"] = step;
   json["values"] = std::vector<double>(steps.begin(), steps.begin() + step);
-  return json;
+  json["checksum"] = checksum(json);
+  return json.dump() + "\n";
 }
 
 int read_checkpoint(const std::filesystem::path& file, Simulation& simulation) {
-  Json json = parse_json_file(file);
+  Json json = read_whole(file);
   const std::string where = file.string() + ": ";
-  if (!json.is_object() || !json.contains("step") || !json.contains("displacement"))
-    throw InputError(
-        where +
-        "this is no checkpoint; --restart takes the checkpoint.json that a run leaves in its --out folder");
   const int step = JsonObject(JsonValue(json, where)).at("step").integer(1, 1000000);
   const Json values = json.contains("values") ? json.at("values") : Json();
   json.erase("step");

@@ -8,8 +8,12 @@
 
 namespace host {
 
-/// The simulation's checkpoint, with the step it was written after and the values of the steps up to there.
-Json checkpoint_after(const Simulation& simulation, int step);
+/// In the folder of --out: that of the last step, and the one before it.
+inline constexpr const char *checkpoint_name = "checkpoint.json", *checkpoint_before_name = "checkpoint_before.json";
+
+/// A checkpoint file: the simulation's checkpoint, the step it was written after, the values of the steps up to there, and
+/// a checksum of all of them.
+std::string checkpoint_text(const Simulation& simulation, int step);
 
 /// @return the step it was written after
 /// @throws InputError naming the file: no checkpoint, damaged, of another scene, or of other steps up to

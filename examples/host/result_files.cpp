@@ -97,15 +97,21 @@ vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
 
 } // namespace
 
-void write_step(vtu::Series& series, Simulation& simulation, const StepRecord& record) {
-  const double time = record.value;
-  series.add(record.step, time, "bulk", bulk_grid(simulation));
-  if (simulation.contact() == nullptr) return;
-  series.add(record.step, time, "slave", slave_grid(simulation, record));
-  const Master& master = simulation.contact()->master();
-  series.add(record.step, time, "surface",
-             master.rigid && master.segments == 1 && !master.triangles
-                 ? surface_grid(simulation) : segments_grid(simulation, master));
+std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation, const StepRecord& record) {
+  const auto part = [&](const char* name, auto grid) {
+    return [&series, &record, name, grid] { series.add(record.step, record.value, name, grid()); };
+  };
+  std::vector<std::function<void()>> parts{part("bulk", [&] { return bulk_grid(simulation); })};
+  if (simulation.contact() != nullptr) {
+    parts.push_back(part("slave", [&] { return slave_grid(simulation, record); }));
+    parts.push_back(part("surface", [&] {
+      const Master& master = simulation.contact()->master();
+      return master.rigid && master.segments == 1 && !master.triangles ? surface_grid(simulation)
+                                                                       : segments_grid(simulation, master);
+    }));
+  }
+  parts.push_back([&series] { series.write_list(); });
+  return parts;
 }
 
 } // namespace host

@@ -112,7 +112,7 @@ const Work* named(const std::vector<Work>& works, const std::string& name) {
 
 int chart_command(const CommonOptions& common, const ChartOptions& options) {
   const Stopwatch watch;
-  make_output_folder(options.out);
+  const OutputFolder folder(options.out);
   const EntsLibrary library(common.library);
   const std::vector<Work> works = measure_all(library, options);
   std::vector<Map> maps = stability_maps(options.quick);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <span>
 #include <stdexcept>
 
@@ -214,10 +215,19 @@ void Series::resume(int first_step) {
     const auto digits = vtu.rfind('_') + 1;
     std::from_chars(vtu.data() + digits, vtu.data() + vtu.size(), step);
     if (step >= first_step) continue;
-    Entry entry{0, value("name"), vtu};
+    Entry entry{step, 0, value("name"), vtu};
     std::from_chars(time.data(), time.data() + time.size(), entry.time);
     list(std::move(entry));
   }
+}
+
+std::vector<int> Series::whole_steps() const {
+  std::map<int, std::size_t> parts;
+  for (const Entry& entry : entries_) ++parts[entry.step];
+  std::vector<int> steps;
+  for (const auto& [step, count] : parts)
+    if (count == parts_.size()) steps.push_back(step);
+  return steps;
 }
 
 std::filesystem::path Series::file() const { return directory_ / (name_ + ".pvd"); }
@@ -227,8 +237,10 @@ void Series::add(int step, double time, std::string_view part, const Grid& grid)
   digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
   const std::string vtu = name_ + "_" + std::string(part) + "_" + digits + ".vtu";
   write(directory_ / vtu, grid);
-  list({time, std::string(part), vtu});
+  list({step, time, std::string(part), vtu});
+}
 
+void Series::write_list() const {
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
       "byte_order=\"" +

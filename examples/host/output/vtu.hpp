@@ -63,8 +63,7 @@ std::string to_xml(const Grid& grid);
 /// @throws std::runtime_error naming the file that cannot be written; std::invalid_argument as to_xml
 void write(const std::filesystem::path& file, const Grid& grid);
 
-/// A series over load steps: DIR/NAME.pvd refers to DIR/NAME_PART_0003.vtu. The .pvd is rewritten at every
-/// step, so a run that was stopped can be looked at.
+/// A series over load steps: DIR/NAME.pvd refers to DIR/NAME_PART_0003.vtu.
 class Series {
 public:
   Series(std::filesystem::path directory, std::string name);
@@ -72,14 +71,22 @@ public:
   /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
   void add(int step, double time, std::string_view part, const Grid& grid);
 
+  /// Replace the .pvd file by one that lists what was added up to now: after every step, so that a run that was stopped
+  /// can be looked at and gone on with.
+  void write_list() const;
+
   /// A run that goes on: what the .pvd file there is says of earlier steps stays in it.
   void resume(int first_step);
+
+  /// Steps of which the .pvd file lists as many parts as of any, ascending.
+  std::vector<int> whole_steps() const;
 
   /// The .pvd file, for the message to the user.
   std::filesystem::path file() const;
 
 private:
   struct Entry {
+    int step;
     double time;
     std::string part, file;
   };

@@ -179,6 +179,7 @@ TEST(VtuSeries, ListsEveryStepWithItsTimeAndPart) {
   for (const int step : {0, 1}) {
     series.add(step, 0.1 * step, "bulk", plane_grid());
     series.add(step, 0.1 * step, "slave", vtu::point_cloud(2, {0, 0}));
+    series.write_list();
   }
   std::ifstream stream(series.file());
   std::stringstream text;
@@ -201,6 +202,7 @@ TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
     for (int step = first; step <= last; ++step) {
       series.add(step, time * step, "bulk", plane_grid());
       series.add(step, time * step, "slave", vtu::point_cloud(2, {0, 0}));
+      series.write_list();
     }
   };
   vtu::Series series(folder, "result"), rest(folder, "result");
@@ -218,6 +220,9 @@ TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
       "0.25 0 result_bulk_0001.vtu", "0.25 1 result_slave_0001.vtu", "0.5 0 result_bulk_0002.vtu", "0.5 1 result_slave_0002.vtu",
       "1.5 0 result_bulk_0003.vtu", "1.5 1 result_slave_0003.vtu", "2 0 result_bulk_0004.vtu", "2 1 result_slave_0004.vtu"};
   EXPECT_EQ(found, expected);
+  EXPECT_EQ(rest.whole_steps(), (std::vector<int>{1, 2, 3, 4}));
+  rest.add(5, 1, "bulk", plane_grid()); // a part is missing
+  EXPECT_EQ(rest.whole_steps(), (std::vector<int>{1, 2, 3, 4}));
   std::filesystem::remove_all(folder);
 }
 
