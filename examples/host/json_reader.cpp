@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 namespace host {
 namespace {
@@ -16,20 +15,81 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+// What is larger is no input of this program, and reading on would take the machine's memory: one value takes
+// sixteen bytes, an object, a key or a string a hundred.
+constexpr std::size_t most_bytes = std::size_t{1} << 30, most_words = 1000000, most_arrays = 10000000;
+constexpr std::size_t most_objects = 100000; // the parser looks through an array after every object in it
+constexpr int deepest = 100;                 // copying and writing call themselves at every level
+
+/// What the parser meets, value by value: a wrong file shall be refused before it is in memory.
+class Watch {
+public:
+  explicit Watch(const std::string& name) : name_(name) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json& parsed) {
+    using Event = Json::parse_event_t;
+    if (event == Event::object_end || event == Event::array_end) {
+      if (event == Event::object_end) keys_.pop_back();
+      return true;
+    }
+    if (depth == 0 && event != Event::object_start)
+      fail(std::string("an object is expected, this is ") +
+           (event == Event::array_start ? "array" : parsed.type_name()));
+    if (depth >= deepest && (event == Event::object_start || event == Event::array_start))
+      fail("objects and arrays lie more than " + std::to_string(deepest) + " levels deep in each other");
+    if (event == Event::array_start) {
+      if (++arrays_ > most_arrays) fail("more than " + std::to_string(most_arrays) + " arrays");
+      return true;
+    }
+    if (event == Event::object_start) {
+      if (++objects_ > most_objects) fail("more than " + std::to_string(most_objects) + " objects");
+      keys_.emplace_back();
+      return true;
+    }
+    if ((event == Event::key || parsed.is_string()) && ++words_ > most_words)
+      fail("more than " + std::to_string(most_words) + " keys and strings");
+    // The parser keeps the last of two equal keys without a word; a scene with a key twice is a mistake.
+    if (event == Event::key && !keys_.back().insert(parsed.get<std::string>()).second)
+      fail("the key \"" + parsed.get<std::string>() + "\" appears twice in one object");
+    return true;
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(name_ + ": " + message); }
+
+  const std::string& name_;
+  std::vector<std::set<std::string>> keys_; ///< of the objects that are open
+  std::size_t words_ = 0, arrays_ = 0, objects_ = 0;
+};
+
+std::string read_text(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(name + ": this is a folder; name a file in it");
+  if (std::filesystem::is_character_file(file, ignored) || std::filesystem::is_block_file(file, ignored))
+    throw InputError(name + ": this is a device; name a file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(name + ": cannot be opened for reading (does it exist?)");
+  std::string text;
+  std::vector<char> part(1 << 20); // a pipe does not say how long it is
+  while (stream.read(part.data(), static_cast<std::streamsize>(part.size())), stream.gcount() > 0) {
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most_bytes)
+      throw InputError(name + ": larger than " + std::to_string(most_bytes >> 20) + " MB");
+  }
+  if (stream.bad()) throw InputError(name + ": cannot be read to its end");
+  return text;
+}
+
 } // namespace
 
 Json parse_json(std::string_view text, const std::string& name) {
-  // The parser keeps the last of two equal keys without a word; a scene with a key twice is a mistake.
-  std::vector<std::set<std::string>> seen;
-  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) seen.emplace_back();
-    if (event == Json::parse_event_t::object_end) seen.pop_back();
-    if (event == Json::parse_event_t::key && !seen.back().insert(parsed.get<std::string>()).second)
-      throw InputError(name + ": the key \"" + parsed.get<std::string>() + "\" appears twice in one object");
-    return true;
-  };
+  Watch watch(name);
   try {
-    return Json::parse(text.begin(), text.end(), watch);
+    return Json::parse(text.begin(), text.end(), [&](int depth, Json::parse_event_t event, Json& parsed) {
+      return watch(depth, event, parsed);
+    });
   } catch (const Json::parse_error& error) {
     const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
@@ -41,15 +101,7 @@ Json parse_json(std::string_view text, const std::string& name) {
   }
 }
 
-Json parse_json_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) throw InputError(file.string() + ": this is a folder; name a file in it");
-  if (!stream) throw InputError(file.string() + ": cannot be opened for reading (does it exist?)");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return parse_json(text.str(), file.string());
-}
+Json parse_json_file(const std::filesystem::path& file) { return parse_json(read_text(file), file.string()); }
 
 void JsonValue::fail(const std::string& message) const {
   throw InputError(where_ + (where_.ends_with(": ") ? "" : ": ") +

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -259,6 +260,10 @@ int run_program(int argc, char** argv) {
   } catch (const InputError& error) {
     std::fprintf(stderr, "ents-host: %s\n", error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "ents-host: the equations are too large for the machine's memory, or for the solver's 32-bit indices; take a coarser mesh (/parts), fewer points "
+                         "(/contact/sampling), or fewer segments (--explicit, --compare)\n");
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ents-host: %s\n", error.what());
     return 1;

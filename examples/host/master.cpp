@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "mesh_size.hpp"
 #include "smoothing.hpp"
 
 namespace host {
@@ -83,6 +84,7 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
     throw InputError(scene.file.string() + ": only a rigid master has an explicit mesh of plain segments");
   if (has_triangles(contact.model))
     throw InputError(where(scene) + "/segment: an explicit mesh is made of lines and quadrilaterals only");
+  check_explicit_size(scene, divisions);
   const EntsModel enriched(library, contact.model.dump(), scene.file.parent_path(), where(scene));
   const auto d = static_cast<std::size_t>(scene.dimension);
   check_sizes(scene, enriched, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");

@@ -37,6 +37,8 @@ GridLines read_axis(const JsonValue& value) {
     const int divisions = piece.at("divisions").integer(1, 100000);
     const double growth = piece.positive_or("growth", 1);
     piece.finish();
+    if (lines.size() + static_cast<std::size_t>(divisions) > 1000000)
+      piece.at("divisions").fail("an axis has at most 1000000 divisions");
     append_graded(lines, to, divisions, growth);
     if (!std::is_sorted(lines.begin(), lines.end(), std::less_equal<>{}) || !std::isfinite(lines.back()))
       item.fail("cells vanish: \"growth\" is too far from 1 for so many divisions");
@@ -58,6 +60,7 @@ PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& 
                    const ElementSetup& common) {
   JsonObject object(value);
   PartSpec part;
+  part.where = value.where();
   part.name = object.at("name").string();
   part.setup = common;
   const JsonValue material = object.at("material");
@@ -237,7 +240,8 @@ void read_steps(const JsonValue& value, Scene& scene) {
     }
     JsonObject range(item); // {"to": 3, "count": 40}: equal steps from the value before
     const double from = scene.steps.empty() ? 0 : scene.steps.back(), to = range.at("to").number();
-    const int count = range.at("count").integer(1, 1000000);
+    const int most = 1000000 - static_cast<int>(scene.steps.size()); // of the run
+    const int count = range.at("count").integer(1, std::max(most, 1));
     range.finish();
     for (int i = 1; i < count; ++i) scene.steps.push_back(from + (to - from) * i / count);
     scene.steps.push_back(to);

@@ -16,7 +16,7 @@ namespace host {
 
 /// A body: a structured block, or the mesh of a deck.
 struct PartSpec {
-  std::string name;
+  std::string name, where; ///< where: file and path, for messages
   ElementSetup setup;
   ElementType type = ElementType::quad4; ///< block
   std::vector<GridLines> lines;          ///< block: one per axis; empty: deck

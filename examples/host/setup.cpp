@@ -7,6 +7,7 @@
 #include <set>
 
 #include "half_space.hpp"
+#include "mesh_size.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
 
@@ -95,6 +96,7 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
 }
 
 void Simulation::build_mesh() {
+  check_mesh_size(*scene_);
   mesh_.dimension = scene_->dimension;
   std::vector<ElementSetup> setups;
   for (const PartSpec& part : scene_->parts) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver.hpp"
 
+#include <new>
+
 #include <dlfcn.h>
 
 #include <Eigen/SparseCholesky>
@@ -37,6 +39,9 @@ public:
   void analyze(const Matrix& matrix) override { lu_.analyzePattern(matrix); }
   bool factorize(const Matrix& matrix) override {
     lu_.factorize(matrix);
+#ifdef ENTS_HOST_UMFPACK
+    if (lu_.umfpackFactorizeReturncode() == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc(); // not a singular matrix
+#endif
     return lu_.info() == Eigen::Success;
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override { return lu_.solve(right_hand_sides); }
@@ -59,10 +64,12 @@ public:
 #endif
   void analyze(const Matrix& matrix) override {
     cholesky_.analyzePattern(matrix);
+    check_memory();
     analyzed_general_ = false;
   }
   bool factorize(const Matrix& matrix) override {
     cholesky_.factorize(matrix);
+    check_memory();
     use_general_ = cholesky_.info() != Eigen::Success;
     if (!use_general_) return true;
     full_ = matrix.selfadjointView<Eigen::Lower>();
@@ -75,6 +82,14 @@ public:
   }
 
 private:
+  /// Without memory there are no factors, of an indefinite matrix neither; but it is no fault of the matrix.
+  void check_memory() {
+#ifdef ENTS_HOST_CHOLMOD
+    const int status = cholesky_.cholmod().status;
+    if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+#endif
+  }
+
   Decomposition cholesky_;
   GeneralSolver general_;
   Matrix full_; // UMFPACK reads the matrix again when it solves

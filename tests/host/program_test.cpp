@@ -85,7 +85,8 @@ TEST_F(Program, NamesAnOptionItDoesNotKnowAndTheOneThatWasMeant) {
 
 TEST_F(Program, HelpOfACommandBeginsWithItsNameAndSaysWhatItTells) {
   expect(ents_host("--help"), 0, {"Usage: ents-host [OPTIONS] SUBCOMMAND\n"});
-  expect(ents_host("run --help"), 0, {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps", "abi/model.schema.json"});
+  expect(ents_host("run --help"), 0, {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps", "abi/model.schema.json",
+                                    "tangential over normal force is mu / (1 - kappa |g|)", "checkpoint_before.json"});
   const ProgramOutput verify = ents_host("verify --help"), variants = ents_host("variants --help");
   expect(verify, 0, {"Usage: ents-host verify [OPTIONS] files...\n",
                      "Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above --tolerance"});
@@ -317,6 +318,43 @@ TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
   for (const auto& residuals : {slow, growing, lost}) EXPECT_EQ(advice(residuals, 0), "") << residuals.back();
 }
 
+// Asked before the mesh is made: later there is no more than "bad_alloc", or the operating system ends the program.
+TEST_F(Program, AMeshThatDoesNotFitIsRefusedByItsKey) {
+  Json json = small();
+  for (const char* axis : {"x", "y"}) json["parts"][0][axis]["pieces"] = {{{"to", *axis == 'x' ? 10 : 0}, {"divisions", 100000}}};
+  expect(ents_host("run " + write("large.json", json)), 2, {"large.json: /parts/0: /x, /y: 100000 x 100000 divisions", "GB of memory"});
+  Json solid = parse_json_file(fs::path(EXAMPLES) / "hertz3d" / "scene.json");
+  expect(ents_host("run " + write("solid.json", solid) + " --explicit 100000"), 2, {"--explicit", "100000 x 100000 segments need at least"});
+  // The shell's limit: refused by the key where the mesh alone is too large, else told when memory is used up.
+  for (Json& piece : json["parts"][0]["x"]["pieces"]) piece["divisions"] = 300;
+  for (Json& piece : json["parts"][0]["y"]["pieces"]) piece["divisions"] = 300;
+  const std::string scene = write("middle.json", json);
+  int refused = 0, used_up = 0;
+  for (const int megabytes : {50, 80, 120, 180, 240}) {
+    const ProgramOutput output = run_in_shell("ulimit -v " + std::to_string(megabytes * 1024) + "; exec \"" ENTS_HOST "\" run " + scene);
+    if (output.text.find("shared object") != std::string::npos) continue; // not even the program fits
+    refused += output.exit_code == 2;
+    used_up += output.exit_code == 1;
+    EXPECT_NE(output.text.find(output.exit_code == 2 ? "/parts/0: /x, /y: 300 x 300 divisions" : "too large for the machine's memory"), std::string::npos)
+        << megabytes << " MB: " << output.text;
+    EXPECT_EQ(output.text.find("singular"), std::string::npos) << output.text;
+  }
+  EXPECT_GT(used_up, 0);
+}
+
+TEST_F(Program, WhatIsNoSceneIsRefusedBeforeItFillsTheMemory) {
+  expect(ents_host("run /dev/zero"), 2, {"/dev/zero: this is a device; name a file"});
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "{\"of\":[";
+  Json json = small();
+  json["contact"]["model"]["height"] = "deep";
+  std::string text = json.dump();
+  text.replace(text.find("\"deep\""), 6, deep);
+  expect(ents_host("run " + write_text("deep.json", text)), 2, {"deep.json: objects and arrays lie more than 100 levels deep"});
+  expect(ents_host("run " + write("small.json", small()) + " --restart " + write_text("checkpoint.json", "{\"displacement\":" + std::string(100000, '[') + "0")), 2,
+         {"checkpoint.json: objects and arrays lie more than 100 levels deep"});
+}
+
 TEST_F(Program, MistakesInFilesAreNamed) {
   Json json = small();
   json["variants"] = {{"a", {{"solvr", Json::object()}}}};
@@ -361,6 +399,7 @@ TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
     Json json = small();
     json["contact"]["model"]["height"] = {{"type", "map"}, {"file", "profile.txt"}, {"boundary", "clamped"}, {"origin", {-1.5}}};
     json["contact"]["model"]["height"].update(more);
+    json.erase("exact");
     json["steps"] = {{"control", "approach"}, {"values", {1e-4}}};
     return write("scene.json", json);
   };
