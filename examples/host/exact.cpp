@@ -33,6 +33,11 @@ HertzPoint hertz_point(double approach, double radius, double contact_modulus) {
   return {force, contact_radius, 3 * force / (2 * pi * squared(contact_radius))};
 }
 
+HertzPoint hertz_point_under(double force, double radius, double contact_modulus) {
+  const double contact_radius = std::cbrt(3 * force * radius / (4 * contact_modulus));
+  return {force, contact_radius, 3 * force / (2 * pi * squared(contact_radius))};
+}
+
 double hertz_pressure(double peak, double half_width, double x) {
   return peak * std::sqrt(std::max(0., 1 - squared(x / half_width)));
 }
@@ -101,7 +106,7 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
   const ExactSpec& exact = scene.exact;
   if (exact.type == Type::none) return {};
   const ElementSetup& setup = scene.parts.front().setup;
-  const double modulus = setup.material.contact_modulus();
+  const double modulus = contact_modulus(scene);
   const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
   const UnitNames& units = scene.units;
   switch (exact.type) {
@@ -114,13 +119,17 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
             {"first open node", units.length, bracket.open}};
   }
   case Type::hertz_point: {
-    const HertzPoint reference = hertz_point(state.approach, exact.radius, modulus);
     double area = 0;
     for (std::size_t k = 0; k < state.area.size(); ++k)
       if (state.closed[k]) area += state.area[k] * scene.symmetry_copies;
-    return {quantity("force", units.force, state.force, reference.force),
-            quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-            quantity("contact radius", units.length, std::sqrt(area / pi), reference.radius)};
+    const double radius = scene.dimension == 3 ? std::sqrt(area / pi) : contact_edge(state);
+    // The approach is one to points far away, which only a half-space has.
+    const HertzPoint reference = scene.half_space ? hertz_point(state.approach, exact.radius, modulus)
+                                                  : hertz_point_under(state.force, exact.radius, modulus);
+    std::vector<Quantity> result{quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+                                 quantity("contact radius", units.length, radius, reference.radius)};
+    if (scene.half_space) result.insert(result.begin(), quantity("force", units.force, state.force, reference.force));
+    return result;
   }
   case Type::westergaard: {
     const double full = westergaard_full_contact(exact.amplitude, exact.wavelength, modulus);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exact solutions of elastic contact with a rigid body, and what a computed step says about the same
-// quantities. E* = E / (1 - nu^2).
+// quantities. E* = E / (1 - nu^2), in plane stress E.
 //   Hertz, line and point contact: K. L. Johnson, Contact Mechanics, 1985, sections 4.2(a), 4.2(c);
 //   Westergaard's sinusoidal surface in plane strain: ibid., section 13.2;
 //   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383.
@@ -14,6 +14,22 @@
 
 namespace host {
 
+class EntsLibrary;
+
+/// E* of the body that has the slave surface.
+double contact_modulus(const Scene& scene);
+
+/// The axis of the contact, along x: the crest of the rigid master, wherever the scene puts it.
+struct ExactAxis {
+  double x = 0;
+  std::string mismatch; ///< the master does not have the shape that the solution is of, and errors would mean nothing; empty: it has
+};
+/// Solutions in the plane and round an axis; {} for all others, which have their axis where x = y = 0.
+ExactAxis exact_axis(const Scene& scene, const EntsLibrary& library);
+
+/// Distance of a place from the axis, of a wave: from its nearest crest.
+double distance_from(const ExactAxis& axis, const ExactSpec& exact, double x);
+
 struct HertzLine {
   double half_width, peak_pressure;
 };
@@ -25,6 +41,8 @@ struct HertzPoint {
 };
 /// @param approach  of the sphere relative to points far away
 HertzPoint hertz_point(double approach, double radius, double contact_modulus);
+/// The same from the force, which needs no points far away.
+HertzPoint hertz_point_under(double force, double radius, double contact_modulus);
 
 /// Pressure at a distance x from the middle of a contact, line or point, of this half width or radius.
 double hertz_pressure(double peak, double half_width, double x);

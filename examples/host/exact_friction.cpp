@@ -3,7 +3,7 @@
 //
 // Two equal elastic cylinders (K. L. Johnson, Contact Mechanics, 1985, sections 4.2(c), 7.2(a); C. Cattaneo 1938,
 // R. D. Mindlin 1949). Normal force P and then tangential force Q < mu P per length, R the relative radius of curvature,
-// 1/E* = 2 (1 - nu^2) / E:
+// 1/E* = 2 (1 - nu^2) / E (plane stress: 2 / E):
 //   a^2 = 4 P R / (pi E*),  p0 = 2 P / (pi a),  stick for |x| <= c = a sqrt(1 - Q / (mu P)),
 //   q = mu p0 (sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - x^2/c^2)).
 // An elliptical traction of total Q on |x| <= a moves the surface of one half-plane by (ibid., 2.25b)
@@ -71,7 +71,7 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
   const ExactSpec& exact = scene.exact;
   const ElementSetup& setup = scene.parts.front().setup;
   const UnitNames& units = scene.units;
-  const double modulus = setup.material.contact_modulus() / 2; // two equal bodies
+  const double modulus = contact_modulus(scene) / 2; // two equal bodies
   // The slave is above: it presses the master down and drags it along.
   const double normal = -state.contact_force[1] / setup.thickness, shear = state.contact_force[0] / setup.thickness;
   if (!(normal > 0)) return {};
@@ -94,7 +94,7 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
   const double moved = std::abs(interpolate(state, 0) - 0.5 * (interpolate(state, exact.distance) +
                                                               interpolate(state, -exact.distance)));
   const double reach = exact.distance, rest_force = limit - std::abs(shear);
-  const double compliance = 2 / (pi * setup.material.contact_modulus());
+  const double compliance = 2 / (pi * contact_modulus(scene));
   const double inner = rest_force > 0 ? rest_force * (elliptical(reach, stick) - elliptical(0, stick)) : 0;
   result.push_back(quantity("tangential displacement", units.length, moved,
                             compliance * (limit * (elliptical(reach, hertz.half_width) -

@@ -158,8 +158,8 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   SurfaceState state;
   for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
     const auto position = contact.slaves().place(k, simulation.mesh());
-    state.distance.push_back(simulation.mesh().dimension == 2 ? std::abs(position[0])
-                                                              : std::hypot(position[0], position[1]));
+    state.distance.push_back(d == 2 ? distance_from(simulation.exact_axis(), simulation.scene().exact, position[0])
+                                    : std::hypot(position[0], position[1]));
   }
   state.load.assign(d, 0.0);
   const std::vector<double> loads = simulation.loads(simulation.now().load_factor);

@@ -79,6 +79,8 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
                      std::to_string(plan.first - 1) + "; there is nothing left to solve");
   note_ignored(options, scene);
   // Before the run, for in its result such a map looks like a master that faces away.
+  if (const std::string& mismatch = simulation.exact_axis().mismatch; !mismatch.empty())
+    std::fprintf(stderr, "ents-host: warning: %s; errors against the exact solution mean nothing\n", mismatch.c_str());
   if (scene.contact) note_small_maps(scene, simulation.contact()->master().surface_coordinates);
   RunFiles files(options.out, options.restart, plan.first);
 

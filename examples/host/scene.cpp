@@ -180,47 +180,6 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   return contact;
 }
 
-ExactSpec read_exact(const JsonValue& value) {
-  using Type = ExactSpec::Type;
-  static const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
-                                                 {"hertz_point", Type::hertz_point},
-                                                 {"westergaard", Type::westergaard},
-                                                 {"double_sine", Type::double_sine},
-                                                 {"cattaneo", Type::cattaneo},
-                                                 {"slope", Type::slope},
-                                                 {"uniform_pressure", Type::uniform_pressure}};
-  JsonObject object(value);
-  ExactSpec exact;
-  exact.type = types.at(object.at("type").word(
-      {"hertz_line", "hertz_point", "westergaard", "double_sine", "cattaneo", "slope", "uniform_pressure"}));
-  if (exact.type == Type::hertz_line || exact.type == Type::hertz_point) {
-    exact.radius = object.at("radius").positive();
-  } else if (exact.type == Type::cattaneo) {
-    exact.radius = object.at("radius").positive();
-    exact.coefficient = object.at("coefficient").positive();
-    exact.distance = object.at("distance").positive();
-  } else if (exact.type == Type::slope) {
-    exact.coefficient = object.at("coefficient").positive();
-  } else if (exact.type == Type::uniform_pressure) {
-    exact.pressure = object.at("pressure").positive();
-  } else {
-    exact.amplitude = object.at("amplitude").positive();
-    exact.wavelength = object.at("wavelength").positive();
-  }
-  object.finish();
-  return exact;
-}
-
-/// Lines and profiles are of the plane, points and sheets of space.
-void check_exact_dimension(const ExactSpec& exact, const JsonValue& type, int dimension) {
-  using Type = ExactSpec::Type;
-  const bool plane = exact.type == Type::hertz_line || exact.type == Type::westergaard || exact.type == Type::cattaneo;
-  const bool space = exact.type == Type::hertz_point || exact.type == Type::double_sine;
-  if ((plane && dimension != 2) || (space && dimension != 3))
-    type.fail("this exact solution is one in " + std::string(plane ? "the plane" : "space") + ", and /dimension is " +
-              std::to_string(dimension) + "; take another one, or leave \"exact\" out");
-}
-
 void read_steps(const JsonValue& value, Scene& scene) {
   static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
                                                        {"approach", Control::approach},
@@ -323,18 +282,7 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
     half_space.finish();
     scene.half_space = spec;
   }
-  if (object.has("exact")) {
-    using Type = ExactSpec::Type;
-    scene.exact = read_exact(object.at("exact"));
-    if (!scene.contact) object.at("exact").fail("the exact solutions are for contact");
-    check_exact_dimension(scene.exact, JsonObject(object.at("exact")).at("type"), scene.dimension);
-    if (scene.exact.type == Type::cattaneo) {
-      if (scene.dimension != 2 || !scene.contact->rigid.empty())
-        object.at("exact").fail("\"cattaneo\" is for two elastic bodies in the plane");
-    } else if (scene.contact->rigid.empty() && scene.exact.type != ExactSpec::Type::uniform_pressure) {
-      object.at("exact").fail("this exact solution is for contact with a rigid master");
-    }
-  }
+  if (object.has("exact")) scene.exact = read_exact(object.at("exact"), scene);
   if (object.has("units")) {
     JsonObject units(object.at("units"));
     scene.units = {units.string_or("length", ""), units.string_or("force", ""),

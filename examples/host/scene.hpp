@@ -83,6 +83,7 @@ enum class Control {
 struct ExactSpec {
   enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope, uniform_pressure };
   Type type = Type::none;
+  std::string where;                    ///< file and path, for messages
   double radius = 0;                    ///< hertz_line, hertz_point, cattaneo [L]
   double coefficient = 0;               ///< cattaneo, slope: friction
   double distance = 0;                  ///< cattaneo: of the points that displacements are measured against [L]
@@ -145,5 +146,13 @@ Scene read_scene(const std::filesystem::path& file, const std::string& variant =
 
 /// The same from text; `file` stands for it in messages and gives the folder.
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file);
+
+/// The part that a set "PART" or "PART.NAME" is of; null: none of that name.
+const PartSpec* part_of_set(const Scene& scene, const std::string& set);
+
+/// The key "exact".
+/// @param scene  all of it that is read before this key
+/// @throws InputError naming the key where the solution is none of such a scene
+ExactSpec read_exact(const JsonValue& value, const Scene& scene);
 
 } // namespace host

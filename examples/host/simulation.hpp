@@ -10,6 +10,7 @@
 #include "bulk.hpp"
 #include "configuration.hpp"
 #include "contact.hpp"
+#include "exact.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
 
@@ -66,6 +67,8 @@ public:
   const Mesh& mesh() const { return mesh_; }
   const Bulk& bulk() const { return *bulk_; }
   Contact* contact() { return contact_.get(); }
+  /// Of the scene's exact solution.
+  const ExactAxis& exact_axis() const { return exact_axis_; }
   const Configuration& now() const { return now_; }
   Sizes sizes() const;
   const Timings& timings() const { return timings_; }
@@ -133,6 +136,7 @@ private:
   std::unique_ptr<DofMap> dofs_;
   std::unique_ptr<Bulk> bulk_;
   std::unique_ptr<Contact> contact_;
+  ExactAxis exact_axis_;
   std::vector<StencilGroup> bulk_stencils_;
   std::unique_ptr<SparseSystem> system_;
   std::unique_ptr<LinearSolver> solver_;

@@ -15,8 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double contact_modulus(const Scene& scene) { return scene.parts.front().setup.material.contact_modulus(); }
-
 double pressure_of_cylinder(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
   const HertzLine hertz = hertz_line(record.force, scene.exact.radius, contact_modulus(scene));
   return hertz_pressure(hertz.peak_pressure, hertz.half_width, place[0]);
