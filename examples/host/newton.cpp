@@ -55,11 +55,16 @@ bool Simulation::choose(const Configuration& at, bool only_lost, std::string& re
 double Simulation::relative_residual(const Evaluation& at) const {
   Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
   const auto dofs = static_cast<std::size_t>(dofs_->dofs());
+  double squared_gaps = 0;
   for (std::size_t i = 0; i < at.residual.size(); ++i) // gaps times area become forces
-    if (const int row = equation(i); row >= 0)
-      residual[row] += at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
+    if (const int row = equation(i); row >= 0) {
+      const double force = at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
+      residual[row] += force;
+      if (i >= dofs) squared_gaps += force * force;
+    }
   const double norm = residual.norm();
-  return norm == 0 ? 0 : norm / at.force_scale;
+  // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they are zero.
+  return norm == 0 ? 0 : norm / std::max(at.force_scale, std::sqrt(squared_gaps));
 }
 
 void Simulation::find_contact(Configuration& at) {
