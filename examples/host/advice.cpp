@@ -38,6 +38,14 @@ bool alternates(const IterationHistory& history) {
   return true;
 }
 
+/// Nodes change their segment at every iteration, and it is never enough.
+bool wanders(const IterationHistory& history) {
+  const auto& r = history.residuals;
+  for (std::size_t i = r.size() - half; i < r.size(); ++i)
+    if (history.moves[i] == 0) return false;
+  return true;
+}
+
 bool stands_still(const std::vector<double>& residuals) {
   const auto begin = residuals.end() - window, middle = residuals.end() - half;
   const double high = *std::max_element(begin, residuals.end());
@@ -50,6 +58,9 @@ bool stands_still(const std::vector<double>& residuals) {
 std::string advice_if_stuck(const IterationHistory& history, const Json& model) {
   if (history.residuals.size() < window) return "";
   if (alternates(history)) return smooth(model) ? "" : "nodes open and close in turn: see examples/chatter (power or exponential law)";
+  if (wanders(history))
+    return "slave nodes change between neighbouring segments at every iteration: take a smoothed segment "
+           "(/contact/model/segment), which has no edges, or other steps";
   if (!stands_still(history.residuals)) return "";
   const std::string stiffness = stiffness_of(model);
   return "the residual does not fall any more: " + (stiffness.empty() ? "" : "lower " + stiffness + " or ") + "raise /solver/tolerance";

@@ -16,9 +16,10 @@ inline constexpr const char* smaller_steps = "take smaller steps, or see /solver
 struct IterationHistory {
   std::vector<double> residuals; ///< relative, after each iteration
   std::vector<int> switches;     ///< slave nodes that opened or closed, at each iteration against the one before
+  std::vector<int> moves;        ///< slave nodes that stayed closed and changed their segment
 };
 
-/// The residual stands still above the tolerance, or nodes open and close in turn. Empty: it is neither.
+/// The residual stands still above the tolerance, or nodes open and close or change segments in turn. Empty: it is neither.
 /// @param model  of the contact, null if there is none
 std::string advice_if_stuck(const IterationHistory& history, const Json& model);
 

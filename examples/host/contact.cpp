@@ -331,10 +331,12 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     out.tangent = tangent.data(), out.tangent_stride = stride(n * n);
     out.tangent_leading_dimension = stride(n);
   }
+  std::vector<std::int32_t> each(active_.size());
+  out.status = each.data(), out.status_stride = 1;
   const EntsLibrary& library = master_.model->library();
-  const std::int32_t status =
-      library.evaluate(master_.model->get(), 0, stride(active_.size()), &in, &out, &report);
+  std::int32_t status = library.evaluate(master_.model->get(), 0, stride(active_.size()), &in, &out, &report);
   if (status < 0) throw JobError("contact: " + describe(library, status, report));
+  if (status != ENTS_OK) status = without_far(each, in, report);
   if (status != ENTS_OK) return status;
 
   squared_force = 0;
@@ -342,10 +344,11 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   for (std::size_t e = 0; e < active_.size(); ++e)
     if ((flags[e] & ENTS_FLAG_CONTACT) != 0)
       found[active_[e]] = 2 * segment_[active_[e]] + ((flags[e] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
-  status_changes_ = switches_ = 0;
+  status_changes_ = switches_ = moves_ = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     status_changes_ += found[k] != found_[k];
     switches_ += (found[k] < 0) != (found_[k] < 0);
+    moves_ += found[k] >= 0 && found_[k] >= 0 && found[k] / 2 != found_[k] / 2;
   }
   found_ = std::move(found);
   if (coupling != nullptr) {
@@ -356,6 +359,7 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   Expanded nodal;
   for (std::size_t e = 0; e < active_.size(); ++e) {
     const std::size_t k = active_[e];
+    if (each[e] != ENTS_OK) continue; // far: open
     std::copy_n(xi.begin() + offset(e * parameters_), parameters_, last_xi_.begin() + offset(k * parameters_));
     const double *R = force.data() + e * n, *K = tangent.empty() ? nullptr : tangent.data() + e * n * n;
     expand(k, R, K, nodal);
@@ -381,8 +385,10 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     }
   }
   if (multipliers_ == 0) return ENTS_OK;
+  std::vector<char> idle(points_.size(), 1);
+  for (std::size_t e = 0; e < active_.size(); ++e) idle[active_[e]] = each[e] != ENTS_OK;
   for (std::size_t k = 0; k < points_.size(); ++k)
-    for (std::size_t j = 0; segment_[k] < 0 && j < multipliers_; ++j) { // lambda = 0, scaled like the others
+    for (std::size_t j = 0; idle[k] != 0 && j < multipliers_; ++j) { // lambda = 0, scaled like the others
       const std::size_t index = k * multipliers_ + j;
       const double slope = -points_.areas[k] / multiplier_scale(index);
       residual[static_cast<std::size_t>(dofs_->dofs()) + index] += slope * at.multiplier[index];

@@ -98,6 +98,8 @@ public:
   int status_changes() const { return status_changes_; }
   /// Those of them that opened or closed.
   int switches() const { return switches_; }
+  /// Those that stayed closed on another segment.
+  int moves() const { return moves_; }
 
   /// The increment is accepted: what the last `assemble` left becomes the history.
   void accept(const Configuration& at);
@@ -130,6 +132,12 @@ private:
     std::vector<double> residual, tangent;
   };
   void expand(std::size_t k, const double* residual, const double* tangent, Expanded& out) const;
+  /// Does the slave point of this element lie ahead of all that its segment's enriched surface fills, or beside it? Then it is open,
+  /// also where its projection cannot be found.
+  bool is_far(std::size_t element) const;
+  /// Status of a call that found no projection for some elements: ENTS_OK if these are far, else that of the first that is not.
+  /// The history of those that are far begins anew.
+  std::int32_t without_far(const std::vector<std::int32_t>& status, const ents_input& in, ents_report& report);
   std::size_t unknown(std::size_t element, std::size_t expanded) const; ///< index into [dofs, multipliers]
   /// Projections on the segment without its height, for elements whose own is not known yet: the point of a rough surface
   /// straight ahead of the node, at the price of a plain segment. Searching the whole enriched one would find a closer point
@@ -149,7 +157,7 @@ private:
   Configuration begin_;                      ///< where the increment began
   /// [slaves] segment and status that the last `assemble` found; -1: open
   std::vector<int> found_;
-  int status_changes_ = 0, switches_ = 0;
+  int status_changes_ = 0, switches_ = 0, moves_ = 0;
   // The elements of the present choice, in the order of `active_`.
   std::vector<std::size_t> active_; ///< slaves with a segment
   std::vector<double> slave_positions_, master_positions_, active_coordinates_, active_areas_, active_multipliers_;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "advice.hpp"
+#include "holding.hpp"
 #include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
@@ -187,6 +188,18 @@ std::string Simulation::advice_if_singular(const Configuration& at) {
          "the slave surface?";
 }
 
+std::string Simulation::nothing_holds(const Configuration& begin) {
+  if (!contact_) return "";
+  const std::string body = what_can_move(mesh_, *dofs_, springs_, *scene_);
+  if (body.empty()) return "";
+  contact_->begin_increment(now_);
+  auto report = ents_struct<ents_report>();
+  contact_->choose(begin, false, report);
+  const std::vector<char> closed = contact_->fields(begin).closed;
+  if (std::any_of(closed.begin(), closed.end(), [](char c) { return c != 0; })) return "";
+  return "nothing holds the bodies: " + body + ", and no slave node is in contact yet";
+}
+
 NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   if (scene_->solver.extrapolate && !rate_.empty()) {
     NewtonOutcome outcome = attempt(target, keep, true);
@@ -206,8 +219,14 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   if (scene_->control == Control::mean_pressure) next.force = target.value * contact_area();
   const double motion_step = scene_->control == Control::approach ? target.value - now_.motion : 0;
 
+  Configuration begin = now_;
   const auto fail = [&](const std::string& reason, double factor) {
     outcome.reason = reason, outcome.step_factor = factor;
+    if (const std::string free = nothing_holds(begin); !free.empty()) {
+      outcome.reason = free;
+      outcome.advice = "give it supports or springs, or let the surfaces overlap a little in the scene";
+      outcome.step_factor = 0; // no smaller step is held either
+    }
     timings_.total += watch.seconds();
     return outcome;
   };
@@ -220,6 +239,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   if (!choose(at, false, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
   if (by_force && now_.force <= 0) {
     find_contact(at);
+    begin = at;
     next.motion = at.motion;
   }
   // First the tangent at the present configuration takes the whole jump of loads and prescribed values, or the motion
@@ -268,6 +288,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     if (by_force) relative = std::max(relative, std::abs(error_of(state)) / next.force);
     history.residuals.push_back(relative);
     history.switches.push_back(contact_ ? contact_->switches() : 0);
+    history.moves.push_back(contact_ ? contact_->moves() : 0);
     if (outcome.augmentations.empty()) {
       outcome.residuals.push_back(relative);
       outcome.status_changes.push_back(contact_ ? contact_->status_changes() : 0);

@@ -220,6 +220,8 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
           size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
           continue;
         }
+        if (outcome.step_factor == 0)
+          throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason + "; " + outcome.advice);
         record.cuts.push_back(outcome.reason);
         size *= outcome.step_factor;
         say("step " + std::to_string(record.step) + ": " + outcome.reason + "; cut to " + format_number(size, 3) +

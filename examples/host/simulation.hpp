@@ -52,7 +52,7 @@ struct NewtonOutcome {
   std::vector<Augmentation> augmentations;
   std::string reason;            ///< why it failed
   std::string advice;            ///< what to look at, if smaller steps will not help
-  double step_factor = 0.5;      ///< suggested for the next try
+  double step_factor = 0.5;      ///< suggested for the next try; 0: a smaller step does not help
 };
 
 class Simulation {
@@ -123,6 +123,9 @@ private:
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
+  /// A body that only contact can hold, and nothing touches: no step of any size can be solved. Empty: that is not it.
+  /// @param begin  where the iteration began
+  std::string nothing_holds(const Configuration& begin);
   /// Most tangents are singular because there is no contact to hold the master. Empty: that is not it.
   std::string advice_if_singular(const Configuration& at);
   /// Move the master until it touches: Newton's iteration for a given force needs a contact to start from.

@@ -303,12 +303,13 @@ TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
   const auto advice = [](const std::vector<double>& residuals, int switches, const char* law = "penalty") {
     Json normal = {{"type", law}};
     if (std::string(law) != "exponential") normal["stiffness"] = 1;
-    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches)}, {{"contact", {{"normal", normal}}}});
+    const std::vector<int> none(residuals.size(), 0);
+    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches), none}, {{"contact", {{"normal", normal}}}});
   };
   const std::vector<double> still{1, 0.1, 1.2e-8, 3e-9, 5.9e-8, 1.2e-8, 4e-9, 1.2e-8, 1.2e-8, 5.9e-8}, in_turn{1, .5, .2, .1, .2, .1, .2, .1, .2, .1};
   EXPECT_EQ(advice(still, 0).substr(0, 40), "the residual does not fall any more: low");
   EXPECT_EQ(advice(still, 0, "exponential"), "the residual does not fall any more: raise /solver/tolerance");
-  EXPECT_EQ(advice_if_stuck({still, std::vector<int>(still.size(), 0)}, Json()), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(advice_if_stuck({still, std::vector<int>(still.size(), 0), std::vector<int>(still.size(), 0)}, Json()), "the residual does not fall any more: raise /solver/tolerance");
   EXPECT_EQ(advice(in_turn, 1).substr(0, 18), "nodes open and clo");
   EXPECT_EQ(advice(in_turn, 0), "");                // no node opens or closes
   EXPECT_EQ(advice(in_turn, 1, "exponential"), ""); // a law that begins smoothly already
