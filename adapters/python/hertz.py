@@ -18,7 +18,7 @@ try:
     import ents
     ents.library()
 except (ImportError, RuntimeError) as error:
-    print(f"hertz.py: {error}")
+    print(f"hertz.py: {error} (Debian: python3-numpy python3-scipy, for /usr/bin/python3)")
     sys.exit(3)
 
 # The block: 10 x 10 mm, four-node elements in plane strain, fixed below.
