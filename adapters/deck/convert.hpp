@@ -21,7 +21,7 @@ struct Options {
   Program program = Program::calculix;
   std::optional<double> slide, stiffness;
   std::optional<int> points; ///< per direction of a slave face; 0: its nodes. Absent: as TYPE= of the pair
-  int first_model = 1;     ///< k of the first ents_k.json
+  int first_model = 1;       ///< k of the first ents_k.json
   std::string coordinates;   ///< "": s = xi; "xy" ...; "cylinder x|y|z"; "file"
 };
 

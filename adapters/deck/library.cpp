@@ -81,7 +81,7 @@ private:
   }
 };
 
-void judge(const ents_surface_admissibility& found, const std::vector<int>& faces, Findings& out) {
+void judge(const ents_surface_admissibility& found, const std::vector<int>& faces, Admissibility& out) {
 #define ENTS_DECK_CONDITION(name, value, text) {value, text},
   static const std::vector<std::pair<int, const char*>> conditions{ENTS_CONDITION_TABLE(ENTS_DECK_CONDITION)};
 #undef ENTS_DECK_CONDITION
@@ -122,66 +122,73 @@ Model checked_model(nlohmann::ordered_json text, int number, int slave_nodes) {
 
 namespace {
 
-/// Extent of all points together, [L]: no gap is larger.
-double extent(const std::vector<double>& a, const std::vector<double>& b, std::size_t d) {
-  double sum = 0;
-  for (std::size_t j = 0; j < d; ++j) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const auto* all : {&a, &b})
-      for (std::size_t i = j; i < all->size(); i += d)
-        low = std::min(low, (*all)[i]), high = std::max(high, (*all)[i]);
-    sum += high - low;
-  }
-  return sum;
-}
+/// Samples per direction and face: about this many in all, so that a large master takes seconds.
+constexpr double wanted_samples = 3e4;
 
-void find(const Mesh& mesh, const Contact& contact, Shape shape, double touch, Findings& out) {
+/// Jumps between faces that meet at an angle, and crossings there, are those of the mesh: they count from
+/// this part of the height's range on.
+constexpr double counting_jump = 1e-3;
+
+void check(const Mesh& mesh, const Contact& contact, Shape shape, Admissibility& out) {
   const Handle model = model_of(text_for(contact, shape));
-  const auto d = static_cast<std::size_t>(layout_of(model.get()).dimension);
-  const Master master(mesh, contact, shape, d);
+  const Master master(mesh, contact, shape, static_cast<std::size_t>(layout_of(model.get()).dimension));
   ents_report report{};
   report.struct_size = sizeof report;
-  const auto failed = [&] { return Error("the master '" + contact.pair.master + "': " + report.message); };
-
   ents_surface_admissibility surface{};
   surface.struct_size = sizeof surface;
-  if (ents_surface_check(model.get(), &master.mesh, &surface, &report) != ENTS_OK) throw failed();
+  const double per_face = wanted_samples / static_cast<double>(master.faces.size());
+  surface.samples = static_cast<int32_t>(
+      std::clamp(dimension_of(contact.master) == 2 ? per_face : std::sqrt(per_face), 3.0, 257.0));
+  if (ents_surface_check(model.get(), &master.mesh, &surface, &report) != ENTS_OK)
+    throw Error("the master '" + contact.pair.master + "': " + report.message);
+  for (const int condition : {ENTS_CHECK_JUMP, ENTS_CHECK_CROSSING, ENTS_CHECK_EDGE})
+    if (surface.missing[condition] <= counting_jump * (surface.height_max - surface.height_min))
+      surface.violated &= ~(int64_t{1} << condition);
   judge(surface, master.faces, out);
   out.lowest = std::min(out.lowest, surface.height_min);
   out.highest = std::max(out.highest, surface.height_max);
+}
 
-  std::vector<double> slaves;
+/// Gaps of points on the face below them, from their projection on the face without height on: as the
+/// elements begin.
+void find(const Mesh& mesh, const Contact& contact, Shape shape, double touch, Findings& out) {
+  auto text = text_for(contact, shape);
+  text["border"] = 0.5;
+  const Handle model = model_of(text);
+  text["height"] = nullptr;
+  const Handle plain = model_of(text);
+  const auto d = static_cast<std::size_t>(layout_of(model.get()).dimension);
   for (const Patch& patch : contact.patches.list) {
-    if (contact.master.faces[static_cast<std::size_t>(patch.face)].shape != shape) continue;
-    const Point& x = contact.points[static_cast<std::size_t>(patch.slave)].x;
-    slaves.insert(slaves.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
-  }
-  const std::size_t count = slaves.size() / d;
-  std::vector<int64_t> segment(count, -1);
-  std::vector<double> xi(count * (d - 1)), gap(count);
-  int64_t size = 0;
-  ents_tree_size(model.get(), master.mesh.segments, &size, nullptr);
-  std::vector<double> tree(static_cast<std::size_t>(size));
-  ents_detection detection{};
-  detection.struct_size = sizeof detection;
-  detection.slave = slaves.data();
-  detection.reach = extent(slaves, master.positions, d);
-  detection.segment = segment.data();
-  detection.xi = xi.data();
-  detection.gap = gap.data();
-  if (ents_tree_build(model.get(), &master.mesh, tree.data(), size, &report) != ENTS_OK ||
-      ents_detect(model.get(), &master.mesh, tree.data(), size, 0, static_cast<int64_t>(count), &detection,
-                  &report) != ENTS_OK)
-    throw failed();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (segment[i] < 0) continue;
+    const Face& face = contact.master.faces[static_cast<std::size_t>(patch.face)];
+    if (face.shape != shape) continue;
+    std::vector<double> master;
+    for (const int node : face.nodes) {
+      const Point& x = mesh.nodes[static_cast<std::size_t>(node)].x;
+      master.insert(master.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
+    }
+    double xi[2], gap = 0;
+    ents_input input{};
+    input.struct_size = sizeof input;
+    input.slave = contact.points[static_cast<std::size_t>(patch.slave)].x.data();
+    input.master = master.data();
+    ents_output output{};
+    output.struct_size = sizeof output;
+    output.wanted = ENTS_XI;
+    output.xi = xi;
+    if (ents_evaluate(plain.get(), 0, 1, &input, &output, nullptr) != ENTS_OK) continue;
+    if (!contact.face_coordinates.empty())
+      input.surface_coordinates = contact.face_coordinates[static_cast<std::size_t>(patch.face)].data();
+    input.start = xi;
+    output.wanted = ENTS_GAP;
+    output.gap = &gap;
+    if (ents_evaluate(model.get(), 0, 1, &input, &output, nullptr) != ENTS_OK) continue;
     ++out.near;
-    if (std::abs(gap[i]) <= touch)
-      ++out.touching, out.widest_touch = std::max(out.widest_touch, gap[i]);
-    else if (gap[i] < 0)
-      ++out.penetrating, out.deepest = std::max(out.deepest, -gap[i]);
+    if (std::abs(gap) <= touch)
+      ++out.touching, out.widest_touch = std::max(out.widest_touch, gap);
+    else if (gap < 0)
+      ++out.penetrating, out.deepest = std::max(out.deepest, -gap);
     else
-      out.nearest = std::min(out.nearest, gap[i]);
+      out.nearest = std::min(out.nearest, gap);
   }
 }
 
@@ -194,6 +201,19 @@ Findings findings_of(const Mesh& mesh, const Contact& contact, double touch) {
   for (const Face& face : contact.master.faces) shapes.insert(face.shape);
   for (const Shape shape : shapes) find(mesh, contact, shape, touch, out);
   return out;
+}
+
+Admissibility admissibility_of(const Mesh& mesh, const Contact& contact) {
+  Admissibility out;
+  if (!has_height(contact)) return out;
+  std::set<Shape> shapes;
+  for (const Face& face : contact.master.faces) shapes.insert(face.shape);
+  for (const Shape shape : shapes) check(mesh, contact, shape, out);
+  return out;
+}
+
+bool has_height(const Contact& contact) {
+  return contact.model.contains("height") && !contact.model["height"].is_null();
 }
 
 SampledSurface sampled(const Mesh& mesh, const Contact& contact, int n) {

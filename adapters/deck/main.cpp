@@ -65,7 +65,8 @@ void read_coordinates(CommandLine& line) {
   }
 }
 
-void report(const Job& job, const Contact& contact, const Findings& found, Program program) {
+void report(const Job& job, const Contact& contact, const Findings& found, const Admissibility& surface,
+            Program program) {
   const auto& patches = contact.patches;
   std::printf("pair %s (slave), %s (master)%s\n", contact.pair.slave.c_str(), contact.pair.master.c_str(),
               contact.pair.statement ? (" of " + job.mesh.source.at(contact.pair.line)).c_str() : "");
@@ -94,10 +95,9 @@ void report(const Job& job, const Contact& contact, const Findings& found, Progr
       counted(static_cast<std::size_t>(found.near), points ? "point" : "node").c_str(), found.touching,
       found.penetrating, found.penetrating ? (" (by up to " + shown(found.deepest) + ")").c_str() : "",
       std::isfinite(found.nearest) ? (", the nearest other gap is " + shown(found.nearest)).c_str() : "");
-  const bool height = contact.model.contains("height") && !contact.model["height"].is_null();
-  if (height)
-    std::printf("  height    from %s to %s\n", shown(found.lowest).c_str(), shown(found.highest).c_str());
-  for (const string& violation : found.violations) std::printf("  NOT ADMISSIBLE  %s\n", violation.c_str());
+  if (has_height(contact))
+    std::printf("  height    from %s to %s\n", shown(surface.lowest).c_str(), shown(surface.highest).c_str());
+  for (const string& violation : surface.violations) std::printf("  NOT ADMISSIBLE  %s\n", violation.c_str());
   for (const string& remark : contact.remarks) std::printf("  note      %s\n", remark.c_str());
 }
 
@@ -112,8 +112,9 @@ int run(CommandLine& line) {
   bool admissible = true;
   for (const Contact& contact : job.contacts) {
     const Findings found = findings_of(job.mesh, contact, 2 * contact.touch);
-    report(job, contact, found, line.options.program);
-    admissible = admissible && found.violations.empty();
+    const Admissibility surface = admissibility_of(job.mesh, contact);
+    report(job, contact, found, surface, line.options.program);
+    admissible = admissible && surface.violations.empty();
   }
   const bool friction =
       std::any_of(job.models.begin(), job.models.end(), [](const Model& m) { return !m.symmetric; });

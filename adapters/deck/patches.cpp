@@ -193,10 +193,12 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
     }
     out.slide = std::max(out.slide, slide);
 
-    // All faces within the slide, over common nodes.
+    // All faces within the slide, over common nodes. Without a slide to speak of the face below is enough: at
+    // a peak many faces are equally near.
+    const bool slides = slide > 0.05 * face_size;
     std::set<int> chosen{under.face}, nodes = nodes_with(all, {}, under.face);
     std::deque<int> queue{under.face};
-    while (!queue.empty()) {
+    while (slides && !queue.empty()) {
       const int f = queue.front();
       queue.pop_front();
       for (const int other : all.around(f)) {

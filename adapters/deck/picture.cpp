@@ -18,7 +18,7 @@ namespace {
 using std::string;
 
 /// Points of the enriched master: about this many in all, so that the files stay small.
-constexpr double wanted_points = 60000;
+constexpr double wanted_points = 15000;
 
 struct Field {
   string name;
@@ -114,7 +114,8 @@ Pictures draw(const Job& job, const Contact& contact, const std::filesystem::pat
     std::ofstream gp(script);
     const auto number = [](const Point& p) { return exact(p[0]) + " " + exact(p[1]) + " " + exact(p[2]); };
     gp << "set terminal pngcairo size 1200,900\nset output '" << picture.filename().string()
-       << "'\nset palette viridis\nset cblabel 'height'\n"
+       << "'\nset palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 "
+          "'#fde725')\nset cblabel 'height'\n"
        << "set title '"
        << (plain_name(contact.pair.slave + contact.pair.master)
                ? "slave nodes " + contact.pair.slave + " on the enriched master " + contact.pair.master
