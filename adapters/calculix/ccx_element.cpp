@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <set>
 
 #include "../common/element.hpp"
 #include "stiffness_store.hpp"
@@ -74,15 +75,32 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
 }
 
 /// Before the first increment: does a contact element need ccx's unsymmetric solver?
+/// Elements of a section share their place in `prop`, where the next section's constants follow: with fewer
+/// than three, these would be taken for the element's.
 CCX_API int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                                  const double* prop) {
+                                  const double* prop, const int* nprop) {
+  std::set<int> begins;
+  for (int i = 0; i < *ne; ++i)
+    if (ipkon[i] >= 0 && ielprop[i] >= 0) begins.insert(ielprop[i]);
+  int unsymmetric = 0;
   for (int i = 0; i < *ne; ++i) {
     if (ipkon[i] < 0 || std::strncmp(lakon + 8 * i, "U1E", 3) != 0) continue;
+    if (ielprop[i] < 0) ccx::stop("U1E", "a contact element has no *USER SECTION, CONSTANTS=3");
+    const auto next = begins.upper_bound(ielprop[i]);
+    const int count = (next == begins.end() ? *nprop : *next) - ielprop[i];
+    if (count < property_count) {
+      char text[120];
+      std::snprintf(text, sizeof text,
+                    "*USER SECTION, CONSTANTS=%d: write CONSTANTS=3 and the three numbers k., area, options",
+                    count);
+      ccx::stop("U1E", text);
+    }
+    if (unsymmetric) continue;
     Element e = describe(i + 1, lakon + 8 * i, prop + ielprop[i]);
     e.history_size = 64; // the force pass looks at it
     const Result result = check(e);
     if (result.outcome == Outcome::failed) ccx::stop("U1E", result.message);
-    if (!result.symmetric) return 1;
+    if (!result.symmetric) unsymmetric = 1;
   }
-  return 0;
+  return unsymmetric;
 }

@@ -104,9 +104,9 @@ PATCHES = {
     "nonlingeo.c": [(
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,",
         "  _Static_assert(sizeof(ITG)==4,\"libents_calculix has integers of 4 bytes: compile ccx without LONGLONG\");\n"
-        "  extern ITG ents_ccx_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
+        "  extern ITG ents_ccx_unsymmetric_(ITG *,ITG *,char *,ITG *,double *,ITG *);\n"
         "  extern ITG ents_ccx_uel_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
-        "  ITG ents_unsymmetric=ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop)||\n"
+        "  ITG ents_unsymmetric=ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop,nprop)||\n"
         "    ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop);\n"
         "  if(ents_unsymmetric) nasym=1;\n"
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,"),

@@ -22,7 +22,7 @@ void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ipkon, con
 int ents_ccx_uel_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
                               const double* prop);
 int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                          const double* prop);
+                          const double* prop, const int* nprop);
 }
 
 namespace adapters {
@@ -49,9 +49,11 @@ CalculixHost::CalculixHost(const Elements& elements, const std::string& element_
   xstateini_.assign(elements.nodes.size() * at(nstate_), 0.0);
   xstate_ = xstateini_;
   const int ne = static_cast<int>(elements.nodes.size());
-  const auto unsymmetric = uel_ ? ents_ccx_uel_unsymmetric_ : ents_ccx_unsymmetric_;
-  if ((unsymmetric(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data()) == 0) !=
-      elements.symmetric)
+  const int nprop = static_cast<int>(prop_.size());
+  const int unsymmetric =
+      uel_ ? ents_ccx_uel_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data())
+           : ents_ccx_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data(), &nprop);
+  if ((unsymmetric == 0) != elements.symmetric)
     throw std::runtime_error("the solver does not fit the model");
 }
 

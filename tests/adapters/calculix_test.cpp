@@ -6,6 +6,9 @@
 #include "calculix_host.hpp"
 #include "problem.hpp"
 
+extern "C" int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
+                                     const double* prop, const int* nprop);
+
 namespace adapters {
 namespace {
 
@@ -21,6 +24,21 @@ TEST_P(Calculix, LinearStepsStopWithAdvice) {
   };
   EXPECT_EXIT(iteration(), testing::ExitedWithCode(201),
               std::string("ERROR in ") + GetParam() + ": ents, element 1: .*this step is linear");
+}
+
+// ccx does not tell an element how many constants it has: where they end is known from those of the next
+// section.
+TEST(CalculixConstants, FewerThanThreeStopTheJob) {
+  const Problem p = problem("quad4_friction");
+  const double model = p.elements.model, prop[] = {model, 0.5, 0, model};
+  const int ne = 2, ipkon[] = {0, 5}, ielprop[] = {0, 3};
+  const char labels[] = "U1E   \x03\x05U1E   \x03\x05";
+  const auto ask = [&] {
+    dup2(STDERR_FILENO, STDOUT_FILENO); // ccx's channel
+    const int nprop = 4;
+    ents_ccx_unsymmetric_(&ne, ipkon, labels, ielprop, prop, &nprop);
+  };
+  EXPECT_EXIT(ask(), testing::ExitedWithCode(201), "CONSTANTS=1: write CONSTANTS=3");
 }
 
 INSTANTIATE_TEST_SUITE_P(Adapters, Calculix, testing::Values("U1E", "U1A"),

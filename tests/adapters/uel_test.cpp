@@ -151,6 +151,22 @@ TEST_F(Uel, MooseAsksWithNumbersOfItsOwn) {
     EXPECT_TRUE(same(c->svars, reference.svars, reference.svars.size())) << c->lflags[2];
 }
 
+// MOOSE passes the displacements of the last step, Abaqus those of now: with the other's option forces are those of
+// another place, and nothing else would tell.
+TEST_F(Uel, AnOptionOfAnotherProgramStopsTheJob) {
+  UelCall abaqus = request(1);
+  abaqus.props.resize(3);
+  abaqus.props[2] = 2;
+  EXPECT_THROW(abaqus(), HostStopped);
+  EXPECT_NE(only_message(-2).find("leave 2 out"), std::string::npos);
+  for (const bool null_flags : {false, true}) {
+    UelCall moose = request(0);
+    moose.null_flags = null_flags;
+    EXPECT_THROW(moose(), HostStopped);
+    EXPECT_NE(only_message(-2).find("add 2 to property 3"), std::string::npos);
+  }
+}
+
 TEST_F(Uel, LargestElementNumber) {
   UelCall c = request(1);
   c.jelem = 2147483647;

@@ -36,6 +36,19 @@ Request requested(const int* lflags, bool moose) {
   return static_cast<Request>(what ? what : 1);
 }
 
+/// MOOSE and Abaqus pass other displacements: an option that is not the host's gives forces of another place.
+/// @return what to write; null: nothing is wrong
+const char* wrong_host(const int* lflags, bool moose) {
+  const int what = lflags ? lflags[2] : 0;
+  if (!moose && (what == 0 || (what == 4 && !abaqus::is_host())))
+    return "this program is MOOSE (LFLAGS(3) = 0 or 4, or none), which passes the displacements of the last "
+           "step: add 2 to property 3";
+  if (moose && what == 1)
+    return "option 2 of property 3 is for MOOSE, and this program is not (LFLAGS(3) = 1): its displacements "
+           "are the present ones, leave 2 out";
+  return nullptr;
+}
+
 void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int mlvarx) {
   for (int k = 0; rhs && k < columns; ++k)
     for (int i = 0; i < dofs; ++i) rhs[i + static_cast<std::ptrdiff_t>(k) * mlvarx] = value;
@@ -55,6 +68,13 @@ ENTS_ENTRY(uel, UEL,
   const Request request = requested(lflags, moose);
   const bool perturbation = !moose && lflags && lflags[3] == 1; // MOOSE sets LFLAGS(3) alone
   fill(0, rhs, amatrx, dofs, columns, *mlvarx);
+  if (const char* wrong = wrong_host(lflags, moose)) {
+    abaqus::tell(abaqus::Severity::error,
+                 ("ents, element " + std::to_string(jelem ? *jelem : 0) + ": " + wrong).c_str());
+    if (!abaqus::is_host() || !abaqus::stop())
+      fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
+    return;
+  }
   if (request == Request::damping || request == Request::mass || request == Request::perturbation_output)
     return;
 
