@@ -138,7 +138,7 @@ Pictures draw(const Job& job, const Contact& contact, const std::filesystem::pat
       gp << "set size ratio -1\nplot $surface using 1:2:4 with lines lw 2 palette title 'master', $slave "
             "using 1:2 with points pt 7 ps 0.6 lc rgb '#c1121f' title 'slave nodes'\n";
     else
-      gp << "set view equal xyz\nset view 65,30\nset xyplane relative 0\nset pm3d depthorder\nunset key\n"
+      gp << "set view equal xy\nset view 65,30\nset xyplane relative 0\nunset key\n"
             "splot $surface using 1:2:3:4 with pm3d, $slave using 1:2:3 with points pt 7 ps 0.6 lc rgb "
             "'#c1121f'\n";
   }

@@ -27,8 +27,8 @@ except ImportError:
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCAN = ROOT / "examples" / "rough_afm" / "afm_10um_256.txt"
 CENTRE, HALF, CYLINDER, CAP = (5.25, 5.25), 1.25, 20.0, 10.0  # um; surface coordinates of the scan are x and y
-COARSE, FINE, ZONE, SLAVE = 0.4, (0.12, 0.08, 0.056), 0.6, 0.12  # sizes of faces; radius in which they are fine
-GAP, APPROACH, INCREMENTS = 0.02, 0.06, 3                         # um
+COARSE, FINE, ZONE, SLAVE = 0.4, (0.1, 0.07), 0.6, 0.12  # sizes of faces; radius in which they are fine
+GAP, APPROACH, INCREMENTS, DEPTH = 0.02, 0.06, 3, 1.1           # um
 STIFF, SOFT, POISSON, PENALTY = 2e5, 2e3, 0.3, 2e5                # MPa, MPa/um
 
 GEOMETRY = """SetFactory("OpenCASCADE");
@@ -174,11 +174,12 @@ def main():
         folder.mkdir(exist_ok=True)
         lower = mesh(folder, "lower", LOWER, size, COARSE, ZONE, 1)
         native = label != "enriched"
-        if native: # the nodes of the top go to the enriched surface: along the cylinder's normal by the height
-            top = np.array(lower["sets"]["TOP"]) - 1
-            x = lower["x"][top]
-            normal = np.stack([x[:, 0] - CENTRE[0], 0 * x[:, 0], x[:, 2] + CYLINDER], axis=1) / CYLINDER
-            lower["x"][top] += heights(build, x[:, 0], x[:, 1])[:, None] * normal
+        if native: # nodes go along the cylinder's normal by the height, those of the top onto the enriched surface, those below by less
+            x = lower["x"]
+            normal = np.stack([x[:, 0] - CENTRE[0], 0 * x[:, 0], x[:, 2] + CYLINDER], axis=1)
+            radius = np.linalg.norm(normal, axis=1)[:, None]
+            share = np.clip(1 - (CYLINDER - radius) / DEPTH, 0, 1)
+            lower["x"] = x + share * heights(build, x[:, 0], x[:, 1])[:, None] * normal / radius
         (folder / "job.inp").write_text(deck([lower, upper], native))
         (folder / "model.json").write_text(json.dumps({"height": height(), "contact": contact}))
         job, elements, converted = (folder, "ccx's own", 0) if native else convert(folder, build)
