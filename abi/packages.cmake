@@ -3,7 +3,7 @@
 #
 #   libents1      the library; the number is that of the contract in ents.h
 #   libents-dev   header, source of the Fortran module, files for CMake and pkg-config, JSON Schema, examples/slide
-#   ents-adapters the adapters, in the private folder below
+#   ents-adapters the adapters, in the private folder below; ents-ccx, which builds CalculiX with them
 #   python3-ents  the Python package
 #   ents-tools    ents-host, ents-deck and the scenes
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_LIBRARY_ARCHITECTURE OR ENTS_SANITIZE)
@@ -45,6 +45,10 @@ set(components libents${soversion} libents-dev)
 get_property(adapters GLOBAL PROPERTY ENTS_ADAPTERS)
 if(adapters)
   install(TARGETS ${adapters} LIBRARY DESTINATION ${private}/lib COMPONENT ents-adapters EXCLUDE_FROM_ALL)
+  configure_file(adapters/calculix/ents-ccx.in ${generated}/ents-ccx @ONLY)
+  install(PROGRAMS ${generated}/ents-ccx DESTINATION bin COMPONENT ents-adapters EXCLUDE_FROM_ALL)
+  install(FILES adapters/calculix/patch.py adapters/calculix/run.sh DESTINATION share/ents/calculix COMPONENT ents-adapters EXCLUDE_FROM_ALL)
+  install(DIRECTORY adapters/calculix/example DESTINATION share/ents/calculix COMPONENT ents-adapters EXCLUDE_FROM_ALL)
   list(APPEND components ents-adapters)
 endif()
 
@@ -126,8 +130,8 @@ ents_describe(libents${soversion} libs ""
   "This package has the library. The master surface of an element carries measured\nroughness, waves, threads or grooves as a height; no mesh follows them.")
 ents_describe(libents-dev libdevel "${same}"
   "This package has the header for C and C++, the source of the Fortran module,\nfiles for CMake and pkg-config, the JSON Schema of a model, and programs that\ncall the library.")
-ents_describe(ents-adapters science "${same}"
-  "This package has a shared library per host program (Abaqus, CalculiX, OpenSees,\nFEAP and others), with that program's own user routines, in\n/usr/${private}/lib.")
+ents_describe(ents-adapters science "${same}, ents-tools (= ${PROJECT_VERSION}-${revision})"
+  "This package has a shared library per host program (Abaqus, CalculiX, OpenSees,\nFEAP and others), with that program's own user routines, in\n/usr/${private}/lib, and ents-ccx, which builds\nCalculiX with them.")
 ents_describe(python3-ents python "${same}, python3, python3-numpy"
   "This package has the Python module: NumPy arrays in, residuals and SciPy\nmatrices out. Contact joins two surfaces of a finite element program.")
 ents_describe(ents-tools science "${same}"

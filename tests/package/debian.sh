@@ -3,7 +3,8 @@
 #   1. lintian, where it is installed, finds no error
 #   2. without a compiler: ents-host solves the scan and draws its picture, the Python module computes the bits of C, Hertz is right
 #   3. with compilers: C, C++ (find_package) and Fortran programs, built from libents-dev alone, print what FIRST and SLIDE of BUILD print
-#   4. removed, the packages leave no file
+#   4. ents-ccx builds CalculiX with the adapter, and a job of it gives the forces of ents-host
+#   5. removed, the packages leave no file
 # Prints the seconds of each. Exit status 3: not run, for this needs root, debootstrap and a network.
 set -eu
 cpack=$1 build=$2 scratch=$3 first=$4 slide=$5
@@ -96,6 +97,22 @@ say "programs in C, C++ and Fortran, built and run: $(since "$begin")"
 "$slide" "$(dirname "$0")/../../examples/slide/model.json" >"$scratch/slide"
 for language in c cpp f90; do diff -u "$scratch/first" "$root/tmp/first_$language.out"; done
 for language in c f90; do diff -u "$scratch/slide" "$root/tmp/slide_$language.out"; done
+
+# CalculiX: one command, and the block of adapters/calculix/example as a job of user elements.
+begin=$(now)
+status=0
+inside sh -c 'cd /tmp && ents-ccx' >"$log" 2>&1 || status=$?
+if [ $status -eq 3 ]; then
+  say "CalculiX: not run, its source package cannot be had here"
+else
+  [ $status -eq 0 ] || { tail -n 20 "$log" >&2; echo "debian.sh: ents-ccx fails" >&2; exit 1; }
+  say "one command to ccx with ents: $(since "$begin")"
+  begin=$(now)
+  must inside python3 /usr/share/ents/calculix/example/make.py texture U1E /tmp/texture
+  must inside sh -c 'cd /tmp/texture && OMP_NUM_THREADS=1 /tmp/ccx_ents/calculix/ccx_ents job && cp job.dat one_thread.dat && ents-host run scene.json --out host'
+  must inside python3 /usr/share/ents/calculix/example/compare.py /tmp/texture
+  say "a job in CalculiX, the same forces as ents-host: $(since "$begin")"
+fi
 
 for package in "$scratch"/packages/*.deb; do dpkg-deb -c "$package" | awk '{ print $6 }'; done | sort -u >"$scratch/files"
 must inside dpkg --purge ents-tools ents-adapters python3-ents libents-dev libents1
