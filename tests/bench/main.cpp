@@ -32,8 +32,9 @@ void print_help() {
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16 bezier15
-  VARIANT  plain (no height), enriched (a sine), plain_coulomb, enriched_coulomb (R and RK; some stick, some slip); for line2, quad4 and quad9 also constant, map, coordinates (a sine of surface
-           coordinates), rigid (master), first_variation, small_gap (tangents; all with the sine)
+  VARIANT  plain (no height), enriched (a sine), plain_coulomb, enriched_coulomb (R and RK; some elements stick, some slip); for
+           line2, quad4 and quad9 also constant, map, coordinates (a sine of surface coordinates), rigid (master),
+           first_variation, small_gap (tangents; all with the sine)
   LEVEL    gap; R residual; RK residual and tangent; kinematics1 xi, gap and first variations; kinematics2 and second ones
   CALL     single: 16 different elements in turn, one per call; batch: 64 per call; stream: 100000 per call (quad9: 25000), through main
            memory; line2, tri3, quad4, quad9
@@ -43,15 +44,15 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --detection[=N]                 n slave nodes on surfaces of n = 1000, 10000 .. N segments (1000000 if not given): time and memory
                                   of the search, and their growth
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
-  --limits                        calls beside their kernels alone, their chains of operations, their stores and their arithmetic
-  --savings                       what each thing costs that a scene may not need: height, friction, a master that deforms ...
+  --limits                        time of a call beside the times of its kernel, its chain of operations, its stores, its arithmetic
+  --savings                       cost of what a scene may not need: height, friction, a master that deforms ...
   --streaming[=N]                 array calls of 100, 1000 .. N elements (1000000 if not given; up to 4 GB): cost with results in main memory
                                   beside the floor of its stores, with results in the same places, with these copied, and its growth
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
   --differentiation               closed form against automatic differentiation (Sacado, Eigen) of the same elements; fails if a tangent
                                   differs by more than 1e-9
-  --peers                         CalculiX's contact spring against a quad4, the IPC Toolkit's pairs against tri3, quad4 and line2; those
-                                  that are built in, of the others how; fails if their forces are others
+  --peers                         CalculiX's contact spring against a quad4, the IPC Toolkit's pairs against tri3, quad4 and line2: those
+                                  that are built in; says how to build in the others; fails if forces differ from theirs
   --summary                       only R and RK, single and batch, as one table
   --benchmark_filter=REGEX        cases whose name matches, e.g. quad4/enriched
   --benchmark_list_tests          names only
