@@ -8,6 +8,7 @@ Dead links and names of files that do not exist are errors.
 exit status: 0 done; 1 a text has a mistake; 2 wrong command line; 3 a program is missing (Debian: python3-sphinx python3-myst-parser
 python3-breathe python3-sphinx-rtd-theme doxygen pandoc)"""
 import argparse
+import ast
 import pathlib
 import re
 import shutil
@@ -18,7 +19,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CHAPTERS = {  # title in the list of contents: texts
     "Learn": ["abi/manual/theory", "abi/README", "core/README", "abi/manual/reference"],
-    "Host programs": ["adapters/README", "adapters/python/README", "adapters/deck/README", "adapters/calculix/README"],
+    "Host programs": ["adapters/README", "adapters/python/README", "abi/manual/python", "adapters/deck/README", "adapters/calculix/README"],
     "Examples and evidence": ["examples/README", "examples/host/README", "examples/slide/README", "tests/README", "tests/bench/README"],
 }
 IN_CONTENTS = {"README", *(name for names in CHAPTERS.values() for name in names)}
@@ -31,6 +32,10 @@ at the top of that file.
 .. doxygenfile:: ents.h
    :sections: func define enum innerclass public-attrib briefdescription detaileddescription
 ```
+"""
+PYTHON = """# Reference: Python
+
+Classes of the package [ents](../../adapters/python/README.md), from its own texts (`help(ents)` shows the same).
 """
 CONF = """project, release = "ents", "{version}"
 extensions = ["myst_parser", "breathe"]
@@ -60,7 +65,9 @@ EXPAND_ONLY_PREDEF = YES
 PREDEFINED = ENTS_API=
 WARN_IF_UNDOCUMENTED = NO
 """
-CSS = ".wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }\n"
+CSS = """.wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }
+.rst-content .highlight-text pre, .rst-content .highlight-python pre { white-space: pre-wrap; }
+"""
 LINK = re.compile(r"(!?\[)([^\]]*)\]\(([^)\s#]*)((?:#[^)\s]*)?)\)")
 
 
@@ -80,10 +87,27 @@ def mathml(text):
     return re.sub(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", one, text, flags=re.S)
 
 
+def python_reference():
+    """Classes and public methods of the Python package, with their texts."""
+    out = [PYTHON]
+    for name in ("contact", "_model", "_surface", "_system", "_library"):
+        for node in ast.parse((ROOT / "adapters" / "python" / "ents" / f"{name}.py").read_text()).body:
+            if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
+                continue
+            methods = {m.name: m for m in node.body if isinstance(m, ast.FunctionDef)}
+            parameters = ast.unparse(methods["__init__"].args).removeprefix("self").lstrip(", ") if "__init__" in methods else ""
+            out.append(f"## {node.name}\n\n```python\nents.{node.name}({parameters})\n```\n\n```text\n{ast.get_docstring(node)}\n```\n")
+            for method in methods.values():
+                if not method.name.startswith("_"):
+                    parameters = ast.unparse(method.args).removeprefix("self").lstrip(", ")
+                    out.append(f"### {node.name}.{method.name}\n\n```python\n{method.name}({parameters})\n```\n\n```text\n{ast.get_docstring(method) or ''}\n```\n")
+    return "\n".join(out)
+
+
 def copy_text(name, source):
     """One text into the folder of Sphinx: links to folders become links to their READMEs; files that are linked come along."""
     file = ROOT / f"{name}.md"
-    text = file.read_text() if file.exists() else REFERENCE
+    text = python_reference() if name.endswith("manual/python") else REFERENCE if name.endswith("manual/reference") else file.read_text()
 
     def follow(match):
         target = match[3]
