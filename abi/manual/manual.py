@@ -66,7 +66,7 @@ PREDEFINED = ENTS_API=
 WARN_IF_UNDOCUMENTED = NO
 """
 CSS = """.wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }
-.rst-content .highlight-text pre, .rst-content .highlight-python pre { white-space: pre-wrap; }
+.rst-content .highlight-text pre, .rst-content .highlight-python pre { white-space: pre-wrap !important; }
 """
 LINK = re.compile(r"(!?\[)([^\]]*)\]\(([^)\s#]*)((?:#[^)\s]*)?)\)")
 
