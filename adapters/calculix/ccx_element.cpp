@@ -79,12 +79,16 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
 /// than three, these would be taken for the element's.
 CCX_API int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
                                   const double* prop, const int* nprop) {
+  const auto is_contact = [&](int i) { return ipkon[i] >= 0 && std::strncmp(lakon + 8 * i, "U1E", 3) == 0; };
+  bool any = false;
+  for (int i = 0; i < *ne && !any; ++i) any = is_contact(i);
+  if (!any) return 0; // a deck without sections of constants has no `ielprop`
   std::set<int> begins;
   for (int i = 0; i < *ne; ++i)
     if (ipkon[i] >= 0 && ielprop[i] >= 0) begins.insert(ielprop[i]);
   int unsymmetric = 0;
   for (int i = 0; i < *ne; ++i) {
-    if (ipkon[i] < 0 || std::strncmp(lakon + 8 * i, "U1E", 3) != 0) continue;
+    if (!is_contact(i)) continue;
     if (ielprop[i] < 0) ccx::stop("U1E", "a contact element has no *USER SECTION, CONSTANTS=3");
     const auto next = begins.upper_bound(ielprop[i]);
     const int count = (next == begins.end() ? *nprop : *next) - ielprop[i];

@@ -41,6 +41,11 @@ TEST(CalculixConstants, FewerThanThreeStopTheJob) {
   EXPECT_EXIT(ask(), testing::ExitedWithCode(201), "CONSTANTS=1: write CONSTANTS=3");
 }
 
+TEST(CalculixConstants, DecksWithoutContactElementsHaveNone) {
+  const int ne = 2, ipkon[] = {0, -1}, nprop = 0;
+  EXPECT_EQ(ents_ccx_unsymmetric_(&ne, ipkon, "C3D8    U1E   \x03\x05", nullptr, nullptr, &nprop), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Adapters, Calculix, testing::Values("U1E", "U1A"),
                          [](const auto& test) { return test.param; });
 
