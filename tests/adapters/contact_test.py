@@ -186,6 +186,21 @@ class History(unittest.TestCase):
         np.testing.assert_array_equal(contact.update(u)[0], before)
 
 
+    def test_deeper_than_reach_is_not_open(self):
+        text = {"segment": "line2", "master": "rigid", "contact": PENALTY, "penetration_limit": 5}
+        x = np.array([[0.2, -0.01], [0.8, -0.01]])
+        contact = ents.Contact(text, x, [[0, 1]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
+        contact.update(np.zeros(4))
+        self.assertGreater(contact.pressure.min(), 0)
+        with self.assertRaises(ents.CutStep) as caught:
+            contact.update(np.array([0, -0.4, 0, -0.5]))
+        self.assertEqual((caught.exception.status, caught.exception.element), (ents.Status.DEEP_PENETRATION, 1))
+        self.assertIn("reach", str(caught.exception))
+        self.assertAlmostEqual(caught.exception.step_factor, 0.1 / 0.51)
+        contact.update(np.array([0, 0.4, 0, 0.5]))  # it may open
+        self.assertEqual(contact.pressure.max(), 0)
+
+
 class Forces(unittest.TestCase):
     def test_pressure_times_area(self):
         """A flat surface, 0.01 deep in a flat master: force = stiffness x depth x length x thickness, on nodes and on points."""

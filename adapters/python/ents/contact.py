@@ -130,6 +130,14 @@ class Contact:
         if len(lost):
             raise CutStep(Status.NO_PROJECTION, f"slave point {lost[0]} lies behind a concave edge of the master: take a smaller step, widen "
                           '"border" in the model, or smooth the master', int(lost[0]), 0.5)
+        # A point that was closed and is now nowhere within reach has opened, or it is too deep to be found.
+        gone = np.flatnonzero(self._elements & (self.segment >= 0) & (found["segment"] < 0))
+        if len(gone):
+            gap = self.tree.detect(points[gone], 10 * self.reach)["gap"]
+            if gap.min() < -self.reach:
+                k = int(gap.argmin())
+                raise CutStep(Status.DEEP_PENETRATION, f"slave point {gone[k]} penetrates by {-gap[k]:.6g}, more than reach = {self.reach:.6g}: take a "
+                              "smaller step, or give a larger reach", int(gone[k]), min(0.5, self.reach / -gap[k]))
         segment = np.where(self._elements, found["segment"], -1)
         status, state = self.tree.state_transfer(self._state_begin, self._segment_begin, segment, self._tree_begin)
         want = "state_end gap pressure flags" + (" traction" if model.layout.friction else "")
