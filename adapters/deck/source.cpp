@@ -38,19 +38,23 @@ class Reader {
 public:
   Source out;
 
+  /// @param who  "FILE:LINE: *INCLUDE: " of what asks for the file, or ""
   void file(const Path& path, const std::string& name, const std::string& who) {
+    const auto cannot = [&](const std::string& why) {
+      return Error(who + name + ": cannot be read: " + why);
+    };
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (error || !std::filesystem::exists(status)) throw Error(who + ": " + name + " does not exist");
+    if (error || !std::filesystem::exists(status)) throw cannot("it does not exist");
     if (!std::filesystem::is_regular_file(status))
-      throw Error(who + ": " + name + " is a folder or a device; a deck is an ordinary file");
+      throw cannot("it is a folder or a device; a deck is an ordinary file");
     const auto size = std::filesystem::file_size(path, error);
-    if (!error && size > largest_text - total_) too_long(who);
+    if (!error && size > largest_text - total_) too_long(who + name);
     std::ifstream stream(path, std::ios::binary);
     std::string text;
     if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
-    if (!stream.is_open() || stream.bad()) throw Error(who + ": " + name + " cannot be read");
-    text_of(std::move(text), name, path, path.parent_path(), who);
+    if (!stream.is_open() || stream.bad()) throw cannot("may you read it?");
+    text_of(std::move(text), name, path, path.parent_path(), who + name);
   }
 
   void text_of(std::string text, const std::string& name, const Path& path, const Path& folder,
@@ -82,11 +86,11 @@ private:
     const std::string input = statement.value("INPUT");
     if (input.empty()) out.fail(statement.place, "expected *INCLUDE, INPUT=file");
     const Path path = (folder / input).lexically_normal();
-    const std::string who = out.at(statement.place) + ": *INCLUDE";
+    const std::string who = out.at(statement.place) + ": *INCLUDE: ";
     if (std::find(open_.begin(), open_.end(), path) != open_.end())
-      throw Error(who + ": " + path.string() + " includes itself");
+      throw Error(who + path.string() + " includes itself");
     if (open_.size() > static_cast<std::size_t>(deepest_include))
-      throw Error(who + ": files that include each other are more than " + std::to_string(deepest_include) +
+      throw Error(who + "files that include each other are more than " + std::to_string(deepest_include) +
                   " deep");
     out.includes.push_back(std::move(statement));
     file(path, path.string(), who);
@@ -146,7 +150,7 @@ void Source::fail(Place place, const std::string& what) const { throw Error(at(p
 
 Source read_source(const Path& file) {
   Reader reader;
-  reader.file(file, file.string(), "the deck");
+  reader.file(file, file.string(), "");
   return std::move(reader.out);
 }
 

@@ -4,8 +4,6 @@
 #include "inp_statements.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <unordered_map>
 
@@ -33,22 +31,14 @@ constexpr Type types[] = {
 const Names mesh_changing{"PART",  "ASSEMBLY", "INSTANCE", "SYSTEM", "NGEN",
                           "NFILL", "NMAP",     "NCOPY",    "ELGEN",  "ELCOPY"};
 
+/// Members of all sets together.
+constexpr std::size_t largest_set_total = std::size_t{1} << 28;
+
 const Names assembled{"PART", "ASSEMBLY", "INSTANCE"};
 
 template <class T> std::optional<T> parsed(string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
   T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::optional<double> parsed_real(string_view text) {
-  string copy(text);
-  std::replace_if(
-      copy.begin(), copy.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e'); // Fortran: 1.5D+00
-  const auto value = parsed<double>(copy);
-  return value && std::isfinite(*value) ? value : std::nullopt;
+  return ents_deck::parse(text, value) ? std::optional(value) : std::nullopt;
 }
 
 template <class Range> string listed(const Range& names) {
@@ -69,7 +59,9 @@ using Index = std::unordered_map<std::int64_t, int>;
 /// sets; surfaces. So the order of the keywords in the deck is free.
 class Builder {
 public:
-  explicit Builder(const Statements& statements) : statements_(statements) { deck.files = statements.files; }
+  explicit Builder(const Source& statements) : statements_(statements) {
+    for (const auto& file : statements.files) deck.files.push_back(file.name);
+  }
 
   Deck deck;
 
@@ -101,7 +93,8 @@ public:
   }
 
 private:
-  const Statements& statements_;
+  const Source& statements_;
+  std::size_t set_total_ = 0;
   Index node_index_, element_index_;
 
   [[noreturn]] void error(Place place, const string& what) const { fail(deck.files, place, what); }
@@ -176,7 +169,7 @@ private:
       const std::int64_t id = number(line.place, fields[0], "a node number");
       std::array<double, 3> x{};
       for (std::size_t i = 1; i < fields.size(); ++i) {
-        const auto value = parsed_real(fields[i]);
+        const auto value = parsed<double>(fields[i]);
         if (!value)
           error(line.place, "expected coordinate " + std::to_string(i) + " of node " + std::to_string(id) +
                                 " (a finite number), found '" + string(fields[i]) + "'");
@@ -265,8 +258,14 @@ private:
                                 string(field) + "'");
       }
     }
+    // Sets that name each other twice would double from one to the next.
     auto& target = sets[name]; // a set may be given in several pieces
+    set_total_ -= target.size();
     target.insert(target.end(), members.begin(), members.end());
+    unique(target);
+    set_total_ += target.size();
+    if (set_total_ > largest_set_total)
+      error(s.place, "the sets of this deck have more than " + std::to_string(largest_set_total) + " members in all");
   }
 
   void surface(const Statement& s) {
@@ -287,7 +286,7 @@ private:
         continue;
       }
       const string label = upper(fields[1]);
-      const int face = label.starts_with('S') ? parsed<int>(string_view(label).substr(1)).value_or(0) : 0;
+      const int face = label.starts_with('S') ? static_cast<int>(std::min<std::int64_t>(parsed<std::int64_t>(string_view(label).substr(1)).value_or(0), 1000)) : 0;
       for (const int e : members_of(line.place, fields[0], "element", deck.element_sets, element_index_)) {
         const int faces = face_count(deck.elements[static_cast<std::size_t>(e)].shape);
         const string id = std::to_string(deck.elements[static_cast<std::size_t>(e)].id);
@@ -309,18 +308,25 @@ private:
   }
 };
 
-Deck built(const Statements& statements) {
-  Builder builder(statements);
-  builder.build();
-  return std::move(builder.deck);
+template <class Read> Deck built(const Read& read_text) {
+  try {
+    const Source statements = read_text();
+    Builder builder(statements);
+    builder.build();
+    return std::move(builder.deck);
+  } catch (const ents_deck::Error& error) {
+    throw Error(error.what());
+  }
 }
 
 } // namespace
 
-Deck read(const std::filesystem::path& file) { return built(statements_of_file(file)); }
+Deck read(const std::filesystem::path& file) {
+  return built([&] { return ents_deck::read_source(file); });
+}
 
 Deck read_text(string_view text, const string& name, const std::filesystem::path& folder) {
-  return built(statements_of_text(text, name, folder));
+  return built([&] { return ents_deck::read_source_text(text, name, folder); });
 }
 
 } // namespace host::inp

@@ -227,7 +227,7 @@ TEST(DeckLimits, DevicesAndCirclesAreRefused) {
   write("limits/a.inp", "*INCLUDE, INPUT=/dev/zero\n");
   EXPECT_NE(error_of([] {
               read_source("limits/a.inp");
-            }).find("limits/a.inp:1: *INCLUDE: /dev/zero is a folder or a device"),
+            }).find("limits/a.inp:1: *INCLUDE: /dev/zero: cannot be read: it is a folder or a device"),
             string::npos);
   write("limits/b.inp", "*NODE\n*INCLUDE, INPUT=b.inp\n");
   EXPECT_NE(
