@@ -85,7 +85,7 @@ def main():
                 entry.external_attr, entry.compress_type = 0o644 << 16, zipfile.ZIP_DEFLATED
                 archive.writestr(entry, data)
         if shutil.which("advzip"):
-            subprocess.run(["advzip", "--recompress", "--quiet", "-3", packed], check=True)
+            subprocess.run(["advzip", "--recompress", "--quiet", "-4", "--iter=3", packed], check=True)
         shutil.copyfile(packed, wheel)
     print(f"{wheel}: {wheel.stat().st_size / 1e6:.2f} MB")
 
