@@ -2,6 +2,7 @@
 // OpenSees: element entsContact, loaded at run time from entsContact.so. The interface is that of OpenSees's
 // elementAPI.h.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <vector>
@@ -39,13 +40,27 @@ constexpr Host host{"element entsContact tag k nodes..., with nodes: ", "", "ele
 
 enum Request { initialise = 0, commit = 1, revert = 2, form = 3, mass = 4, revert_to_start = 5 };
 constexpr int largest_nodes = 18, largest_dofs = 3 * largest_nodes,
-              parameters = 4; // k, area, options, dimension
+              parameters = 4; // k, area, options, dimension; then the degrees of freedom of each node
+constexpr int largest_node_dofs = 7;
 
 int tell(const char* text) {
   char line[1100];
   std::snprintf(line, sizeof line, "%s\n", text);
   ops_error_(line, static_cast<int>(std::strlen(line)));
   return -1;
+}
+
+/// Degrees of freedom of a node: frames in the plane have 3, shells and frames in space 6, u-p elements one
+/// more than displacements. The displacements come first. OpenSees tells no number, but refuses any other.
+/// @return 0: no number fits
+int dofs_of(int node, int dimension) {
+  for (const int count : {dimension, dimension == 2 ? 3 : 6, 4, 3, 5, 6, 7}) {
+    if (count < dimension) continue;
+    std::array<double, largest_node_dofs> values;
+    int asked = count;
+    if (ops_getnodedisp_(&node, &asked, values.data()) == 0) return count;
+  }
+  return 0;
 }
 
 /// element entsContact tag k number_of_nodes nodes... area options
@@ -69,10 +84,23 @@ int read(eleObject* ele) {
   e.history_size = 64;
   const Result result = check(e);
   if (result.outcome != Outcome::done) return tell(result.message);
+  int dofs[largest_nodes], all = 0;
+  for (int i = 0; i < head[2]; ++i) {
+    dofs[i] = dofs_of(nodes[i], result.dimension);
+    if (dofs[i] == 0) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "ents: node %d of element %d does not exist before the element, or has fewer degrees of "
+                    "freedom than the model has dimensions, %d",
+                    nodes[i], head[0], result.dimension);
+      return tell(text);
+    }
+    all += dofs[i];
+  }
   ele->tag = head[0];
   ele->nNode = head[2];
-  ele->nDOF = head[2] * result.dimension;
-  ele->nParam = parameters;
+  ele->nDOF = all;
+  ele->nParam = parameters + head[2];
   ele->nState = result.state_size;
   ele->nMat = 0;
   int no_material = 0, no_type = 0;
@@ -80,6 +108,7 @@ int read(eleObject* ele) {
   std::copy(nodes, nodes + head[2], ele->node);
   std::copy(properties, properties + 3, ele->param);
   ele->param[3] = result.dimension;
+  std::copy(dofs, dofs + head[2], ele->param + parameters);
   std::fill(ele->cState, ele->cState + ele->nState, 0.0);
   std::fill(ele->tState, ele->tState + ele->nState, 0.0);
   return 0;
@@ -87,12 +116,22 @@ int read(eleObject* ele) {
 
 int evaluate_element(eleObject* ele, double* tang, double* resid) {
   int d = static_cast<int>(ele->param[3]);
-  double position[largest_dofs], displacement[largest_dofs];
-  for (int node = 0; node < ele->nNode; ++node)
+  double position[largest_dofs], displacement[largest_dofs], residual[largest_dofs],
+      tangent[largest_dofs * largest_dofs];
+  int begin[largest_nodes]; // of the nodes' degrees of freedom in the host's arrays
+  for (int node = 0, at = 0; node < ele->nNode; ++node) {
+    std::array<double, largest_node_dofs> values{};
+    int dofs = static_cast<int>(ele->param[parameters + node]);
     if (ops_getnodecrd_(&ele->node[node], &d, position + d * node) != 0 ||
-        ops_getnodedisp_(&ele->node[node], &d, displacement + d * node) != 0)
-      return tell("ents: the nodes of entsContact need the coordinates and degrees of freedom of the model: "
-                  "2 each in 2D, 3 in 3D");
+        ops_getnodedisp_(&ele->node[node], &dofs, values.data()) != 0)
+      return tell(
+          "ents: the nodes of entsContact need the coordinates of the model, 2 in 2D, 3 in 3D, and their "
+          "displacements as first degrees of freedom");
+    std::copy(values.begin(), values.begin() + d, displacement + d * node);
+    begin[node] = at;
+    at += dofs;
+  }
+  const int rows = d * ele->nNode;
   Element e;
   e.host = &host;
   e.number = ele->tag;
@@ -104,11 +143,19 @@ int evaluate_element(eleObject* ele, double* tang, double* resid) {
   e.property_count = 3;
   e.history = {ele->cState};
   e.history_size = ele->nState;
-  e.residual = {resid, 1, d};
-  e.tangent = {tang, 1, ele->nDOF};
+  e.residual = {residual, 1, d};
+  e.tangent = {tangent, 1, rows};
   e.history_end = {ele->tState};
   const Result result = evaluate(e);
   if (result.message[0]) tell(result.message);
+  std::fill(resid, resid + ele->nDOF, 0.0);
+  std::fill(tang, tang + ele->nDOF * ele->nDOF, 0.0);
+  const auto host_dof = [&](int i) { return begin[i / d] + i % d; };
+  for (int column = 0; column < rows; ++column) {
+    resid[host_dof(column)] = residual[column];
+    for (int row = 0; row < rows; ++row)
+      tang[host_dof(row) + ele->nDOF * host_dof(column)] = tangent[row + rows * column];
+  }
   return result.outcome == Outcome::done ? 0 : -1; // the script's algorithm cuts the step
 }
 

@@ -16,6 +16,7 @@ std::vector<HostKind> hosts() {
       {"abaqus_vuel", vuel_host, false, 0,
        false}, // an explicit increment cannot be cut, nor solved for multipliers
       {"opensees", opensees_host},
+      {"opensees_frame", opensees_frame_host},
       {"feap", feap_host, false},
       {"ansys", ansys_host},
       // State variables come back as begin + increment: one rounding more.

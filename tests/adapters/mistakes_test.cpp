@@ -74,6 +74,7 @@ constexpr Words words[] = {
     {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 29},
     {"calculix", "*USER ELEMENT, NODES=5", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry 2"},
     {"opensees", "with nodes: 5", nullptr, "element entsContact, property 2"},
+    {"opensees_frame", "with nodes: 5", nullptr, "element entsContact, property 2"},
     {"feap", "nodes of the elements: 5", nullptr, "MATErial, user 7, entry 2"},
     {"ansys", "USRELEM, NNODES=5", "USRELEM, NSAVEVARS=", "real constant R, entry 2"},
     {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 27},

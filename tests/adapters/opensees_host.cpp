@@ -31,18 +31,26 @@ thread_local struct Domain {
   std::vector<double> doubles;
   const std::vector<double>*reference = nullptr, *displacement = nullptr;
   int dimension = 0;
+  int extra = 0; ///< degrees of freedom of node n beside its displacements: extra + n modulo 3; 0: none
   std::string error;
+
+  int dofs(int node) const { return dimension + (extra ? extra - 1 + node % 3 : 0); }
 } domain;
 
-int nodal(const std::vector<double>& values, const int* node, const int* count, double* data) {
-  if (*count != domain.dimension) return -1;
-  for (int i = 0; i < *count; ++i) data[i] = values[at((*node - 1) * domain.dimension + i)];
+int nodal(const std::vector<double>& values, const int* node, const int* count, double* data, int wanted) {
+  if (*count != wanted) return -1;
+  for (int i = 0; i < *count; ++i)
+    data[i] = i < domain.dimension ? values[at((*node - 1) * domain.dimension + i)]
+                                   : 1e30; // a rotation, a pressure
   return 0;
 }
 
 class OpenSeesHost : public EmulatedHost {
 public:
-  explicit OpenSeesHost(const Elements& elements) : EmulatedHost(elements) {
+  OpenSeesHost(const Elements& elements, int extra)
+      : EmulatedHost(elements), extra_(extra), zero_(elements.reference.size()) {
+    domain.reference = &elements_.reference, domain.displacement = &zero_;
+    domain.dimension = elements.dimension, domain.extra = extra;
     for (int k = 0; k < static_cast<int>(elements.nodes.size()); ++k) {
       const auto& list = nodes(k);
       domain.integers = {100 + k, elements.model, static_cast<int>(list.size())};
@@ -50,8 +58,9 @@ public:
       domain.doubles = {area(k), static_cast<double>(elements.options)};
       objects_.push_back(std::make_unique<eleObject>());
       request(k, 0, nullptr, nullptr);
-      if (objects_.back()->nDOF != elements.dimension * static_cast<int>(list.size()))
-        throw std::runtime_error("nDOF");
+      int dofs = 0;
+      for (const int node : list) dofs += domain.dofs(node + 1);
+      if (objects_.back()->nDOF != dofs) throw std::runtime_error("nDOF");
     }
   }
   ~OpenSeesHost() override {
@@ -64,7 +73,7 @@ public:
   }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     domain.reference = &elements_.reference, domain.displacement = &displacement,
-    domain.dimension = elements_.dimension;
+    domain.dimension = elements_.dimension, domain.extra = extra_;
     const auto n = at(objects_[at(element)]->nDOF);
     Guarded tang(n * n), resid(n);
     Answer answer;
@@ -77,8 +86,23 @@ public:
       return answer;
     }
     tang.check_guards("tang"), resid.check_guards("resid");
-    answer.residual.assign(resid.data(), resid.data() + n);
-    answer.tangent.assign(tang.data(), tang.data() + n * n);
+    std::vector<std::size_t> kept; // displacements; nothing acts on what a node has beside them
+    std::size_t dof = 0;
+    for (const int node : nodes(element))
+      for (int i = 0; i < domain.dofs(node + 1); ++i, ++dof) {
+        if (i < elements_.dimension) {
+          kept.push_back(dof);
+        } else {
+          if (resid[dof] != 0) throw std::runtime_error("a force on a rotation");
+          for (std::size_t j = 0; j < n; ++j)
+            if (tang[dof + n * j] != 0 || tang[j + n * dof] != 0)
+              throw std::runtime_error("a stiffness of a rotation");
+        }
+      }
+    for (const std::size_t j : kept) {
+      answer.residual.push_back(resid[j]);
+      for (const std::size_t i : kept) answer.tangent.push_back(tang[i + n * j]);
+    }
     request(element, 4, tang.data(), nullptr);
     for (std::size_t i = 0; i < n * n; ++i)
       if (tang[i] != 0) throw std::runtime_error("a mass");
@@ -96,13 +120,19 @@ private:
     if (error != 0) throw HostStopped(domain.error);
   }
 
+  int extra_;
+  std::vector<double> zero_;
   std::vector<std::unique_ptr<eleObject>> objects_;
 };
 
 } // namespace
 
 std::unique_ptr<EmulatedHost> opensees_host(const Elements& elements) {
-  return std::make_unique<OpenSeesHost>(elements);
+  return std::make_unique<OpenSeesHost>(elements, 0);
+}
+
+std::unique_ptr<EmulatedHost> opensees_frame_host(const Elements& elements) {
+  return std::make_unique<OpenSeesHost>(elements, 1);
 }
 
 } // namespace adapters
@@ -133,10 +163,10 @@ int ops_allocateelement_(eleObject* e, int*, int*) {
   return 0;
 }
 int ops_getnodecrd_(int* node, int* count, double* data) {
-  return adapters::nodal(*domain.reference, node, count, data);
+  return adapters::nodal(*domain.reference, node, count, data, domain.dimension);
 }
 int ops_getnodedisp_(int* node, int* count, double* data) {
-  return adapters::nodal(*domain.displacement, node, count, data);
+  return adapters::nodal(*domain.displacement, node, count, data, domain.dofs(*node));
 }
 int ops_error_(char* text, int length) {
   domain.error.assign(text, static_cast<std::size_t>(length));

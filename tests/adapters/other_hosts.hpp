@@ -12,6 +12,8 @@ std::unique_ptr<EmulatedHost>
 vuel_host(const Elements& elements); ///< Abaqus/Explicit; stiffness of the plain interface
 std::unique_ptr<EmulatedHost>
 opensees_host(const Elements& elements); ///< C element with the host's own functions
+std::unique_ptr<EmulatedHost>
+opensees_frame_host(const Elements& elements); ///< nodes with 0, 1 or 2 more degrees of freedom
 std::unique_ptr<EmulatedHost> feap_host(const Elements& elements);   ///< elmt07 with FEAP's common blocks
 std::unique_ptr<EmulatedHost> ansys_host(const Elements& elements);  ///< UserElem
 std::unique_ptr<EmulatedHost> marc_host(const Elements& elements);   ///< USELEM
