@@ -102,7 +102,8 @@ int read_checkpoint(const std::filesystem::path& file, Simulation& simulation) {
   }
   check_steps(JsonValue(values, where), simulation, step);
   if (step == static_cast<int>(simulation.scene().steps.size()))
-    throw InputError(where + "the run is finished: this is the checkpoint of its last step");
+    throw InputError(where + "the run is finished: this is the checkpoint of its last step" +
+                     other_checkpoint(file));
   return step;
 }
 
