@@ -23,7 +23,7 @@ for option; do
   esac
 done
 
-# A browser opens the page of charts; ents.Contact makes SciPy's matrices; the wheel is installed into a venv.
-sh "$root/examples/setup.sh" --with chromium --with python3-scipy --with python3-venv "$@"
+# A browser opens the page of charts; ents.Contact makes SciPy's matrices; the wheel is installed into a venv; ents-deck reads ccx's own tests.
+sh "$root/examples/setup.sh" --with chromium --with python3-scipy --with python3-venv --with calculix-ccx-test "$@"
 echo "== testing"
 ctest --test-dir "$root/build" --parallel "$(nproc)" --output-on-failure --no-tests=error || exit 1

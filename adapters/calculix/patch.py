@@ -109,11 +109,15 @@ PATCHES = {
         "  ITG ents_unsymmetric=ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop,nprop)||\n"
         "    ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop);\n"
         "  if(ents_unsymmetric) nasym=1;\n"
+        "  ITG ents_elements=0;\n"
+        "  for(i=0;i<*ne;i++){\n"
+        "    if((ipkon[i]>=0)&&((strcmp1(&lakon[8*i],\"U1E\")==0)||(strcmp1(&lakon[8*i],\"U1A\")==0))) ents_elements=1;\n"
+        "  }\n"
         "  if((*nstate_!=0)&&((*mortar!=1)||(ncont==0))){\n    NNEW(xstateini,"),
-        # with friction in U1E and U1A (ccx's own has nasym=1, too) an increment starts where the last one ended, as ccx does after other discontinuities: from a state extrapolated
-        # along the sliding, nodes that stick start slipping, and Newton's iteration throws them to and fro
+        # An increment starts where the last one ended, as ccx does after other discontinuities. From a state extrapolated along the sliding, nodes that stick start
+        # slipping, and Newton's iteration throws them to and fro; and a body that contact alone holds may start free of it.
         ("    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],",
-         "    if(ents_unsymmetric) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],"),
+         "    if(ents_elements) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],"),
         # ... and with a linear iteration, as ccx begins a step: else a surface that is moved runs into nodes that are still where they were, these slip under
         # a pressure that is many times the real one, and are thrown to and fro
         ("    if((iinc==1)&&(*ithermal<2)&&(*nmethod!=4)){\n", "    if(((iinc==1)||ents_unsymmetric)&&(*ithermal<2)&&(*nmethod!=4)){\n")],
