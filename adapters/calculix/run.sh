@@ -166,4 +166,29 @@ done; done
 python3 "$here/example/make.py" sphere U1E .
 rm ents_1.json
 refused U1E ents_1.json
+
+# 9. A master that is pulled away below the block: a slave that leaves its segment in contact ends the job.
+step "a slave that leaves its segment"
+python3 "$here/example/make.py" texture U1E .
+sed -i -e 's/^MASTER, 1, 1, .*/MASTER, 1, 1, 2.4/' -e 's/^0.2, 1., 1e-5, 0.2/0.02, 1., 1e-3, 0.02/' job.inp
+code=0
+OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
+if ! grep -m 1 'has left its segments' "$log" || [ $code -eq 0 ]; then
+  echo "run.sh: the contact was lost without a word, exit status $code" >&2
+  status=1
+fi
+
+# 10. Elements of two dimensions in the same deck (CalculiX issue 170: a crash): the block's forces stay what they are.
+step "a shell in the same deck"
+python3 "$here/example/make.py" sphere U1E .
+OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || failed "ccx stopped"
+mv job.dat without.dat
+sed -i 's/^\*STEP/*NODE, NSET=PLATE\n9001, 9., 0., 0.\n9002, 10., 0., 0.\n9003, 10., 1., 0.\n9004, 9., 1., 0.\n*ELEMENT, TYPE=S4, ELSET=PLATE\n9001, 9001, 9002, 9003, 9004\n*SHELL SECTION, ELSET=PLATE, MATERIAL=RUBBER\n0.1\n*BOUNDARY\nPLATE, 1, 6\n&/' job.inp
+code=0
+OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || code=$?
+forces() { awk '/total force/ { getline; getline; print $3 }' "$1"; } # along the load: the others are zero but for rounding
+if [ $code -ne 0 ] || [ "$(forces job.dat)" != "$(forces without.dat)" ]; then
+  echo "run.sh: a shell beside the contact elements changes their forces, or ccx stops (exit status $code)" >&2
+  status=1
+fi
 exit $status
