@@ -73,6 +73,13 @@ std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const doubl
       static_cast<long long>(mesh.segments), plan.dimension);
 }
 
+std::int32_t check_tree_of_model(const Plan& plan, const double* tree, ents_report* report) noexcept {
+  if (is_tree_of_model(plan, tree)) return ENTS_OK;
+  return report_status(report, ENTS_BAD_STATE, -1,
+                       "argument 'tree' was made with another model: its boxes hold another height, segment, border or surface coordinates. "
+                       "Call ents_tree_refit with this model");
+}
+
 using TreeFunction = Status (*)(const Plan&, const MasterMesh&, double*, std::int64_t&);
 std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, double* tree,
                        std::int64_t size, TreeFunction make, bool refit, ents_report* report) {
@@ -97,6 +104,7 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
   if (status == ENTS_OK) status = check_tree_size(handle->plan, mesh, boxes, size, report);
   if (status == ENTS_OK) status = check_is_tree(handle->plan, mesh, boxes, report);
+  if (status == ENTS_OK) status = check_tree_of_model(handle->plan, boxes, report);
   if (status != ENTS_OK) return status;
   model = handle, tree = boxes;
   io = known_struct(detection, copy, "detection", status, report);
@@ -141,7 +149,12 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
                               static_cast<long long>(i));
       for (int a = 0; a < plan.parameters; ++a) found.at.xi[a] = xi[a];
     }
-    if (const Status outcome = detect(plan, mesh, tree, slave, io->reach, found); outcome != Status::ok)
+    const Status outcome = detect(plan, mesh, tree, slave, io->reach, found);
+    if (outcome == Status::bad_state)
+      return report_status(report, ENTS_BAD_STATE, i,
+                           "argument 'tree' has been written over: it holds NaN or a segment that does not exist. Build it again with "
+                           "ents_tree_build");
+    if (outcome != Status::ok)
       return explain_segment(plan, mesh, outcome, found.segment, report);
     io->segment[i] = found.segment;
     if (found.segment >= 0)

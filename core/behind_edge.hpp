@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A slave that is ahead of no segment: is it outside the surface, or has it gone through a concave edge?
+// On which side of a surface of segments is a slave whose closest point is not a projection but a point of the segments' borders?
 //
-// Behind the edge of a groove of flat segments is a wedge that belongs to neither: the closest point of the surface is on
-// the edge, and the slave on the inner side of it. Beside a free edge, and ahead of a ridge, it is open.
+// Behind the edge of a groove of flat segments is a wedge that projects on neither flank: the slave has penetrated. Ahead of a ridge
+// is one, too: there the slave is open. Beside a free border the surface ends.
 #pragma once
 
 #include "core/detection.hpp"
 
 namespace ents {
 
-// Normal projection, with a tree of the surface. Edges farther than `reach` are none.
-bool is_behind_edge(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach);
+struct NearestBorder {
+  BorderPoint at;
+  std::int64_t segment;
+};
+
+enum class BorderSide { ahead, behind, beside_ahead, beside_behind }; // beside_...: of a free border, continued by its tangent plane
+
+// The point of the borders of all segments that is closest to the slave. False: none is closer than `limit`.
+bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double limit, NearestBorder& out);
+
+// crack: by how much the enriched segments that meet there are apart (0 where they meet).
+BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, const NearestBorder& nearest,
+                          double& crack);
 
 } // namespace ents

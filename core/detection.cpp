@@ -63,11 +63,83 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
   // visits
   const bool better =
       candidate.beyond < best.at.beyond || (candidate.beyond == best.at.beyond && segment < best.segment);
-  if (!same_place) best.other = better ? best.segment : segment;
+  // two faces back to back, as of a sheet without thickness: which one counts is for the caller to decide
+  const bool opposed = (candidate.gap > tie && best.at.gap < -tie) || (candidate.gap < -tie && best.at.gap > tie);
+  if (!same_place || opposed) best.other = better ? best.segment : segment;
   if (better) {
     best.segment = segment;
     best.at = candidate;
   }
+}
+
+// Segments that were looked at, and how far their boxes are.
+struct Candidates {
+  static constexpr int most = 32;
+  std::int64_t segment[most];
+  double at_least[most];
+  int count = 0; // may be more than there is room for
+  void add(std::int64_t s, double least) {
+    if (count < most) segment[count] = s, at_least[count] = least;
+    ++count;
+  }
+};
+
+// Where a point of the segments' borders is closer to the slave than the projection that was found, that point decides on which side
+// of the surface the slave is: a projection on a farther face seen from behind is no penetration, nor is one ahead of a slave that
+// is behind an edge a gap.
+void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
+                     const Candidates& candidates, Detection& out) {
+  constexpr double rounding = 1e-12;
+  const double found = out.segment < 0 ? reach : std::fabs(out.at.gap) * (1.0 - rounding) - 10.0 * out.at.tie;
+  NearestBorder nearest{{}, -1};
+  nearest.at.distance = found;
+  if (candidates.count <= Candidates::most) {
+    for (int i = 0; i < candidates.count; ++i) {
+      if (!(candidates.at_least[i] < nearest.at.distance)) continue;
+      SegmentNodes nodes;
+      if (gather(plan, mesh, candidates.segment[i], nodes) == Status::ok &&
+          plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, nearest.at.distance, nearest.at))
+        nearest.segment = candidates.segment[i];
+    }
+  } else {
+    nearest_border(plan, mesh, tree, slave, found, nearest);
+  }
+  if (nearest.segment < 0) return;
+  double crack;
+  const BorderSide side = side_of_border(plan, mesh, tree, slave, nearest, crack);
+  if (out.segment < 0) {
+    out.behind_edge = side == BorderSide::behind;
+    return;
+  }
+  if (!(nearest.at.distance < found - crack)) return;
+  const bool beside = side == BorderSide::beside_ahead || side == BorderSide::beside_behind;
+  if (beside && (out.at.gap >= 0.0 || side == BorderSide::beside_behind)) return; // a free border tells less than a projection
+  out.segment = out.other = -1;
+  out.behind_edge = side == BorderSide::behind;
+}
+
+// Without a tree: a few segments, the closest first.
+template <class Rank, class Limit, class Visit>
+Status visit_nearest_first(const Plan& plan, const MasterMesh& mesh, Rank&& rank, Limit&& limit, Visit&& visit) {
+  constexpr std::int64_t most = 64;
+  struct Waiting {
+    double rank;
+    std::int64_t segment;
+  };
+  Waiting waiting[most];
+  const std::int64_t count = std::min(mesh.segments, most);
+  for (std::int64_t s = 0; s < count; ++s) {
+    double box[6];
+    if (const Status status = segment_box(plan, mesh, s, box, box + plan.dimension); status != Status::ok) return status;
+    waiting[s] = {rank(box), s};
+  }
+  std::sort(waiting, waiting + count,
+            [](const Waiting& a, const Waiting& b) { return a.rank != b.rank ? a.rank < b.rank : a.segment < b.segment; });
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (!(waiting[i].rank <= limit())) break;
+    if (const Status status = visit(waiting[i].segment); status != Status::ok) return status;
+  }
+  return Status::ok;
 }
 
 } // namespace
@@ -75,8 +147,9 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
 double distance_to_box(int d, const double* point, const double* box) {
   double sum = 0.0;
   for (int k = 0; k < d; ++k) {
-    const double off = std::max({box[k] - point[k], point[k] - box[d + k], 0.0});
-    sum += off * off;
+    const double below = box[k] - point[k], above = point[k] - box[d + k];
+    const double off = below > above ? below : above + 0.0 * below; // NaN stays
+    sum += off <= 0.0 ? 0.0 : off * off;
   }
   return std::sqrt(sum);
 }
@@ -107,6 +180,8 @@ std::int64_t tree_size(const Plan& plan, std::int64_t segments) {
 bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
   return tree[0] == tree_tag + plan.dimension && tree[1] == static_cast<double>(mesh.segments);
 }
+
+bool is_tree_of_model(const Plan& plan, const double* tree) { return tree[2] == plan.surface_stamp; }
 
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
   const Tree t(plan, mesh.segments);
@@ -173,7 +248,7 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
         join(t.box(tree, child), t.box(tree, child) + d);
     }
   }
-  tree[0] = tree_tag + d;
+  tree[0] = tree_tag + d, tree[2] = plan.surface_stamp;
   return Status::ok;
 }
 
@@ -204,37 +279,40 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
 
   const auto limit = [&] { return out.segment < 0 ? reach : std::min(reach, out.at.rank + out.at.tie); };
   const bool normal = plan.projection == ProjectionKind::normal;
-  const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree, [&](const double* box) { return least_rank(plan, slave, ray, box); }, limit,
-      [&](std::int64_t segment) {
-        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) {
-          out.segment = segment;
-          return gathered;
-        }
-        double box[6];
-        plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
-        if (!(least_rank(plan, slave, ray, box) <= limit())) return Status::ok;
-        // a rank counts what lies beyond the edge, too; the reach does not
-        double farthest = reach;
-        for (int k = 0; k < plan.dimension; ++k) farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
-        if (out.segment >= 0) farthest = std::min(farthest, out.at.rank + out.at.tie);
-        SegmentProjection candidate;
-        if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
-          if (!normal || std::fabs(candidate.gap) <= reach) consider(plan.dimension, segment, candidate, out);
-        } else {
-          doubtful = doubtful || candidate.ambiguous;
-        }
-        return Status::ok;
-      });
+  Candidates candidates;
+  const auto visit = [&](std::int64_t segment) {
+    if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) {
+      out.segment = segment;
+      return gathered;
+    }
+    double box[6];
+    plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
+    const double least = least_rank(plan, slave, ray, box);
+    if (!(least <= limit())) return Status::ok;
+    candidates.add(segment, least);
+    // a rank counts what lies beyond the edge, too; the reach does not
+    double farthest = reach;
+    for (int k = 0; k < plan.dimension; ++k) farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
+    if (out.segment >= 0) farthest = std::min(farthest, out.at.rank + out.at.tie);
+    SegmentProjection candidate;
+    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
+      if (!normal || std::fabs(candidate.gap) <= reach) consider(plan.dimension, segment, candidate, out);
+    } else {
+      doubtful = doubtful || candidate.ambiguous;
+    }
+    return Status::ok;
+  };
+  const auto rank = [&](const double* box) { return least_rank(plan, slave, ray, box); };
+  const Tree shape(plan, mesh.segments);
+  const Status status = tree ? visit_segments(shape, tree, rank, limit, visit) : visit_nearest_first(plan, mesh, rank, limit, visit);
   if (status != Status::ok) return status;
   if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)
     out.segment = -1; // lit far behind the slave
+  if (normal) judge_by_border(plan, mesh, tree, slave, reach, candidates, out);
   if (out.segment >= 0)
     out.at.ambiguous = out.at.ambiguous || out.other >= 0 || doubtful;
   else
     out.at.ambiguous = doubtful;
-  out.behind_edge = out.segment < 0 && normal &&
-                    is_behind_edge(plan, mesh, tree, slave, reach);
   return Status::ok;
 }
 

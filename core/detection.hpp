@@ -31,6 +31,8 @@ Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, Se
 // Doubles that the tree of a surface takes; 0 if there are too many segments.
 std::int64_t tree_size(const Plan& plan, std::int64_t segments);
 bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree);
+// Do its boxes hold the segments of this model, or those of another height, basis or border?
+bool is_tree_of_model(const Plan& plan, const double* tree);
 
 // O(n log n); allocates d doubles per segment while it works. Errors as `gather`, at `segment`.
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment);
@@ -43,7 +45,7 @@ struct Detection {
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;
   bool searched;
-  bool behind_edge; // no segment: the slave is behind an edge that two segments share, ahead of neither
+  bool behind_edge; // no segment: the closest point is on an edge that segments share, and the slave is behind it
 };
 
 // The projection of a slave among all segments.

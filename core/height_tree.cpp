@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/fingerprint.hpp"
 #include "core/height_map.hpp"
 
 namespace ents {
@@ -178,6 +179,37 @@ Height Height::spline(const HeightMap& map) {
   height.nodes_[0].kind = HeightKind::map;
   height.nodes_[0].map = view;
   return height;
+}
+
+double Height::fingerprint() const {
+  Fingerprint print;
+  for (const std::vector<double>& table : tables_)
+    for (const double value : table) print.add(value);
+  const auto add = [&](const auto&... values) { (print.add(static_cast<double>(values)), ...); };
+  const auto add_map = [&](const MapHeight& m) {
+    add(m.row_stride);
+    for (int a = 0; a < 2; ++a) add(m.origin[a], m.inverse_spacing[a], m.period[a], m.low[a], m.high[a]);
+  };
+  for (const HeightNode& node : nodes_) {
+    add(static_cast<std::int32_t>(node.kind));
+    switch (node.kind) {
+    case HeightKind::none: break;
+    case HeightKind::constant: add(node.value); break;
+    case HeightKind::sine: add(node.sine.amplitude, node.sine.wave_vector[0], node.sine.wave_vector[1], node.sine.phase); break;
+    case HeightKind::polynomial: add(node.polynomial.rows, node.polynomial.columns); break;
+    case HeightKind::gaussian:
+      add(node.gaussian.amplitude, node.gaussian.center[0], node.gaussian.center[1], node.gaussian.inverse_width);
+      break;
+    case HeightKind::map: add_map(node.map); break;
+    case HeightKind::profile:
+      add_map(node.profile.of_turns);
+      add(node.profile.wave_vector[0], node.profile.wave_vector[1], node.profile.phase);
+      break;
+    case HeightKind::sum:
+    case HeightKind::product: add(node.child_count, node.first_child); break;
+    }
+  }
+  return print.number();
 }
 
 Height Height::sum(std::vector<Height> terms) { return combine(HeightKind::sum, std::move(terms)); }

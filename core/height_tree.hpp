@@ -52,6 +52,8 @@ public:
   std::int32_t continuity() const { return continuity_; }
   // |h(s)| <= bound for every s; infinite for a polynomial that is not constant.
   double bound() const { return bound_; }
+  // Differs between heights that differ (fingerprint.hpp).
+  double fingerprint() const;
   // Length along s_a over which h is close to a cubic: a quarter of a wavelength, a knot spacing, a width.
   // One or two samples per feature length show everything. Infinite when nothing limits it.
   double feature_length(std::int32_t a) const { return feature_length_[a]; }

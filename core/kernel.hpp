@@ -16,6 +16,7 @@ template <class B> inline constexpr KernelSet kernels_of = {
     {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>},
     {transfer_state<B, false>, transfer_state<B, true>},
     {project_on_segment<B, false>, project_on_segment<B, true>},
+    {closest_border_point<B, false>, closest_border_point<B, true>},
     {segment_box<B, false>, segment_box<B, true>},
     hull_spread<B>};
 

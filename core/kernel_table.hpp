@@ -12,6 +12,7 @@ struct KernelSet {
   SurfaceKernel surface[2];
   TransferKernel transfer[2];
   ProjectKernel project[2];
+  BorderKernel border_point[2];
   BoxKernel box[2];
   double (*hull_spread)(double border);
 };

@@ -22,10 +22,12 @@ struct PairKernels {
 namespace portable {
 extern const PairKernels pair_kernels;
 }
-#ifdef ENTS_X86_KERNELS
+#ifdef ENTS_HAS_AVX2
 namespace avx2 {
 extern const PairKernels pair_kernels;
 }
+#endif
+#ifdef ENTS_HAS_AVX512
 namespace avx512 {
 extern const PairKernels pair_kernels;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/plan.hpp"
 
+#include "core/fingerprint.hpp"
 #include "core/kernel_table.hpp"
 #include "core/pair_kernels.hpp"
 
@@ -36,17 +37,23 @@ bool has_ordinary_elements(const Model& model) {
 }  // namespace
 
 const PairKernels& best_pair_kernels() {
-#ifdef ENTS_X86_KERNELS
+#if defined(ENTS_HAS_AVX2) || defined(ENTS_HAS_AVX512)
   __builtin_cpu_init();
+#endif
+#ifdef ENTS_HAS_AVX512
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512vl"))
     return avx512::pair_kernels;
+#endif
+#ifdef ENTS_HAS_AVX2
   if (__builtin_cpu_supports("avx2")) return avx2::pair_kernels;
 #endif
   return portable::pair_kernels;
 }
 
-StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law) {
+StateLayout make_state_layout(const Model& model) {
+  const ContactLaw& law = model.law;
+  const std::int32_t parameters = basis_entry(model.basis).parameters;
   StateLayout s{-1, -1, -1, StateLayout::xi_at + parameters, 0.0};
   if (law.has_friction()) {
     s.anchor_at = s.size;
@@ -58,10 +65,25 @@ StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law) {
     s.size += law.has_friction() ? 1 + parameters : 1;
   }
   constexpr double ents = 1701737587.0;  // the four letters
-  const int layout = (StateLayout::version * 4 + parameters) * 4 + 2 * law.has_friction() + law.multiplier_in_state();
-  s.tag = ents * 4096.0 + layout;
+  const auto basis = static_cast<std::int32_t>(model.basis), normal = static_cast<std::int32_t>(law.normal),
+             friction = static_cast<std::int32_t>(law.friction);
+  s.tag = ents * 65536.0 + (((StateLayout::version * 32 + basis) * 16 + normal) * 4 + friction);
   return s;
 }
+
+namespace {
+
+// What the boxes of a tree depend on, beside the positions.
+double make_surface_stamp(const Model& model) {
+  Fingerprint print;
+  print.add(static_cast<double>(model.basis));
+  print.add(model.border);
+  print.add(model.height.fingerprint());
+  for (const double s : model.surface_coordinates) print.add(s);
+  return print.number();
+}
+
+}  // namespace
 
 Plan make_plan(const Model& model) {
   const BasisEntry& basis = basis_entry(model.basis);
@@ -73,13 +95,15 @@ Plan make_plan(const Model& model) {
   if (has_ordinary_elements(model)) plan.pairs = best_pair_kernels().of_basis(model.basis).of[enriched][model.law.has_friction()];
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
-  plan.project = kernels.project[enriched];
+  plan.project = kernels.project[enriched], plan.project_base = kernels.project[0];
+  plan.border_point = kernels.border_point[enriched], plan.border_point_base = kernels.border_point[0];
   plan.box = kernels.box[enriched];
   plan.height = enriched ? &model.height.root() : nullptr;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
     plan.feature_length[a] = a < basis.parameters ? model.height.feature_length(a) : Height::unbounded;
   plan.height_bound = model.height.bound();
+  plan.surface_stamp = make_surface_stamp(model);
   plan.projection = model.projection;
   plan.tangent = model.tangent;
   for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
@@ -93,7 +117,7 @@ Plan make_plan(const Model& model) {
   plan.simplex = basis.simplex;
   plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
   plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
-  plan.state = make_state_layout(basis.parameters, model.law);
+  plan.state = make_state_layout(model);
   return plan;
 }
 

@@ -96,7 +96,7 @@ enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 };  
 // Is the element what it was? One without a history is open.
 constexpr bool same_status(double before, double now) { return before == now || (before <= 1.0 && now <= 1.0); }
 struct StateLayout {
-  static constexpr std::int32_t version = 1;
+  static constexpr std::int32_t version = 2;
   static constexpr std::int32_t tag_at = 0, history_at = 1;
   static constexpr std::int32_t age_at = 2;  // increments since the last change of status
   static constexpr std::int32_t xi_at = 3;   // [T]
@@ -104,9 +104,9 @@ struct StateLayout {
   std::int32_t slip_at;                      // accumulated slip [L], friction
   std::int32_t multiplier_at;                // [1] or, with friction, [1 + T]: augmented Lagrangian
   std::int32_t size;
-  double tag;  // "ents", version and layout in one exactly representable number
+  double tag;  // "ents", version, basis and kinds of law in one exactly representable number
 };
-StateLayout make_state_layout(std::int32_t parameters, const ContactLaw& law);
+StateLayout make_state_layout(const Model& model);
 // A block of this layout, with finite numbers and a known history?
 inline bool is_state(const StateLayout& layout, const double* state) {
   double zero = 0.0;
@@ -127,6 +127,13 @@ struct SegmentProjection {
   bool ambiguous;
 };
 
+// The point of a segment's border that is closest to a given one.
+struct BorderPoint {
+  double xi[2];
+  double distance;
+  bool corner;  // of a segment in space
+};
+
 struct Plan;
 using ElementKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&);
 using SurfaceKernel = Status (*)(const Plan&, const double* master, const double* surface_coordinates,
@@ -140,6 +147,9 @@ using TransferKernel = Status (*)(const Plan&, const double* old_master, const d
 // False: there is none.
 using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* master, const double* surface_coordinates,
                                const double* start, double limit, SegmentProjection&);
+// False: no point of the border is closer than `limit`.
+using BorderKernel = bool (*)(const Plan&, const double* from, const double* master, const double* surface_coordinates, double limit,
+                              BorderPoint&);
 // A box [d] around all of the enriched segment.
 using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low, double* high);
 
@@ -176,12 +186,14 @@ struct Plan {
   PairKernel pairs;  // null: no element of this model is ordinary
   SurfaceKernel surface;
   TransferKernel transfer;
-  ProjectKernel project;
+  ProjectKernel project, project_base;  // on the enriched segment, and without its height
+  BorderKernel border_point, border_point_base;
   BoxKernel box;
   const HeightNode* height;           // null: plain
   const double* surface_coordinates;  // the model's own, or null
   double feature_length[2];           // of the height, in s
   double height_bound;                // |h| <= height_bound
+  double surface_stamp;               // the same for models of the same basis, height, coordinates and border; > 0
   ProjectionKind projection;
   TangentKind tangent;
   double ray[3];

@@ -20,10 +20,13 @@ inline constexpr double no_limit = 1e100;
 template <class B, bool H>
 Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& p, double limit = no_limit);
 
-// What a surface of many segments asks of one (ProjectKernel, BoxKernel; defined in segment_projection.hpp).
+// What a surface of many segments asks of one (ProjectKernel, BoxKernel, BorderKernel; defined in segment_projection.hpp and border.hpp).
 template <class B, bool H>
 bool project_on_segment(const Plan& plan, const double* slave, const double* master, const double* surface_coordinates,
                         const double* start, double limit, SegmentProjection& out);
+template <class B, bool H>
+bool closest_border_point(const Plan& plan, const double* from, const double* master, const double* surface_coordinates, double limit,
+                          BorderPoint& out);
 template <class B, bool H>
 void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low, double* high);
 // The half-sizes of a segment with its border over those of the box of its nodes: at most max sum_i |N_i|.

@@ -2,6 +2,7 @@
 // One segment as part of a surface of many: its best projection, and a box around it.
 #pragma once
 
+#include "core/border.hpp"
 #include "core/branch_and_bound.hpp"
 
 namespace ents::ENTS_ISA {
@@ -124,6 +125,10 @@ void segment_box(const Plan& plan, const double* master, const double* surface_c
                                              const double*, double, SegmentProjection&);                     \
   template bool project_on_segment<B, true>(const Plan&, const double*, const double*, const double*,        \
                                             const double*, double, SegmentProjection&);                      \
+  template bool closest_border_point<B, false>(const Plan&, const double*, const double*, const double*,     \
+                                               double, BorderPoint&);                                        \
+  template bool closest_border_point<B, true>(const Plan&, const double*, const double*, const double*,      \
+                                              double, BorderPoint&);                                         \
   template void segment_box<B, false>(const Plan&, const double*, const double*, double*, double*);          \
   template void segment_box<B, true>(const Plan&, const double*, const double*, double*, double*);           \
   template double hull_spread<B>(double);

@@ -13,9 +13,9 @@ namespace ents {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline constexpr std::int64_t leaf_segments = 4;
-// tree: [tag, segments, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
-inline constexpr double tree_tag = 1701737588.0; // says that it is a tree, and how it is laid out
-inline constexpr std::int64_t tree_header = 2;
+// tree: [tag, segments, stamp of what it was made for, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
+inline constexpr double tree_tag = 1701737592.0; // says that it is a tree, and how it is laid out
+inline constexpr std::int64_t tree_header = 3;
 
 struct Tree {
   std::int64_t segments;
@@ -35,8 +35,8 @@ struct Tree {
 };
 
 // Calls visit(segment) for the segments whose boxes have a rank of at most `limit()`, the smaller ranks first as far as the tree
-// knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way. A status that is not ok ends it. Without a tree all
-// segments are visited.
+// knows. `rank(box)`: a lower bound over what is in the box, NaN if the box has one; `limit` may fall on the way. A status that is not ok
+// ends it; bad_state: the tree has been written over. Without a tree all segments are visited.
 template <class Rank, class Limit, class Visit>
 Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
   if (!tree) { // a few segments
@@ -50,9 +50,11 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
   };
   Waiting waiting[64];
   int count = 0;
+  bool whole = true;
   const auto wait = [&](std::int64_t node) {
     const double least = rank(t.box(tree, node));
     if (least <= limit()) waiting[count++] = {node, least};
+    else whole = whole && least == least;
   };
   wait(1);
   while (count > 0) {
@@ -67,13 +69,16 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
       continue;
     }
     const std::int64_t leaf = now.node - t.leaves();
-    for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i)
-      if (const Status status = visit(static_cast<std::int64_t>(t.order(tree)[i])); status != Status::ok) return status;
+    for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
+      const double segment = t.order(tree)[i];
+      if (!(segment >= 0.0) || !(segment < static_cast<double>(t.segments))) return Status::bad_state;
+      if (const Status status = visit(static_cast<std::int64_t>(segment)); status != Status::ok) return status;
+    }
   }
-  return Status::ok;
+  return whole ? Status::ok : Status::bad_state;
 }
 
-// How far a box [low[d], high[d]] is from a point.
+// How far a box [low[d], high[d]] is from a point; NaN if the box has one.
 double distance_to_box(int d, const double* point, const double* box);
 
 }  // namespace ents
