@@ -54,6 +54,7 @@ std::int32_t Assembly::add(std::int64_t e) {
 std::int32_t Assembly::add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const {
   if ((call_.out->wanted & ENTS_FLAGS) != 0) *at(call_.out->flags, call_.out->flags_stride, e) = flags;
   if (call_.out->status) *at(call_.out->status, call_.out->status_stride, e) = ENTS_OK;
+  call_.mark_state(e);
   return (flags & ENTS_FLAG_CONTACT) == 0 ? ENTS_OK : equations_.add(e, residual, tangent, !plan_.law.has_friction());
 }
 
@@ -62,6 +63,8 @@ std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, d
                                        std::int32_t* flags) const {
   const std::int32_t wanted = call_.out->wanted | ENTS_FLAGS | ENTS_RESIDUAL | (equations_.wants_tangent() ? ENTS_TANGENT : 0);
   if (pair_results(*call_.model, wanted) != wanted) return 0;
+  for (std::int64_t k = 0; k < count; ++k)
+    if (!call_.state_follows(first + k)) return 0;
   ElementCall::BlockNodes nodes;
   PairBlock block = pair_block(*call_.model, *call_.in, *call_.out, first);
   if (!call_.gather_block(first, count, nodes, block)) return 0;

@@ -138,6 +138,10 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
                             std::isnan(slave[k]) ? "NaN" : "infinite");
     Detection found;
     found.segment = io->segment[i];
+    if (io->slave_node) found.own_node = io->slave_node[i];
+    if (found.own_node < -1 || found.own_node >= mesh.nodes)
+      return report_message(report, ENTS_BAD_VALUE, i, "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld", static_cast<long long>(i),
+                            static_cast<long long>(found.own_node), static_cast<long long>(mesh.nodes - 1));
     if (found.segment < -1 || found.segment >= mesh.segments)
       return report_message(report, ENTS_BAD_VALUE, i,
                             "detection.segment of node %lld is %lld; -1 or 0 .. %lld",

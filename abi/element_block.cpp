@@ -95,7 +95,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
   const std::int64_t leading = leading_dimension(*model, *out);
   if (!(shared(in->slave, in->slave_stride, d) && shared(in->master, in->master_stride, m * d) &&
         shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) && shared(in->start, in->start_stride, t) &&
-        shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, plan.state.size) &&
+        shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, model->sizes.state) &&
         own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&
         own(want::tangent, out->tangent, out->tangent_stride, (n - 1) * leading + n) &&
         (!out->status || one || (out->status_stride >= 1 && out->status_stride < most))))
@@ -105,7 +105,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
          own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) &&
          own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) &&
          own(want::energy, out->energy, out->energy_stride, 1) && own(want::pressure, out->pressure, out->pressure_stride, 1) &&
-         own(want::state, out->state_end, out->state_end_stride, plan.state.size) && !states_overlap(*model, *in, *out, first, count) &&
+         own(want::state, out->state_end, out->state_end_stride, model->sizes.state) && !states_overlap(*model, *in, *out, first, count) &&
          own(want::slip, out->slip, out->slip_stride, 1) && own(want::age, out->age, out->age_stride, 1) &&
          own(want::flags, out->flags, out->flags_stride, 1) && own(want::iterations, out->iterations, out->iterations_stride, 1);
 }
@@ -115,11 +115,16 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
 bool evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* in, const ents_output* out,
                          const ents_report* report) noexcept {
   if (count > PairBlock::most || !is_plain_call(model, first, count, in, out, report)) return false;
+  if (in->state_begin)
+    for (std::int64_t e = first; e < first + count; ++e)
+      if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size])) return false;
   const PairBlock block = pair_block(*model, *in, *out, first);
   const std::int32_t size = static_cast<std::int32_t>(count);
   if (model->plan.pairs(model->plan, block, size) != ~std::uint64_t{0} >> (PairBlock::most - size)) return false;
   if (out->status)
     for (std::int64_t e = first; e < first + count; ++e) out->status[e * out->status_stride] = ENTS_OK;
+  if ((out->wanted & ENTS_STATE) != 0) // without a mesh nobody knows the segment
+    for (std::int64_t e = first; e < first + count; ++e) out->state_end[e * out->state_end_stride + model->plan.state.size] = 0.0;
   return true;
 }
 

@@ -176,6 +176,7 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   std::int32_t status = check_handle(handle, report);
   if (status != ENTS_OK) return status;
   model = handle, plan = &handle->plan;
+  keeps_history = handle->model.law.has_friction();
   in = known_struct(input, input_copy, "input", status, report);
   if (!in) return status;
   out = known_struct(output, output_copy, "output", status, report);
@@ -234,7 +235,9 @@ std::int32_t ElementCall::check_open(std::int64_t e) const {
       first_non_finite(lambda, plan->multipliers) >= 0)
     return ENTS_NON_FINITE;
   if (area && *area < 0.0) return ENTS_BAD_VALUE;
-  if (in->state_begin && !is_state(plan->state, at(in->state_begin, in->state_begin_stride, e))) return ENTS_BAD_STATE;
+  if (in->state_begin && !(is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
+                            is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size])))
+    return ENTS_BAD_STATE;
   constexpr double largest = 1e60; // products of a few such numbers stay in range
   double size = 0.0;
   for (int a = 0; a < plan->multipliers; ++a)
@@ -300,9 +303,16 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
                               std::isnan(v[k]) ? "NaN" : "infinite");
     }
   if (status == ENTS_BAD_VALUE) return report_message(report, status, e, "input.area of element %lld is negative", number);
+  if (status == ENTS_BAD_STATE && in->state_begin && in->mesh && is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
+      is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) && !state_follows(e))
+    return report_message(report, status, e,
+                          "input.state_begin of element %lld was made on segment %lld, the element is on segment %lld: move it with "
+                          "ents_state_transfer first, or friction forces are wrong",
+                          number, static_cast<long long>(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) - 1,
+                          static_cast<long long>(segment(e)));
   if (status == ENTS_BAD_STATE)
     return report_message(report, status, e,
-                          "input.state_begin of element %lld is not a state of this model and version; fill it with ents_state_init",
+                          "input.state_begin of element %lld is not a state of this segment type, law and version; fill it with ents_state_init",
                           number);
   if (status == ENTS_DEEP_PENETRATION && report) return explain_penetration(e, report);
   return report_message(report, status, e, "element %lld: %s", number, ents_status_text(status));

@@ -56,6 +56,7 @@ struct ElementCall {
   const ents_output* out;
   MasterMesh mesh; // if the input has one
   bool start_first = false; // input.start comes before the history's xi
+  bool keeps_history = false; // of a place on the master: friction's anchor
 
   // What an assembly wants of an element, beside what the caller does; each or null.
   struct Wanted {
@@ -66,6 +67,21 @@ struct ElementCall {
 
   std::int32_t open(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
                     const ents_output* output, ents_report* report);
+
+  // Is the history of an element that of its segment? Only what friction keeps depends on it.
+  bool state_follows(std::int64_t e) const {
+    if (!in->state_begin || !model->model.patch.empty()) return true;
+    const double* state = at(in->state_begin, in->state_begin_stride, e);
+    const double number = state[plan->state.size];
+    if (!is_segment_number(number)) return false;
+    return !keeps_history || !in->mesh || number == 0.0 || number == static_cast<double>(segment(e) + 1) ||
+           !(state[StateLayout::history_at] > 1.0);
+  }
+  // Its state at the end knows the segment.
+  void mark_state(std::int64_t e) const {
+    if ((out->wanted & ENTS_STATE) == 0 || !model->model.patch.empty()) return;
+    at(out->state_end, out->state_end_stride, e)[plan->state.size] = in->mesh ? static_cast<double>(segment(e) + 1) : 0.0;
+  }
 
   std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
   std::int32_t refuse_segment(std::int64_t e, ents_report* report) const;

@@ -20,7 +20,7 @@ module ents
 
   ! What this module promises: pass both to ents_check_contract.
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 3
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 4
 
   ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
   integer(c_int32_t), parameter :: ENTS_OK = 0
@@ -160,6 +160,7 @@ module ents
     type(c_ptr) :: gap = c_null_ptr ! (nodes)
     type(c_ptr) :: flags = c_null_ptr ! (nodes), int32
     type(c_ptr) :: other = c_null_ptr ! (nodes), int64
+    type(c_ptr) :: slave_node = c_null_ptr ! (nodes), int64, counted from 0
   end type ents_detection
 
   type, bind(c) :: ents_combination

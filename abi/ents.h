@@ -70,7 +70,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 3
+#define ENTS_CONTRACT_MINOR 4
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -215,10 +215,11 @@ typedef struct ents_master_mesh {
  * number of threads. It lives in the caller's memory:
  *   ents_tree_size    doubles that it takes (about segments * (1 + d))
  *   ents_tree_build   once; O(n log n), needs d doubles per segment of memory of its own while it works (NO_MEMORY)
- *   ents_tree_refit   whenever positions have changed; O(n). ents_detect finds the right segments only in a tree that
- *                     has been refitted to the positions
+ *   ents_tree_refit   whenever positions or surface coordinates have changed, and before the tree is used with a model of another height,
+ *                     segment or border (a height that wears); O(n). ents_detect finds the right segments only in a tree that has been
+ *                     refitted to the positions; a tree that was made with another height, segment or border is refused (BAD_STATE)
  * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE, BAD_STATE (not a tree
- * of this surface; after an error it has to be built again). */
+ * of this surface, or one that was written over; after an error it has to be built again). */
 ENTS_API int32_t ents_tree_size(const ents_model *model, int64_t segments, int64_t *size, ents_report *report);
 ENTS_API int32_t ents_tree_build(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
                                  ents_report *report);
@@ -235,7 +236,11 @@ typedef struct ents_detection {
   double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
   double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow); 0 where segment is -1 */
   int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE */
-  int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or -1 */
+  int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or on the other side
+                                        of a sheet without thickness; or -1 */
+  const int64_t *slave_node;         /* [count] or null: the node of the mesh that each slave is, or -1. Segments with this node in their
+                                        connectivity are left out. Without it a slave that is a node of the master surface finds itself,
+                                        at gap 0 (self-contact). Since contract 1.4 */
 } ents_detection;
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
@@ -245,11 +250,12 @@ typedef struct ents_detection {
  * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
  * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
  * one on the segment with the smaller number is given), or the proof took too long.
- * A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one. Behind a
- * concave edge between segments (a kink of a plain mesh) a penetrating slave has no projection either, because the normals of both segments
- * leave a wedge. Where the border does not cover it, ENTS_FLAG_BEHIND_EDGE is set (normal projection): cut the step, widen the border, or
- * smooth the surface. Beside a free edge of the surface, and ahead of a ridge, a slave is open. (At a point where more than 64
- * segments meet nothing is proved: a slave without a projection is flagged.)
+ * Edges (normal projection). A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one.
+ * Where a point of an edge is closer to the slave than every projection, the normals of the segments that meet there decide. Behind a
+ * concave edge (a kink of a plain mesh) the slave has penetrated, but projects on neither segment: segment is -1 and
+ * ENTS_FLAG_BEHIND_EDGE is set: cut the step, widen the border, or smooth the surface. Ahead of a ridge the slave is open: segment is -1,
+ * and a farther face that it would project on from behind is no contact. Beside a free edge of the surface a slave is open, too.
+ * (At a point where more than 64 segments meet nothing is proved: a slave whose closest point it is is flagged.)
  * Returns 0 or a negative status; then nothing is written from the node with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
@@ -315,7 +321,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
 #define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
-#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: ahead of no segment, but behind an edge between segments: not open, but lost */
+#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: the closest point is on an edge between segments, and the slave is behind it: not open, but lost */
 #define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment; a new state is open */
 
 /* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
@@ -366,8 +372,11 @@ ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t c
                                const ents_input *input, const ents_output *output,
                                ents_report *report);
 
-/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. A state knows neither the height nor the
- * numbers of the law: another model of the same segment and kinds of law goes on with it (heights that wear between increments). */
+/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. A state knows the segment type and the kinds of
+ * normal law and friction, and refuses (BAD_STATE) to be read by a model of others; it knows neither the height nor the numbers of the
+ * law: another model of the same kinds goes on with it (heights that wear between increments). A state that was written with
+ * ents_input.mesh knows the number of its segment, too: with friction or multipliers in the state, an element on another segment refuses
+ * it until ents_state_transfer has moved it. */
 ENTS_API int32_t ents_state_init(const ents_model *model, int64_t count, double *state,
                                  int64_t stride, ents_report *report);
 
@@ -495,11 +504,12 @@ typedef struct ents_system {
   const int64_t *multiplier_equations; /* [elements][multipliers]; needed if the layout has any */
   int64_t rows;
   double *residual;                  /* [rows] R is added; null: not wanted */
-  const void *row_begin;             /* [rows + 1] compressed rows, counted from 0 */
+  const void *row_begin;             /* [rows + 1] compressed rows, counted from 0: the first is 0 */
   const void *columns;               /* [row_begin[rows]] ascending in each row */
   double *values;                    /* [row_begin[rows]] K is added; null: not wanted */
   int64_t *places;                   /* [elements][places_size] or null: where the entries of each element are in `values`, kept
-                                        from call to call: zero it once, and whenever the pattern or the equations change */
+                                        from call to call: zero it once, and whenever row_begin or columns change. Other segments, nodes
+                                        or equations of an element are noticed */
   int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination */
 } ents_system;
 

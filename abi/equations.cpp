@@ -57,9 +57,39 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
   if (s.places && !s.slave && !s.master && s.places_size < places)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.places_size is %lld; at least %lld is needed",
                           static_cast<long long>(s.places_size), static_cast<long long>(places));
+  if (!s.slave && s.slave_nodes < first + count)
+    return report_message(report_, ENTS_BAD_COUNT, -1, "system.slave_nodes is %lld; the elements end at %lld, and slave point i is node i",
+                          static_cast<long long>(s.slave_nodes), static_cast<long long>(first + count));
   pattern_ = {s.row_begin, s.columns, s.rows, s.index_size == 8};
+  if (s.values && count > 0 && (status = check_pattern()) != ENTS_OK) return status;
   constexpr std::int64_t cached = std::int64_t{1} << 18;
   large_ = s.values && count > 0 && pattern_.begin(s.rows) > cached;
+  return ENTS_OK;
+}
+
+// Arrays counted from 1, or of the other index size, show at their ends.
+std::int32_t Equations::check_pattern() {
+  const std::int64_t begin = pattern_.begin(0), entries = pattern_.begin(pattern_.rows);
+  if (begin != 0)
+    return report_message(report_, ENTS_BAD_VALUE, -1,
+                          "system.row_begin[0] is %lld; it must be 0: rows and columns are counted from 0 (in Fortran pass row_begin - 1 and "
+                          "columns - 1)",
+                          static_cast<long long>(begin));
+  if (entries < 0)
+    return report_message(report_, ENTS_BAD_VALUE, -1, "system.row_begin[rows] is %lld; is system.index_size (%d bytes) that of the array?",
+                          static_cast<long long>(entries), pattern_.wide ? 8 : 4);
+  if (entries > 0 && pattern_.column(entries - 1) >= pattern_.rows)
+    return report_message(report_, ENTS_BAD_VALUE, -1,
+                          "the last of system.columns is %lld; there are %lld rows: rows and columns are counted from 0, and "
+                          "system.index_size (%d bytes) is that of both arrays",
+                          static_cast<long long>(pattern_.column(entries - 1)), static_cast<long long>(pattern_.rows), pattern_.wide ? 8 : 4);
+  pattern_.entries = entries;
+  for (std::int64_t row = 0; row < std::min<std::int64_t>(pattern_.rows, 4); ++row)
+    if (pattern_.begin(row + 1) < pattern_.begin(row))
+      return report_message(report_, ENTS_BAD_VALUE, -1,
+                            "system.row_begin falls from %lld to %lld in row %lld; is system.index_size (%d bytes) that of the array?",
+                            static_cast<long long>(pattern_.begin(row)), static_cast<long long>(pattern_.begin(row + 1)),
+                            static_cast<long long>(row), pattern_.wide ? 8 : 4);
   return ENTS_OK;
 }
 
@@ -141,7 +171,7 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
               report_, ENTS_BAD_PATTERN, e, "the pattern has no entry (%lld, %lld), which element %lld needs",
               static_cast<long long>(rows[i]), static_cast<long long>(columns[j]), static_cast<long long>(e));
         if (in_line && j == 0 && at + column.size <= pattern_.begin(rows[i] + 1) &&
-            pattern_.is_column(at + column.size - 1, columns[column.size - 1])) {
+            pattern_.column(at + column.size - 1) == columns[column.size - 1]) {
           known = at;
           if (place) place[i] = at + 1;
         }
@@ -152,13 +182,28 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
   return ENTS_OK;
 }
 
-// Where an earlier call has found the entries of an element: segment + 1, negative once all of them are known; then for node a and node
-// b, the begin of each row's d entries, counted from 1, or 0. Null: not all of them are known.
+// Where an earlier call has found the entries of an element: a stamp of its equations and of the size of the pattern, negative once all of
+// them are known; then for node a and node b, the begin of each row's d entries, counted from 1, or 0. Other equations, as after
+// remeshing, have another stamp. Null: not all of them are known.
 inline const std::int64_t* Equations::known_places(std::int64_t e) const noexcept {
   if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return nullptr;
   const std::int64_t* places = system_->places + e * system_->places_size;
-  const std::int64_t segment = call_.segment(e);
-  return segment >= 0 && places[0] == -(segment + 1) ? places + 1 : nullptr;
+  return places[0] < 0 && call_.segment(e) >= 0 && places[0] == -stamp(e) ? places + 1 : nullptr;
+}
+
+// 0: of a node without equations
+std::int64_t Equations::stamp(std::int64_t e) const noexcept {
+  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u; // odd: its powers are not zero
+  const int d = plan_.dimension, count = nodes();
+  std::uint64_t sum = static_cast<std::uint64_t>(pattern_.entries) * factor, power = factor * factor;
+  const std::int64_t* connectivity = count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
+  for (int a = 0; a < count; ++a) {
+    const std::int64_t node = a == 0 ? e : connectivity[a - 1];
+    if (node < 0 || node >= (a == 0 ? system_->slave_nodes : system_->master_nodes)) return 0;
+    const std::int64_t* rows = (a == 0 ? system_->slave_equations : system_->master_equations) + node * d;
+    for (int i = 0; i < d; ++i, power *= factor) sum += (static_cast<std::uint64_t>(rows[i]) + 2) * power;
+  }
+  return static_cast<std::int64_t>((sum ^ sum >> 29) >> 1 | 1);
 }
 
 // Known places mean that all equations of the element have been looked at, and none is left out.
@@ -195,8 +240,9 @@ void Equations::add_known(std::int64_t e, const std::int64_t* places, const doub
 void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
 #if defined(__GNUC__)
   if (!large_) return;
-  const std::int64_t* places = known_places(e);
-  if (!places) return;
+  if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return;
+  const std::int64_t* places = system_->places + e * system_->places_size;
+  if (*places++ >= 0) return;
   for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) {
     __builtin_prefetch(system_->values + places[i], 1);
     asm volatile(""); // or a compiler takes the whole function for one without effect
@@ -210,9 +256,9 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
   std::int64_t* places = nullptr;
   if (system_->places && !system_->slave && !system_->master && segment >= 0) {
     places = system_->places + e * system_->places_size;
-    if (places[0] != segment + 1) { // those of another segment
+    if (const std::int64_t now = stamp(e); places[0] != now) { // those of other equations
       std::fill_n(places + 1, d * count * count, std::int64_t{0});
-      places[0] = segment + 1;
+      places[0] = now;
     }
   }
   const Group multipliers{

@@ -39,14 +39,17 @@ private:
     const void *row_begin, *columns;
     std::int64_t rows;
     bool wide; // indices of 8 bytes
+    std::int64_t entries = 0;
 
     std::int64_t begin(std::int64_t row) const {
       return wide ? static_cast<const std::int64_t*>(row_begin)[row]
                   : static_cast<const std::int32_t*>(row_begin)[row];
     }
     template <class Index> std::int64_t find(std::int64_t row, std::int64_t column) const {
+      const std::int64_t from = begin(row), to = begin(row + 1);
+      if (from < 0 || to < from || to > entries) return -1;
       const Index* all = static_cast<const Index*>(columns);
-      const Index *first = all + begin(row), *last = all + begin(row + 1);
+      const Index *first = all + from, *last = all + to;
       const Index* at = std::lower_bound(first, last, static_cast<Index>(column));
       return at != last && *at == column ? at - all : -1;
     }
@@ -54,12 +57,13 @@ private:
     std::int64_t find(std::int64_t row, std::int64_t column) const {
       return wide ? find<std::int64_t>(row, column) : find<std::int32_t>(row, column);
     }
-    bool is_column(std::int64_t at, std::int64_t column) const {
-      return (wide ? static_cast<const std::int64_t*>(columns)[at]
-                   : static_cast<const std::int32_t*>(columns)[at]) == column;
+    std::int64_t column(std::int64_t at) const {
+      return wide ? static_cast<const std::int64_t*>(columns)[at] : static_cast<const std::int32_t*>(columns)[at];
     }
   };
 
+  std::int32_t check_pattern();
+  std::int64_t stamp(std::int64_t e) const noexcept;
   std::int32_t check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes, std::int64_t node) const;
   // Calls f(group) for the groups of one node of the element; what f returns ends it unless it is 0.
   template <class F> std::int32_t for_groups(std::int64_t e, int node, F&& f) const;

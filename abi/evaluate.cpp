@@ -64,7 +64,12 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
                                  at(out->traction, out->traction_stride, e),
                                  at(out->slip, out->slip_stride, e),
                                  at(out->age, out->age_stride, e)};
-  const std::int32_t outcome = static_cast<std::int32_t>(evaluate_one(element(e, nodes), results));
+  const bool follows = state_follows(e);
+  ElementOutput nothing = results;
+  nothing.wanted = 0;
+  std::int32_t outcome = static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing));
+  if (!follows && outcome >= 0) outcome = ENTS_BAD_STATE;
+  if (outcome == ENTS_OK) mark_state(e);
   if (out->status) *at(out->status, out->status_stride, e) = outcome;
   return outcome;
 }
@@ -113,11 +118,14 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
     size = std::min(count, most);
     std::uint64_t done = 0;
     PairBlock here = block;
+    bool follow = true;
+    for (std::int64_t k = 0; k < size && in->state_begin; ++k) follow = follow && state_follows(first + k);
     if (staged) staged->redirect(here);
-    if (!mixed && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    if (!mixed && follow && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     if (staged) staged->keep(first, size, done);
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
+        mark_state(first + k);
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }

@@ -73,7 +73,7 @@ public:
     if (status != Status::ok) return status;
     if ((out_.wanted & want::state) != 0) {
       std::copy_n(state_end, plan_.state.size, out_.state_end);
-      out_.state_end[plan_.state.size] = static_cast<double>(segment_);
+      out_.state_end[plan_.state.size] = static_cast<double>(segment_ + 1);
     }
     if (spreads()) spread();
     return Status::ok;
@@ -81,22 +81,40 @@ public:
 
 private:
   bool spreads() const { return plan_.dofs != d_ + plan_.multipliers; } // a rigid master has no dofs
-  std::int64_t before() const { return static_cast<std::int64_t>(in_.state_begin[plan_.state.size]); }
+  std::int64_t before() const { return segment_of_state(plan_, in_.state_begin); }
   // At the begin of the increment. An open slave may be over another segment by now.
   bool in_contact() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] > 1.0; }
   bool known_state() const {
-    const double segment = in_.state_begin[plan_.state.size];
-    return is_state(plan_.state, in_.state_begin) && segment >= 0.0 &&
+    const double segment = in_.state_begin[plan_.state.size] - 1.0;
+    return is_state(plan_.state, in_.state_begin) && segment >= (in_contact() ? 0.0 : -1.0) &&
            segment < static_cast<double>(segments_) && segment == std::floor(segment);
   }
 
-  // The segment of before while the slave is on it; else the best of all; where there is none, the nearest,
-  // and the kernel finds that it is open there.
+  // How deep a slave may be: what lies farther is not looked at.
+  double reach() const {
+    if (plan_.penetration_limit > 0.0) return plan_.penetration_limit;
+    double most = 0.0;
+    for (std::int64_t s = 0; s < segments_; ++s) {
+      double low[3], high[3], size = 0.0;
+      for (int k = 0; k < d_; ++k) low[k] = infinity, high[k] = -infinity;
+      for (int i = 0; i < plan_.nodes; ++i) {
+        const double* x = in_.master + patch_.connectivity[static_cast<std::size_t>(s * plan_.nodes + i)] * d_;
+        for (int k = 0; k < d_; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+      }
+      for (int k = 0; k < d_; ++k) size += (high[k] - low[k]) * (high[k] - low[k]);
+      most = std::max(most, std::sqrt(size));
+    }
+    return most;
+  }
+
+  // The segment of before while the slave is on it; else the best of all; where none is within reach, the nearest: the slave is open
+  // there, or too deep.
   Status choose(Detection& found) {
     found.segment = in_contact() ? before() : -1;
     for (int t = 0; t < plan_.parameters; ++t)
       found.at.xi[t] = in_contact() ? in_.state_begin[StateLayout::xi_at + t] : 0.0;
-    if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok)
+    const double deepest = reach();
+    if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, deepest, found); status != Status::ok)
       return status;
     segment_ = found.segment;
     if (segment_ >= 0) {
@@ -104,6 +122,18 @@ private:
       return doubtful ? Status::ambiguous_projection : Status::ok;
     }
     if (found.behind_edge) return Status::no_projection;
+    const bool doubtful = found.at.ambiguous;
+    // On which side it is the segments without their height tell, which are searched at once.
+    Plan base = plan_;
+    base.height = nullptr, base.height_bound = 0.0;
+    base.project = plan_.project_base, base.border_point = plan_.border_point_base;
+    if (const Status status = detect(base, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok) return status;
+    if (found.behind_edge) return Status::no_projection;
+    segment_ = found.segment;
+    if (segment_ >= 0) {
+      if (found.at.gap < -deepest) return Status::deep_penetration;
+      return doubtful && found.at.gap <= plan_.height_bound ? Status::ambiguous_projection : Status::ok;
+    }
     double least = infinity;
     for (std::int64_t s = 0; s < segments_; ++s) {
       SegmentNodes nodes;
@@ -169,7 +199,7 @@ private:
 } // namespace
 
 ElementSizes sizes_of(const Plan& plan, const Patch& patch) {
-  if (patch.empty()) return {plan.nodes, plan.dofs, plan.state.size};
+  if (patch.empty()) return {plan.nodes, plan.dofs, plan.state.size + 1};
   const bool rigid = plan.dofs == plan.dimension + plan.multipliers;
   return {patch.nodes, plan.dimension * (rigid ? 1 : 1 + patch.nodes) + plan.multipliers,
           plan.state.size + 1};

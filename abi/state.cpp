@@ -50,7 +50,8 @@ int32_t ents_state_augment(const ents_model* model, int64_t count, double* state
       return report_status(report, ENTS_BAD_STATE, -1,
                            "this model keeps no multipliers in the state; use contact.normal.type \"augmented\"");
     for (int64_t e = 0; e < count; ++e)
-      if (!is_state(layout, state_begin + e * begin_stride) || !is_state(layout, state_end + e * end_stride))
+      if (!is_state(layout, state_begin + e * begin_stride) || !is_state(layout, state_end + e * end_stride) ||
+          !is_segment_number(state_begin[e * begin_stride + layout.size]) || !is_segment_number(state_end[e * end_stride + layout.size]))
         return report_message(report, ENTS_BAD_STATE, e, "block %lld is not a state of this model and version",
                               static_cast<long long>(e));
     for (int64_t e = 0; e < count; ++e)
@@ -76,8 +77,10 @@ int32_t ents_state_transfer(const ents_model* model, const double* old_master, c
       if (!r.pointer) return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null", r.name);
     const FloatingPointGuard guard;
     const Plan& plan = model->plan;
+    if (!is_segment_number(state[plan.state.size])) return report_status(report, ENTS_BAD_STATE, -1, ents_status_text(ENTS_BAD_STATE));
     const auto status = static_cast<std::int32_t>(plan.transfer(plan, old_master, old_surface_coordinates, new_master,
                                                                 new_surface_coordinates, state, moved));
+    if (status == ENTS_OK) moved[plan.state.size] = 0.0; // of any segment: its number is not told
     if (status == ENTS_OK) return report_ok(report);
     return report_status(report, status, -1, ents_status_text(status));
   });

@@ -19,6 +19,9 @@ template <class B> ENTS_INLINE Edge edge_of_segment(int e) {
   return e % 2 == 0 ? Edge{{0.0, side}, {1.0, 0.0}} : Edge{{side, 0.0}, {0.0, 1.0}};
 }
 
+// Edges that are straight, without the height.
+template <class B> inline constexpr bool straight_edges = is_flat<B> || std::is_same_v<B, Quad4>;
+
 // The best point of the border so far.
 template <class B, bool H> struct ClosestOnBorder {
   static constexpr int D = B::dim, T = D - 1;
@@ -65,20 +68,25 @@ template <class B, bool H> struct ClosestOnBorder {
   }
 
   // The point of the chord between the edge's ends, without the height, that is closest: how far it is, and its w.
-  ENTS_INLINE double distance_to_chord(double& w) const {
-    double from[T], to[T];
-    for (int a = 0; a < T; ++a) from[a] = edge.middle[a] - edge.along[a], to[a] = edge.middle[a] + edge.along[a];
-    Shape<double, T, B::nodes> N;
-    B::template shape<0>(from, N);
-    const Vec<double, D> a = combine(N.n, g.y);
-    B::template shape<0>(to, N);
-    const Vec<double, D> ab = combine(N.n, g.y) - a;
+  ENTS_INLINE double distance_to_chord(int e, double& w) const {
+    Vec<double, D> a, ab;
+    if constexpr (straight_edges<B>) { // whose ends are nodes
+      constexpr int ends[4][2] = {{0, 1}, {0, B::nodes - 1}, {B::simplex ? 1 : 3, 2}, {1, 2}};
+      a = g.y[ends[e][0]], ab = g.y[ends[e][1]] - a;
+    } else {
+      double from[T], to[T];
+      for (int k = 0; k < T; ++k) from[k] = edge.middle[k] - edge.along[k], to[k] = edge.middle[k] + edge.along[k];
+      Shape<double, T, B::nodes> N;
+      B::template shape<0>(from, N);
+      a = combine(N.n, g.y);
+      B::template shape<0>(to, N);
+      ab = combine(N.n, g.y) - a;
+    }
     const double length2 = dot(ab, ab);
     const double t = length2 > 0.0 ? clamp(-dot(a, ab) / length2, 0.0, 1.0) : 0.0;
-    Vec<double, D> off = a;
-    add_scaled(off, t, ab);
+    add_scaled(a, t, ab);
     w = 2.0 * t - 1.0;
-    return square_root(dot(off, off));
+    return square_root(dot(a, a));
   }
 
   // How far the edge departs from its chord, without the height: half of the largest |rho_,ww|, a polynomial of degree two at most,
@@ -136,20 +144,19 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
   g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;
   ClosestOnBorder<B, H> closest{g, plan.height_bound, limit};
-  constexpr bool straight = is_flat<B> || std::is_same_v<B, Quad4>; // edges, without the height
   for (int e = 0; e < edge_count<B>; ++e) {
     if constexpr (T == 1) {
       closest.edge = {{2.0 * e - 1.0, 0.0}, {0.0, 0.0}};
       closest.consider(e, 0.0, closest.distance(0.0));
     } else {
       closest.edge = edge_of_segment<B>(e);
-      double w, chord = closest.distance_to_chord(w);
-      if constexpr (straight && !H) {
+      double w, chord = closest.distance_to_chord(e, w);
+      if constexpr (straight_edges<B> && !H) {
         closest.consider(e, w, chord);
       } else { // most are too far, whatever their course
         if constexpr (H) chord -= plan.height_bound;
         if (!(chord < closest.limit)) continue;
-        if constexpr (!straight) chord -= closest.sag();
+        if constexpr (!straight_edges<B>) chord -= closest.sag();
         if (chord < closest.limit) closest.search_edge(e);
       }
     }

@@ -70,13 +70,39 @@ template <class B, bool H> struct Candidates {
       inside = now_inside;
       result = {Found::yes, false};
     } else if (now_inside == inside && r < best_rank + tie) {
-      double apart[T];
-      for (int a = 0; a < T; ++a) apart[a] = p.xi[a] - best.xi[a];
-      if (max_norm(apart) > 1e-6)
+      // a place has many natural coordinates where two nodes of a segment are one
+      const Vec<double, B::dim> apart = p.s.d - best.s.d;
+      const double same = 1e3 * tie;
+      if (dot(apart, apart) > same * same)
         result.ambiguous = true;
       else if (r < best_rank)
         best_rank = r, best = p;
     }
+    return true;
+  }
+
+  // As close to a corner where two nodes are one as natural coordinates make sense the surface is taken as it is there: the
+  // projection is known to that part of the segment's size.
+  ENTS_NOINLINE bool attempt_next_to_corner(const double (&xi)[T], Projection<B, H>& p) {
+    for (int a = 0; a < T; ++a) p.xi[a] = xi[a];
+    ++evaluations;
+    double step[T], merit;
+    if (t.kind != ProjectionKind::normal || !evaluate_surface<2>(g, p.xi, p.N, p.s) || !normal_step(p, step, merit) || !is_minimum(p.f2, p.metric))
+      return false;
+    double off2 = 0.0, size2 = 0.0;
+    for (int a = 0; a < T; ++a) {
+      const double along = dot(p.s.e[a], p.s.d), length2 = dot(p.s.e[a], p.s.e[a]);
+      off2 += along * along / length2;
+      size2 = greater(size2, length2);
+    }
+    if (!(off2 < 1e-16 * size2) || !on_segment<B>(p.xi, plan.border)) return false;
+    const double r = rank(t, p);
+    tie = tie_size * square_root(size2);
+    if (r > wanted) return true;
+    p.evaluations = 1;
+    best = p;
+    best_rank = r, inside = true;
+    result = {Found::yes, false};
     return true;
   }
 
@@ -114,6 +140,52 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
     for (int b = 0; b < T; ++b) second += 0.5 * w[a] * w[b] * magnitude(dot(u, s.e2[symmetric_index(a, b)]));
   }
   return lesser(first, second);
+}
+
+// A quad4 with two neighbouring nodes in one place is a triangle, and its natural coordinates lose their meaning towards that corner.
+inline constexpr double next_to_collapsed_edge = 1e-9; // how close natural coordinates come to it
+
+// The edge from node e to the next whose ends are one; -1: none, or it has two surface coordinates.
+template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
+  if constexpr (std::is_same_v<B, Quad4>)
+    for (int e = 0; e < 4; ++e) {
+      const int next = (e + 1) % 4;
+      const Vec<double, 3> gone = g.y[next] - g.y[e], across = g.y[(e + 2) % 4] - g.y[e];
+      if (dot(gone, gone) <= 1e-24 * dot(across, across)) return e;
+    }
+  return -1;
+}
+
+// Search of that triangle, whose nodes are e, e + 2 and e + 3, and natural coordinates of the quad4. False: heights are given in natural
+// coordinates, or in surface coordinates that differ in the two nodes: then they are not those of a triangle.
+template <bool H>
+ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit, int e, Search& result,
+                                    double (&xi)[2], int& evaluations) {
+  const int nodes[3] = {e, (e + 2) % 4, (e + 3) % 4};
+  Geometry<Tri3> triangle;
+  double coordinates[6];
+  for (int i = 0; i < 3; ++i) triangle.y[i] = g.y[nodes[i]];
+  triangle.surface_coordinates = nullptr, triangle.height = g.height, triangle.smallest_area2 = g.smallest_area2;
+  if constexpr (H) {
+    const double* s = g.surface_coordinates;
+    if (!s || s[2 * e] != s[2 * ((e + 1) % 4)] || s[2 * e + 1] != s[2 * ((e + 1) % 4) + 1]) return false;
+    for (int i = 0; i < 6; ++i) coordinates[i] = s[2 * nodes[i / 2] + i % 2];
+    triangle.surface_coordinates = coordinates;
+  }
+  Projection<Tri3, H> p;
+  result = search<Tri3, H>(triangle, t, plan, p, limit);
+  evaluations = p.evaluations;
+  if (result.found != Found::yes) return true;
+  const double off = p.xi[0] + p.xi[1]; // 0 in the corner, 1 on the side across
+  const bool in_corner = off < 0.5 * next_to_collapsed_edge && off > -0.5 * next_to_collapsed_edge;
+  const double beside = in_corner ? 0.0 : 1.0;
+  const double along = off > 0.0 ? clamp(p.xi[1] / off, -beside, 1.0 + beside) : 0.5;
+  const int normal = e % 2 == 0; // the direction that ends in the corner, at this side
+  const double sign = e == 1 || e == 2 ? 1.0 : -1.0;
+  const auto coordinate = [&](int node) { return 2.0 * (normal == 1 ? Corners::i[node] : Corners::j[node]) - 1.0; };
+  xi[1 - normal] = coordinate(nodes[1]) + (coordinate(nodes[2]) - coordinate(nodes[1])) * along;
+  xi[normal] = sign * (in_corner ? 1.0 - next_to_collapsed_edge : 1.0 - 2.0 * off);
+  return true;
 }
 
 enum class Verdict { drop, halve };
@@ -167,6 +239,15 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
   for (int a = 0; a < T; ++a) { // a large box has many slopes of its height: its mean one is that of the segment
     towards[a] = 0.0;
     for (int k = 0; k < D; ++k) towards[a] += off[k] * s.a[a][k].v;
+  }
+  if (all.inside && !all.no_normal) { // all of it is the place that was found, as next to a corner where two nodes are one
+    double away2 = 0.0;
+    const double same = 100.0 * all.tie;
+    for (int k = 0; k < D; ++k) {
+      const double away = absolute(s.d[k].v - all.best.s.d[k]) + s.d[k].r;
+      away2 += away * away;
+    }
+    if (away2 < same * same) return Verdict::drop;
   }
   const double distance = square_root(dot(off, off));
   double far = least_length(range);
@@ -249,12 +330,34 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     if (project(g, t, plain) == Found::yes && on_segment<B>(plain.xi, plan.border)) all.attempt(plain.xi, p);
     all.evaluations += plain.evaluations;
   }
+  const int collapsed = collapsed_edge(g);
+  if constexpr (std::is_same_v<B, Quad4>)
+    if (Search found; collapsed >= 0 && t.kind == ProjectionKind::normal) {
+      double xi[T];
+      int evaluations = 0;
+      if (search_collapsed<H>(g, t, plan, limit, collapsed, found, xi, evaluations) && found.found == Found::yes) {
+        all.evaluations += evaluations;
+        all.inside = false, all.result = {Found::not_converged, false};
+        if (!all.attempt(xi, p) || !all.inside) all.attempt_next_to_corner(xi, p);
+        if (all.result.found == Found::yes) {
+          all.result.ambiguous = found.ambiguous;
+          best.evaluations = all.evaluations;
+          return all.result;
+        }
+      }
+    }
   if (!all.inside) all.attempt(box.c, p);
   if (!is_flat<B> || H) {
     const double rim = plan.border; // as on_segment()
     for (int a = 0; a < T; ++a) {
       box.c[a] = B::simplex ? 0.5 : 0.0;
       box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
+    }
+    if (collapsed >= 0) { // up to the edge that is none
+      constexpr double left_out = 100.0 * next_to_collapsed_edge;
+      const int normal = collapsed % 2 == 0;
+      box.c[normal] = (collapsed == 1 || collapsed == 2 ? -0.5 : 0.5) * (rim + left_out);
+      box.w[normal] = 1.0 + 0.5 * (rim - left_out);
     }
     constexpr int most_waiting = 128; // halvings of both directions down to the smallest box
     Box<T> waiting[most_waiting];

@@ -93,9 +93,10 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
   const double found = out.segment < 0 ? reach : std::fabs(out.at.gap) * (1.0 - rounding) - 10.0 * out.at.tie;
   NearestBorder nearest{{}, -1};
   nearest.at.distance = found;
-  if (candidates.count <= Candidates::most) {
-    for (int i = 0; i < candidates.count; ++i) {
-      if (!(candidates.at_least[i] < nearest.at.distance)) continue;
+  const bool flat = !plan.height && plan.nodes == plan.dimension; // its projection is its closest point
+  if (candidates.count <= Candidates::most || out.own_node >= 0) {
+    for (int i = 0; i < std::min(candidates.count, Candidates::most); ++i) {
+      if (!(candidates.at_least[i] < nearest.at.distance) || (flat && candidates.segment[i] == out.segment)) continue;
       SegmentNodes nodes;
       if (gather(plan, mesh, candidates.segment[i], nodes) == Status::ok &&
           plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, nearest.at.distance, nearest.at))
@@ -147,9 +148,8 @@ Status visit_nearest_first(const Plan& plan, const MasterMesh& mesh, Rank&& rank
 double distance_to_box(int d, const double* point, const double* box) {
   double sum = 0.0;
   for (int k = 0; k < d; ++k) {
-    const double below = box[k] - point[k], above = point[k] - box[d + k];
-    const double off = below > above ? below : above + 0.0 * below; // NaN stays
-    sum += off <= 0.0 ? 0.0 : off * off;
+    const double off = std::max({box[k] - point[k], point[k] - box[d + k], 0.0});
+    sum += off * off;
   }
   return std::sqrt(sum);
 }
@@ -256,7 +256,11 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
               Detection& out) {
   SegmentNodes nodes;
   out.searched = out.behind_edge = false;
-  if (out.segment >= 0) {
+  const auto is_own = [&](std::int64_t segment) {
+    const std::int64_t* first = mesh.connectivity + segment * plan.nodes;
+    return out.own_node >= 0 && std::find(first, first + plan.nodes, out.own_node) != first + plan.nodes;
+  };
+  if (out.segment >= 0 && !is_own(out.segment)) {
     if (const Status status = gather(plan, mesh, out.segment, nodes); status != Status::ok) return status;
     const double start[2] = {out.at.xi[0], out.at.xi[1]};
     if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) &&
@@ -288,7 +292,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     double box[6];
     plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
     const double least = least_rank(plan, slave, ray, box);
-    if (!(least <= limit())) return Status::ok;
+    if (!(least <= limit()) || is_own(segment)) return Status::ok;
     candidates.add(segment, least);
     // a rank counts what lies beyond the edge, too; the reach does not
     double farthest = reach;

@@ -41,6 +41,7 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment);
 
 struct Detection {
+  std::int64_t own_node = -1; // in: the node of the mesh that the slave is; segments with this node are not looked at. -1: none
   std::int64_t segment; // -1: nothing within reach
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;

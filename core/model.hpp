@@ -75,7 +75,7 @@ struct Model {
   TangentKind tangent = TangentKind::consistent;
   bool rigid_master = false;      // dofs of the slave alone
   double penetration_limit = 0.0; // [L]; 0: the size of the segment
-  double border = 1e-9;           // natural coordinates by which the segment reaches beyond its edges
+  double border = 1e-7;           // natural coordinates by which the segment reaches beyond its edges
 };
 
 } // namespace ents

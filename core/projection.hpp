@@ -136,6 +136,17 @@ ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step
   return true;
 }
 
+// Next to a corner where two nodes are one, a natural coordinate is known to rounding over the length of its tangent only: there a step
+// that moves the point by rounding of the segment's size is the last one.
+template <class B, bool H> ENTS_INLINE bool is_rounding(const Projection<B, H>& p, const double (&step)[B::dim - 1]) {
+  if constexpr (B::dim == 2) return false;
+  else {
+    const double first = dot(p.s.a[0], p.s.a[0]), second = dot(p.s.a[1], p.s.a[1]);
+    const bool near_corner = first < 1e-4 * second || second < 1e-4 * first;
+    return near_corner && step[0] * step[0] * first + step[1] * step[1] * second < 1e-28 * (first + second);
+  }
+}
+
 // From p.xi to the projection near it. On success p holds the surface at the projection; after `escaped`,
 // at the last point on the way out.
 template <class B, bool H>
@@ -176,7 +187,7 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
       // Quadratic convergence: the error after this step is about (l / l_before^2) l^2; ten times that below
       // rounding makes this the last step. A flat plain segment is solved by its first step.
       constexpr bool linear = is_flat<B> && !H;
-      if (linear || length <= 1e-13 ||
+      if (linear || length <= 1e-13 || is_rounding(p, step) ||
           (length < 1e-4 && 10.0 * length * length * length <= 1e-16 * previous_length * previous_length))
         last = true;
       else if (length > max_step)

@@ -35,8 +35,8 @@ struct Tree {
 };
 
 // Calls visit(segment) for the segments whose boxes have a rank of at most `limit()`, the smaller ranks first as far as the tree
-// knows. `rank(box)`: a lower bound over what is in the box, NaN if the box has one; `limit` may fall on the way. A status that is not ok
-// ends it; bad_state: the tree has been written over. Without a tree all segments are visited.
+// knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way. A status that is not ok ends it; bad_state: the
+// tree has been written over. Without a tree all segments are visited.
 template <class Rank, class Limit, class Visit>
 Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
   if (!tree) { // a few segments
@@ -52,9 +52,13 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
   int count = 0;
   bool whole = true;
   const auto wait = [&](std::int64_t node) {
-    const double least = rank(t.box(tree, node));
-    if (least <= limit()) waiting[count++] = {node, least};
-    else whole = whole && least == least;
+    const double* box = t.box(tree, node);
+    const double least = rank(box);
+    if (least <= limit()) {
+      waiting[count++] = {node, least};
+      return;
+    }
+    for (int k = 0; k < t.d; ++k) whole = whole && (box[k] <= box[t.d + k] || box[k] > box[t.d + k]); // not so with NaN
   };
   wait(1);
   while (count > 0) {
@@ -78,7 +82,7 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
   return whole ? Status::ok : Status::bad_state;
 }
 
-// How far a box [low[d], high[d]] is from a point; NaN if the box has one.
+// How far a box [low[d], high[d]] is from a point.
 double distance_to_box(int d, const double* point, const double* box);
 
 }  // namespace ents

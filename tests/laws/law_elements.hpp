@@ -82,7 +82,7 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
     }
     if (e.layout.augmentable) {
       s[next++] = random.uniform(0.0, 3.0);
-      while (next < size) s[next++] = random.uniform(-0.5, 0.5);
+      while (next + 1 < size) s[next++] = random.uniform(-0.5, 0.5);
     }
     for (std::size_t k = 0; k < m; ++k)
       e.multiplier[i * m + k] = k == 0 ? random.uniform(0.0, 3.0) : random.uniform(-0.5, 0.5);

@@ -406,7 +406,7 @@ TEST(State, AugmentationMovesTheMultipliersOnly) {
   s.commit();
   s.evaluate_at(0.302);
   const std::vector<double> begin = s.elements.state;
-  const std::size_t size = begin.size();
+  const std::size_t size = begin.size() - 1; // without the number of the segment
   ASSERT_EQ(ents_state_augment(s.model.handle(), 1, s.elements.state.data(), s.elements.layout.state_size,
                                s.results.state.data(), s.elements.layout.state_size, nullptr),
             ENTS_OK);

@@ -3,7 +3,7 @@
 import ctypes
 import enum
 
-CONTRACT_MAJOR, CONTRACT_MINOR = 1, 3
+CONTRACT_MAJOR, CONTRACT_MINOR = 1, 4
 ENDS_STRAIGHT, ENDS_REPEATED = 0, 1
 
 
@@ -46,7 +46,7 @@ Data = _struct("ents_data", "i:reserved p:name p:values l:rows l:columns")
 Layout = _struct("ents_layout", "i:dimension i:nodes i:parameters i:dofs i:state_size i:symmetric_tangent i:own_surface_coordinates "
                  "i:multipliers i:friction i:augmentable i:needs s:instruction_set")
 MasterMesh = _struct("ents_master_mesh", "i:reserved l:segments p:connectivity l:nodes p:positions p:surface_coordinates")
-Detection = _struct("ents_detection", "i:reserved p:slave d:reach p:segment p:xi p:gap p:flags p:other")
+Detection = _struct("ents_detection", "i:reserved p:slave d:reach p:segment p:xi p:gap p:flags p:other p:slave_node")
 Input = _struct("ents_input", "i:reserved " + " ".join(f"p:{name} l:{name}_stride" for name in (
     "slave", "master", "surface_coordinates", "start", "area", "state_begin", "multiplier")) + " p:mesh p:segment l:segment_stride")
 Output = _struct("ents_output", "i:wanted p:status l:status_stride " + " ".join(

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mistakes of a caller that would give wrong numbers without a word: each is refused, over random surfaces, and named.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "mechanics/random.hpp"
+#include "sample_count.hpp"
+#include "support/element.hpp"
+
+namespace {
+
+using namespace test;
+using mechanics::Random;
+
+// A closed chain or a sheet of quadrilaterals with slaves over it.
+struct Surface {
+  explicit Surface(Random& random, int d) : dimension(d) {
+    const int n = 4;
+    for (int j = 0; j < (d == 3 ? n + 1 : 1); ++j)
+      for (int i = 0; i <= n; ++i) {
+        positions.push_back(i + random.uniform(-0.1, 0.1));
+        if (d == 3) positions.push_back(j + random.uniform(-0.1, 0.1));
+        positions.push_back(random.uniform(-0.05, 0.05));
+      }
+    for (int j = 0; j < (d == 3 ? n : 1); ++j)
+      for (int i = 0; i < n; ++i) {
+        const int64_t a = j * (n + 1) + i;
+        if (d == 2) connectivity.insert(connectivity.end(), {a, a + 1});
+        else connectivity.insert(connectivity.end(), {a, a + 1, a + n + 2, a + n + 1});
+      }
+    mesh.struct_size = sizeof mesh;
+    mesh.nodes = static_cast<int64_t>(positions.size()) / d, mesh.segments = static_cast<int64_t>(connectivity.size()) / (d == 2 ? 2 : 4);
+    mesh.positions = positions.data(), mesh.connectivity = connectivity.data();
+    for (int s = 0; s < slaves; ++s) {
+      for (int k = 0; k + 1 < d; ++k) slave.push_back(random.uniform(0.5, n - 0.5));
+      slave.push_back(random.uniform(-0.1, 0.02));
+    }
+  }
+  Surface(const Surface&) = delete;
+  static constexpr int slaves = 30;
+  int dimension;
+  std::vector<double> positions, slave;
+  std::vector<int64_t> connectivity;
+  ents_master_mesh mesh{};
+};
+
+std::string text_of(int d, const std::string& contact, const std::string& more = "") {
+  return R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + R"(", "border": 0.1, "contact": )" + contact + more + "}";
+}
+const std::string penalty = R"({"normal": {"type": "penalty", "stiffness": 10}})";
+const std::string coulomb =
+    R"({"normal": {"type": "penalty", "stiffness": 10}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 5}})";
+const std::string rough =
+    R"({"normal": {"type": "exponential", "pressure": 1, "clearance": 0.1}, "friction": {"type": "rough", "stiffness": 5}})";
+
+std::vector<double> tree_of(const Model& model, const Surface& surface) {
+  int64_t size = 0;
+  call::tree_size(model.get(), surface.mesh.segments, &size, nullptr);
+  std::vector<double> tree(static_cast<std::size_t>(size));
+  EXPECT_EQ(call::tree_build(model.get(), &surface.mesh, tree.data(), size, nullptr), ENTS_OK);
+  return tree;
+}
+
+struct Found {
+  std::vector<int64_t> segment, other;
+  std::vector<double> xi, gap;
+  std::vector<int32_t> flags;
+};
+int32_t detect(const Model& model, const Surface& surface, const std::vector<double>& tree, const std::vector<double>& slave, double reach, Found& out,
+               ents_report& report, const int64_t* slave_node = nullptr) {
+  const std::size_t n = slave.size() / static_cast<std::size_t>(surface.dimension);
+  out.segment.resize(n, -1), out.other.resize(n), out.xi.resize(2 * n), out.gap.resize(n), out.flags.resize(n);
+  ents_detection io{};
+  io.struct_size = sizeof io;
+  io.slave = slave.data(), io.reach = reach, io.segment = out.segment.data(), io.xi = out.xi.data(), io.gap = out.gap.data();
+  io.flags = out.flags.data(), io.other = out.other.data(), io.slave_node = slave_node;
+  return call::detect(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), int64_t{0}, static_cast<int64_t>(n), &io, &report);
+}
+
+TEST(SilentMistakes, ATreeOfAnotherHeightIsRefusedUntilItIsRefitted) {
+  Random random(3);
+  int64_t moved = 0;
+  for (int trial = 0; trial < samples(200); ++trial) {
+    const int d = trial % 2 == 0 ? 2 : 3;
+    const Surface surface(random, d);
+    const auto with = [&](double amplitude) {
+      const std::string height = R"(, "height": {"type": "sine", "amplitude": )" + number(amplitude) + R"(, "wave_vector": )" + (d == 2 ? "[0.2]" : "[0.2, 0.1]") + "}";
+      return Model(text_of(d, penalty, height));
+    };
+    const double amplitude = random.uniform(0.01, 0.05);
+    const Model before = with(amplitude), after = with(amplitude + random.uniform(0.5, 1.0)), other_law(before.text());
+    std::vector<double> tree = tree_of(before, surface);
+    Found found, fresh;
+    ents_report report = new_report();
+    EXPECT_EQ(detect(other_law, surface, tree, surface.slave, 0.5, found, report), ENTS_OK); // boxes are those of the height
+    EXPECT_EQ(detect(after, surface, tree, surface.slave, 0.5, found, report), ENTS_BAD_STATE);
+    EXPECT_NE(std::strstr(report.message, "ents_tree_refit"), nullptr) << report.message;
+    EXPECT_EQ(call::tree_refit(after.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), nullptr), ENTS_OK);
+    found = {};
+    EXPECT_EQ(detect(after, surface, tree, surface.slave, 0.5, found, report), ENTS_OK);
+    EXPECT_EQ(detect(after, surface, tree_of(after, surface), surface.slave, 0.5, fresh, report), ENTS_OK);
+    EXPECT_EQ(found.segment, fresh.segment);
+    for (const int64_t s : found.segment) moved += s >= 0;
+  }
+  EXPECT_GT(moved, 0);
+}
+
+TEST(SilentMistakes, ATreeWithNaNOrAForeignSegmentIsRefused) {
+  Random random(5);
+  int64_t refused = 0;
+  for (int trial = 0; trial < samples(2000); ++trial) {
+    const int d = trial % 2 == 0 ? 2 : 3;
+    const Surface surface(random, d);
+    const Model model(text_of(d, penalty));
+    std::vector<double> tree = tree_of(model, surface);
+    Found right, found;
+    ents_report report = new_report();
+    ASSERT_EQ(detect(model, surface, tree, surface.slave, 0.5, right, report), ENTS_OK);
+    const std::size_t at = 3 + static_cast<std::size_t>(random.below(static_cast<int>(tree.size()) - 3));
+    const double bad[] = {std::numeric_limits<double>::quiet_NaN(), -1.0, 1e300};
+    const bool in_order = at < 3 + static_cast<std::size_t>(surface.mesh.segments);
+    tree[at] = bad[in_order ? random.below(3) : 0];
+    const int32_t status = detect(model, surface, tree, surface.slave, 0.5, found, report);
+    refused += status == ENTS_BAD_STATE;
+    EXPECT_TRUE(status == ENTS_BAD_STATE || (status == ENTS_OK && found.segment == right.segment)); // or nobody came there
+  }
+  EXPECT_GT(refused, samples(2000) / 4);
+}
+
+TEST(SilentMistakes, TheTwoSidesOfASheetWithoutThicknessAreAmbiguous) {
+  Random random(7);
+  for (int trial = 0; trial < samples(200); ++trial) {
+    Surface surface(random, trial % 2 == 0 ? 2 : 3);
+    const std::size_t m = surface.dimension == 2 ? 2 : 4;
+    const std::vector<int64_t> one_side = surface.connectivity;
+    for (std::size_t s = 0; s < one_side.size(); s += m) // backwards
+      for (std::size_t i = m; i-- > 0;) surface.connectivity.push_back(one_side[s + i]);
+    surface.mesh.connectivity = surface.connectivity.data(), surface.mesh.segments *= 2;
+    const Model model(text_of(surface.dimension, penalty));
+    Found found;
+    ents_report report = new_report();
+    ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
+    for (std::size_t i = 0; i < found.segment.size(); ++i)
+      if (found.segment[i] >= 0 && std::fabs(found.gap[i]) > 1e-6) {
+        EXPECT_NE(found.flags[i] & ENTS_FLAG_AMBIGUOUS, 0);
+        EXPECT_GE(found.other[i], 0);
+      }
+  }
+}
+
+TEST(SilentMistakes, ASlaveThatIsAMasterNodeIsNotProjectedOnItsOwnSegments) {
+  Random random(11);
+  for (int trial = 0; trial < samples(200); ++trial) {
+    const Surface surface(random, trial % 2 == 0 ? 2 : 3);
+    const Model model(text_of(surface.dimension, penalty));
+    const std::vector<double> tree = tree_of(model, surface);
+    std::vector<int64_t> nodes;
+    for (int64_t i = 0; i < surface.mesh.nodes; ++i) nodes.push_back(i);
+    Found found;
+    ents_report report = new_report();
+    ASSERT_EQ(detect(model, surface, tree, surface.positions, 5.0, found, report, nodes.data()), ENTS_OK);
+    const int m = surface.dimension == 2 ? 2 : 4;
+    for (int64_t i = 0; i < surface.mesh.nodes; ++i) {
+      const int64_t s = found.segment[static_cast<std::size_t>(i)];
+      for (int k = 0; s >= 0 && k < m; ++k) EXPECT_NE(surface.connectivity[static_cast<std::size_t>(s * m + k)], i);
+    }
+    nodes[0] = surface.mesh.nodes;
+    EXPECT_EQ(detect(model, surface, tree, surface.positions, 5.0, found, report, nodes.data()), ENTS_BAD_VALUE);
+    EXPECT_NE(std::strstr(report.message, "detection.slave_node of node 0"), nullptr) << report.message;
+  }
+}
+
+// Friction over a surface, assembled.
+struct System {
+  explicit System(const Model& m, const Surface& s, Random& random) : model(m), surface(s) {
+    const int d = s.dimension;
+    int64_t row = 0;
+    for (int64_t i = 0; i < (s.slaves + s.mesh.nodes) * d; ++i) equations.push_back(random.below(9) == 0 ? -1 : row++);
+    rows = row;
+    for (int64_t i = 0; i <= rows; ++i) row_begin.push_back(i * rows);
+    for (int64_t i = 0; i < rows; ++i)
+      for (int64_t j = 0; j < rows; ++j) columns.push_back(j);
+    places.assign(static_cast<std::size_t>(s.slaves * places_size()), 0);
+  }
+  int64_t places_size() const { return surface.dimension * model.layout.nodes * 100; }
+  // values [rows][rows], residual [rows]
+  int32_t assemble(const std::vector<int64_t>& segment, const ents_master_mesh& mesh, bool with_places, const double* state_begin, double* state_end,
+                   ents_report& report) {
+    values.assign(static_cast<std::size_t>(rows * rows), 0.0), residual.assign(static_cast<std::size_t>(rows), 0.0);
+    ents_input in{};
+    in.struct_size = sizeof in;
+    in.slave = surface.slave.data(), in.slave_stride = surface.dimension;
+    in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1;
+    in.state_begin = state_begin, in.state_begin_stride = model.layout.state_size;
+    ents_output out{};
+    out.struct_size = sizeof out;
+    out.wanted = state_end ? ENTS_STATE : 0, out.state_end = state_end, out.state_end_stride = model.layout.state_size;
+    ents_system system{};
+    system.struct_size = sizeof system;
+    system.index_size = 8;
+    system.slave_nodes = surface.slaves, system.slave_equations = equations.data();
+    system.master_nodes = mesh.nodes, system.master_equations = equations.data() + surface.slaves * surface.dimension;
+    system.rows = rows, system.residual = residual.data();
+    system.row_begin = row_begin.data(), system.columns = columns.data(), system.values = values.data();
+    if (with_places) system.places = places.data(), system.places_size = places_size();
+    change(system);
+    return call::in_host(ents_assemble, model.get(), int64_t{0}, int64_t{surface.slaves}, &in, &out, &system, &report);
+  }
+  const Model& model;
+  const Surface& surface;
+  std::vector<int64_t> equations, row_begin, columns, places;
+  std::vector<double> values, residual;
+  int64_t rows = 0;
+  std::function<void(ents_system&)> change = [](ents_system&) {};
+};
+
+TEST(SilentMistakes, PlacesNoticeOtherNodesUnderTheSameSegmentNumbers) {
+  Random random(13);
+  for (int trial = 0; trial < samples(100); ++trial) {
+    const int d = trial % 2 == 0 ? 2 : 3;
+    Surface surface(random, d);
+    const Model model(text_of(d, penalty));
+    Found found;
+    ents_report report = new_report();
+    ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
+    System system(model, surface, random);
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    // nodes get other numbers, and their positions with them: the same surface
+    const auto nodes = static_cast<std::size_t>(surface.mesh.nodes), dim = static_cast<std::size_t>(d);
+    std::vector<std::size_t> number(nodes);
+    for (std::size_t i = 0; i < nodes; ++i) number[i] = (i * 7 + static_cast<std::size_t>(trial)) % nodes;
+    std::vector<double> positions(surface.positions.size());
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t k = 0; k < dim; ++k) positions[number[i] * dim + k] = surface.positions[i * dim + k];
+    std::vector<int64_t> connectivity;
+    for (const int64_t i : surface.connectivity) connectivity.push_back(static_cast<int64_t>(number[static_cast<std::size_t>(i)]));
+    ents_master_mesh mesh = surface.mesh;
+    mesh.positions = positions.data(), mesh.connectivity = connectivity.data();
+    if (std::set<std::size_t>(number.begin(), number.end()).size() != nodes) continue;
+    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    const std::vector<double> values = system.values, residual = system.residual;
+    ASSERT_EQ(system.assemble(found.segment, mesh, false, nullptr, nullptr, report), ENTS_OK);
+    EXPECT_EQ(values, system.values);
+    EXPECT_EQ(residual, system.residual);
+    // other equations, the same nodes
+    std::swap(system.equations.front(), system.equations.back());
+    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    const std::vector<double> swapped = system.values;
+    ASSERT_EQ(system.assemble(found.segment, mesh, false, nullptr, nullptr, report), ENTS_OK);
+    EXPECT_EQ(swapped, system.values);
+  }
+}
+
+TEST(SilentMistakes, RowsCountedFromOneOrBeyondTheArrayAreRefused) {
+  Random random(17);
+  const Surface surface(random, 3);
+  const Model model(text_of(3, penalty));
+  Found found;
+  ents_report report = new_report();
+  ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
+  const auto expect_refused = [&](const char* words, const std::function<void(System&)>& mistake) {
+    System system(model, surface, random);
+    mistake(system);
+    const int32_t status = system.assemble(found.segment, surface.mesh, false, nullptr, nullptr, report);
+    EXPECT_LT(status, 0) << words;
+    EXPECT_NE(std::strstr(report.message, words), nullptr) << report.message;
+  };
+  expect_refused("system.row_begin[0] is 1", [](System& s) {
+    for (int64_t& begin : s.row_begin) ++begin;
+  });
+  expect_refused("system.columns", [](System& s) {
+    for (int64_t& column : s.columns) ++column;
+  });
+  expect_refused("has no entry", [](System& s) {
+    for (std::size_t i = 1; i + 1 < s.row_begin.size(); ++i) s.row_begin[i] = int64_t{1} << 30;
+  });
+  expect_refused("system.slave_nodes is 29", [](System& s) { s.change = [](ents_system& system) { system.slave_nodes = Surface::slaves - 1; }; });
+  expect_refused("index_size", [](System& s) { s.change = [](ents_system& system) { system.index_size = 4; }; });
+}
+
+TEST(SilentMistakes, AStateOfAnotherBasisOrLawIsRefused) {
+  const std::vector<std::string> laws = {penalty, coulomb, rough};
+  test::Random elements(19);
+  const char* bases[] = {"tri3", "quad4", "tri6", "quad9"};
+  int64_t refused = 0;
+  for (const char* from : bases)
+    for (const std::string& from_law : laws)
+      for (const char* to : bases)
+        for (const std::string& to_law : laws) {
+          const Model one(R"({"segment": ")" + std::string(from) + R"(", "contact": )" + from_law + "}");
+          const Model two(R"({"segment": ")" + std::string(to) + R"(", "contact": )" + to_law + "}");
+          std::vector<double> state(64), end(64);
+          ASSERT_EQ(call::state_init(one.get(), int64_t{1}, state.data(), int64_t{64}, nullptr), ENTS_OK);
+          const Element element = draw(two, basis(to), elements);
+          ents_input in = input_of(element);
+          in.state_begin = state.data();
+          double gap = 0.0;
+          ents_output out{};
+          out.struct_size = sizeof out;
+          out.wanted = ENTS_GAP | ENTS_STATE, out.gap = &gap, out.state_end = end.data();
+          const int32_t status = call::evaluate(two.get(), int64_t{0}, int64_t{1}, &in, &out, nullptr);
+          const bool same = std::string(from) == to && from_law == to_law;
+          EXPECT_EQ(status == ENTS_BAD_STATE, !same) << from << " " << to << from_law << to_law;
+          refused += status == ENTS_BAD_STATE;
+        }
+  EXPECT_EQ(refused, 12 * 11);
+}
+
+TEST(SilentMistakes, FrictionOnAnotherSegmentNeedsATransfer) {
+  Random random(23);
+  int64_t refused = 0, transferred = 0;
+  for (int trial = 0; trial < samples(100); ++trial) {
+    const int d = trial % 2 == 0 ? 2 : 3;
+    const Surface surface(random, d);
+    const Model model(text_of(d, coulomb)), frictionless(text_of(d, penalty));
+    Found found;
+    ents_report report = new_report();
+    ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
+    System system(model, surface, random);
+    const auto size = static_cast<std::size_t>(model.layout.state_size);
+    std::vector<double> begin(size * Surface::slaves), end(begin);
+    call::state_init(model.get(), int64_t{Surface::slaves}, begin.data(), static_cast<int64_t>(size), nullptr);
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, begin.data(), end.data(), report), ENTS_OK) << report.message;
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, end.data(), begin.data(), report), ENTS_OK) << report.message;
+    for (int64_t i = 0; i < Surface::slaves; ++i) {
+      const int64_t s = found.segment[static_cast<std::size_t>(i)];
+      if (s < 0 || !(end[static_cast<std::size_t>(i) * size + 1] > 1.0)) continue;
+      std::vector<int64_t> segment = found.segment;
+      segment[static_cast<std::size_t>(i)] = s == 0 ? 1 : s - 1;
+      EXPECT_EQ(system.assemble(segment, surface.mesh, false, end.data(), begin.data(), report), ENTS_BAD_STATE);
+      EXPECT_NE(std::strstr(report.message, "ents_state_transfer"), nullptr) << report.message;
+      ++refused;
+      const auto master = [&](int64_t of) {
+        std::vector<double> out;
+        for (int a = 0; a < model.layout.nodes; ++a)
+          for (int k = 0; k < d; ++k)
+            out.push_back(surface.positions[static_cast<std::size_t>(surface.connectivity[static_cast<std::size_t>(of * model.layout.nodes + a)] * d + k)]);
+        return out;
+      };
+      std::vector<double> moved = end;
+      const std::size_t at = static_cast<std::size_t>(i) * size;
+      if (call::state_transfer(model.get(), master(s).data(), nullptr, master(segment[static_cast<std::size_t>(i)]).data(), nullptr, &end[at], &moved[at],
+                               nullptr) != ENTS_OK)
+        continue;
+      const int32_t status = system.assemble(segment, surface.mesh, false, moved.data(), begin.data(), report);
+      EXPECT_NE(status, ENTS_BAD_STATE) << report.message;
+      ++transferred;
+    }
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_GT(transferred, 100);
+}
+
+} // namespace

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An element over several textured segments answers what a detection on the same segments answers: no slave with one clear projection is
+// refused, however deep the texture.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "heights.hpp"
+#include "mesh_surface.hpp"
+#include "samples.hpp"
+
+namespace mechanics {
+namespace {
+
+using nlohmann::json;
+
+json draw_deep_texture(Random& random, int parameters) {
+  json wave_vector = json::array();
+  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, 1.2));
+  return {{"type", "sine"}, {"amplitude", random.uniform(0.01, 0.1)}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3.0, 3.0)}};
+}
+
+std::int64_t slaves_of_each_basis() {
+  const char* text = std::getenv("ENTS_TEST_SLAVES");
+  return text ? std::atoll(text) : samples(3000);
+}
+
+class PatchAnswers : public testing::TestWithParam<const char*> {};
+
+TEST_P(PatchAnswers, AreThoseOfADetection) {
+  using clock = std::chrono::steady_clock;
+  Random random(31);
+  const Basis& basis = basis_named(GetParam());
+  const int d = basis.dimension, t = basis.parameters();
+  const auto dim = static_cast<std::size_t>(d);
+  const double limit = 0.3;
+  std::int64_t total = 0, clear = 0, refused = 0, wrong = 0, flagged = 0, accepted_flagged = 0;
+  double first_us = 0.0, followed_us = 0.0, longest_us = 0.0;
+  while (total < slaves_of_each_basis()) {
+    const MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);
+    json text{{"segment", basis.name}, {"height", draw_deep_texture(random, t)}, {"penetration_limit", limit},
+              {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 7.0}}}}}};
+    const Model single(text.dump());
+    json patch = json::array();
+    const int m = basis.node_count();
+    for (std::int64_t s = 0; s < mesh.segments(); ++s)
+      patch.push_back(std::vector<std::int64_t>(mesh.connectivity.begin() + s * m, mesh.connectivity.begin() + (s + 1) * m));
+    text["patch"] = patch;
+    const Model whole(text.dump());
+    ents_layout layout{};
+    layout.struct_size = sizeof layout;
+    ents_model_layout(whole.handle(), &layout, nullptr);
+    std::vector<double> coordinates(static_cast<std::size_t>(mesh.nodes() * t));
+    for (std::size_t i = 0; i < mesh.connectivity.size(); ++i)
+      for (int k = 0; k < t; ++k)
+        coordinates[static_cast<std::size_t>(mesh.connectivity[i] * t + k)] = mesh.surface_coordinates[i * static_cast<std::size_t>(t) + static_cast<std::size_t>(k)];
+    Detector detector(single, mesh);
+    for (int n = 0; n < 20; ++n, ++total) {
+      const std::int64_t segment = random.below(static_cast<int>(mesh.segments()));
+      std::vector<double> xi = {random.uniform(-1.0, 1.0)};
+      if (t == 2) xi.push_back(random.uniform(-1.0, 1.0));
+      if (basis.simplex) xi = {random.uniform(0.0, 0.5), random.uniform(0.0, 0.5)};
+      const SurfacePoints at = evaluate_surface(single, mesh.master(segment).data(), mesh.coordinates(segment), xi);
+      if (at.status != ENTS_OK) continue;
+      const double depth = random.uniform(-0.1, 0.29);
+      std::vector<double> slave(dim);
+      for (std::size_t k = 0; k < dim; ++k) slave[k] = at.point[k] - depth * at.normal[k];
+      Detector::Found found;
+      detector.detect(slave, limit, found);
+      const bool behind = (found.flags[0] & (ENTS_FLAG_BEHIND_EDGE | ENTS_FLAG_AMBIGUOUS)) != 0;
+      std::vector<double> state(static_cast<std::size_t>(layout.state_size)), end(state), residual(static_cast<std::size_t>(layout.dofs));
+      ents_state_init(whole.handle(), 1, state.data(), layout.state_size, nullptr);
+      double gap = 7.0;
+      std::int32_t flags = 0;
+      ents_input in{};
+      in.struct_size = sizeof in;
+      in.slave = slave.data(), in.master = mesh.positions.data(), in.surface_coordinates = coordinates.data(), in.state_begin = state.data();
+      ents_output out{};
+      out.struct_size = sizeof out;
+      out.wanted = ENTS_GAP | ENTS_RESIDUAL | ENTS_STATE | ENTS_FLAGS;
+      out.gap = &gap, out.residual = residual.data(), out.state_end = end.data(), out.flags = &flags;
+      const auto begin = clock::now();
+      const std::int32_t status = ents_evaluate(whole.handle(), 0, 1, &in, &out, nullptr);
+      const double us = std::chrono::duration<double, std::micro>(clock::now() - begin).count();
+      first_us += us;
+      if (us > longest_us) longest_us = us;
+      ASSERT_GE(status, 0);
+      if (behind) {
+        ++flagged;
+        accepted_flagged += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0 && found.segment[0] < 0;
+        continue;
+      }
+      if (found.segment[0] < 0) { // open
+        wrong += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0;
+        continue;
+      }
+      ++clear;
+      refused += status != ENTS_OK;
+      wrong += status == ENTS_OK && std::fabs(gap - found.gap[0]) > 1e-11;
+      if (status != ENTS_OK) continue;
+      in.state_begin = end.data(), out.state_end = state.data();
+      const auto again = clock::now();
+      const std::int32_t followed = ents_evaluate(whole.handle(), 0, 1, &in, &out, nullptr);
+      followed_us += std::chrono::duration<double, std::micro>(clock::now() - again).count();
+      wrong += followed != ENTS_OK || std::fabs(gap - found.gap[0]) > 1e-11;
+    }
+  }
+  std::printf("%-12s %lld slaves, %lld with one clear answer: %lld refused, %lld wrong; %lld flagged by the detection, %lld of them in contact. "
+              "First %.1f us (longest %.0f), followed %.1f us\n",
+              GetParam(), static_cast<long long>(total), static_cast<long long>(clear), static_cast<long long>(refused),
+              static_cast<long long>(wrong), static_cast<long long>(flagged), static_cast<long long>(accepted_flagged),
+              first_us / static_cast<double>(total), longest_us, followed_us / static_cast<double>(clear));
+  EXPECT_GT(clear, total / 2);
+  EXPECT_EQ(refused, 0);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(accepted_flagged, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bases, PatchAnswers, testing::Values("line2", "line3", "bspline4", "catmull_rom4", "tri3", "tri6", "quad4", "quad9", "bspline16"));
+
+} // namespace
+} // namespace mechanics
