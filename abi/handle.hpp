@@ -10,9 +10,10 @@ struct ents_model {
   static constexpr std::uint64_t live = 0x656e74736d6f646c;  // "entsmodl"
   static constexpr std::uint64_t dead = 0x646561646d6f646c;
   std::uint64_t magic;
-  ents::Plan plan;    // of one segment; points into `model`
+  ents::Plan plan;    // of one segment; points into `model`, and to `base`
   ents::PatchedModel model;
   ents::ElementSizes sizes; // of an element as the host sees it
+  ents::Plan base;          // as `plan`, without the height
 };
 
 namespace ents {

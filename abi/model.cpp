@@ -21,9 +21,11 @@ static_assert(need::history == ENTS_NEEDS_HISTORY && need::multipliers == ENTS_N
 static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE);
 
 std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* report) {
-  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked), {}};
+  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked), {}, Plan{}};
   handle->plan = make_plan(handle->model);
-  if (!handle->model.patch.empty()) handle->plan.surface_coordinates = nullptr; // they are those of the patch's nodes
+  handle->base = make_base_plan(handle->model);
+  handle->plan.base = handle->base.base = &handle->base;
+  if (!handle->model.patch.empty()) handle->plan.surface_coordinates = handle->base.surface_coordinates = nullptr; // they are those of the patch's nodes
   handle->sizes = sizes_of(handle->plan, handle->model.patch);
   *model = handle;
   return report_ok(report);

@@ -124,10 +124,7 @@ private:
     if (found.behind_edge) return Status::no_projection;
     const bool doubtful = found.at.ambiguous;
     // On which side it is the segments without their height tell, which are searched at once.
-    Plan base = plan_;
-    base.height = nullptr, base.height_bound = 0.0;
-    base.project = plan_.project_base, base.border_point = plan_.border_point_base;
-    if (const Status status = detect(base, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok) return status;
+    if (const Status status = detect(*plan_.base, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok) return status;
     if (found.behind_edge) return Status::no_projection;
     segment_ = found.segment;
     if (segment_ >= 0) {

@@ -95,7 +95,7 @@ int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, con
         if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
         BorderPoint border;
         Place here;
-        if (!plan.border_point_base(plan, place.base_point, nodes.positions, nodes.surface_coordinates, near, border) ||
+        if (!plan.base->border_point(*plan.base, place.base_point, nodes.positions, nodes.surface_coordinates, near, border) ||
             !evaluate(plan, nodes, border.xi, here))
           return Status::ok;
         here.segment = segment, here.corner = border.corner;

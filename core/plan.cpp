@@ -85,24 +85,24 @@ double make_surface_stamp(const Model& model) {
 
 }  // namespace
 
-Plan make_plan(const Model& model) {
+namespace {
+
+Plan make(const Model& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);
   const KernelSet& kernels = kernels_of(model.basis);
-  // a height that is zero everywhere is none: the plain segment, to the last bit
-  const bool enriched = model.height.bound() > 0.0;
   Plan plan{};
   plan.element = kernels.element[enriched][model.rigid_master];
   if (has_ordinary_elements(model)) plan.pairs = best_pair_kernels().of_basis(model.basis).of[enriched][model.law.has_friction()];
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
-  plan.project = kernels.project[enriched], plan.project_base = kernels.project[0];
-  plan.border_point = kernels.border_point[enriched], plan.border_point_base = kernels.border_point[0];
+  plan.project = kernels.project[enriched];
+  plan.border_point = kernels.border_point[enriched];
   plan.box = kernels.box[enriched];
   plan.height = enriched ? &model.height.root() : nullptr;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
     plan.feature_length[a] = a < basis.parameters ? model.height.feature_length(a) : Height::unbounded;
-  plan.height_bound = model.height.bound();
+  plan.height_bound = enriched ? model.height.bound() : 0.0;
   plan.surface_stamp = make_surface_stamp(model);
   plan.projection = model.projection;
   plan.tangent = model.tangent;
@@ -120,5 +120,11 @@ Plan make_plan(const Model& model) {
   plan.state = make_state_layout(model);
   return plan;
 }
+
+}  // namespace
+
+// A height that is zero everywhere is none: the plain segment, to the last bit.
+Plan make_plan(const Model& model) { return make(model, model.height.bound() > 0.0); }
+Plan make_base_plan(const Model& model) { return make(model, false); }
 
 }  // namespace ents

@@ -186,9 +186,10 @@ struct Plan {
   PairKernel pairs;  // null: no element of this model is ordinary
   SurfaceKernel surface;
   TransferKernel transfer;
-  ProjectKernel project, project_base;  // on the enriched segment, and without its height
-  BorderKernel border_point, border_point_base;
+  ProjectKernel project;
+  BorderKernel border_point;
   BoxKernel box;
+  const Plan* base;  // the same segments without their height; this plan itself if it has none
   const HeightNode* height;           // null: plain
   const double* surface_coordinates;  // the model's own, or null
   double feature_length[2];           // of the height, in s
@@ -208,7 +209,9 @@ struct Plan {
   StateLayout state;
 };
 
-// The plan of a model; the model must outlive it.
+// The plan of a model; the model must outlive it. `base` is null.
 Plan make_plan(const Model& model);
+// The same, whatever the model's height, without one.
+Plan make_base_plan(const Model& model);
 
 }  // namespace ents

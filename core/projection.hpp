@@ -174,7 +174,8 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
       return Found::yes;
     }
     // rounding keeps the merit from falling below (eps size)^2
-    const double floor = 1e-26 * dot(p.s.a[0], p.s.a[0]);
+    double floor = 1e-26 * dot(p.s.a[0], p.s.a[0]);
+    if constexpr (T == 2) floor += 1e-26 * dot(p.s.a[1], p.s.a[1]);
     if (ok && (first || merit <= previous_merit * (1.0 + 1e-12) + floor)) {
       for (int a = 0; a < T; ++a) {
         p.xi[a] = xi[a];

@@ -51,7 +51,7 @@ TEST(ModelJson, TheSegmentAloneIsAModel) {
   EXPECT_EQ(model.tangent, TangentKind::consistent);
   EXPECT_FALSE(model.rigid_master);
   EXPECT_EQ(model.penetration_limit, 0.0);
-  EXPECT_EQ(model.border, 1e-9);
+  EXPECT_EQ(model.border, 1e-7);
 }
 
 TEST(ModelJson, EveryBasisIsRead) {

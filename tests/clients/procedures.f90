@@ -153,10 +153,10 @@ contains
     allocate (begin(sizes%state_size), end(sizes%state_size))
     call expect(ents_state_init(augmented, 1_c_int64_t, begin, size(begin, kind=c_int64_t), report) == ENTS_OK, "state_init")
     end = begin
-    end(sizes%state_size) = 3
+    end(sizes%state_size - 1) = 3 ! the last one is the number of the segment
     call expect(ents_state_augment(augmented, 1_c_int64_t, begin, size(begin, kind=c_int64_t), end, size(end, kind=c_int64_t), &
       report) == ENTS_OK, "state_augment")
-    call expect(same(begin(sizes%state_size), 3d0), "the multiplier moves to the begin state")
+    call expect(same(begin(sizes%state_size - 1), 3d0), "the multiplier moves to the begin state")
     call expect(ents_model_destroy(augmented, report) == ENTS_OK, "model_destroy")
   end subroutine check_augment
 

@@ -18,8 +18,11 @@ namespace {
 using nlohmann::json;
 
 json draw_deep_texture(Random& random, int parameters) {
+  if (random.below(4) == 0)
+    return {{"type", "thread"}, {"pitch", random.uniform(0.15, 0.4)}, {"flank_angles", {30.0, 30.0}}, {"crest", 0.03}, {"root", 0.05}};
   json wave_vector = json::array();
-  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, 1.2));
+  const double most = random.coin() ? 1.2 : 3.0;
+  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, most));
   return {{"type", "sine"}, {"amplitude", random.uniform(0.01, 0.1)}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3.0, 3.0)}};
 }
 
@@ -40,9 +43,11 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
   std::int64_t total = 0, clear = 0, refused = 0, wrong = 0, flagged = 0, accepted_flagged = 0;
   double first_us = 0.0, followed_us = 0.0, longest_us = 0.0;
   while (total < slaves_of_each_basis()) {
-    const MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);
-    json text{{"segment", basis.name}, {"height", draw_deep_texture(random, t)}, {"penetration_limit", limit},
+    MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);
+    json text{{"segment", basis.name}, {"height", draw_deep_texture(random, t)},
               {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 7.0}}}}}};
+    if (random.coin()) text["penetration_limit"] = limit;
+    const bool local = random.coin(); // the texture begins anew on each segment
     const Model single(text.dump());
     json patch = json::array();
     const int m = basis.node_count();
@@ -57,13 +62,14 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
     for (std::size_t i = 0; i < mesh.connectivity.size(); ++i)
       for (int k = 0; k < t; ++k)
         coordinates[static_cast<std::size_t>(mesh.connectivity[i] * t + k)] = mesh.surface_coordinates[i * static_cast<std::size_t>(t) + static_cast<std::size_t>(k)];
+    if (local) mesh.surface_coordinates.clear();
     Detector detector(single, mesh);
     for (int n = 0; n < 20; ++n, ++total) {
       const std::int64_t segment = random.below(static_cast<int>(mesh.segments()));
       std::vector<double> xi = {random.uniform(-1.0, 1.0)};
       if (t == 2) xi.push_back(random.uniform(-1.0, 1.0));
       if (basis.simplex) xi = {random.uniform(0.0, 0.5), random.uniform(0.0, 0.5)};
-      const SurfacePoints at = evaluate_surface(single, mesh.master(segment).data(), mesh.coordinates(segment), xi);
+      const SurfacePoints at = evaluate_surface(single, mesh.master(segment).data(), local ? nullptr : mesh.coordinates(segment), xi);
       if (at.status != ENTS_OK) continue;
       const double depth = random.uniform(-0.1, 0.29);
       std::vector<double> slave(dim);
@@ -77,7 +83,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       std::int32_t flags = 0;
       ents_input in{};
       in.struct_size = sizeof in;
-      in.slave = slave.data(), in.master = mesh.positions.data(), in.surface_coordinates = coordinates.data(), in.state_begin = state.data();
+      in.slave = slave.data(), in.master = mesh.positions.data(), in.state_begin = state.data();
+      if (!local) in.surface_coordinates = coordinates.data();
       ents_output out{};
       out.struct_size = sizeof out;
       out.wanted = ENTS_GAP | ENTS_RESIDUAL | ENTS_STATE | ENTS_FLAGS;
