@@ -278,7 +278,8 @@ std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* repor
   ElementOutput result{};
   result.wanted = want::gap;
   result.gap = &gap;
-  evaluate_one(element(e, nodes), result);
+  bool open;
+  evaluate_one(element(e, nodes), result, open);
   const long long number = e;
   if (plan->penetration_limit > 0.0)
     return report_message(report, ENTS_DEEP_PENETRATION, e,

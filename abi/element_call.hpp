@@ -88,8 +88,9 @@ struct ElementCall {
 
   // nodes: of its segment, if the input has a mesh
   ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;
-  Status evaluate_one(const ElementInput& element, const ElementOutput& results) const {
-    return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results);
+  Status evaluate_one(const ElementInput& element, const ElementOutput& results, bool& open) const {
+    open = false;
+    return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results, open);
   }
 
   // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held at zero as those of any

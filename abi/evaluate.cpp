@@ -65,9 +65,11 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
                                  at(out->slip, out->slip_stride, e),
                                  at(out->age, out->age_stride, e)};
   const bool follows = state_follows(e);
+  bool open;
   ElementOutput nothing = results;
   nothing.wanted = 0;
-  std::int32_t outcome = static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing));
+  std::int32_t outcome = static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, open));
+  if (open && outcome == ENTS_OK) return evaluate_open(e, also);
   if (!follows && outcome >= 0) outcome = ENTS_BAD_STATE;
   if (outcome == ENTS_OK) mark_state(e);
   if (out->status) *at(out->status, out->status_stride, e) = outcome;

@@ -29,7 +29,8 @@ public:
     mesh_ = {segments_, patch_.connectivity.data(), patch_.nodes, in.master, s ? coordinates_ : nullptr};
   }
 
-  Status evaluate() {
+  // open: nothing has been written, the element is open without a segment.
+  Status evaluate(bool& open) {
     double sum = 0.0;
     for (int i = 0; i < patch_.nodes * d_; ++i) sum += 0.0 * in_.master[i];
     for (int i = 0; i < d_; ++i) sum += 0.0 * in_.slave[i];
@@ -56,6 +57,15 @@ public:
     const ElementInput element = {in_.slave,     nodes.positions, nodes.surface_coordinates,
                                   found.at.xi,   in_.area,        in_.state_begin ? state_begin : nullptr,
                                   in_.multiplier};
+    if (open_) { // what it projects on from behind, ahead of a ridge, is no contact
+      std::int32_t flags = 0;
+      ElementOutput look{};
+      look.wanted = want::flags, look.flags = &flags;
+      if (plan_.element(plan_, element, look) != Status::ok || (flags & flag::contact) != 0) {
+        open = true;
+        return Status::ok;
+      }
+    }
     ElementOutput results = out_;
     results.state_end = state_end;
     // What has as many entries as dofs comes here first.
@@ -107,29 +117,60 @@ private:
     return most;
   }
 
+  // How far the enriched surface is at most: where the slave projects on the segments without their height, which are searched at once.
+  // Infinite: on none.
+  Status look_at_base(Detection& base, double& at_most) const {
+    at_most = infinity;
+    base.segment = -1;
+    if (const Status status = detect(*plan_.base, mesh_, nullptr, in_.slave, infinity, base); status != Status::ok) return status;
+    if (base.segment < 0 || base.at.beyond > 0.0) return Status::ok; // beyond an edge the rank of a projection counts, not its gap
+    SegmentNodes nodes;
+    if (const Status status = gather(plan_, mesh_, base.segment, nodes); status != Status::ok) return status;
+    double point[3], sum = 0.0;
+    const SurfacePoint to = {point, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+    if (plan_.surface(plan_, nodes.positions, nodes.surface_coordinates, base.at.xi, to) != Status::ok) return Status::ok;
+    for (int k = 0; k < d_; ++k) sum += (in_.slave[k] - point[k]) * (in_.slave[k] - point[k]);
+    at_most = std::sqrt(sum) * (1.0 + 1e-9) + 10.0 * base.at.tie;
+    return Status::ok;
+  }
+
   // The segment of before while the slave is on it; else the best of all; where none is within reach, the nearest: the slave is open
   // there, or too deep.
   Status choose(Detection& found) {
-    found.segment = in_contact() ? before() : -1;
-    for (int t = 0; t < plan_.parameters; ++t)
-      found.at.xi[t] = in_contact() ? in_.state_begin[StateLayout::xi_at + t] : 0.0;
     const double deepest = reach();
-    if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, deepest, found); status != Status::ok)
-      return status;
-    segment_ = found.segment;
-    if (segment_ >= 0) {
+    found.segment = in_contact() ? before() : -1;
+    if (in_contact()) {
+      for (int t = 0; t < plan_.parameters; ++t) found.at.xi[t] = in_.state_begin[StateLayout::xi_at + t];
+      if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found); status != Status::ok) return status;
+      if (found.segment >= 0) {
+        segment_ = found.segment;
+        return Status::ok;
+      }
+    }
+    Detection base;
+    double at_most;
+    if (const Status status = look_at_base(base, at_most); status != Status::ok) return status;
+    // Looking no farther than the surface is keeps the search short; beside a free border a projection may be farther.
+    for (const double far : {std::min(at_most, deepest), deepest}) {
+      found.segment = -1;
+      if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, far, found); status != Status::ok) return status;
+      if ((found.segment >= 0 && !found.at.ambiguous) || at_most > deepest) break;
+    }
+    if (found.behind_edge) return Status::no_projection;
+    if (found.segment >= 0) {
+      segment_ = found.segment;
       const bool doubtful = found.at.ambiguous && found.at.gap < 0.0 && !in_contact();
       return doubtful ? Status::ambiguous_projection : Status::ok;
     }
-    if (found.behind_edge) return Status::no_projection;
     const bool doubtful = found.at.ambiguous;
-    // On which side it is the segments without their height tell, which are searched at once.
-    if (const Status status = detect(*plan_.base, mesh_, nullptr, in_.slave, infinity, found); status != Status::ok) return status;
-    if (found.behind_edge) return Status::no_projection;
-    segment_ = found.segment;
+    if (base.behind_edge) return Status::no_projection;
+    segment_ = base.segment;
+    found.at = base.at;
     if (segment_ >= 0) {
-      if (found.at.gap < -deepest) return Status::deep_penetration;
-      return doubtful && found.at.gap <= plan_.height_bound ? Status::ambiguous_projection : Status::ok;
+      if (base.at.gap < -deepest) return Status::deep_penetration;
+      if (doubtful && base.at.gap <= plan_.height_bound) return Status::ambiguous_projection;
+      open_ = true;
+      return Status::ok;
     }
     double least = infinity;
     for (std::int64_t s = 0; s < segments_; ++s) {
@@ -141,6 +182,7 @@ private:
       if (segment_ < 0 || distance < least) segment_ = s, least = distance;
     }
     for (double& xi : found.at.xi) xi = plan_.simplex ? 1.0 / 3.0 : 0.0;
+    open_ = true;
     return Status::ok;
   }
 
@@ -187,6 +229,7 @@ private:
   const std::int64_t segments_;
   MasterMesh mesh_;
   std::int64_t segment_ = -1;
+  bool open_ = false;
   double coordinates_[most_patch_segments * 16 * 2];
   double gap_gradient_[most_dofs], gap_hessian_[most_dofs * most_dofs], xi_gradient_[2 * most_dofs],
       xi_hessian_[2 * most_dofs * most_dofs], residual_[most_dofs + 3],
@@ -203,8 +246,9 @@ ElementSizes sizes_of(const Plan& plan, const Patch& patch) {
 }
 
 Status evaluate_patch(const Plan& plan, const PatchedModel& model, const ElementInput& in,
-                      const ElementOutput& out) {
-  return PatchElement(plan, model, in, out).evaluate();
+                      const ElementOutput& out, bool& open) {
+  open = false;
+  return PatchElement(plan, model, in, out).evaluate(open);
 }
 
 } // namespace ents

@@ -35,8 +35,8 @@ ElementSizes sizes_of(const Plan& plan, const Patch& patch);
 inline bool is_segment_number(double number) { return 0.0 * number == 0.0; } // finite
 inline std::int64_t segment_of_state(const Plan& plan, const double* state) { return static_cast<std::int64_t>(state[plan.state.size]) - 1; }
 
-// input and output have the sizes of `sizes_of`. Nothing is written unless ok.
+// input and output have the sizes of `sizes_of`. Nothing is written unless ok. open: nothing is written, the element is one without a segment.
 Status evaluate_patch(const Plan& plan, const PatchedModel& model, const ElementInput& in,
-                      const ElementOutput& out);
+                      const ElementOutput& out, bool& open);
 
 } // namespace ents

@@ -252,26 +252,41 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
   return Status::ok;
 }
 
+namespace {
+
+// Segments of the slave's own node are none for it.
+bool is_own(const Plan& plan, const MasterMesh& mesh, std::int64_t own_node, std::int64_t segment) {
+  const std::int64_t* first = mesh.connectivity + segment * plan.nodes;
+  return own_node >= 0 && std::find(first, first + plan.nodes, own_node) != first + plan.nodes;
+}
+
+} // namespace
+
+Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach, Detection& out) {
+  out.searched = out.behind_edge = false;
+  const std::int64_t segment = out.segment;
+  out.segment = -1;
+  if (segment < 0 || is_own(plan, mesh, out.own_node, segment)) return Status::ok;
+  SegmentNodes nodes;
+  if (const Status status = gather(plan, mesh, segment, nodes); status != Status::ok) {
+    out.segment = segment; // to be named
+    return status;
+  }
+  const double start[2] = {out.at.xi[0], out.at.xi[1]};
+  if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) && std::fabs(out.at.gap) <= reach)
+    out.segment = segment, out.other = -1;
+  return Status::ok;
+}
+
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out) {
+  if (const Status status = detect_followed(plan, mesh, slave, reach, out); status != Status::ok || out.segment >= 0) return status;
   SegmentNodes nodes;
-  out.searched = out.behind_edge = false;
-  const auto is_own = [&](std::int64_t segment) {
-    const std::int64_t* first = mesh.connectivity + segment * plan.nodes;
-    return out.own_node >= 0 && std::find(first, first + plan.nodes, out.own_node) != first + plan.nodes;
-  };
-  if (out.segment >= 0 && !is_own(out.segment)) {
-    if (const Status status = gather(plan, mesh, out.segment, nodes); status != Status::ok) return status;
-    const double start[2] = {out.at.xi[0], out.at.xi[1]};
-    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) &&
-        std::fabs(out.at.gap) <= reach) {
-      out.other = -1;
-      return Status::ok;
-    }
-  }
   out.searched = true;
   out.segment = out.other = -1;
-  bool doubtful = false; // a search that could not be completed
+  constexpr int most_doubts = 8;
+  std::int64_t in_doubt[most_doubts]; // segments whose search could not be completed
+  int doubts = 0;
   portable::Target target;
   const bool has_ray = plan.dimension == 2 ? portable::set_target<2>(plan, slave, target)
                                            : portable::set_target<3>(plan, slave, target);
@@ -292,7 +307,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     double box[6];
     plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
     const double least = least_rank(plan, slave, ray, box);
-    if (!(least <= limit()) || is_own(segment)) return Status::ok;
+    if (!(least <= limit()) || is_own(plan, mesh, out.own_node, segment)) return Status::ok;
     candidates.add(segment, least);
     // a rank counts what lies beyond the edge, too; the reach does not
     double farthest = reach;
@@ -301,8 +316,9 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     SegmentProjection candidate;
     if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
       if (!normal || std::fabs(candidate.gap) <= reach) consider(plan.dimension, segment, candidate, out);
-    } else {
-      doubtful = doubtful || candidate.ambiguous;
+    } else if (candidate.ambiguous) {
+      if (doubts < most_doubts) in_doubt[doubts] = segment;
+      ++doubts;
     }
     return Status::ok;
   };
@@ -310,6 +326,20 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   const Tree shape(plan, mesh.segments);
   const Status status = tree ? visit_segments(shape, tree, rank, limit, visit) : visit_nearest_first(plan, mesh, rank, limit, visit);
   if (status != Status::ok) return status;
+  // What could not be decided while nothing was known may be decided now.
+  if (doubts > 0 && doubts <= most_doubts && out.segment >= 0) {
+    const int count = doubts;
+    doubts = 0;
+    for (int i = 0; i < count; ++i)
+      if (const Status again = visit(in_doubt[i]); again != Status::ok) return again;
+  }
+  if (out.segment >= 0 && out.at.ambiguous && out.other < 0) {
+    SegmentProjection again;
+    if (const Status gathered = gather(plan, mesh, out.segment, nodes); gathered != Status::ok) return gathered;
+    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, out.at.rank + out.at.tie, again) && !again.ambiguous)
+      out.at = again;
+  }
+  const bool doubtful = doubts > 0;
   if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)
     out.segment = -1; // lit far behind the slave
   if (normal) judge_by_border(plan, mesh, tree, slave, reach, candidates, out);

@@ -55,5 +55,7 @@ struct Detection {
 // the slave stays on the branch it was on. Without a tree (null) all segments are looked at.
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out);
+// Only the previous projection; out.segment is -1 where it is not kept.
+Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach, Detection& out);
 
 } // namespace ents

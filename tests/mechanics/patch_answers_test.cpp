@@ -3,6 +3,7 @@
 // refused, however deep the texture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,9 @@ json draw_deep_texture(Random& random, int parameters) {
     return {{"type", "thread"}, {"pitch", random.uniform(0.15, 0.4)}, {"flank_angles", {30.0, 30.0}}, {"crest", 0.03}, {"root", 0.05}};
   json wave_vector = json::array();
   const double most = random.coin() ? 1.2 : 3.0;
-  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, most));
-  return {{"type", "sine"}, {"amplitude", random.uniform(0.01, 0.1)}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3.0, 3.0)}};
+  double steepest = 0.0;
+  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, most)), steepest += wave_vector.back().get<double>();
+  return {{"type", "sine"}, {"amplitude", random.uniform(0.01, std::min(0.1, 0.15 / steepest))}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3.0, 3.0)}};
 }
 
 std::int64_t slaves_of_each_basis() {
@@ -39,14 +41,14 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
   const Basis& basis = basis_named(GetParam());
   const int d = basis.dimension, t = basis.parameters();
   const auto dim = static_cast<std::size_t>(d);
-  const double limit = 0.3;
   std::int64_t total = 0, clear = 0, refused = 0, wrong = 0, flagged = 0, accepted_flagged = 0;
   double first_us = 0.0, followed_us = 0.0, longest_us = 0.0;
   while (total < slaves_of_each_basis()) {
     MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);
     json text{{"segment", basis.name}, {"height", draw_deep_texture(random, t)},
               {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 7.0}}}}}};
-    if (random.coin()) text["penetration_limit"] = limit;
+    const double limit = random.coin() ? 0.3 : random.uniform(0.5, 3.0);
+    text["penetration_limit"] = limit;
     const bool local = random.coin(); // the texture begins anew on each segment
     const Model single(text.dump());
     json patch = json::array();
@@ -97,7 +99,7 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       ASSERT_GE(status, 0);
       if (behind) {
         ++flagged;
-        accepted_flagged += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0 && found.segment[0] < 0;
+        accepted_flagged += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0 && (found.flags[0] & ENTS_FLAG_BEHIND_EDGE) != 0;
         continue;
       }
       if (found.segment[0] < 0) { // open
@@ -106,6 +108,7 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       }
       ++clear;
       refused += status != ENTS_OK;
+      if (status != ENTS_OK) std::printf("  status %d, gap %.17g, limit %g, depth %g\n", status, found.gap[0], limit, depth);
       wrong += status == ENTS_OK && std::fabs(gap - found.gap[0]) > 1e-11;
       if (status != ENTS_OK) continue;
       in.state_begin = end.data(), out.state_end = state.data();
