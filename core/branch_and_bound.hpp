@@ -89,11 +89,7 @@ template <class B, bool H> struct Candidates {
     double step[T], merit;
     if (t.kind != ProjectionKind::normal || !evaluate_surface<2>(g, p.xi, p.N, p.s)) return false;
     normal_step(p, step, merit);
-    // as if the slave were exactly above this place
-    const Vec<double, B::dim> m = normal_of_tangents(p.s.e);
-    const double area2 = dot(m, m), along_m = dot(p.s.d, m);
-    if (!(area2 > 0.0)) return false;
-    for (int k = 0; k < symmetric_size<T>; ++k) p.f2[k] = p.metric[k] - along_m / area2 * dot(m, p.s.e2[k]);
+    p.f2[1] = p.metric[1]; // the other part is rounding of a tangent that is nearly zero
     if (!is_minimum(p.f2, p.metric)) return false;
     double off2 = 0.0, size2 = 0.0;
     for (int a = 0; a < T; ++a) {
