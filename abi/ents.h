@@ -41,6 +41,8 @@
  *   - an evaluation is a pure function: the same inputs give the same bits, whatever the thread, the
  *     batch, or the calls before. It allocates nothing, prints nothing, throws nothing, takes no lock,
  *     and leaves the floating-point environment (rounding, traps, flags) as it found it;
+ *   - a call needs up to 256 KiB of stack (100 KiB for one element of one segment; models are made with more): give the threads of a host
+ *     as much (OpenMP: OMP_STACKSIZE);
  *   - every struct starts with `struct_size`: zero the struct, then set struct_size = sizeof(struct).
  *     A shorter (older) struct is served; a longer (newer) one is served if its unknown tail is zero;
  *   - every function returns a status, see ENTS_STATUS_TABLE. Messages go into the caller's report.
