@@ -237,6 +237,9 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const ContactPair& pair, Progr
       {"CHANGE FRICTION", "the law of a contact element is that of its model for the whole job"},
       {"CHANGE SURFACE BEHAVIOR", "the law of a contact element is that of its model for the whole job"},
       {"CHANGE CONTACT TYPE", "the law of a contact element is that of its model for the whole job"},
+      {"CONTACT", "general contact would carry the same surfaces a second time; leave it out of this deck, "
+                  "or write *CONTACT PAIR"},
+      {"CONTACT INTERFERENCE", "the gap of a contact element is that of the mesh and of its model's height"},
       {"CLEARANCE", "the gap of a contact element is that of the mesh and of its model's height"},
   };
   const Source& source = mesh.source;
@@ -265,7 +268,8 @@ void refuse_what_cannot_be_done(const Mesh& mesh, const ContactPair& pair, Progr
   }
 }
 
-Point prescribed_motion(const Mesh& mesh) {
+Motion prescribed_motion(const Mesh& mesh) {
+  Motion out;
   Point low{}, high{};
   bool in_step = false;
   for (const Statement& s : mesh.source.list) {
@@ -278,6 +282,7 @@ Point prescribed_motion(const Mesh& mesh) {
       if (fields.size() < 4 || !parse(fields[1], first)) continue; // ENCASTRE ..., or no motion
       if (!parse(fields[2], last)) last = first;
       if (!parse(fields[3], value)) continue;
+      out.rotates = out.rotates || (value != 0 && last >= 4 && first <= 6);
       for (std::int64_t dof = std::max<std::int64_t>(first, 1); dof <= std::min<std::int64_t>(last, 3);
            ++dof) {
         const auto i = static_cast<std::size_t>(dof - 1);
@@ -285,7 +290,8 @@ Point prescribed_motion(const Mesh& mesh) {
       }
     }
   }
-  return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  for (std::size_t i = 0; i < 3; ++i) out.range[i] = high[i] - low[i];
+  return out;
 }
 
 } // namespace ents_deck

@@ -46,7 +46,11 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
 /// @throws Error with the line of a step, a procedure or a keyword that user elements cannot follow
 void refuse_what_cannot_be_done(const Mesh& mesh, const ContactPair& pair, Program program);
 
-/// Range of prescribed motion over all steps, per direction, [L]: what one body may slide over the other.
-Point prescribed_motion(const Mesh& mesh);
+struct Motion {
+  Point range{}; ///< [L] of prescribed displacements over all steps, per direction: what one body may slide
+                 ///< over the other
+  bool rotates = false; ///< rotations are prescribed, too: they are not in `range`
+};
+Motion prescribed_motion(const Mesh& mesh);
 
 } // namespace ents_deck

@@ -190,7 +190,10 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
 
   const bool height = out.model.contains("height") && !out.model["height"].is_null();
   PatchRequest request;
-  request.motion = prescribed_motion(mesh);
+  const Motion motion = prescribed_motion(mesh);
+  request.motion = motion.range;
+  if (motion.rotates && !options.slide)
+    out.remarks.push_back("the deck prescribes rotations, which the slide does not count: write --slide");
   request.slide = options.slide;
   request.largest = largest_element(options.program);
   const ordered_json& law = out.model["contact"];

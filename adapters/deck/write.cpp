@@ -12,7 +12,7 @@ namespace {
 using std::string;
 
 /// Keywords of output that name contact, which a deck without pairs must not have.
-const std::set<string> contact_output{"CONTACT PRINT", "CONTACT FILE", "CONTACT OUTPUT"};
+const std::set<string> contact_output{"CONTACT PRINT", "CONTACT FILE", "CONTACT OUTPUT", "CONTACT CONTROLS"};
 
 int last_line_of(const Source& source, const Statement& s) {
   int last = s.last_line;

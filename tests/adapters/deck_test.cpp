@@ -293,6 +293,7 @@ TEST(DeckRefuses, WithLineAndReason) {
       {"*MATERIAL, NAME=M", "*NGEN\n1, 2, 3\n*MATERIAL, NAME=M", line_of("*MATERIAL"),
        "*NGEN changes the mesh"},
       {"1000., .3", "1000., .3\n*CLEARANCE, VALUE=1", line_of("*SOLID SECTION"), "*CLEARANCE"},
+      {"1000., .3", "1000., .3\n*CONTACT, OP=NEW", line_of("*SOLID SECTION"), "second time"},
   };
   for (const Mistake& m : mistakes) {
     const string error = error_of([&] { converted(deck(m.changed, m.by)); });
