@@ -29,6 +29,10 @@ inline constexpr int search_budget = 10000; // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
+// How close natural coordinates come to a corner where two nodes of a quad4 are one: rounding of the normal there, over that distance, times
+// the height stays small beside the tangents.
+template <bool H> inline constexpr double next_to_collapsed_edge = H ? 1e-6 : 1e-9;
+
 template <int T> struct Box { double c[T], w[T]; };
 
 // The best projection so far.
@@ -97,7 +101,8 @@ template <class B, bool H> struct Candidates {
       off2 += along * along / length2;
       size2 = greater(size2, length2);
     }
-    if (!(off2 < 1e-16 * size2) || !on_segment<B>(p.xi, plan.border)) return false;
+    const double most = 10.0 * next_to_collapsed_edge<H>;
+    if (!(off2 < most * most * size2) || !on_segment<B>(p.xi, plan.border)) return false;
     const double r = rank(t, p);
     tie = tie_size * square_root(size2);
     if (r > wanted) return true;
@@ -145,7 +150,6 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
 }
 
 // A quad4 with two neighbouring nodes in one place is a triangle, and its natural coordinates lose their meaning towards that corner.
-inline constexpr double next_to_collapsed_edge = 1e-9; // how close natural coordinates come to it
 
 // The edge from node e to the next whose ends are one; -1: none, or it has two surface coordinates.
 template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
@@ -179,14 +183,14 @@ ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, c
   evaluations = p.evaluations;
   if (result.found != Found::yes) return true;
   const double off = p.xi[0] + p.xi[1]; // 0 in the corner, 1 on the side across
-  const bool in_corner = off < 0.5 * next_to_collapsed_edge && off > -0.5 * next_to_collapsed_edge;
+  const bool in_corner = off < 0.5 * next_to_collapsed_edge<H> && off > -0.5 * next_to_collapsed_edge<H>;
   const double beside = in_corner ? 0.0 : 1.0;
   const double along = off > 0.0 ? clamp(p.xi[1] / off, -beside, 1.0 + beside) : 0.5;
   const int normal = e % 2 == 0; // the direction that ends in the corner, at this side
   const double sign = e == 1 || e == 2 ? 1.0 : -1.0;
   const auto coordinate = [&](int node) { return 2.0 * (normal == 1 ? Corners::i[node] : Corners::j[node]) - 1.0; };
   xi[1 - normal] = coordinate(nodes[1]) + (coordinate(nodes[2]) - coordinate(nodes[1])) * along;
-  xi[normal] = sign * (in_corner ? 1.0 - next_to_collapsed_edge : 1.0 - 2.0 * off);
+  xi[normal] = sign * (in_corner ? 1.0 - next_to_collapsed_edge<H> : 1.0 - 2.0 * off);
   return true;
 }
 
@@ -356,7 +360,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
     }
     if (collapsed >= 0) { // up to the edge that is none
-      constexpr double left_out = 100.0 * next_to_collapsed_edge;
+      constexpr double left_out = 100.0 * next_to_collapsed_edge<false>;
       const int normal = collapsed % 2 == 0;
       box.c[normal] = (collapsed == 1 || collapsed == 2 ? -0.5 : 0.5) * (rim + left_out);
       box.w[normal] = 1.0 + 0.5 * (rim - left_out);
