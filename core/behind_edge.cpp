@@ -38,7 +38,8 @@ bool evaluate(const Plan& plan, const SegmentNodes& nodes, const double* xi, Pla
   return plan.surface(plan, nodes.positions, nodes.surface_coordinates, xi, to) == Status::ok;
 }
 
-// The corner of a segment in space: unit tangents of the two edges that meet there, without the height, and the angle between them.
+// The corner of a segment in space: unit tangents of the two edges that meet there, without the height, and
+// the angle between them.
 struct Corner {
   double tangent[2][3], angle;
 };
@@ -80,8 +81,10 @@ double size_of(const Plan& plan, const SegmentNodes& nodes) {
   return most;
 }
 
-// The segments whose borders go through a place, heights left aside, which is on the border of one of them; -1: more than there is room for.
-int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, const Place& place, Place (&found)[most_segments]) {
+// The segments whose borders go through a place, heights left aside, which is on the border of one of them;
+// -1: more than there is room for.
+int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, const Place& place,
+               Place (&found)[most_segments]) {
   const int d = plan.dimension;
   SegmentNodes nodes;
   if (gather(plan, mesh, place.segment, nodes) != Status::ok) return 0;
@@ -89,27 +92,31 @@ int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, con
   int count = 0;
   bool all = true;
   const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree, [&](const double* box) { return distance_to_box(d, place.base_point, box); },
-      [&] { return within; },
+      Tree(plan, mesh.segments), tree,
+      [&](const double* box) { return distance_to_box(d, place.base_point, box); }, [&] { return within; },
       [&](std::int64_t segment) {
-        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
+        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok)
+          return gathered;
         BorderPoint border;
         Place here;
-        if (!plan.base->border_point(*plan.base, place.base_point, nodes.positions, nodes.surface_coordinates, near, border) ||
+        if (!plan.base->border_point(*plan.base, place.base_point, nodes.positions, nodes.surface_coordinates,
+                                     near, border) ||
             !evaluate(plan, nodes, border.xi, here))
           return Status::ok;
         here.segment = segment, here.corner = border.corner;
-        if (count < most_segments) found[count++] = here;
-        else all = false;
+        if (count < most_segments)
+          found[count++] = here;
+        else
+          all = false;
         return Status::ok;
       });
   if (status != Status::ok) return 0;
   return all ? count : -1;
 }
 
-// The sum of the normals of the segments that meet in a point, weighted by their angles there; false at a free border. On which side
-// of a surface a point lies whose closest point is an edge or a vertex, this normal tells and no other
-// (Baerentzen and Aanaes, IEEE TVCG 11, 2005).
+// The sum of the normals of the segments that meet in a point, weighted by their angles there; false at a
+// free border. On which side of a surface a point lies whose closest point is an edge or a vertex, this
+// normal tells and no other (Baerentzen and Aanaes, IEEE TVCG 11, 2005).
 bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const Place* found, int count, double (&sum)[3]) {
   bool vertex = false;
   for (int i = 0; i < count; ++i) vertex = vertex || found[i].corner;
@@ -119,7 +126,9 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const Place* found, 
     double weight = 1.0;
     if (vertex) {
       SegmentNodes nodes;
-      if (gather(plan, mesh, found[i].segment, nodes) != Status::ok || !corner_of(plan, nodes, found[i], corners[i])) return false;
+      if (gather(plan, mesh, found[i].segment, nodes) != Status::ok ||
+          !corner_of(plan, nodes, found[i], corners[i]))
+        return false;
       weight = corners[i].angle;
     }
     for (int k = 0; k < plan.dimension; ++k) sum[k] += weight * found[i].normal[k];
@@ -129,7 +138,8 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const Place* found, 
   for (int i = 0; vertex && i < 2 * count; ++i) {
     bool shared = false;
     for (int j = 0; j < 2 * count; ++j)
-      shared = shared || (i / 2 != j / 2 && dot(corners[i / 2].tangent[i % 2], corners[j / 2].tangent[j % 2], 3) > same);
+      shared = shared || (i / 2 != j / 2 &&
+                          dot(corners[i / 2].tangent[i % 2], corners[j / 2].tangent[j % 2], 3) > same);
     if (!shared) return false;
   }
   return true;
@@ -137,27 +147,33 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const Place* found, 
 
 } // namespace
 
-bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double limit, NearestBorder& out) {
+bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                    double limit, NearestBorder& out) {
   out.at.distance = limit, out.segment = -1;
   const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree, [&](const double* box) { return distance_to_box(plan.dimension, slave, box); },
+      Tree(plan, mesh.segments), tree,
+      [&](const double* box) { return distance_to_box(plan.dimension, slave, box); },
       [&] { return out.at.distance; },
       [&](std::int64_t segment) {
         SegmentNodes nodes;
-        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok) return gathered;
-        if (plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, out.at.distance, out.at)) out.segment = segment;
+        if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok)
+          return gathered;
+        if (plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, out.at.distance,
+                              out.at))
+          out.segment = segment;
         return Status::ok;
       });
   return status == Status::ok && out.segment >= 0;
 }
 
-BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, const NearestBorder& nearest,
-                          double& crack) {
+BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                          const NearestBorder& nearest, double& crack) {
   const int d = plan.dimension;
   SegmentNodes nodes;
   Place place, found[most_segments];
   crack = 0.0;
-  if (gather(plan, mesh, nearest.segment, nodes) != Status::ok || !evaluate(plan, nodes, nearest.at.xi, place))
+  if (gather(plan, mesh, nearest.segment, nodes) != Status::ok ||
+      !evaluate(plan, nodes, nearest.at.xi, place))
     return BorderSide::beside_ahead;
   place.segment = nearest.segment, place.corner = nearest.at.corner;
   const auto side = [&](const double* outward) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The point of a segment's border (its end points in the plane, its edges in space) that is closest to a point, found by branch and
-// bound along each edge with the balls of ball.hpp.
+// The point of a segment's border (its end points in the plane, its edges in space) that is closest to a
+// point, found by branch and bound along each edge with the balls of ball.hpp.
 #pragma once
 
 #include "core/branch_and_bound.hpp"
@@ -8,7 +8,9 @@
 namespace ents::ENTS_ISA {
 
 // An edge in natural coordinates: xi = middle + along w, -1 <= w <= 1.
-struct Edge { double middle[2], along[2]; };
+struct Edge {
+  double middle[2], along[2];
+};
 template <class B> inline constexpr int edge_count = B::dim == 2 ? 2 : B::simplex ? 3 : 4;
 template <class B> ENTS_INLINE Edge edge_of_segment(int e) {
   if constexpr (B::simplex) {
@@ -46,7 +48,8 @@ template <class B, bool H> struct ClosestOnBorder {
   // Does a part of the edge come closer than the limit? Its centre is considered.
   ENTS_NOINLINE bool may_be_closer(int e, double centre, double half) {
     Ball xi[T];
-    for (int a = 0; a < T; ++a) xi[a] = {edge.middle[a] + edge.along[a] * centre, absolute(edge.along[a]) * half};
+    for (int a = 0; a < T; ++a)
+      xi[a] = {edge.middle[a] + edge.along[a] * centre, absolute(edge.along[a]) * half};
     Shape<Ball, T, B::nodes> N;
     Surface<B, H, Ball> s;
     const bool normal = evaluate_surface<1>(g, xi, N, s);
@@ -67,7 +70,21 @@ template <class B, bool H> struct ClosestOnBorder {
     return least < limit;
   }
 
-  // The point of the chord between the edge's ends, without the height, that is closest: how far it is, and its w.
+  // Of a line: how far one of its ends is, without the height.
+  ENTS_INLINE double distance_to_end(int e) const {
+    if constexpr (straight_edges<B>) {
+      return square_root(dot(g.y[e], g.y[e]));
+    } else {
+      double xi[T] = {edge.middle[0]};
+      Shape<double, T, B::nodes> N;
+      B::template shape<0>(xi, N);
+      const Vec<double, D> end = combine(N.n, g.y);
+      return square_root(dot(end, end));
+    }
+  }
+
+  // The point of the chord between the edge's ends, without the height, that is closest: how far it is, and
+  // its w.
   ENTS_INLINE double distance_to_chord(int e, double& w) const {
     Vec<double, D> a, ab;
     if constexpr (straight_edges<B>) { // whose ends are nodes
@@ -75,7 +92,8 @@ template <class B, bool H> struct ClosestOnBorder {
       a = g.y[ends[e][0]], ab = g.y[ends[e][1]] - a;
     } else {
       double from[T], to[T];
-      for (int k = 0; k < T; ++k) from[k] = edge.middle[k] - edge.along[k], to[k] = edge.middle[k] + edge.along[k];
+      for (int k = 0; k < T; ++k)
+        from[k] = edge.middle[k] - edge.along[k], to[k] = edge.middle[k] + edge.along[k];
       Shape<double, T, B::nodes> N;
       B::template shape<0>(from, N);
       a = combine(N.n, g.y);
@@ -89,8 +107,8 @@ template <class B, bool H> struct ClosestOnBorder {
     return square_root(dot(a, a));
   }
 
-  // How far the edge departs from its chord, without the height: half of the largest |rho_,ww|, a polynomial of degree two at most,
-  // which is bounded by its Bernstein coefficients.
+  // How far the edge departs from its chord, without the height: half of the largest |rho_,ww|, a polynomial
+  // of degree two at most, which is bounded by its Bernstein coefficients.
   ENTS_INLINE double sag() const {
     Vec<double, D> bend[3];
     for (int i = 0; i < 3; ++i) {
@@ -101,16 +119,20 @@ template <class B, bool H> struct ClosestOnBorder {
       bend[i] = Vec<double, D>::zero();
       unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
         constexpr int a = k / 2, b = (k + 1) / 2;
-        if constexpr (B::second[k]) add_scaled(bend[i], (a == b ? 1.0 : 2.0) * edge.along[a] * edge.along[b], combine(N.d2[k], g.y));
+        if constexpr (B::second[k])
+          add_scaled(bend[i], (a == b ? 1.0 : 2.0) * edge.along[a] * edge.along[b], combine(N.d2[k], g.y));
       });
     }
     const Vec<double, D> inner = 2.0 * bend[1] - 0.5 * (bend[0] + bend[2]);
-    return 0.5 * square_root(greater(greater(dot(bend[0], bend[0]), dot(bend[2], bend[2])), dot(inner, inner)));
+    return 0.5 *
+           square_root(greater(greater(dot(bend[0], bend[0]), dot(bend[2], bend[2])), dot(inner, inner)));
   }
 
   ENTS_NOINLINE void search_edge(int e) {
     constexpr double smallest = 1e-6; // half-width: the distance is then known to the square of it
-    struct Part { double centre, half; };
+    struct Part {
+      double centre, half;
+    };
     Part waiting[64];
     waiting[0] = {0.0, 1.0};
     int count = 1;
@@ -136,8 +158,8 @@ template <class B, bool H> struct ClosestOnBorder {
 };
 
 template <class B, bool H>
-bool closest_border_point(const Plan& plan, const double* from, const double* master, const double* surface_coordinates, double limit,
-                          BorderPoint& out) {
+bool closest_border_point(const Plan& plan, const double* from, const double* master,
+                          const double* surface_coordinates, double limit, BorderPoint& out) {
   constexpr int T = B::dim - 1;
   Geometry<B> g;
   g.set(from, master);
@@ -147,7 +169,11 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
   for (int e = 0; e < edge_count<B>; ++e) {
     if constexpr (T == 1) {
       closest.edge = {{2.0 * e - 1.0, 0.0}, {0.0, 0.0}};
-      closest.consider(e, 0.0, closest.distance(0.0));
+      const double base = closest.distance_to_end(e);
+      if constexpr (!H)
+        closest.consider(e, 0.0, base);
+      else if (base - plan.height_bound < closest.limit)
+        closest.consider(e, 0.0, closest.distance(0.0));
     } else {
       closest.edge = edge_of_segment<B>(e);
       double w, chord = closest.distance_to_chord(e, w);
@@ -173,4 +199,4 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
   return true;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

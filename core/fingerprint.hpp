@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A number that differs, but for one chance in 2^52, between two sequences of numbers that differ (FNV-1a; Fowler, Noll, Vo 1991).
+// A number that differs, but for one chance in 2^52, between two sequences of numbers that differ (FNV-1a;
+// Fowler, Noll, Vo 1991).
 #pragma once
 
 #include <bit>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mistakes of a caller that would give wrong numbers without a word: each is refused, over random surfaces, and named.
+// Mistakes of a caller that would give wrong numbers without a word: each is refused, over random surfaces,
+// and named.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,11 +32,14 @@ struct Surface {
     for (int j = 0; j < (d == 3 ? n : 1); ++j)
       for (int i = 0; i < n; ++i) {
         const int64_t a = j * (n + 1) + i;
-        if (d == 2) connectivity.insert(connectivity.end(), {a, a + 1});
-        else connectivity.insert(connectivity.end(), {a, a + 1, a + n + 2, a + n + 1});
+        if (d == 2)
+          connectivity.insert(connectivity.end(), {a, a + 1});
+        else
+          connectivity.insert(connectivity.end(), {a, a + 1, a + n + 2, a + n + 1});
       }
     mesh.struct_size = sizeof mesh;
-    mesh.nodes = static_cast<int64_t>(positions.size()) / d, mesh.segments = static_cast<int64_t>(connectivity.size()) / (d == 2 ? 2 : 4);
+    mesh.nodes = static_cast<int64_t>(positions.size()) / d,
+    mesh.segments = static_cast<int64_t>(connectivity.size()) / (d == 2 ? 2 : 4);
     mesh.positions = positions.data(), mesh.connectivity = connectivity.data();
     for (int s = 0; s < slaves; ++s) {
       for (int k = 0; k + 1 < d; ++k) slave.push_back(random.uniform(0.5, n - 0.5));
@@ -51,7 +55,8 @@ struct Surface {
 };
 
 std::string text_of(int d, const std::string& contact, const std::string& more = "") {
-  return R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + R"(", "border": 0.1, "contact": )" + contact + more + "}";
+  return R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + R"(", "border": 0.1, "contact": )" +
+         contact + more + "}";
 }
 const std::string penalty = R"({"normal": {"type": "penalty", "stiffness": 10}})";
 const std::string coulomb =
@@ -72,15 +77,19 @@ struct Found {
   std::vector<double> xi, gap;
   std::vector<int32_t> flags;
 };
-int32_t detect(const Model& model, const Surface& surface, const std::vector<double>& tree, const std::vector<double>& slave, double reach, Found& out,
-               ents_report& report, const int64_t* slave_node = nullptr) {
+int32_t detect(const Model& model, const Surface& surface, const std::vector<double>& tree,
+               const std::vector<double>& slave, double reach, Found& out, ents_report& report,
+               const int64_t* slave_node = nullptr) {
   const std::size_t n = slave.size() / static_cast<std::size_t>(surface.dimension);
-  out.segment.resize(n, -1), out.other.resize(n), out.xi.resize(2 * n), out.gap.resize(n), out.flags.resize(n);
+  out.segment.resize(n, -1), out.other.resize(n), out.xi.resize(2 * n), out.gap.resize(n),
+      out.flags.resize(n);
   ents_detection io{};
   io.struct_size = sizeof io;
-  io.slave = slave.data(), io.reach = reach, io.segment = out.segment.data(), io.xi = out.xi.data(), io.gap = out.gap.data();
+  io.slave = slave.data(), io.reach = reach, io.segment = out.segment.data(), io.xi = out.xi.data(),
+  io.gap = out.gap.data();
   io.flags = out.flags.data(), io.other = out.other.data(), io.slave_node = slave_node;
-  return call::detect(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), int64_t{0}, static_cast<int64_t>(n), &io, &report);
+  return call::detect(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), int64_t{0},
+                      static_cast<int64_t>(n), &io, &report);
 }
 
 TEST(SilentMistakes, ATreeOfAnotherHeightIsRefusedUntilItIsRefitted) {
@@ -90,18 +99,23 @@ TEST(SilentMistakes, ATreeOfAnotherHeightIsRefusedUntilItIsRefitted) {
     const int d = trial % 2 == 0 ? 2 : 3;
     const Surface surface(random, d);
     const auto with = [&](double amplitude) {
-      const std::string height = R"(, "height": {"type": "sine", "amplitude": )" + number(amplitude) + R"(, "wave_vector": )" + (d == 2 ? "[0.2]" : "[0.2, 0.1]") + "}";
+      const std::string height = R"(, "height": {"type": "sine", "amplitude": )" + number(amplitude) +
+                                 R"(, "wave_vector": )" + (d == 2 ? "[0.2]" : "[0.2, 0.1]") + "}";
       return Model(text_of(d, penalty, height));
     };
     const double amplitude = random.uniform(0.01, 0.05);
-    const Model before = with(amplitude), after = with(amplitude + random.uniform(0.5, 1.0)), other_law(before.text());
+    const Model before = with(amplitude), after = with(amplitude + random.uniform(0.5, 1.0)),
+                other_law(before.text());
     std::vector<double> tree = tree_of(before, surface);
     Found found, fresh;
     ents_report report = new_report();
-    EXPECT_EQ(detect(other_law, surface, tree, surface.slave, 0.5, found, report), ENTS_OK); // boxes are those of the height
+    EXPECT_EQ(detect(other_law, surface, tree, surface.slave, 0.5, found, report),
+              ENTS_OK); // boxes are those of the height
     EXPECT_EQ(detect(after, surface, tree, surface.slave, 0.5, found, report), ENTS_BAD_STATE);
     EXPECT_NE(std::strstr(report.message, "ents_tree_refit"), nullptr) << report.message;
-    EXPECT_EQ(call::tree_refit(after.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), nullptr), ENTS_OK);
+    EXPECT_EQ(
+        call::tree_refit(after.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()), nullptr),
+        ENTS_OK);
     found = {};
     EXPECT_EQ(detect(after, surface, tree, surface.slave, 0.5, found, report), ENTS_OK);
     EXPECT_EQ(detect(after, surface, tree_of(after, surface), surface.slave, 0.5, fresh, report), ENTS_OK);
@@ -128,7 +142,8 @@ TEST(SilentMistakes, ATreeWithNaNOrAForeignSegmentIsRefused) {
     tree[at] = bad[in_order ? random.below(3) : 0];
     const int32_t status = detect(model, surface, tree, surface.slave, 0.5, found, report);
     refused += status == ENTS_BAD_STATE;
-    EXPECT_TRUE(status == ENTS_BAD_STATE || (status == ENTS_OK && found.segment == right.segment)); // or nobody came there
+    EXPECT_TRUE(status == ENTS_BAD_STATE ||
+                (status == ENTS_OK && found.segment == right.segment)); // or nobody came there
   }
   EXPECT_GT(refused, samples(2000) / 4);
 }
@@ -168,10 +183,12 @@ TEST(SilentMistakes, ASlaveThatIsAMasterNodeIsNotProjectedOnItsOwnSegments) {
     const int m = surface.dimension == 2 ? 2 : 4;
     for (int64_t i = 0; i < surface.mesh.nodes; ++i) {
       const int64_t s = found.segment[static_cast<std::size_t>(i)];
-      for (int k = 0; s >= 0 && k < m; ++k) EXPECT_NE(surface.connectivity[static_cast<std::size_t>(s * m + k)], i);
+      for (int k = 0; s >= 0 && k < m; ++k)
+        EXPECT_NE(surface.connectivity[static_cast<std::size_t>(s * m + k)], i);
     }
     nodes[0] = surface.mesh.nodes;
-    EXPECT_EQ(detect(model, surface, tree, surface.positions, 5.0, found, report, nodes.data()), ENTS_BAD_VALUE);
+    EXPECT_EQ(detect(model, surface, tree, surface.positions, 5.0, found, report, nodes.data()),
+              ENTS_BAD_VALUE);
     EXPECT_NE(std::strstr(report.message, "detection.slave_node of node 0"), nullptr) << report.message;
   }
 }
@@ -181,7 +198,8 @@ struct System {
   explicit System(const Model& m, const Surface& s, Random& random) : model(m), surface(s) {
     const int d = s.dimension;
     int64_t row = 0;
-    for (int64_t i = 0; i < (s.slaves + s.mesh.nodes) * d; ++i) equations.push_back(random.below(9) == 0 ? -1 : row++);
+    for (int64_t i = 0; i < (s.slaves + s.mesh.nodes) * d; ++i)
+      equations.push_back(random.below(9) == 0 ? -1 : row++);
     rows = row;
     for (int64_t i = 0; i <= rows; ++i) row_begin.push_back(i * rows);
     for (int64_t i = 0; i < rows; ++i)
@@ -190,9 +208,10 @@ struct System {
   }
   int64_t places_size() const { return surface.dimension * model.layout.nodes * 100; }
   // values [rows][rows], residual [rows]
-  int32_t assemble(const std::vector<int64_t>& segment, const ents_master_mesh& mesh, bool with_places, const double* state_begin, double* state_end,
-                   ents_report& report) {
-    values.assign(static_cast<std::size_t>(rows * rows), 0.0), residual.assign(static_cast<std::size_t>(rows), 0.0);
+  int32_t assemble(const std::vector<int64_t>& segment, const ents_master_mesh& mesh, bool with_places,
+                   const double* state_begin, double* state_end, ents_report& report) {
+    values.assign(static_cast<std::size_t>(rows * rows), 0.0),
+        residual.assign(static_cast<std::size_t>(rows), 0.0);
     ents_input in{};
     in.struct_size = sizeof in;
     in.slave = surface.slave.data(), in.slave_stride = surface.dimension;
@@ -200,17 +219,20 @@ struct System {
     in.state_begin = state_begin, in.state_begin_stride = model.layout.state_size;
     ents_output out{};
     out.struct_size = sizeof out;
-    out.wanted = state_end ? ENTS_STATE : 0, out.state_end = state_end, out.state_end_stride = model.layout.state_size;
+    out.wanted = state_end ? ENTS_STATE : 0, out.state_end = state_end,
+    out.state_end_stride = model.layout.state_size;
     ents_system system{};
     system.struct_size = sizeof system;
     system.index_size = 8;
     system.slave_nodes = surface.slaves, system.slave_equations = equations.data();
-    system.master_nodes = mesh.nodes, system.master_equations = equations.data() + surface.slaves * surface.dimension;
+    system.master_nodes = mesh.nodes,
+    system.master_equations = equations.data() + surface.slaves * surface.dimension;
     system.rows = rows, system.residual = residual.data();
     system.row_begin = row_begin.data(), system.columns = columns.data(), system.values = values.data();
     if (with_places) system.places = places.data(), system.places_size = places_size();
     change(system);
-    return call::in_host(ents_assemble, model.get(), int64_t{0}, int64_t{surface.slaves}, &in, &out, &system, &report);
+    return call::in_host(ents_assemble, model.get(), int64_t{0}, int64_t{surface.slaves}, &in, &out, &system,
+                         &report);
   }
   const Model& model;
   const Surface& surface;
@@ -230,7 +252,8 @@ TEST(SilentMistakes, PlacesNoticeOtherNodesUnderTheSameSegmentNumbers) {
     ents_report report = new_report();
     ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
     System system(model, surface, random);
-    ASSERT_EQ(system.assemble(found.segment, surface.mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, true, nullptr, nullptr, report), ENTS_OK)
+        << report.message;
     // nodes get other numbers, and their positions with them: the same surface
     const auto nodes = static_cast<std::size_t>(surface.mesh.nodes), dim = static_cast<std::size_t>(d);
     std::vector<std::size_t> number(nodes);
@@ -239,18 +262,21 @@ TEST(SilentMistakes, PlacesNoticeOtherNodesUnderTheSameSegmentNumbers) {
     for (std::size_t i = 0; i < nodes; ++i)
       for (std::size_t k = 0; k < dim; ++k) positions[number[i] * dim + k] = surface.positions[i * dim + k];
     std::vector<int64_t> connectivity;
-    for (const int64_t i : surface.connectivity) connectivity.push_back(static_cast<int64_t>(number[static_cast<std::size_t>(i)]));
+    for (const int64_t i : surface.connectivity)
+      connectivity.push_back(static_cast<int64_t>(number[static_cast<std::size_t>(i)]));
     ents_master_mesh mesh = surface.mesh;
     mesh.positions = positions.data(), mesh.connectivity = connectivity.data();
     if (std::set<std::size_t>(number.begin(), number.end()).size() != nodes) continue;
-    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK)
+        << report.message;
     const std::vector<double> values = system.values, residual = system.residual;
     ASSERT_EQ(system.assemble(found.segment, mesh, false, nullptr, nullptr, report), ENTS_OK);
     EXPECT_EQ(values, system.values);
     EXPECT_EQ(residual, system.residual);
     // other equations, the same nodes
     std::swap(system.equations.front(), system.equations.back());
-    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK) << report.message;
+    ASSERT_EQ(system.assemble(found.segment, mesh, true, nullptr, nullptr, report), ENTS_OK)
+        << report.message;
     const std::vector<double> swapped = system.values;
     ASSERT_EQ(system.assemble(found.segment, mesh, false, nullptr, nullptr, report), ENTS_OK);
     EXPECT_EQ(swapped, system.values);
@@ -280,8 +306,11 @@ TEST(SilentMistakes, RowsCountedFromOneOrBeyondTheArrayAreRefused) {
   expect_refused("has no entry", [](System& s) {
     for (std::size_t i = 1; i + 1 < s.row_begin.size(); ++i) s.row_begin[i] = int64_t{1} << 30;
   });
-  expect_refused("system.slave_nodes is 29", [](System& s) { s.change = [](ents_system& system) { system.slave_nodes = Surface::slaves - 1; }; });
-  expect_refused("index_size", [](System& s) { s.change = [](ents_system& system) { system.index_size = 4; }; });
+  expect_refused("system.slave_nodes is 29", [](System& s) {
+    s.change = [](ents_system& system) { system.slave_nodes = Surface::slaves - 1; };
+  });
+  expect_refused("index_size",
+                 [](System& s) { s.change = [](ents_system& system) { system.index_size = 4; }; });
 }
 
 TEST(SilentMistakes, AStateOfAnotherBasisOrLawIsRefused) {
@@ -325,30 +354,37 @@ TEST(SilentMistakes, FrictionOnAnotherSegmentNeedsATransfer) {
     System system(model, surface, random);
     const auto size = static_cast<std::size_t>(model.layout.state_size);
     std::vector<double> begin(size * Surface::slaves), end(begin);
-    call::state_init(model.get(), int64_t{Surface::slaves}, begin.data(), static_cast<int64_t>(size), nullptr);
-    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, begin.data(), end.data(), report), ENTS_OK) << report.message;
-    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, end.data(), begin.data(), report), ENTS_OK) << report.message;
+    call::state_init(model.get(), int64_t{Surface::slaves}, begin.data(), static_cast<int64_t>(size),
+                     nullptr);
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, begin.data(), end.data(), report), ENTS_OK)
+        << report.message;
+    ASSERT_EQ(system.assemble(found.segment, surface.mesh, false, end.data(), begin.data(), report), ENTS_OK)
+        << report.message;
     for (int64_t i = 0; i < Surface::slaves; ++i) {
       const int64_t s = found.segment[static_cast<std::size_t>(i)];
       if (s < 0 || !(end[static_cast<std::size_t>(i) * size + 1] > 1.0)) continue;
       std::vector<int64_t> segment = found.segment;
       segment[static_cast<std::size_t>(i)] = s == 0 ? 1 : s - 1;
-      EXPECT_EQ(system.assemble(segment, surface.mesh, false, end.data(), begin.data(), report), ENTS_BAD_STATE);
+      EXPECT_EQ(system.assemble(segment, surface.mesh, false, end.data(), begin.data(), report),
+                ENTS_BAD_STATE);
       EXPECT_NE(std::strstr(report.message, "ents_state_transfer"), nullptr) << report.message;
       ++refused;
       const auto master = [&](int64_t of) {
         std::vector<double> out;
         for (int a = 0; a < model.layout.nodes; ++a)
           for (int k = 0; k < d; ++k)
-            out.push_back(surface.positions[static_cast<std::size_t>(surface.connectivity[static_cast<std::size_t>(of * model.layout.nodes + a)] * d + k)]);
+            out.push_back(surface.positions[static_cast<std::size_t>(
+                surface.connectivity[static_cast<std::size_t>(of * model.layout.nodes + a)] * d + k)]);
         return out;
       };
       std::vector<double> moved = end;
       const std::size_t at = static_cast<std::size_t>(i) * size;
-      if (call::state_transfer(model.get(), master(s).data(), nullptr, master(segment[static_cast<std::size_t>(i)]).data(), nullptr, &end[at], &moved[at],
-                               nullptr) != ENTS_OK)
+      if (call::state_transfer(model.get(), master(s).data(), nullptr,
+                               master(segment[static_cast<std::size_t>(i)]).data(), nullptr, &end[at],
+                               &moved[at], nullptr) != ENTS_OK)
         continue;
-      const int32_t status = system.assemble(segment, surface.mesh, false, moved.data(), begin.data(), report);
+      const int32_t status =
+          system.assemble(segment, surface.mesh, false, moved.data(), begin.data(), report);
       EXPECT_NE(status, ENTS_BAD_STATE) << report.message;
       ++transferred;
     }

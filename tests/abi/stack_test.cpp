@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much stack a call needs: threads of hosts, above all those of Fortran's OpenMP, may have little. A thread whose stack was painted
-// calls the library; what is no longer painted was used.
+// How much stack a call needs: threads of hosts, above all those of Fortran's OpenMP, may have little. A
+// thread whose stack was painted calls the library; what is no longer painted was used.
 #include <gtest/gtest.h>
 
 #include <pthread.h>
@@ -48,9 +48,10 @@ TEST(Stack, NeedsNoMoreThanTheHeaderTells) {
   std::size_t most = 0;
   Random random(3);
   for (const Basis& b : bases()) {
-    const std::string text = R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height("sine", b.dimension) +
-                             R"(, "contact": {"normal": {"type": "exponential", "pressure": 1, "clearance": 0.2},)"
-                             R"( "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 5}})";
+    const std::string text =
+        R"({"segment": ")" + std::string(b.name) + R"(", "height": )" + height("sine", b.dimension) +
+        R"(, "contact": {"normal": {"type": "exponential", "pressure": 1, "clearance": 0.2},)"
+        R"( "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 5}})";
     const Model model(text + "}");
     const Element element = draw(model, b, random);
     Results results(model.layout);
@@ -63,13 +64,15 @@ TEST(Stack, NeedsNoMoreThanTheHeaderTells) {
 
     std::vector<int64_t> connectivity;
     std::string nodes;
-    for (int i = 0; i < model.layout.nodes; ++i) connectivity.push_back(i), nodes += (i ? ", " : "") + std::to_string(i);
+    for (int i = 0; i < model.layout.nodes; ++i)
+      connectivity.push_back(i), nodes += (i ? ", " : "") + std::to_string(i);
     const Model patch(text + R"(, "patch": [[)" + nodes + "]]}");
     const std::size_t patched = stack_used([&] { ents_evaluate(patch.get(), 0, 1, &in, &out, nullptr); });
 
     ents_master_mesh mesh{};
     mesh.struct_size = sizeof mesh;
-    mesh.segments = 1, mesh.nodes = model.layout.nodes, mesh.connectivity = connectivity.data(), mesh.positions = element[master].data();
+    mesh.segments = 1, mesh.nodes = model.layout.nodes, mesh.connectivity = connectivity.data(),
+    mesh.positions = element[master].data();
     std::vector<double> tree(1000);
     int64_t size = 0, segment = -1;
     ents_tree_size(model.get(), 1, &size, nullptr);
@@ -77,8 +80,10 @@ TEST(Stack, NeedsNoMoreThanTheHeaderTells) {
     double xi[2] = {};
     ents_detection detection{};
     detection.struct_size = sizeof detection;
-    detection.slave = element[slave].data(), detection.reach = 1.0, detection.segment = &segment, detection.xi = xi;
-    const std::size_t detect = stack_used([&] { ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
+    detection.slave = element[slave].data(), detection.reach = 1.0, detection.segment = &segment,
+    detection.xi = xi;
+    const std::size_t detect =
+        stack_used([&] { ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
 
     const int64_t n = model.layout.dofs;
     std::vector<int64_t> equations, row_begin, columns;
@@ -92,23 +97,30 @@ TEST(Stack, NeedsNoMoreThanTheHeaderTells) {
     ents_system system{};
     system.struct_size = sizeof system;
     system.index_size = 8, system.slave_nodes = 1, system.master_nodes = model.layout.nodes, system.rows = n;
-    system.slave_equations = equations.data(), system.master_equations = equations.data() + model.layout.dimension;
-    system.residual = residual.data(), system.row_begin = row_begin.data(), system.columns = columns.data(), system.values = values.data();
-    const std::size_t assemble = stack_used([&] { ents_assemble(model.get(), 0, 1, &in, nullptr, &system, nullptr); });
+    system.slave_equations = equations.data(),
+    system.master_equations = equations.data() + model.layout.dimension;
+    system.residual = residual.data(), system.row_begin = row_begin.data(), system.columns = columns.data(),
+    system.values = values.data();
+    const std::size_t assemble =
+        stack_used([&] { ents_assemble(model.get(), 0, 1, &in, nullptr, &system, nullptr); });
 
     // So many tangents that they are written past the caches.
     const int64_t many = (int64_t{1} << 19) / (n * n) + 64;
     std::vector<double> tangents(static_cast<std::size_t>(many * n * n));
-    const Model ordinary(R"({"segment": ")" + std::string(b.name) + R"(", "contact": {"normal": {"type": "penalty", "stiffness": 9}}})");
+    const Model ordinary(R"({"segment": ")" + std::string(b.name) +
+                         R"(", "contact": {"normal": {"type": "penalty", "stiffness": 9}}})");
     ents_input shared = input_of(element);
     ents_output tangent_alone{};
     tangent_alone.struct_size = sizeof tangent_alone;
-    tangent_alone.wanted = ENTS_TANGENT, tangent_alone.tangent = tangents.data(), tangent_alone.tangent_stride = n * n;
-    const std::size_t stream = stack_used([&] { ents_evaluate(ordinary.get(), 0, many, &shared, &tangent_alone, nullptr); });
+    tangent_alone.wanted = ENTS_TANGENT, tangent_alone.tangent = tangents.data(),
+    tangent_alone.tangent_stride = n * n;
+    const std::size_t stream =
+        stack_used([&] { ents_evaluate(ordinary.get(), 0, many, &shared, &tangent_alone, nullptr); });
     most = std::max(most, stream);
 
-    std::printf("%-14s many %4zu KiB, evaluate %4zu, a patch %4zu, detect %4zu, assemble %4zu\n", b.name, (stream - none) >> 10, (evaluate - none) >> 10, (patched - none) >> 10,
-                (detect - none) >> 10, (assemble - none) >> 10);
+    std::printf("%-14s many %4zu KiB, evaluate %4zu, a patch %4zu, detect %4zu, assemble %4zu\n", b.name,
+                (stream - none) >> 10, (evaluate - none) >> 10, (patched - none) >> 10, (detect - none) >> 10,
+                (assemble - none) >> 10);
     most = std::max({most, evaluate, patched, detect, assemble});
   }
   EXPECT_LE((most - none) >> 10, promised_kib);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers out of a fuzzer's bytes: sensible ones, so that calls get somewhere, and now and then any bits at all.
+// Numbers out of a fuzzer's bytes: sensible ones, so that calls get somewhere, and now and then any bits at
+// all.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::string path = "height_map_fuzz." + std::to_string(getpid()) + ".txt";
-  static const std::string text = R"({"segment": "quad4", "height": {"type": "map", "boundary": "clamped", "file": ")" + path + R"(", "size": [2, 2], "origin": [-1, -1]}})";
+  static const std::string text =
+      R"({"segment": "quad4", "height": {"type": "map", "boundary": "clamped", "file": ")" + path +
+      R"(", "size": [2, 2], "origin": [-1, -1]}})";
   static const int removed_at_exit = std::atexit([] { std::remove(path.c_str()); });
   (void)removed_at_exit;
   std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -28,7 +30,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   ents_surface surface{};
   surface.struct_size = sizeof surface;
   surface.master = master, surface.xi = xi, surface.height = height;
-  if (ents_surface_evaluate(model, 2, &surface, &report) == ENTS_OK) fuzz::require(std::isfinite(height[0]) && std::isfinite(height[1]));
+  if (ents_surface_evaluate(model, 2, &surface, &report) == ENTS_OK)
+    fuzz::require(std::isfinite(height[0]) && std::isfinite(height[1]));
   ents_model_destroy(&model, nullptr);
   return 0;
 }

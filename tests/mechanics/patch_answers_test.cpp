@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An element over several textured segments answers what a detection on the same segments answers: no slave with one clear projection is
-// refused, however deep the texture.
+// An element over several textured segments answers what a detection on the same segments answers: no slave
+// with one clear projection is refused, however deep the texture.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,12 +20,20 @@ using nlohmann::json;
 
 json draw_deep_texture(Random& random, int parameters) {
   if (random.below(4) == 0)
-    return {{"type", "thread"}, {"pitch", random.uniform(0.15, 0.4)}, {"flank_angles", {30.0, 30.0}}, {"crest", 0.03}, {"root", 0.05}};
+    return {{"type", "thread"},
+            {"pitch", random.uniform(0.15, 0.4)},
+            {"flank_angles", {30.0, 30.0}},
+            {"crest", 0.03},
+            {"root", 0.05}};
   json wave_vector = json::array();
   const double most = random.coin() ? 1.2 : 3.0;
   double steepest = 0.0;
-  for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(0.1, most)), steepest += wave_vector.back().get<double>();
-  return {{"type", "sine"}, {"amplitude", random.uniform(0.01, std::min(0.1, 0.15 / steepest))}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3.0, 3.0)}};
+  for (int a = 0; a < parameters; ++a)
+    wave_vector.push_back(random.uniform(0.1, most)), steepest += wave_vector.back().get<double>();
+  return {{"type", "sine"},
+          {"amplitude", random.uniform(0.01, std::min(0.1, 0.15 / steepest))},
+          {"wave_vector", wave_vector},
+          {"phase", random.uniform(-3.0, 3.0)}};
 }
 
 std::int64_t slaves_of_each_basis() {
@@ -45,7 +53,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
   double first_us = 0.0, followed_us = 0.0, longest_us = 0.0;
   while (total < slaves_of_each_basis()) {
     MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);
-    json text{{"segment", basis.name}, {"height", draw_deep_texture(random, t)},
+    json text{{"segment", basis.name},
+              {"height", draw_deep_texture(random, t)},
               {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 7.0}}}}}};
     const double limit = random.coin() ? 0.3 : random.uniform(0.5, 3.0);
     text["penetration_limit"] = limit;
@@ -54,7 +63,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
     json patch = json::array();
     const int m = basis.node_count();
     for (std::int64_t s = 0; s < mesh.segments(); ++s)
-      patch.push_back(std::vector<std::int64_t>(mesh.connectivity.begin() + s * m, mesh.connectivity.begin() + (s + 1) * m));
+      patch.push_back(std::vector<std::int64_t>(mesh.connectivity.begin() + s * m,
+                                                mesh.connectivity.begin() + (s + 1) * m));
     text["patch"] = patch;
     const Model whole(text.dump());
     ents_layout layout{};
@@ -63,7 +73,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
     std::vector<double> coordinates(static_cast<std::size_t>(mesh.nodes() * t));
     for (std::size_t i = 0; i < mesh.connectivity.size(); ++i)
       for (int k = 0; k < t; ++k)
-        coordinates[static_cast<std::size_t>(mesh.connectivity[i] * t + k)] = mesh.surface_coordinates[i * static_cast<std::size_t>(t) + static_cast<std::size_t>(k)];
+        coordinates[static_cast<std::size_t>(mesh.connectivity[i] * t + k)] =
+            mesh.surface_coordinates[i * static_cast<std::size_t>(t) + static_cast<std::size_t>(k)];
     if (local) mesh.surface_coordinates.clear();
     Detector detector(single, mesh);
     for (int n = 0; n < 20; ++n, ++total) {
@@ -71,7 +82,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       std::vector<double> xi = {random.uniform(-1.0, 1.0)};
       if (t == 2) xi.push_back(random.uniform(-1.0, 1.0));
       if (basis.simplex) xi = {random.uniform(0.0, 0.5), random.uniform(0.0, 0.5)};
-      const SurfacePoints at = evaluate_surface(single, mesh.master(segment).data(), local ? nullptr : mesh.coordinates(segment), xi);
+      const SurfacePoints at = evaluate_surface(single, mesh.master(segment).data(),
+                                                local ? nullptr : mesh.coordinates(segment), xi);
       if (at.status != ENTS_OK) continue;
       const double depth = random.uniform(-0.1, 0.29);
       std::vector<double> slave(dim);
@@ -79,7 +91,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       Detector::Found found;
       detector.detect(slave, limit, found);
       const bool behind = (found.flags[0] & (ENTS_FLAG_BEHIND_EDGE | ENTS_FLAG_AMBIGUOUS)) != 0;
-      std::vector<double> state(static_cast<std::size_t>(layout.state_size)), end(state), residual(static_cast<std::size_t>(layout.dofs));
+      std::vector<double> state(static_cast<std::size_t>(layout.state_size)), end(state),
+          residual(static_cast<std::size_t>(layout.dofs));
       ents_state_init(whole.handle(), 1, state.data(), layout.state_size, nullptr);
       double gap = 7.0;
       std::int32_t flags = 0;
@@ -99,7 +112,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       ASSERT_GE(status, 0);
       if (behind) {
         ++flagged;
-        accepted_flagged += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0 && (found.flags[0] & ENTS_FLAG_BEHIND_EDGE) != 0;
+        accepted_flagged += status == ENTS_OK && (flags & ENTS_FLAG_CONTACT) != 0 &&
+                            (found.flags[0] & ENTS_FLAG_BEHIND_EDGE) != 0;
         continue;
       }
       if (found.segment[0] < 0) { // open
@@ -108,7 +122,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       }
       ++clear;
       refused += status != ENTS_OK;
-      if (status != ENTS_OK) std::printf("  status %d, gap %.17g, limit %g, depth %g\n", status, found.gap[0], limit, depth);
+      if (status != ENTS_OK)
+        std::printf("  status %d, gap %.17g, limit %g, depth %g\n", status, found.gap[0], limit, depth);
       wrong += status == ENTS_OK && std::fabs(gap - found.gap[0]) > 1e-11;
       if (status != ENTS_OK) continue;
       in.state_begin = end.data(), out.state_end = state.data();
@@ -118,18 +133,22 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       wrong += followed != ENTS_OK || std::fabs(gap - found.gap[0]) > 1e-11;
     }
   }
-  std::printf("%-12s %lld slaves, %lld with one clear answer: %lld refused, %lld wrong; %lld flagged by the detection, %lld of them in contact. "
+  std::printf("%-12s %lld slaves, %lld with one clear answer: %lld refused, %lld wrong; %lld flagged by the "
+              "detection, %lld of them in contact. "
               "First %.1f us (longest %.0f), followed %.1f us\n",
-              GetParam(), static_cast<long long>(total), static_cast<long long>(clear), static_cast<long long>(refused),
-              static_cast<long long>(wrong), static_cast<long long>(flagged), static_cast<long long>(accepted_flagged),
-              first_us / static_cast<double>(total), longest_us, followed_us / static_cast<double>(clear));
+              GetParam(), static_cast<long long>(total), static_cast<long long>(clear),
+              static_cast<long long>(refused), static_cast<long long>(wrong), static_cast<long long>(flagged),
+              static_cast<long long>(accepted_flagged), first_us / static_cast<double>(total), longest_us,
+              followed_us / static_cast<double>(clear));
   EXPECT_GT(clear, total / 2);
   EXPECT_EQ(refused, 0);
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(accepted_flagged, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Bases, PatchAnswers, testing::Values("line2", "line3", "bspline4", "catmull_rom4", "tri3", "tri6", "quad4", "quad9", "bspline16"));
+INSTANTIATE_TEST_SUITE_P(Bases, PatchAnswers,
+                         testing::Values("line2", "line3", "bspline4", "catmull_rom4", "tri3", "tri6",
+                                         "quad4", "quad9", "bspline16"));
 
 } // namespace
 } // namespace mechanics
