@@ -203,5 +203,32 @@ TEST(BehindEdge, FacetsRoundAPitAreAllCounted) {
   }
 }
 
+// Far from the origin, where positions are known to 1e-10 only: a slave on the outer border of a textured surface is on the surface.
+TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
+  Random random(41);
+  const Basis& basis = basis_named("tri3");
+  const Model model(R"({"segment": "tri3", "height": {"type": "sine", "amplitude": 0.00025, "wave_vector": [0.4, 0.3]}})");
+  for (const double offset : {0.0, 1e3, 1e6}) {
+    std::int64_t lost = 0;
+    const int count = static_cast<int>(samples(2000));
+    for (int trial = 0; trial < count / 20; ++trial) {
+      MeshSurface mesh = kinked(random, basis, 0.0);
+      for (double& x : mesh.positions) x = 0.005 * x + offset;
+      std::vector<double> slaves;
+      for (int i = 0; i < 20; ++i) {
+        const double along = 0.05 + 0.9 * random.uniform(0.0, 1.0); // the side xi_2 = 0 of the first segment, which is on the border
+        const SurfacePoints at = evaluate_surface(model, mesh.master(0).data(), mesh.coordinates(0), {along, 0.0});
+        const double gap = random.uniform(-0.00025, 0.00025);
+        for (std::size_t k = 0; k < 3; ++k) slaves.push_back(at.point[k] + gap * at.normal[k]);
+      }
+      Detector::Found found;
+      Detector(model, mesh).detect(slaves, 0.5, found);
+      for (const std::int64_t segment : found.segment) lost += segment < 0;
+    }
+    std::printf("offset %5g: %lld of %d lost\n", offset, static_cast<long long>(lost), count / 20 * 20);
+    EXPECT_EQ(lost, 0);
+  }
+}
+
 } // namespace
 } // namespace mechanics

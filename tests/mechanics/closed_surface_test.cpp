@@ -216,7 +216,9 @@ void expect_right_answers(const char* what, MeshSurface (*draw)(Random&), std::u
         const bool behind = (found.flags[i] & ENTS_FLAG_BEHIND_EDGE) != 0;
         const double gap = found.gap[i], exact = distance[i];
         ++all.slaves;
-        const bool right = !none && std::fabs(gap - exact) <= 1e-9;
+        // a slave beside an edge may be projected within the border, 1e-7 of half a segment, which is at most
+        // 1 long
+        const bool right = !none && std::fabs(gap - exact) <= 1e-7;
         all.clear += right || (none && !flagged);
         all.flagged += flagged;
         all.flagged_clear += flagged && right;
