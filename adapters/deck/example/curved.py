@@ -164,7 +164,7 @@ def main():
         print("curved.py: gmsh or ccx_ents is missing (apt-get install gmsh; sh adapters/calculix/run.sh --only-build)", file=sys.stderr)
         return 3
     out.mkdir(parents=True, exist_ok=True)
-    upper = mesh(out, "upper", UPPER, SLAVE, 0.4, ZONE, 20001)
+    upper = mesh(out, "upper", UPPER, SLAVE, 0.4, ZONE, 100001)
     upper["x"][:, 2] += GAP
     contact = {"normal": {"type": "penalty", "stiffness": PENALTY}}
     print("master               top nodes  nodes    contact elements  ccx       iterations  force [uN] of all increments     difference")
