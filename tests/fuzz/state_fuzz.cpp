@@ -23,7 +23,8 @@ std::vector<ents_model*> make_models() {
   for (int s = 0; s < 6; ++s)
     for (const char* contact : contacts)
       for (const bool patch : {false, true}) {
-        if (patch && !patches[s][0]) continue;
+        if (patch && (!patches[s][0] || contact == contacts[2]))
+          continue; // augmented friction stays on one segment
         const std::string text = R"({"segment": ")" + std::string(segments[s]) +
                                  R"(", "height": {"type": "sine", "amplitude": 0.05, "wave_vector": )" +
                                  (s < 3 ? "[0.7]" : "[0.7, 0.4]") + R"(}, "contact": )" + contact +
