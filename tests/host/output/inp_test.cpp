@@ -202,7 +202,7 @@ TEST(InpErrors, Files) {
                  "(Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")");
   EXPECT_TRUE(error_of(square + "*NGEN\n1, 2\n").ends_with("write a flat deck of *NODE and *ELEMENT"));
   expect_error(square + "*NSET,\n", "deck.inp:8", "ends inside the keyword line");
-  expect_error("*INCLUDE, INPUT=none.inp\n", "deck.inp:1", "cannot read none.inp");
+  expect_error("*INCLUDE, INPUT=none.inp\n", "deck.inp:1", "none.inp: cannot be read: it does not exist");
   EXPECT_EQ(error_of(""), "deck.inp: no mesh; expected *NODE and *ELEMENT with data lines");
   EXPECT_THROW(inp::read("/no/such/deck.inp"), inp::Error);
   EXPECT_THROW(inp::read("/"), inp::Error); // a folder
