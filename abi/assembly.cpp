@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_assemble and ents_iterate: elements evaluated, their residuals and tangents added to the host's equations.
+// ents_assemble and ents_iterate: elements evaluated, their residuals and tangents added to the host's
+// equations.
 #include <algorithm>
 
 #include "abi/detection_call.hpp"
@@ -14,16 +15,21 @@ namespace {
 
 class Assembly {
 public:
-  Assembly(const ElementCall& call, ents_report* report) : call_(call), plan_(*call.plan), equations_(call, report), report_(report) {}
+  Assembly(const ElementCall& call, ents_report* report)
+      : call_(call), plan_(*call.plan), equations_(call, report), report_(report) {}
 
-  std::int32_t open(const ents_system* caller, std::int64_t first, std::int64_t count) { return equations_.open(caller, first, count); }
+  std::int32_t open(const ents_system* caller, std::int64_t first, std::int64_t count) {
+    return equations_.open(caller, first, count);
+  }
   std::int32_t add(std::int64_t first, std::int64_t count);
 
 private:
   static constexpr int block_numbers = 8192; // of tangents, on the stack
   std::int32_t add(std::int64_t e);
-  std::uint64_t evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents, std::int32_t* flags) const;
-  std::int32_t add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const;
+  std::uint64_t evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents,
+                               std::int32_t* flags) const;
+  std::int32_t add_evaluated(std::int64_t e, std::int32_t flags, const double* residual,
+                             const double* tangent) const;
 
   const ElementCall& call_;
   const Plan& plan_;
@@ -51,17 +57,20 @@ std::int32_t Assembly::add(std::int64_t e) {
   return equations_.add(e, residual, tangent, false);
 }
 
-std::int32_t Assembly::add_evaluated(std::int64_t e, std::int32_t flags, const double* residual, const double* tangent) const {
+std::int32_t Assembly::add_evaluated(std::int64_t e, std::int32_t flags, const double* residual,
+                                     const double* tangent) const {
   if ((call_.out->wanted & ENTS_FLAGS) != 0) *at(call_.out->flags, call_.out->flags_stride, e) = flags;
   if (call_.out->status) *at(call_.out->status, call_.out->status_stride, e) = ENTS_OK;
   call_.mark_state(e);
-  return (flags & ENTS_FLAG_CONTACT) == 0 ? ENTS_OK : equations_.add(e, residual, tangent, !plan_.law.has_friction());
+  return (flags & ENTS_FLAG_CONTACT) == 0 ? ENTS_OK
+                                          : equations_.add(e, residual, tangent, !plan_.law.has_friction());
 }
 
 // Bit k: element first + k is evaluated.
-std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, double* residuals, double* tangents,
-                                       std::int32_t* flags) const {
-  const std::int32_t wanted = call_.out->wanted | ENTS_FLAGS | ENTS_RESIDUAL | (equations_.wants_tangent() ? ENTS_TANGENT : 0);
+std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, double* residuals,
+                                       double* tangents, std::int32_t* flags) const {
+  const std::int32_t wanted =
+      call_.out->wanted | ENTS_FLAGS | ENTS_RESIDUAL | (equations_.wants_tangent() ? ENTS_TANGENT : 0);
   if (pair_results(*call_.model, wanted) != wanted) return 0;
   for (std::int64_t k = 0; k < count; ++k)
     if (!call_.state_follows(first + k)) return 0;
@@ -78,8 +87,10 @@ std::uint64_t Assembly::evaluate_block(std::int64_t first, std::int64_t count, d
 }
 
 std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
-  const std::int64_t fitting = block_numbers / (plan_.dofs * plan_.dofs), registers = fitting & ~std::int64_t{7}; // whole ones
-  const std::int64_t most = std::clamp<std::int64_t>(registers > 0 ? registers : fitting, 1, ElementCall::BlockNodes::most);
+  const std::int64_t fitting = block_numbers / (plan_.dofs * plan_.dofs),
+                     registers = fitting & ~std::int64_t{7}; // whole ones
+  const std::int64_t most =
+      std::clamp<std::int64_t>(registers > 0 ? registers : fitting, 1, ElementCall::BlockNodes::most);
   double residuals[ElementCall::BlockNodes::most * Equations::max_dofs], tangents[block_numbers];
   std::int32_t flags[ElementCall::BlockNodes::most], result = ENTS_OK;
   const std::int64_t last = first + count;
@@ -90,9 +101,10 @@ std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
     for (std::int64_t k = 0; k < size; ++k) {
       const std::int64_t e = first + k;
       if (e + 1 < last) equations_.fetch(e + 1);
-      const std::int32_t outcome =
-          (done >> k & 1) == 0 ? add(e)
-                               : add_evaluated(e, flags[k], residuals + k * plan_.dofs, tangents + k * plan_.dofs * plan_.dofs);
+      const std::int32_t outcome = (done >> k & 1) == 0
+                                       ? add(e)
+                                       : add_evaluated(e, flags[k], residuals + k * plan_.dofs,
+                                                       tangents + k * plan_.dofs * plan_.dofs);
       if (const std::int32_t end = call_.settle(outcome, e, result, report_); end < 0) return end;
     }
   }
@@ -100,18 +112,22 @@ std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {
 }
 
 // Elements that a detection has found; results per element only.
-std::int32_t evaluate_found(const ElementCall& call, std::int64_t first, std::int64_t count, ents_report* report) {
+std::int32_t evaluate_found(const ElementCall& call, std::int64_t first, std::int64_t count,
+                            ents_report* report) {
   report_ok(report);
   std::int32_t result = ENTS_OK;
-  for (std::int64_t end, last = first + count; first < last; first = end) { // runs of elements with a segment, and without
+  for (std::int64_t end, last = first + count; first < last;
+       first = end) { // runs of elements with a segment, and without
     const bool found = call.segment(first) >= 0;
     for (end = first + 1; end < last && (call.segment(end) >= 0) == found;) ++end;
     if (found) {
-      if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0) return status;
+      if (const std::int32_t status = call.evaluate_range(first, end - first, result, report); status < 0)
+        return status;
       continue;
     }
     for (std::int64_t e = first; e < end; ++e)
-      if (const std::int32_t status = call.settle(call.evaluate_open(e, {}), e, result, report); status < 0) return status;
+      if (const std::int32_t status = call.settle(call.evaluate_open(e, {}), e, result, report); status < 0)
+        return status;
   }
   return result;
 }
@@ -122,8 +138,9 @@ constexpr ents_output no_results() {
   return none;
 }
 
-std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input, const ents_output* output,
-                      const ents_system* system, ents_report* report) {
+std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t count,
+                      const ents_input* input, const ents_output* output, const ents_system* system,
+                      ents_report* report) {
   const FloatingPointGuard guard;
   const ents_output none = no_results();
   ElementCall call;
@@ -138,21 +155,25 @@ std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t 
 // What ents_iterate takes of the caller's input: the rest comes from the detection.
 std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_report* report) {
   if (input.slave || input.master || input.mesh || input.segment || input.start || input.surface_coordinates)
-    return report_status(report, ENTS_BAD_VALUE, -1,
-                         "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
-                         "takes them from the detection");
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
+        "takes them from the detection");
   if (model.model.law.has_friction() && input.state_begin)
-    return report_status(report, ENTS_BAD_VALUE, -1,
-                         "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "input.state_begin with friction: use ents_detect, ents_state_transfer and ents_assemble");
   if (!model.model.patch.empty())
-    return report_status(report, ENTS_BAD_VALUE, -1,
-                         "the elements of this model are patches: they choose their segments themselves; use ents_evaluate");
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "the elements of this model are patches: they choose their segments themselves; use ents_evaluate");
   return ENTS_OK;
 }
 
 // All that can be refused before the first slave is looked at is, and then nothing has been written.
-std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, std::int64_t size, std::int64_t first,
-                     std::int64_t count, const ents_detection* detection, const ents_input* input, const ents_output* output,
+std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree,
+                     std::int64_t size, std::int64_t first, std::int64_t count,
+                     const ents_detection* detection, const ents_input* input, const ents_output* output,
                      const ents_system* system, ents_report* report) {
   const FloatingPointGuard guard;
   ents_input copy{};
@@ -162,7 +183,8 @@ std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, cons
   if (status == ENTS_OK) status = check_rest(*model, *rest, report);
   if (status != ENTS_OK) return status;
   DetectionCall slaves;
-  if ((status = slaves.open(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK) return status;
+  if ((status = slaves.open(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK)
+    return status;
   ents_input in = *rest;
   in.struct_size = sizeof in;
   in.mesh = mesh;
@@ -172,13 +194,15 @@ std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, cons
   const ents_output none = no_results();
   ElementCall call;
   call.start_first = true;
-  if ((status = call.open(model, first, count, &in, output || !system ? output : &none, report)) != ENTS_OK) return status;
+  if ((status = call.open(model, first, count, &in, output || !system ? output : &none, report)) != ENTS_OK)
+    return status;
   Assembly assembly(call, report);
   if (system && (status = assembly.open(system, first, count)) != ENTS_OK) return status;
   std::int64_t lost = -1;
   if ((status = slaves.detect_all(first, count, lost, report)) != ENTS_OK) return status;
   if (lost >= 0)
-    return report_message(report, ENTS_NO_PROJECTION, lost, "slave %lld is behind an edge between segments and ahead of none",
+    return report_message(report, ENTS_NO_PROJECTION, lost,
+                          "slave %lld is behind an edge between segments and ahead of none",
                           static_cast<long long>(lost));
   return system ? assembly.add(first, count) : evaluate_found(call, first, count, report);
 }
@@ -191,7 +215,8 @@ extern "C" {
 
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
-  return ents::at_the_door(report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
+  return ents::at_the_door(
+      report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
 }
 
 int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,

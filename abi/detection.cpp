@@ -76,7 +76,8 @@ std::int32_t check_is_tree(const Plan& plan, const MasterMesh& mesh, const doubl
 std::int32_t check_tree_of_model(const Plan& plan, const double* tree, ents_report* report) noexcept {
   if (is_tree_of_model(plan, tree)) return ENTS_OK;
   return report_status(report, ENTS_BAD_STATE, -1,
-                       "argument 'tree' was made with another model: its boxes hold another height, segment, border or surface coordinates. "
+                       "argument 'tree' was made with another model: its boxes hold another height, segment, "
+                       "border or surface coordinates. "
                        "Call ents_tree_refit with this model");
 }
 
@@ -98,8 +99,9 @@ std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, 
 
 } // namespace
 
-std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mesh* caller, const double* boxes, std::int64_t size,
-                                 std::int64_t first, std::int64_t count, const ents_detection* detection, ents_report* report) {
+std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mesh* caller,
+                                 const double* boxes, std::int64_t size, std::int64_t first,
+                                 std::int64_t count, const ents_detection* detection, ents_report* report) {
   std::int32_t status = check_handle(handle, report);
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
   if (status == ENTS_OK) status = check_tree_size(handle->plan, mesh, boxes, size, report);
@@ -126,7 +128,8 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
   return ENTS_OK;
 }
 
-std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, std::int64_t& lost, ents_report* report) const {
+std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, std::int64_t& lost,
+                                       ents_report* report) const {
   const Plan& plan = model->plan;
   lost = -1;
   for (std::int64_t i = first; i < first + count; ++i) {
@@ -140,8 +143,10 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
     found.segment = io->segment[i];
     if (io->slave_node) found.own_node = io->slave_node[i];
     if (found.own_node < -1 || found.own_node >= mesh.nodes)
-      return report_message(report, ENTS_BAD_VALUE, i, "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld", static_cast<long long>(i),
-                            static_cast<long long>(found.own_node), static_cast<long long>(mesh.nodes - 1));
+      return report_message(report, ENTS_BAD_VALUE, i,
+                            "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld",
+                            static_cast<long long>(i), static_cast<long long>(found.own_node),
+                            static_cast<long long>(mesh.nodes - 1));
     if (found.segment < -1 || found.segment >= mesh.segments)
       return report_message(report, ENTS_BAD_VALUE, i,
                             "detection.segment of node %lld is %lld; -1 or 0 .. %lld",
@@ -156,17 +161,17 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
     const Status outcome = detect(plan, mesh, tree, slave, io->reach, found);
     if (outcome == Status::bad_state)
       return report_status(report, ENTS_BAD_STATE, i,
-                           "argument 'tree' has been written over: it holds NaN or a segment that does not exist. Build it again with "
+                           "argument 'tree' has been written over: it holds NaN or a segment that does not "
+                           "exist. Build it again with "
                            "ents_tree_build");
-    if (outcome != Status::ok)
-      return explain_segment(plan, mesh, outcome, found.segment, report);
+    if (outcome != Status::ok) return explain_segment(plan, mesh, outcome, found.segment, report);
     io->segment[i] = found.segment;
     if (found.segment >= 0)
       for (int a = 0; a < plan.parameters; ++a) xi[a] = found.at.xi[a];
     if (io->gap) io->gap[i] = found.segment >= 0 ? found.at.gap : 0.0;
     if (io->flags)
-      io->flags[i] =
-          (found.searched ? ENTS_FLAG_SEARCHED : 0) | (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0) |
+      io->flags[i] = (found.searched ? ENTS_FLAG_SEARCHED : 0) |
+                     (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0) |
                      (found.behind_edge ? ENTS_FLAG_BEHIND_EDGE : 0);
     if (io->other) io->other[i] = found.other;
     if (found.behind_edge && lost < 0) lost = i;
@@ -207,7 +212,8 @@ int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, d
 int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                     int64_t first, int64_t count, const ents_detection* detection, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    const ents::FloatingPointGuard guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
+    const ents::FloatingPointGuard
+        guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
     ents::DetectionCall call;
     const std::int32_t status = call.open(model, mesh, tree, size, first, count, detection, report);
     std::int64_t lost = -1;

@@ -10,11 +10,13 @@ bool only_forces(std::int32_t wanted) noexcept { return (wanted & ~(want::residu
 
 } // namespace
 
-PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first) noexcept {
+PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out,
+                     std::int64_t first) noexcept {
   PairBlock b;
   b.slave = in.slave, b.slave_stride = in.slave_stride;
   b.master = in.master, b.master_stride = in.master_stride;
-  b.surface_coordinates = in.surface_coordinates, b.surface_coordinates_stride = in.surface_coordinates_stride;
+  b.surface_coordinates = in.surface_coordinates,
+  b.surface_coordinates_stride = in.surface_coordinates_stride;
   b.start = in.start, b.start_stride = in.start_stride;
   b.area = in.area, b.area_stride = in.area_stride;
   b.state_begin = in.state_begin, b.state_begin_stride = in.state_begin_stride;
@@ -73,58 +75,72 @@ void begin_at_first(PairBlock& b) noexcept {
 namespace {
 
 // All that ents_evaluate refuses is false here.
-bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* in, const ents_output* out,
-                   const ents_report* report) noexcept {
+bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* in,
+                   const ents_output* out, const ents_report* report) noexcept {
   constexpr std::int64_t most = std::int64_t{1} << 28;
   if (!model || model->magic != ents_model::live || !in || !out) return false;
-  if (in->struct_size != static_cast<std::int32_t>(sizeof *in) || out->struct_size != static_cast<std::int32_t>(sizeof *out)) return false;
+  if (in->struct_size != static_cast<std::int32_t>(sizeof *in) ||
+      out->struct_size != static_cast<std::int32_t>(sizeof *out))
+    return false;
   if (report && report->struct_size != static_cast<std::int32_t>(sizeof *report)) return false;
   const Plan& plan = model->plan;
   const std::int32_t wanted = out->wanted;
   if (wanted == 0 || pair_results(*model, wanted) != wanted) return false;
   if (first < 0 || count < 1 || first > most || count > most) return false;
-  if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin)) return false;
+  if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin))
+    return false;
   const bool one = first + count == 1; // its strides are of no meaning
   const auto shared = [one](const void* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
     return !data || one || stride == 0 || (stride >= size && stride < most);
   };
-  const auto own = [wanted, one](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
-    return (wanted & bit) == 0 || (data && (one || (stride >= size && stride < most)));
-  };
+  const auto own = [wanted, one](std::int32_t bit, const void* data, std::int64_t stride, std::int64_t size)
+                       ENTS_LAMBDA_INLINE {
+                         return (wanted & bit) == 0 || (data && (one || (stride >= size && stride < most)));
+                       };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, n = plan.dofs;
   const std::int64_t leading = leading_dimension(*model, *out);
   if (!(shared(in->slave, in->slave_stride, d) && shared(in->master, in->master_stride, m * d) &&
-        shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) && shared(in->start, in->start_stride, t) &&
-        shared(in->area, in->area_stride, 1) && shared(in->state_begin, in->state_begin_stride, model->sizes.state) &&
+        shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) &&
+        shared(in->start, in->start_stride, t) && shared(in->area, in->area_stride, 1) &&
+        shared(in->state_begin, in->state_begin_stride, model->sizes.state) &&
         own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&
         own(want::tangent, out->tangent, out->tangent_stride, (n - 1) * leading + n) &&
         (!out->status || one || (out->status_stride >= 1 && out->status_stride < most))))
     return false;
   if ((wanted & ~(want::residual | want::tangent)) == 0) return true;
-  return own(want::xi, out->xi, out->xi_stride, t) && !writes_start(*model, *in, *out, first, count) && own(want::gap, out->gap, out->gap_stride, 1) &&
-         own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) && own(want::normal, out->normal, out->normal_stride, d) &&
-         own(want::point, out->point, out->point_stride, d) && own(want::traction, out->traction, out->traction_stride, d) &&
-         own(want::energy, out->energy, out->energy_stride, 1) && own(want::pressure, out->pressure, out->pressure_stride, 1) &&
-         own(want::state, out->state_end, out->state_end_stride, model->sizes.state) && !states_overlap(*model, *in, *out, first, count) &&
+  return own(want::xi, out->xi, out->xi_stride, t) && !writes_start(*model, *in, *out, first, count) &&
+         own(want::gap, out->gap, out->gap_stride, 1) &&
+         own(want::normal_gap, out->normal_gap, out->normal_gap_stride, 1) &&
+         own(want::normal, out->normal, out->normal_stride, d) &&
+         own(want::point, out->point, out->point_stride, d) &&
+         own(want::traction, out->traction, out->traction_stride, d) &&
+         own(want::energy, out->energy, out->energy_stride, 1) &&
+         own(want::pressure, out->pressure, out->pressure_stride, 1) &&
+         own(want::state, out->state_end, out->state_end_stride, model->sizes.state) &&
+         !states_overlap(*model, *in, *out, first, count) &&
          own(want::slip, out->slip, out->slip_stride, 1) && own(want::age, out->age, out->age_stride, 1) &&
-         own(want::flags, out->flags, out->flags_stride, 1) && own(want::iterations, out->iterations, out->iterations_stride, 1);
+         own(want::flags, out->flags, out->flags_stride, 1) &&
+         own(want::iterations, out->iterations, out->iterations_stride, 1);
 }
 
 } // namespace
 
-bool evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* in, const ents_output* out,
-                         const ents_report* report) noexcept {
+bool evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count,
+                         const ents_input* in, const ents_output* out, const ents_report* report) noexcept {
   if (count > PairBlock::most || !is_plain_call(model, first, count, in, out, report)) return false;
   if (in->state_begin)
     for (std::int64_t e = first; e < first + count; ++e)
-      if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size])) return false;
+      if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size]))
+        return false;
   const PairBlock block = pair_block(*model, *in, *out, first);
   const std::int32_t size = static_cast<std::int32_t>(count);
-  if (model->plan.pairs(model->plan, block, size) != ~std::uint64_t{0} >> (PairBlock::most - size)) return false;
+  if (model->plan.pairs(model->plan, block, size) != ~std::uint64_t{0} >> (PairBlock::most - size))
+    return false;
   if (out->status)
     for (std::int64_t e = first; e < first + count; ++e) out->status[e * out->status_stride] = ENTS_OK;
   if ((out->wanted & ENTS_STATE) != 0) // without a mesh nobody knows the segment
-    for (std::int64_t e = first; e < first + count; ++e) out->state_end[e * out->state_end_stride + model->plan.state.size] = 0.0;
+    for (std::int64_t e = first; e < first + count; ++e)
+      out->state_end[e * out->state_end_stride + model->plan.state.size] = 0.0;
   return true;
 }
 

@@ -10,7 +10,9 @@ namespace ents {
 
 std::int32_t refuse_without_contact(const char* asks, ents_report* report) {
   return report_message(report, ENTS_BAD_MASK, -1,
-                        "%s, but the model has no \"contact\": add {\"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": ...}}}", asks);
+                        "%s, but the model has no \"contact\": add {\"contact\": {\"normal\": {\"type\": "
+                        "\"penalty\", \"stiffness\": ...}}}",
+                        asks);
 }
 
 namespace {
@@ -25,7 +27,8 @@ struct Array {
 
 Array output_array(const ents_model& model, const ents_output& out, int bit) noexcept {
   const Plan& plan = model.plan;
-  const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs, n = all - plan.multipliers;
+  const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs,
+                     n = all - plan.multipliers;
   switch (1 << bit) {
   case ENTS_XI:
     return {"xi", out.xi, out.xi_stride, t};
@@ -68,17 +71,19 @@ Array output_array(const ents_model& model, const ents_output& out, int bit) noe
   }
 }
 
-// The distance of elements of an array that has elements 0 .. last; 0 is `smallest` where elements may share values.
+// The distance of elements of an array that has elements 0 .. last; 0 is `smallest` where elements may share
+// values.
 std::int32_t check_stride(const char* group, const Array& a, std::int64_t smallest, std::int64_t last,
                           ents_report* report) {
   if (a.stride < smallest)
-    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; %sat least %lld is needed", group,
-                          a.name, static_cast<long long>(a.stride), group[0] == 'i' ? "0 (shared) or " : "",
-                          static_cast<long long>(smallest));
+    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; %sat least %lld is needed",
+                          group, a.name, static_cast<long long>(a.stride),
+                          group[0] == 'i' ? "0 (shared) or " : "", static_cast<long long>(smallest));
   const auto width = [](std::int64_t n) { return std::bit_width(static_cast<std::uint64_t>(n)); };
   if (width(a.stride) + width(last) > most_bits)
-    return report_message(report, ENTS_BAD_COUNT, -1, "%s.%s_stride is %lld; element %lld would lie beyond any memory",
-                          group, a.name, static_cast<long long>(a.stride), static_cast<long long>(last));
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "%s.%s_stride is %lld; element %lld would lie beyond any memory", group, a.name,
+                          static_cast<long long>(a.stride), static_cast<long long>(last));
   return ENTS_OK;
 }
 
@@ -132,31 +137,37 @@ Array input_array(const ents_model& model, const ents_input& in, int index) noex
   }
 }
 
-std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64_t count, const ents_input& in,
-                         ents_report* report) {
+std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64_t count,
+                         const ents_input& in, ents_report* report) {
   constexpr std::int64_t most = std::int64_t{1} << 50;
   if (first < 0 || count < 0 || first > most - count)
     return report_message(report, ENTS_BAD_COUNT, -1,
                           "first = %lld, count = %lld: both must be >= 0 and end before element 2^50",
                           static_cast<long long>(first), static_cast<long long>(count));
-  if (const std::int32_t status = check_reserved(in.reserved, "input", report); status != ENTS_OK) return status;
+  if (const std::int32_t status = check_reserved(in.reserved, "input", report); status != ENTS_OK)
+    return status;
   if (count == 0) return ENTS_OK;
   if (!in.slave) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.slave is null");
-  if (in.mesh && !in.segment) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.segment is null, but input.mesh is not");
+  if (in.mesh && !in.segment)
+    return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.segment is null, but input.mesh is not");
   if (in.mesh && (in.master || in.surface_coordinates))
-    return report_message(report, ENTS_BAD_VALUE, -1, "input.%s and input.mesh are both given; one must be null",
+    return report_message(report, ENTS_BAD_VALUE, -1,
+                          "input.%s and input.mesh are both given; one must be null",
                           in.master ? "master" : "surface_coordinates");
   if (!in.mesh && !in.master)
     return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.master is null (and input.mesh, too)");
   if (in.mesh && !model.model.patch.empty())
     return report_status(report, ENTS_BAD_VALUE, -1,
-                         "input.mesh is given, but the model has a \"patch\": its elements bring their own nodes in input.master");
+                         "input.mesh is given, but the model has a \"patch\": its elements bring their own "
+                         "nodes in input.master");
   if (model.plan.multipliers > 0 && !in.multiplier)
-    return report_message(report, ENTS_NULL_ARGUMENT, -1, "input.multiplier is null, but the model has %d multiplier dofs",
+    return report_message(report, ENTS_NULL_ARGUMENT, -1,
+                          "input.multiplier is null, but the model has %d multiplier dofs",
                           model.plan.multipliers);
   const std::int64_t last = first + count - 1;
   if (in.mesh && last > 0 && in.segment_stride != 0)
-    if (const std::int32_t status = check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
+    if (const std::int32_t status =
+            check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
         status != ENTS_OK)
       return status;
   if (last > 0)
@@ -171,8 +182,8 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
 
 } // namespace
 
-std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count, const ents_input* input,
-                               const ents_output* output, ents_report* report) {
+std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count,
+                               const ents_input* input, const ents_output* output, ents_report* report) {
   std::int32_t status = check_handle(handle, report);
   if (status != ENTS_OK) return status;
   model = handle, plan = &handle->plan;
@@ -184,11 +195,13 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   if ((status = check_input(*handle, first, count, *in, report)) != ENTS_OK) return status;
   if ((status = check_output(*handle, first, count, *out, report)) != ENTS_OK) return status;
   if (states_overlap(*handle, *in, *out, first, count))
-    return report_status(report, ENTS_BAD_VALUE, -1, "output.state_end overlaps input.state_begin; give it an array of its own");
+    return report_status(report, ENTS_BAD_VALUE, -1,
+                         "output.state_end overlaps input.state_begin; give it an array of its own");
   const bool in_place = in->start == out->xi && (first + count <= 1 || in->start_stride == out->xi_stride);
   if (!in_place && writes_start(*handle, *in, *out, first, count))
-    return report_status(report, ENTS_BAD_VALUE, -1,
-                         "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
   return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
 }
 
@@ -204,44 +217,55 @@ void ElementCall::write_open(std::int64_t e) const {
     const Array a = output_array(*model, *out, bit);
     if ((1 << bit) == ENTS_TANGENT) // the padding is the caller's
       for (std::int64_t j = 0; j < model->sizes.dofs; ++j)
-        std::fill_n(at(out->tangent, out->tangent_stride, e) + j * leading_dimension(*model, *out), model->sizes.dofs, 0.0);
+        std::fill_n(at(out->tangent, out->tangent_stride, e) + j * leading_dimension(*model, *out),
+                    model->sizes.dofs, 0.0);
     else if (bit >= std::countr_zero(std::uint32_t{ENTS_FLAGS}) && (1 << bit) <= ENTS_ITERATIONS)
-      *at(static_cast<std::int32_t*>(const_cast<void*>(a.data)), a.stride, e) = (1 << bit) == ENTS_FLAGS ? ENTS_FLAG_OUTSIDE : 0;
+      *at(static_cast<std::int32_t*>(const_cast<void*>(a.data)), a.stride, e) =
+          (1 << bit) == ENTS_FLAGS ? ENTS_FLAG_OUTSIDE : 0;
     else
       std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
   }
-  if ((out->wanted & ENTS_STATE) != 0) at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
+  if ((out->wanted & ENTS_STATE) != 0)
+    at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
 }
 
-// R = -A / eps lambda, K = -A / eps; in each the roundings of the element kernel. A slave without area has its equations, too.
-void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const {
+// R = -A / eps lambda, K = -A / eps; in each the roundings of the element kernel. A slave without area has
+// its equations, too.
+void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tangent,
+                                   std::int64_t leading) const {
   const double given = in->area ? *at(in->area, in->area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
   const double* lambda = at(in->multiplier, in->multiplier_stride, e);
   const std::int64_t size = plan->multipliers, first = model->sizes.dofs - size;
   for (std::int64_t a = 0; residual && a < size; ++a)
-    residual[first + a] = a == 0 ? -area / plan->law.stiffness * lambda[0] : (0.0 - area * lambda[a]) / plan->law.friction_stiffness;
+    residual[first + a] = a == 0 ? -area / plan->law.stiffness * lambda[0]
+                                 : (0.0 - area * lambda[a]) / plan->law.friction_stiffness;
   for (std::int64_t a = 0; tangent && a < size; ++a)
     for (std::int64_t b = 0; b < size; ++b)
-      tangent[(first + b) * leading + first + a] =
-          a != b ? 0.0 : a == 0 ? -area / plan->law.stiffness : 1.0 / plan->law.friction_stiffness * (0.0 - area);
+      tangent[(first + b) * leading + first + a] = a != b ? 0.0
+                                                   : a == 0
+                                                       ? -area / plan->law.stiffness
+                                                       : 1.0 / plan->law.friction_stiffness * (0.0 - area);
   if ((out->wanted & ENTS_ENERGY) != 0) // of the normal one; friction has none
     *at(out->energy, out->energy_stride, e) = area * (-0.5 * lambda[0] * lambda[0] / plan->law.stiffness);
 }
 
 // As the element kernel, but for the start: nobody sets one where there is no segment.
 std::int32_t ElementCall::check_open(std::int64_t e) const {
-  const double *area = at(in->area, in->area_stride, e), *lambda = at(in->multiplier, in->multiplier_stride, e);
-  if (first_non_finite(at(in->slave, in->slave_stride, e), plan->dimension) >= 0 || first_non_finite(area, 1) >= 0 ||
-      first_non_finite(lambda, plan->multipliers) >= 0)
+  const double *area = at(in->area, in->area_stride, e),
+               *lambda = at(in->multiplier, in->multiplier_stride, e);
+  if (first_non_finite(at(in->slave, in->slave_stride, e), plan->dimension) >= 0 ||
+      first_non_finite(area, 1) >= 0 || first_non_finite(lambda, plan->multipliers) >= 0)
     return ENTS_NON_FINITE;
   if (area && *area < 0.0) return ENTS_BAD_VALUE;
-  if (in->state_begin && !(is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
-                            is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size])))
+  if (in->state_begin &&
+      !(is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
+        is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size])))
     return ENTS_BAD_STATE;
   constexpr double largest = 1e60; // products of a few such numbers stay in range
   double size = 0.0;
   for (int a = 0; a < plan->multipliers; ++a)
-    size += std::fabs(lambda[a]) * (1.0 + 1.0 / (a == 0 ? plan->law.stiffness : plan->law.friction_stiffness));
+    size +=
+        std::fabs(lambda[a]) * (1.0 + 1.0 / (a == 0 ? plan->law.stiffness : plan->law.friction_stiffness));
   return (area ? 1.0 + *area : 1.0) * size < largest ? ENTS_OK : ENTS_OUT_OF_RANGE;
 }
 
@@ -263,7 +287,8 @@ std::int32_t ElementCall::evaluate_open(std::int64_t e, const Wanted& also) cons
 ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) const {
   return {at(in->slave, in->slave_stride, e),
           in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
-          in->mesh ? nodes.surface_coordinates : at(in->surface_coordinates, in->surface_coordinates_stride, e),
+          in->mesh ? nodes.surface_coordinates
+                   : at(in->surface_coordinates, in->surface_coordinates_stride, e),
           at(in->start, in->start_stride, e),
           at(in->area, in->area_stride, e),
           at(in->state_begin, in->state_begin_stride, e),
@@ -282,11 +307,13 @@ std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* repor
   evaluate_one(element(e, nodes), result, open);
   const long long number = e;
   if (plan->penetration_limit > 0.0)
-    return report_message(report, ENTS_DEEP_PENETRATION, e,
-                          "element %lld: gap = %g, deeper than \"penetration_limit\" (%g); take a smaller step", number, gap,
-                          plan->penetration_limit);
+    return report_message(
+        report, ENTS_DEEP_PENETRATION, e,
+        "element %lld: gap = %g, deeper than \"penetration_limit\" (%g); take a smaller step", number, gap,
+        plan->penetration_limit);
   return report_message(report, ENTS_DEEP_PENETRATION, e,
-                        "element %lld: gap = %g, deeper than the segment is long; take a smaller step, or look on which side of the "
+                        "element %lld: gap = %g, deeper than the segment is long; take a smaller step, or "
+                        "look on which side of the "
                         "segment the slave should be, or give \"penetration_limit\"",
                         number, gap);
 }
@@ -300,20 +327,26 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
       const double* v = at(static_cast<const double*>(a.data), a.stride, e);
       const std::int64_t k = first_non_finite(v, a.size);
       if (k >= 0)
-        return report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name, static_cast<long long>(k), number,
-                              std::isnan(v[k]) ? "NaN" : "infinite");
+        return report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
+                              static_cast<long long>(k), number, std::isnan(v[k]) ? "NaN" : "infinite");
     }
-  if (status == ENTS_BAD_VALUE) return report_message(report, status, e, "input.area of element %lld is negative", number);
-  if (status == ENTS_BAD_STATE && in->state_begin && in->mesh && is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
-      is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) && !state_follows(e))
-    return report_message(report, status, e,
-                          "input.state_begin of element %lld was made on segment %lld, the element is on segment %lld: move it with "
-                          "ents_state_transfer first, or friction forces are wrong",
-                          number, static_cast<long long>(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) - 1,
-                          static_cast<long long>(segment(e)));
+  if (status == ENTS_BAD_VALUE)
+    return report_message(report, status, e, "input.area of element %lld is negative", number);
+  if (status == ENTS_BAD_STATE && in->state_begin && in->mesh &&
+      is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
+      is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) &&
+      !state_follows(e))
+    return report_message(
+        report, status, e,
+        "input.state_begin of element %lld was made on segment %lld, the element is on segment %lld: move it "
+        "with "
+        "ents_state_transfer first, or friction forces are wrong",
+        number, static_cast<long long>(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) - 1,
+        static_cast<long long>(segment(e)));
   if (status == ENTS_BAD_STATE)
     return report_message(report, status, e,
-                          "input.state_begin of element %lld is not a state of this segment type, law and version; fill it with ents_state_init",
+                          "input.state_begin of element %lld is not a state of this segment type, law and "
+                          "version; fill it with ents_state_init",
                           number);
   if (status == ENTS_DEEP_PENETRATION && report) return explain_penetration(e, report);
   return report_message(report, status, e, "element %lld: %s", number, ents_status_text(status));

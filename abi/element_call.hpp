@@ -15,33 +15,42 @@ inline std::int64_t leading_dimension(const ents_model& model, const ents_output
   return out.tangent_leading_dimension == 0 ? model.sizes.dofs : out.tangent_leading_dimension;
 }
 
-// Elements first .. first + count - 1 of two arrays, `size` numbers each: is there a place that both have? Elements of one stride may lie between
-// each other.
-inline bool arrays_overlap(const double* a, std::int64_t a_stride, const double* b, std::int64_t b_stride, std::int64_t size,
-                           std::int64_t first, std::int64_t count) noexcept {
+// Elements first .. first + count - 1 of two arrays, `size` numbers each: is there a place that both have?
+// Elements of one stride may lie between each other.
+inline bool arrays_overlap(const double* a, std::int64_t a_stride, const double* b, std::int64_t b_stride,
+                           std::int64_t size, std::int64_t first, std::int64_t count) noexcept {
   constexpr std::uintptr_t bytes = sizeof(double);
   const auto begin = [first](const double* data, std::int64_t stride) {
     return reinterpret_cast<std::uintptr_t>(data) + static_cast<std::uintptr_t>(stride * first) * bytes;
   };
-  const auto extent = [&](std::int64_t stride) { return static_cast<std::uintptr_t>(stride * (count - 1) + size) * bytes; };
+  const auto extent = [&](std::int64_t stride) {
+    return static_cast<std::uintptr_t>(stride * (count - 1) + size) * bytes;
+  };
   const std::uintptr_t from = begin(a, a_stride), to = begin(b, b_stride);
   if (from >= to + extent(b_stride) || to >= from + extent(a_stride)) return false;
   if (count == 1 || a_stride != b_stride || a_stride <= 0) return true;
-  const std::uintptr_t period = static_cast<std::uintptr_t>(a_stride) * bytes, room = static_cast<std::uintptr_t>(size) * bytes;
+  const std::uintptr_t period = static_cast<std::uintptr_t>(a_stride) * bytes,
+                       room = static_cast<std::uintptr_t>(size) * bytes;
   const std::uintptr_t apart = (from < to ? to - from : from - to) % period;
   return apart < room || apart > period - room;
 }
 
-// Do the states at the end of elements first .. lie on those at the begin? An element may be evaluated twice: they must not.
-inline bool states_overlap(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
+// Do the states at the end of elements first .. lie on those at the begin? An element may be evaluated twice:
+// they must not.
+inline bool states_overlap(const ents_model& model, const ents_input& in, const ents_output& out,
+                           std::int64_t first, std::int64_t count) noexcept {
   return (out.wanted & ENTS_STATE) != 0 && in.state_begin && out.state_end && count > 0 &&
-         arrays_overlap(in.state_begin, in.state_begin_stride, out.state_end, out.state_end_stride, model.sizes.state, first, count);
+         arrays_overlap(in.state_begin, in.state_begin_stride, out.state_end, out.state_end_stride,
+                        model.sizes.state, first, count);
 }
 
-// Does xi take the place of the start, so that an element that is evaluated twice would start from its own result?
-inline bool writes_start(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first, std::int64_t count) noexcept {
+// Does xi take the place of the start, so that an element that is evaluated twice would start from its own
+// result?
+inline bool writes_start(const ents_model& model, const ents_input& in, const ents_output& out,
+                         std::int64_t first, std::int64_t count) noexcept {
   return (out.wanted & ENTS_XI) != 0 && in.start && out.xi && count > 0 &&
-         arrays_overlap(in.start, in.start_stride, out.xi, out.xi_stride, model.plan.parameters, first, count);
+         arrays_overlap(in.start, in.start_stride, out.xi, out.xi_stride, model.plan.parameters, first,
+                        count);
 }
 
 // "`asks`, but the model has no contact"
@@ -54,8 +63,8 @@ struct ElementCall {
   const Plan* plan; // of one segment
   const ents_input* in;
   const ents_output* out;
-  MasterMesh mesh; // if the input has one
-  bool start_first = false; // input.start comes before the history's xi
+  MasterMesh mesh;            // if the input has one
+  bool start_first = false;   // input.start comes before the history's xi
   bool keeps_history = false; // of a place on the master: friction's anchor
 
   // What an assembly wants of an element, beside what the caller does; each or null.
@@ -80,7 +89,8 @@ struct ElementCall {
   // Its state at the end knows the segment.
   void mark_state(std::int64_t e) const {
     if ((out->wanted & ENTS_STATE) == 0 || !model->model.patch.empty()) return;
-    at(out->state_end, out->state_end_stride, e)[plan->state.size] = in->mesh ? static_cast<double>(segment(e) + 1) : 0.0;
+    at(out->state_end, out->state_end_stride, e)[plan->state.size] =
+        in->mesh ? static_cast<double>(segment(e) + 1) : 0.0;
   }
 
   std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
@@ -90,21 +100,26 @@ struct ElementCall {
   ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;
   Status evaluate_one(const ElementInput& element, const ElementOutput& results, bool& open) const {
     open = false;
-    return model->model.patch.empty() ? plan->element(*plan, element, results) : evaluate_patch(*plan, model->model, element, results, open);
+    return model->model.patch.empty() ? plan->element(*plan, element, results)
+                                      : evaluate_patch(*plan, model->model, element, results, open);
   }
 
-  // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held at zero as those of any
-  // open element. Of `also` the residual and the tangent, and of these the rows and columns of the multipliers alone.
+  // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held
+  // at zero as those of any open element. Of `also` the residual and the tangent, and of these the rows and
+  // columns of the multipliers alone.
   std::int32_t evaluate_open(std::int64_t e, const Wanted& also) const;
 
   // Status of the element, not yet explained in the report unless its segment is at fault.
   std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
 
-  // All elements of a range: ordinary ones in blocks, the others one by one. `result` is settled with them; negative: the call ends.
-  std::int32_t evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const;
+  // All elements of a range: ordinary ones in blocks, the others one by one. `result` is settled with them;
+  // negative: the call ends.
+  std::int32_t evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result,
+                              ents_report* report) const;
 
   // Both, for any call; apart, so that the way of plain calls stays short.
-  ENTS_NOINLINE static std::int32_t evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
+  ENTS_NOINLINE static std::int32_t evaluate_call(const ents_model* model, std::int64_t first,
+                                                  std::int64_t count, const ents_input* input,
                                                   const ents_output* output, ents_report* report);
 
   // Nodes of the segments of a block, side by side. False if a segment is bad.
@@ -117,7 +132,8 @@ struct ElementCall {
   // Name the entry that a kernel refused, or how deep the slave is.
   std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;
 
-  // What an element's status makes of that of the call: negative ends it; of the recoverable ones the first is told.
+  // What an element's status makes of that of the call: negative ends it; of the recoverable ones the first
+  // is told.
   std::int32_t settle(std::int32_t outcome, std::int64_t e, std::int32_t& result, ents_report* report) const {
     if (outcome < 0) return report && report->status == outcome ? outcome : explain(outcome, e, report);
     if (outcome > 0 && result == ENTS_OK) result = explain(outcome, e, report);
@@ -126,9 +142,11 @@ struct ElementCall {
 
 private:
   // staged: where results go that no cache holds, or null
-  std::int32_t evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged, std::int32_t& result, ents_report* report) const;
+  std::int32_t evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged,
+                               std::int32_t& result, ents_report* report) const;
   // apart: these results lie on the stack
-  ENTS_NOINLINE std::int32_t evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const;
+  ENTS_NOINLINE std::int32_t evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result,
+                                             ents_report* report) const;
   std::int32_t check_open(std::int64_t e) const;
   void write_open(std::int64_t e) const;
   void hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const;

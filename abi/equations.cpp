@@ -51,14 +51,17 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
   for (std::int64_t e = first; plan_.multipliers > 0 && e < first + count; ++e)
     for (int a = 0; a < plan_.multipliers; ++a)
       if (const std::int64_t equation = s.multiplier_equations[e * plan_.multipliers + a]; equation >= s.rows)
-        return report_message(report_, ENTS_BAD_VALUE, e, "system.multiplier_equations of element %lld is %lld; there are %lld rows",
-                              static_cast<long long>(e), static_cast<long long>(equation), static_cast<long long>(s.rows));
+        return report_message(report_, ENTS_BAD_VALUE, e,
+                              "system.multiplier_equations of element %lld is %lld; there are %lld rows",
+                              static_cast<long long>(e), static_cast<long long>(equation),
+                              static_cast<long long>(s.rows));
   const std::int64_t places = std::int64_t{plan_.dimension} * nodes() * nodes() + 1;
   if (s.places && !s.slave && !s.master && s.places_size < places)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.places_size is %lld; at least %lld is needed",
                           static_cast<long long>(s.places_size), static_cast<long long>(places));
   if (!s.slave && s.slave_nodes < first + count)
-    return report_message(report_, ENTS_BAD_COUNT, -1, "system.slave_nodes is %lld; the elements end at %lld, and slave point i is node i",
+    return report_message(report_, ENTS_BAD_COUNT, -1,
+                          "system.slave_nodes is %lld; the elements end at %lld, and slave point i is node i",
                           static_cast<long long>(s.slave_nodes), static_cast<long long>(first + count));
   pattern_ = {s.row_begin, s.columns, s.rows, s.index_size == 8};
   if (s.values && count > 0 && (status = check_pattern()) != ENTS_OK) return status;
@@ -72,29 +75,36 @@ std::int32_t Equations::check_pattern() {
   const std::int64_t begin = pattern_.begin(0), entries = pattern_.begin(pattern_.rows);
   if (begin != 0)
     return report_message(report_, ENTS_BAD_VALUE, -1,
-                          "system.row_begin[0] is %lld; it must be 0: rows and columns are counted from 0 (in Fortran pass row_begin - 1 and "
+                          "system.row_begin[0] is %lld; it must be 0: rows and columns are counted from 0 "
+                          "(in Fortran pass row_begin - 1 and "
                           "columns - 1)",
                           static_cast<long long>(begin));
   if (entries < 0)
-    return report_message(report_, ENTS_BAD_VALUE, -1, "system.row_begin[rows] is %lld; is system.index_size (%d bytes) that of the array?",
-                          static_cast<long long>(entries), pattern_.wide ? 8 : 4);
+    return report_message(
+        report_, ENTS_BAD_VALUE, -1,
+        "system.row_begin[rows] is %lld; is system.index_size (%d bytes) that of the array?",
+        static_cast<long long>(entries), pattern_.wide ? 8 : 4);
   if (entries > 0 && pattern_.column(entries - 1) >= pattern_.rows)
-    return report_message(report_, ENTS_BAD_VALUE, -1,
-                          "the last of system.columns is %lld; there are %lld rows: rows and columns are counted from 0, and "
-                          "system.index_size (%d bytes) is that of both arrays",
-                          static_cast<long long>(pattern_.column(entries - 1)), static_cast<long long>(pattern_.rows), pattern_.wide ? 8 : 4);
+    return report_message(
+        report_, ENTS_BAD_VALUE, -1,
+        "the last of system.columns is %lld; there are %lld rows: rows and columns are counted from 0, and "
+        "system.index_size (%d bytes) is that of both arrays",
+        static_cast<long long>(pattern_.column(entries - 1)), static_cast<long long>(pattern_.rows),
+        pattern_.wide ? 8 : 4);
   pattern_.entries = entries;
   for (std::int64_t row = 0; row < std::min<std::int64_t>(pattern_.rows, 4); ++row)
     if (pattern_.begin(row + 1) < pattern_.begin(row))
       return report_message(report_, ENTS_BAD_VALUE, -1,
-                            "system.row_begin falls from %lld to %lld in row %lld; is system.index_size (%d bytes) that of the array?",
-                            static_cast<long long>(pattern_.begin(row)), static_cast<long long>(pattern_.begin(row + 1)),
-                            static_cast<long long>(row), pattern_.wide ? 8 : 4);
+                            "system.row_begin falls from %lld to %lld in row %lld; is system.index_size (%d "
+                            "bytes) that of the array?",
+                            static_cast<long long>(pattern_.begin(row)),
+                            static_cast<long long>(pattern_.begin(row + 1)), static_cast<long long>(row),
+                            pattern_.wide ? 8 : 4);
   return ENTS_OK;
 }
 
 std::int32_t Equations::check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes,
-                                       std::int64_t node) const {
+                                        std::int64_t node) const {
   if (node < 0 || node >= nodes)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s covers %lld nodes; node %lld is needed",
                           name, static_cast<long long>(nodes), static_cast<long long>(node));
@@ -151,8 +161,8 @@ std::int32_t Equations::add_residual(std::int64_t e, const double* residual) con
   return ENTS_OK;
 }
 
-std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
-                                 std::int64_t* place) const {
+std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group& column,
+                                  const double* tangent, std::int64_t* place) const {
   const double weight = row.weight * column.weight;
   const std::int64_t *rows = row.equations, *columns = column.equations;
   bool in_line = true; // the columns stand side by side in every row
@@ -182,9 +192,10 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
   return ENTS_OK;
 }
 
-// Where an earlier call has found the entries of an element: a stamp of its equations and of the size of the pattern, negative once all of
-// them are known; then for node a and node b, the begin of each row's d entries, counted from 1, or 0. Other equations, as after
-// remeshing, have another stamp. Null: not all of them are known.
+// Where an earlier call has found the entries of an element: a stamp of its equations and of the size of the
+// pattern, negative once all of them are known; then for node a and node b, the begin of each row's d
+// entries, counted from 1, or 0. Other equations, as after remeshing, have another stamp. Null: not all of
+// them are known.
 inline const std::int64_t* Equations::known_places(std::int64_t e) const noexcept {
   if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return nullptr;
   const std::int64_t* places = system_->places + e * system_->places_size;
@@ -196,7 +207,8 @@ std::int64_t Equations::stamp(std::int64_t e) const noexcept {
   constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u; // odd: its powers are not zero
   const int d = plan_.dimension, count = nodes();
   std::uint64_t sum = static_cast<std::uint64_t>(pattern_.entries) * factor, power = factor * factor;
-  const std::int64_t* connectivity = count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
+  const std::int64_t* connectivity =
+      count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
   for (int a = 0; a < count; ++a) {
     const std::int64_t node = a == 0 ? e : connectivity[a - 1];
     if (node < 0 || node >= (a == 0 ? system_->slave_nodes : system_->master_nodes)) return 0;
@@ -208,13 +220,15 @@ std::int64_t Equations::stamp(std::int64_t e) const noexcept {
 
 // Known places mean that all equations of the element have been looked at, and none is left out.
 template <int D>
-void Equations::add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
-                          bool symmetric) const noexcept {
+void Equations::add_known(std::int64_t e, const std::int64_t* places, const double* residual,
+                          const double* tangent, bool symmetric) const noexcept {
   const int count = nodes(), n = plan_.dofs;
   if (system_->residual) {
-    const std::int64_t* connectivity = count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
+    const std::int64_t* connectivity =
+        count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
     for (int a = 0; a < count; ++a) {
-      const std::int64_t* rows = a == 0 ? system_->slave_equations + e * D : system_->master_equations + connectivity[a - 1] * D;
+      const std::int64_t* rows =
+          a == 0 ? system_->slave_equations + e * D : system_->master_equations + connectivity[a - 1] * D;
       for (int i = 0; i < D; ++i) system_->residual[rows[i]] += residual[D * a + i];
     }
   }
@@ -233,8 +247,10 @@ void Equations::add_known(std::int64_t e, const std::int64_t* places, const doub
           for (int j = 0; j < D; ++j) row[j] = sum[j];
         }
   };
-  if (symmetric) add(std::integral_constant<std::int64_t, 1>{});
-  else add(std::int64_t{n});
+  if (symmetric)
+    add(std::integral_constant<std::int64_t, 1>{});
+  else
+    add(std::int64_t{n});
 }
 
 void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
@@ -279,15 +295,19 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
     });
     if (status != ENTS_OK) return status;
   }
-  if (places && plan_.multipliers == 0 && std::find(places + 1, places + 1 + d * count * count, 0) == places + 1 + d * count * count)
+  if (places && plan_.multipliers == 0 &&
+      std::find(places + 1, places + 1 + d * count * count, 0) == places + 1 + d * count * count)
     places[0] = -places[0];
   return plan_.multipliers > 0 ? add_block(e, multipliers, multipliers, tangent, nullptr) : ENTS_OK;
 }
 
-std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent, bool symmetric) const {
+std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent,
+                            bool symmetric) const {
   if (const std::int64_t* places = known_places(e)) {
-    if (plan_.dimension == 3) add_known<3>(e, places, residual, tangent, symmetric);
-    else add_known<2>(e, places, residual, tangent, symmetric);
+    if (plan_.dimension == 3)
+      add_known<3>(e, places, residual, tangent, symmetric);
+    else
+      add_known<2>(e, places, residual, tangent, symmetric);
     return ENTS_OK;
   }
   std::int32_t status = ENTS_OK;

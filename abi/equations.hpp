@@ -58,22 +58,28 @@ private:
       return wide ? find<std::int64_t>(row, column) : find<std::int32_t>(row, column);
     }
     std::int64_t column(std::int64_t at) const {
-      return wide ? static_cast<const std::int64_t*>(columns)[at] : static_cast<const std::int32_t*>(columns)[at];
+      return wide ? static_cast<const std::int64_t*>(columns)[at]
+                  : static_cast<const std::int32_t*>(columns)[at];
     }
   };
 
   std::int32_t check_pattern();
   std::int64_t stamp(std::int64_t e) const noexcept;
-  std::int32_t check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes, std::int64_t node) const;
+  std::int32_t check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes,
+                               std::int64_t node) const;
   // Calls f(group) for the groups of one node of the element; what f returns ends it unless it is 0.
   template <class F> std::int32_t for_groups(std::int64_t e, int node, F&& f) const;
   std::int32_t add_residual(std::int64_t e, const double* residual) const;
   std::int32_t add_tangent(std::int64_t e, const double* tangent) const;
-  std::int32_t add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent, std::int64_t* place) const;
+  std::int32_t add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
+                         std::int64_t* place) const;
   const std::int64_t* known_places(std::int64_t e) const noexcept;
-  template <int D> void add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
-                                  bool symmetric) const noexcept;
-  int nodes() const { return plan_.dofs == plan_.dimension + plan_.multipliers ? 1 : 1 + plan_.nodes; } // with equations
+  template <int D>
+  void add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
+                 bool symmetric) const noexcept;
+  int nodes() const {
+    return plan_.dofs == plan_.dimension + plan_.multipliers ? 1 : 1 + plan_.nodes;
+  } // with equations
 
   const ElementCall& call_;
   const Plan& plan_;

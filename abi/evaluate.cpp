@@ -38,7 +38,8 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   if (in->mesh) {
     const std::int64_t s = segment(e);
     const bool known = s >= 0 && s < mesh.segments;
-    if (const Status outcome = known ? gather(*plan, mesh, s, nodes) : Status::bad_value; outcome != Status::ok) {
+    if (const Status outcome = known ? gather(*plan, mesh, s, nodes) : Status::bad_value;
+        outcome != Status::ok) {
       if (out->status) *at(out->status, out->status_stride, e) = static_cast<std::int32_t>(outcome);
       return known ? explain_segment(*plan, mesh, outcome, s, report) : refuse_segment(e, report);
     }
@@ -68,7 +69,8 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   bool open;
   ElementOutput nothing = results;
   nothing.wanted = 0;
-  std::int32_t outcome = static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, open));
+  std::int32_t outcome =
+      static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, open));
   if (open && outcome == ENTS_OK) return evaluate_open(e, also);
   if (!follows && outcome >= 0) outcome = ENTS_BAD_STATE;
   if (outcome == ENTS_OK) mark_state(e);
@@ -76,7 +78,8 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   return outcome;
 }
 
-bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, PairBlock& block) const {
+bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes,
+                               PairBlock& block) const {
   const std::int64_t size = std::int64_t{plan->nodes} * plan->parameters;
   bool has_coordinates = false;
   for (std::int64_t k = 0; k < count; ++k) {
@@ -84,7 +87,8 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
     SegmentNodes of_segment;
     if (s < 0 || s >= mesh.segments || gather(*plan, mesh, s, of_segment) != Status::ok) return false;
     std::copy_n(of_segment.positions, plan->nodes * plan->dimension, nodes.positions[k]);
-    if (of_segment.surface_coordinates) std::copy_n(of_segment.surface_coordinates, size, nodes.surface_coordinates[k]);
+    if (of_segment.surface_coordinates)
+      std::copy_n(of_segment.surface_coordinates, size, nodes.surface_coordinates[k]);
     has_coordinates = of_segment.surface_coordinates != nullptr;
   }
   begin_at_first(block);
@@ -95,24 +99,29 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
   return true;
 }
 
-std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const {
+std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result,
+                                         ents_report* report) const {
   const std::int32_t known = pair_results(*model, out->wanted);
-  if (known != out->wanted || !StagedResults::pays(*model, *out, known, count)) return evaluate_blocks(first, count, nullptr, result, report);
+  if (known != out->wanted || !StagedResults::pays(*model, *out, known, count))
+    return evaluate_blocks(first, count, nullptr, result, report);
   return evaluate_staged(first, count, result, report);
 }
 
-std::int32_t ElementCall::evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result, ents_report* report) const {
+std::int32_t ElementCall::evaluate_staged(std::int64_t first, std::int64_t count, std::int32_t& result,
+                                          ents_report* report) const {
   StagedResults staged(*plan, *out, out->wanted);
   return evaluate_blocks(first, count, &staged, result, report);
 }
 
-std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged, std::int32_t& result,
-                                          ents_report* report) const {
-  // Some results may be the element kernel's alone: then it does all of the element, but for what the block kernel writes otherwise.
+std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged,
+                                          std::int32_t& result, ents_report* report) const {
+  // Some results may be the element kernel's alone: then it does all of the element, but for what the block
+  // kernel writes otherwise.
   const std::int32_t known = pair_results(*model, out->wanted);
   const bool mixed = known == 0 || known != out->wanted;
-  const std::int64_t most =
-      mixed ? 1 : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most, staged ? StagedResults::block_size(*plan) : count);
+  const std::int64_t most = mixed ? 1
+                                  : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most,
+                                                           staged ? StagedResults::block_size(*plan) : count);
   BlockNodes nodes;
   PairBlock block = pair_block(*model, *in, *out, first);
   block.start_first = start_first;
@@ -123,7 +132,8 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
     bool follow = true;
     for (std::int64_t k = 0; k < size && in->state_begin; ++k) follow = follow && state_follows(first + k);
     if (staged) staged->redirect(here);
-    if (!mixed && follow && (!in->mesh || gather_block(first, size, nodes, here))) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    if (!mixed && follow && (!in->mesh || gather_block(first, size, nodes, here)))
+      done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     if (staged) staged->keep(first, size, done);
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
@@ -133,7 +143,8 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
       }
       const bool twice = mixed && known != 0;
       double start[2]; // before xi takes its place
-      if (twice && in->start) std::copy_n(at(in->start, in->start_stride, first + k), plan->parameters, start);
+      if (twice && in->start)
+        std::copy_n(at(in->start, in->start_stride, first + k), plan->parameters, start);
       const std::int32_t outcome = evaluate(first + k, {}, report);
       if (const std::int32_t end = settle(outcome, first + k, result, report); end < 0) return end;
       if (!twice || outcome != ENTS_OK || (in->mesh && !gather_block(first, size, nodes, here))) continue;
@@ -145,10 +156,12 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
   return result;
 }
 
-std::int32_t ElementCall::evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* input,
-                                        const ents_output* output, ents_report* report) {
+std::int32_t ElementCall::evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count,
+                                        const ents_input* input, const ents_output* output,
+                                        ents_report* report) {
   ElementCall call;
-  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK) return status;
+  if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
+    return status;
   report_ok(report);
   std::int32_t result = ENTS_OK;
   const std::int32_t end = call.evaluate_range(first, count, result, report);
@@ -197,7 +210,8 @@ int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents
       status = static_cast<std::int32_t>(
           plan.surface(plan, s->master, s->surface_coordinates, s->xi + plan.parameters * i, point));
       if (status == ENTS_NON_FINITE)
-        return ents::explain_non_finite(plan, "surface.", s->master, s->surface_coordinates, s->xi + plan.parameters * i, i, report);
+        return ents::explain_non_finite(plan, "surface.", s->master, s->surface_coordinates,
+                                        s->xi + plan.parameters * i, i, report);
       if (status != ENTS_OK)
         return ents::report_message(report, status, i, "point %lld: %s", static_cast<long long>(i),
                                     ents_status_text(status));

@@ -7,10 +7,10 @@
 #include "core/plan.hpp"
 
 struct ents_model {
-  static constexpr std::uint64_t live = 0x656e74736d6f646c;  // "entsmodl"
+  static constexpr std::uint64_t live = 0x656e74736d6f646c; // "entsmodl"
   static constexpr std::uint64_t dead = 0x646561646d6f646c;
   std::uint64_t magic;
-  ents::Plan plan;    // of one segment; points into `model`, and to `base`
+  ents::Plan plan; // of one segment; points into `model`, and to `base`
   ents::PatchedModel model;
   ents::ElementSizes sizes; // of an element as the host sees it
   ents::Plan base;          // as `plan`, without the height
@@ -18,7 +18,8 @@ struct ents_model {
 
 namespace ents {
 
-// Arrays end before this many doubles from their start: no index times a stride leaves the 64 bits of an address.
+// Arrays end before this many doubles from their start: no index times a stride leaves the 64 bits of an
+// address.
 inline constexpr int most_bits = 60;
 
 // A usable handle? Best effort for freed ones: their memory may be reused.
@@ -33,9 +34,10 @@ inline std::int32_t check_handle(const ents_model* model, ents_report* report) n
 // Index of the first NaN or infinity; -1 if there is none, or no array.
 std::int64_t first_non_finite(const double* values, std::int64_t size) noexcept;
 
-// Name the entry of a surface's arguments that is NaN or infinite; prefix: what stands before the argument's name.
+// Name the entry of a surface's arguments that is NaN or infinite; prefix: what stands before the argument's
+// name.
 std::int32_t explain_non_finite(const Plan& plan, const char* prefix, const double* master,
                                 const double* surface_coordinates, const double* xi, std::int64_t point,
                                 ents_report* report) noexcept;
 
-}  // namespace ents
+} // namespace ents

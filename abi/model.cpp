@@ -15,8 +15,10 @@ namespace ents {
 
 namespace {
 
-static_assert(need::height == ENTS_NEEDS_HEIGHT && need::slope == ENTS_NEEDS_SLOPE && need::curved == ENTS_NEEDS_CURVED);
-static_assert(need::iteration == ENTS_NEEDS_ITERATION && need::master == ENTS_NEEDS_MASTER && need::friction == ENTS_NEEDS_FRICTION);
+static_assert(need::height == ENTS_NEEDS_HEIGHT && need::slope == ENTS_NEEDS_SLOPE &&
+              need::curved == ENTS_NEEDS_CURVED);
+static_assert(need::iteration == ENTS_NEEDS_ITERATION && need::master == ENTS_NEEDS_MASTER &&
+              need::friction == ENTS_NEEDS_FRICTION);
 static_assert(need::history == ENTS_NEEDS_HISTORY && need::multipliers == ENTS_NEEDS_MULTIPLIERS);
 static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE);
 
@@ -25,7 +27,9 @@ std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* rep
   handle->plan = make_plan(handle->model);
   handle->base = make_base_plan(handle->model);
   handle->plan.base = handle->base.base = &handle->base;
-  if (!handle->model.patch.empty()) handle->plan.surface_coordinates = handle->base.surface_coordinates = nullptr; // they are those of the patch's nodes
+  if (!handle->model.patch.empty())
+    handle->plan.surface_coordinates = handle->base.surface_coordinates =
+        nullptr; // they are those of the patch's nodes
   handle->sizes = sizes_of(handle->plan, handle->model.patch);
   *model = handle;
   return report_ok(report);
@@ -155,7 +159,8 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     constexpr std::int32_t forces = ents::want::residual | ents::want::tangent;
     const bool one_by_one = ents::pair_results(*model, forces) != forces;
     out.needs = ents::needs_of(model->model, model->plan) | (one_by_one ? ents::need::one_by_one : 0);
-    out.instruction_set = (one_by_one ? ents::portable::pair_kernels : ents::best_pair_kernels()).instruction_set;
+    out.instruction_set =
+        (one_by_one ? ents::portable::pair_kernels : ents::best_pair_kernels()).instruction_set;
     ents::give_back(out, layout);
     return ents::report_ok(report);
   });

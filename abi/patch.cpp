@@ -108,7 +108,8 @@ private:
       double low[3], high[3], size = 0.0;
       for (int k = 0; k < d_; ++k) low[k] = infinity, high[k] = -infinity;
       for (int i = 0; i < plan_.nodes; ++i) {
-        const double* x = in_.master + patch_.connectivity[static_cast<std::size_t>(s * plan_.nodes + i)] * d_;
+        const double* x =
+            in_.master + patch_.connectivity[static_cast<std::size_t>(s * plan_.nodes + i)] * d_;
         for (int k = 0; k < d_; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
       }
       for (int k = 0; k < d_; ++k) size += (high[k] - low[k]) * (high[k] - low[k]);
@@ -117,31 +118,37 @@ private:
     return most;
   }
 
-  // How far the enriched surface is at most: where the slave projects on the segments without their height, which are searched at once.
-  // Infinite: on none.
+  // How far the enriched surface is at most: where the slave projects on the segments without their height,
+  // which are searched at once. Infinite: on none.
   Status look_at_base(Detection& base, double& at_most) const {
     at_most = infinity;
     base.segment = -1;
-    if (const Status status = detect(*plan_.base, mesh_, nullptr, in_.slave, infinity, base); status != Status::ok) return status;
-    if (base.segment < 0 || base.at.beyond > 0.0) return Status::ok; // beyond an edge the rank of a projection counts, not its gap
+    if (const Status status = detect(*plan_.base, mesh_, nullptr, in_.slave, infinity, base);
+        status != Status::ok)
+      return status;
+    if (base.segment < 0 || base.at.beyond > 0.0)
+      return Status::ok; // beyond an edge the rank of a projection counts, not its gap
     SegmentNodes nodes;
     if (const Status status = gather(plan_, mesh_, base.segment, nodes); status != Status::ok) return status;
     double point[3], sum = 0.0;
     const SurfacePoint to = {point, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
-    if (plan_.surface(plan_, nodes.positions, nodes.surface_coordinates, base.at.xi, to) != Status::ok) return Status::ok;
+    if (plan_.surface(plan_, nodes.positions, nodes.surface_coordinates, base.at.xi, to) != Status::ok)
+      return Status::ok;
     for (int k = 0; k < d_; ++k) sum += (in_.slave[k] - point[k]) * (in_.slave[k] - point[k]);
     at_most = std::sqrt(sum) * (1.0 + 1e-9) + 10.0 * base.at.tie;
     return Status::ok;
   }
 
-  // The segment of before while the slave is on it; else the best of all; where none is within reach, the nearest: the slave is open
-  // there, or too deep.
+  // The segment of before while the slave is on it; else the best of all; where none is within reach, the
+  // nearest: the slave is open there, or too deep.
   Status choose(Detection& found) {
     const double deepest = reach();
     found.segment = in_contact() ? before() : -1;
     if (in_contact()) {
       for (int t = 0; t < plan_.parameters; ++t) found.at.xi[t] = in_.state_begin[StateLayout::xi_at + t];
-      if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found); status != Status::ok) return status;
+      if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found);
+          status != Status::ok)
+        return status;
       if (found.segment >= 0) {
         segment_ = found.segment;
         return Status::ok;
@@ -150,10 +157,12 @@ private:
     Detection base;
     double at_most;
     if (const Status status = look_at_base(base, at_most); status != Status::ok) return status;
-    // Looking no farther than the surface is keeps the search short; beside a free border a projection may be farther.
+    // Looking no farther than the surface is keeps the search short; beside a free border a projection may be
+    // farther.
     for (const double far : {std::min(at_most, deepest), deepest}) {
       found.segment = -1;
-      if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, far, found); status != Status::ok) return status;
+      if (const Status status = detect(plan_, mesh_, nullptr, in_.slave, far, found); status != Status::ok)
+        return status;
       if ((found.segment >= 0 && !found.at.ambiguous) || at_most > deepest) break;
     }
     if (found.behind_edge) return Status::no_projection;

@@ -31,11 +31,15 @@ struct ElementSizes {
 };
 ElementSizes sizes_of(const Plan& plan, const Patch& patch);
 
-// The last number of every state of the ABI, after those of the kernels: 1 + the segment that the slave was on, 0 where nobody knows.
+// The last number of every state of the ABI, after those of the kernels: 1 + the segment that the slave was
+// on, 0 where nobody knows.
 inline bool is_segment_number(double number) { return 0.0 * number == 0.0; } // finite
-inline std::int64_t segment_of_state(const Plan& plan, const double* state) { return static_cast<std::int64_t>(state[plan.state.size]) - 1; }
+inline std::int64_t segment_of_state(const Plan& plan, const double* state) {
+  return static_cast<std::int64_t>(state[plan.state.size]) - 1;
+}
 
-// input and output have the sizes of `sizes_of`. Nothing is written unless ok. open: nothing is written, the element is one without a segment.
+// input and output have the sizes of `sizes_of`. Nothing is written unless ok. open: nothing is written, the
+// element is one without a segment.
 Status evaluate_patch(const Plan& plan, const PatchedModel& model, const ElementInput& in,
                       const ElementOutput& out, bool& open);
 

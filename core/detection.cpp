@@ -64,7 +64,8 @@ void consider(int d, std::int64_t segment, const SegmentProjection& candidate, D
   const bool better =
       candidate.beyond < best.at.beyond || (candidate.beyond == best.at.beyond && segment < best.segment);
   // two faces back to back, as of a sheet without thickness: which one counts is for the caller to decide
-  const bool opposed = (candidate.gap > tie && best.at.gap < -tie) || (candidate.gap < -tie && best.at.gap > tie);
+  const bool opposed =
+      (candidate.gap > tie && best.at.gap < -tie) || (candidate.gap < -tie && best.at.gap > tie);
   if (!same_place || opposed) best.other = better ? best.segment : segment;
   if (better) {
     best.segment = segment;
@@ -84,11 +85,11 @@ struct Candidates {
   }
 };
 
-// Where a point of the segments' borders is closer to the slave than the projection that was found, that point decides on which side
-// of the surface the slave is: a projection on a farther face seen from behind is no penetration, nor is one ahead of a slave that
-// is behind an edge a gap.
-void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
-                     const Candidates& candidates, Detection& out) {
+// Where a point of the segments' borders is closer to the slave than the projection that was found, that
+// point decides on which side of the surface the slave is: a projection on a farther face seen from behind is
+// no penetration, nor is one ahead of a slave that is behind an edge a gap.
+void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                     double reach, const Candidates& candidates, Detection& out) {
   constexpr double rounding = 1e-12;
   const double found = out.segment < 0 ? reach : std::fabs(out.at.gap) * (1.0 - rounding) - 10.0 * out.at.tie;
   NearestBorder nearest{{}, -1};
@@ -96,10 +97,12 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
   const bool flat = !plan.height && plan.nodes == plan.dimension; // its projection is its closest point
   if (candidates.count <= Candidates::most || out.own_node >= 0) {
     for (int i = 0; i < std::min(candidates.count, Candidates::most); ++i) {
-      if (!(candidates.at_least[i] < nearest.at.distance) || (flat && candidates.segment[i] == out.segment)) continue;
+      if (!(candidates.at_least[i] < nearest.at.distance) || (flat && candidates.segment[i] == out.segment))
+        continue;
       SegmentNodes nodes;
       if (gather(plan, mesh, candidates.segment[i], nodes) == Status::ok &&
-          plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, nearest.at.distance, nearest.at))
+          plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, nearest.at.distance,
+                            nearest.at))
         nearest.segment = candidates.segment[i];
     }
   } else {
@@ -114,14 +117,16 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
   }
   if (!(nearest.at.distance < found - crack)) return;
   const bool beside = side == BorderSide::beside_ahead || side == BorderSide::beside_behind;
-  if (beside && (out.at.gap >= 0.0 || side == BorderSide::beside_behind)) return; // a free border tells less than a projection
+  if (beside && (out.at.gap >= 0.0 || side == BorderSide::beside_behind))
+    return; // a free border tells less than a projection
   out.segment = out.other = -1;
   out.behind_edge = side == BorderSide::behind;
 }
 
 // Without a tree: a few segments, the closest first.
 template <class Rank, class Limit, class Visit>
-Status visit_nearest_first(const Plan& plan, const MasterMesh& mesh, Rank&& rank, Limit&& limit, Visit&& visit) {
+Status visit_nearest_first(const Plan& plan, const MasterMesh& mesh, Rank&& rank, Limit&& limit,
+                           Visit&& visit) {
   constexpr std::int64_t most = 64;
   struct Waiting {
     double rank;
@@ -131,11 +136,13 @@ Status visit_nearest_first(const Plan& plan, const MasterMesh& mesh, Rank&& rank
   const std::int64_t count = std::min(mesh.segments, most);
   for (std::int64_t s = 0; s < count; ++s) {
     double box[6];
-    if (const Status status = segment_box(plan, mesh, s, box, box + plan.dimension); status != Status::ok) return status;
+    if (const Status status = segment_box(plan, mesh, s, box, box + plan.dimension); status != Status::ok)
+      return status;
     waiting[s] = {rank(box), s};
   }
-  std::sort(waiting, waiting + count,
-            [](const Waiting& a, const Waiting& b) { return a.rank != b.rank ? a.rank < b.rank : a.segment < b.segment; });
+  std::sort(waiting, waiting + count, [](const Waiting& a, const Waiting& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.segment < b.segment;
+  });
   for (std::int64_t i = 0; i < count; ++i) {
     if (!(waiting[i].rank <= limit())) break;
     if (const Status status = visit(waiting[i].segment); status != Status::ok) return status;
@@ -262,7 +269,8 @@ bool is_own(const Plan& plan, const MasterMesh& mesh, std::int64_t own_node, std
 
 } // namespace
 
-Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach, Detection& out) {
+Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach,
+                       Detection& out) {
   out.searched = out.behind_edge = false;
   const std::int64_t segment = out.segment;
   out.segment = -1;
@@ -273,14 +281,17 @@ Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* s
     return status;
   }
   const double start[2] = {out.at.xi[0], out.at.xi[1]};
-  if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) && std::fabs(out.at.gap) <= reach)
+  if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) &&
+      std::fabs(out.at.gap) <= reach)
     out.segment = segment, out.other = -1;
   return Status::ok;
 }
 
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out) {
-  if (const Status status = detect_followed(plan, mesh, slave, reach, out); status != Status::ok || out.segment >= 0) return status;
+  if (const Status status = detect_followed(plan, mesh, slave, reach, out);
+      status != Status::ok || out.segment >= 0)
+    return status;
   SegmentNodes nodes;
   out.searched = true;
   out.segment = out.other = -1;
@@ -311,7 +322,8 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     candidates.add(segment, least);
     // a rank counts what lies beyond the edge, too; the reach does not
     double farthest = reach;
-    for (int k = 0; k < plan.dimension; ++k) farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
+    for (int k = 0; k < plan.dimension; ++k)
+      farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
     if (out.segment >= 0) farthest = std::min(farthest, out.at.rank + out.at.tie);
     SegmentProjection candidate;
     if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
@@ -324,7 +336,8 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   };
   const auto rank = [&](const double* box) { return least_rank(plan, slave, ray, box); };
   const Tree shape(plan, mesh.segments);
-  const Status status = tree ? visit_segments(shape, tree, rank, limit, visit) : visit_nearest_first(plan, mesh, rank, limit, visit);
+  const Status status = tree ? visit_segments(shape, tree, rank, limit, visit)
+                             : visit_nearest_first(plan, mesh, rank, limit, visit);
   if (status != Status::ok) return status;
   // What could not be decided while nothing was known may be decided now.
   if (doubts > 0 && doubts <= most_doubts && out.segment >= 0) {
@@ -335,8 +348,11 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   }
   if (out.segment >= 0 && out.at.ambiguous && out.other < 0) {
     SegmentProjection again;
-    if (const Status gathered = gather(plan, mesh, out.segment, nodes); gathered != Status::ok) return gathered;
-    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, out.at.rank + out.at.tie, again) && !again.ambiguous)
+    if (const Status gathered = gather(plan, mesh, out.segment, nodes); gathered != Status::ok)
+      return gathered;
+    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr,
+                     out.at.rank + out.at.tie, again) &&
+        !again.ambiguous)
       out.at = again;
   }
   const bool doubtful = doubts > 0;

@@ -41,12 +41,14 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment);
 
 struct Detection {
-  std::int64_t own_node = -1; // in: the node of the mesh that the slave is; segments with this node are not looked at. -1: none
+  std::int64_t own_node =
+      -1; // in: the node of the mesh that the slave is; segments with this node are not looked at. -1: none
   std::int64_t segment; // -1: nothing within reach
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;
   bool searched;
-  bool behind_edge; // no segment: the closest point is on an edge that segments share, and the slave is behind it
+  bool behind_edge; // no segment: the closest point is on an edge that segments share, and the slave is
+                    // behind it
 };
 
 // The projection of a slave among all segments.
@@ -56,6 +58,7 @@ struct Detection {
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out);
 // Only the previous projection; out.segment is -1 where it is not kept.
-Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach, Detection& out);
+Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach,
+                       Detection& out);
 
 } // namespace ents

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tree of boxes around the segments of a surface: how it lies in the caller's memory, and the way through it.
+// The tree of boxes around the segments of a surface: how it lies in the caller's memory, and the way through
+// it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@ namespace ents {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline constexpr std::int64_t leaf_segments = 4;
-// tree: [tag, segments, stamp of what it was made for, order[segments], boxes[nodes][low[d], high[d]]], box 0 is not used
+// tree: [tag, segments, stamp of what it was made for, order[segments], boxes[nodes][low[d], high[d]]], box 0
+// is not used
 inline constexpr double tree_tag = 1701737592.0; // says that it is a tree, and how it is laid out
 inline constexpr std::int64_t tree_header = 3;
 
@@ -34,9 +36,10 @@ struct Tree {
   std::int64_t first(std::int64_t k, int level) const { return (k * segments) >> level; }
 };
 
-// Calls visit(segment) for the segments whose boxes have a rank of at most `limit()`, the smaller ranks first as far as the tree
-// knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way. A status that is not ok ends it; bad_state: the
-// tree has been written over. Without a tree all segments are visited.
+// Calls visit(segment) for the segments whose boxes have a rank of at most `limit()`, the smaller ranks first
+// as far as the tree knows. `rank(box)`: a lower bound over what is in the box; `limit` may fall on the way.
+// A status that is not ok ends it; bad_state: the tree has been written over. Without a tree all segments are
+// visited.
 template <class Rank, class Limit, class Visit>
 Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
   if (!tree) { // a few segments
@@ -58,7 +61,8 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
       waiting[count++] = {node, least};
       return;
     }
-    for (int k = 0; k < t.d; ++k) whole = whole && (box[k] <= box[t.d + k] || box[k] > box[t.d + k]); // not so with NaN
+    for (int k = 0; k < t.d; ++k)
+      whole = whole && (box[k] <= box[t.d + k] || box[k] > box[t.d + k]); // not so with NaN
   };
   wait(1);
   while (count > 0) {
@@ -76,7 +80,8 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
     for (std::int64_t i = t.first(leaf, t.depth); i < t.first(leaf + 1, t.depth); ++i) {
       const double segment = t.order(tree)[i];
       if (!(segment >= 0.0) || !(segment < static_cast<double>(t.segments))) return Status::bad_state;
-      if (const Status status = visit(static_cast<std::int64_t>(segment)); status != Status::ok) return status;
+      if (const Status status = visit(static_cast<std::int64_t>(segment)); status != Status::ok)
+        return status;
     }
   }
   return whole ? Status::ok : Status::bad_state;
@@ -85,4 +90,4 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
 // How far a box [low[d], high[d]] is from a point.
 double distance_to_box(int d, const double* point, const double* box);
 
-}  // namespace ents
+} // namespace ents
