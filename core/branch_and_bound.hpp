@@ -359,7 +359,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       box.c[a] = B::simplex ? 0.5 : 0.0;
       box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
     }
-    if (collapsed >= 0) { // up to the edge that is none
+    if (collapsed >= 0) { // short of the collapsed edge, where there is no normal
       constexpr double left_out = 100.0 * next_to_collapsed_edge<false>;
       const int normal = collapsed % 2 == 0;
       box.c[normal] = (collapsed == 1 || collapsed == 2 ? -0.5 : 0.5) * (rim + left_out);
