@@ -389,8 +389,8 @@ TEST(SilentMistakes, FrictionOnAnotherSegmentNeedsATransfer) {
       ++transferred;
     }
   }
-  EXPECT_GT(refused, 100);
-  EXPECT_GT(transferred, 100);
+  EXPECT_GT(refused, samples(100));
+  EXPECT_GT(transferred, samples(100));
 }
 
 } // namespace
