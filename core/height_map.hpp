@@ -6,10 +6,11 @@
 // with B the centred cubic B-spline; h is C2 everywhere, its third derivatives are constant per cell.
 //
 //   periodic   n samples cover [origin, origin + size): spacing = size / n, sample n would be sample 0 again.
-//   clamped    n >= 2 samples cover [origin, origin + size]: spacing = size / (n - 1). Outside, the
-//   coefficients
-//              repeat their edge value (c_-1 = c_0, c_n = c_n-1, ...): h is still C2 across the edge and
-//              constant from one spacing outside on.
+//   clamped    n >= 2 samples cover [origin, origin + size]: spacing = size / (n - 1). At the samples beside
+//              the ends the third derivative is continuous as well ("not-a-knot"): the map is exact for
+//              cubics, of 3 samples for parabolas, of 2 for lines. Outside, h continues C2 and reaches the
+//              value of the edge sample three spacings from it; from there on it is constant. In the first
+//              spacing outside it may exceed the range of the samples, the more the rougher they are.
 // Source of the interpolation: C. de Boor, A Practical Guide to Splines, 1978; M. Unser, Splines: a perfect
 // fit for signal and image processing, IEEE Signal Processing Magazine 16 (1999) 22-38.
 #pragma once
@@ -31,7 +32,13 @@ struct HeightMap {
   MapBoundary boundary = MapBoundary::periodic;
 };
 
-// Solves (c_i-1 + 4 c_i + c_i+1) / 6 = f_i in place for `count` numbers that lie `stride` apart.
+// Solves (c_i-1 + 4 c_i + c_i+1) / 6 = f_i in place for `count` numbers that lie `stride` apart. Clamped: at
+// least 2, with c_1 = (8 f_1 - f_0 - f_2) / 6 and the same at the other end (not-a-knot).
 void solve_spline_coefficients(double* values, std::int64_t count, std::int64_t stride, MapBoundary boundary);
+
+// Writes the `before` coefficients before c[0] and the `after` ones behind c[count - 1], which lie `stride`
+// apart. Clamped: c_-1 = 6 f_0 - 4 c_0 - c_1, then f_0, and the same at the other end.
+void extend_spline_coefficients(double* c, std::int64_t count, std::int64_t before, std::int64_t after,
+                                std::int64_t stride, MapBoundary boundary);
 
 } // namespace ents

@@ -22,13 +22,28 @@ std::int32_t dimension_of(const std::vector<double>& vector) {
   return static_cast<std::int32_t>(vector.size());
 }
 
-// Coefficients beside the samples that cells -1 .. n may read.
-constexpr std::int64_t padding_before = 2;
-constexpr std::int64_t padding_after = 3;
+// Coefficients beside the samples: of the cells from three spacings before them to two behind the last
+// (clamped), or to what rounding may make of 0 and n (periodic).
+constexpr std::int64_t padding_before = 4;
+constexpr std::int64_t padding_after = 5;
+constexpr double cells_outside = 3.0;
 
-std::int64_t source_index(std::int64_t i, std::int64_t count, MapBoundary boundary) {
-  if (boundary == MapBoundary::clamped) return std::clamp<std::int64_t>(i, 0, count - 1);
-  return ((i % count) + count) % count;
+std::int64_t row_length(std::int64_t columns) { return padding_before + columns + padding_after; }
+
+// Place of sample (0, 0) in the padded table
+std::int64_t first_coefficient(const HeightMap& map) {
+  return (map.dimension == 2 ? padding_before * row_length(map.columns) : 0) + padding_before;
+}
+
+// The map with `values` amid coefficients that are still to be computed
+HeightMap padded(const HeightMap& map) {
+  HeightMap wide = map;
+  const std::int64_t stride = row_length(map.columns);
+  wide.values.assign(index(map.dimension == 2 ? row_length(map.rows) : 1) * index(stride), 0.0);
+  double* first = wide.values.data() + first_coefficient(map);
+  for (std::int64_t j = 0; j < map.rows; ++j)
+    std::copy_n(map.values.data() + j * map.columns, map.columns, first + j * stride);
+  return wide;
 }
 
 } // namespace
@@ -111,27 +126,37 @@ Height Height::map(const HeightMap& map) {
   if (map.values.size() != index(map.rows) * index(map.columns))
     throw std::invalid_argument("values of a height map: rows times columns");
 
-  HeightMap coefficients = map;
-  double* c = coefficients.values.data();
-  for (std::int64_t j = 0; j < map.rows; ++j)
-    solve_spline_coefficients(c + j * map.columns, map.columns, 1, map.boundary);
+  // Rows, then the columns of all that is known of the rows.
+  HeightMap coefficients = padded(map);
+  const std::int64_t stride = row_length(map.columns);
+  double* first = coefficients.values.data() + first_coefficient(map);
+  const auto interpolate = [&](double* line, std::int64_t samples, std::int64_t apart) {
+    solve_spline_coefficients(line, samples, apart, map.boundary);
+    extend_spline_coefficients(line, samples, padding_before, padding_after, apart, map.boundary);
+  };
+  for (std::int64_t j = 0; j < map.rows; ++j) interpolate(first + j * stride, map.columns, 1);
   if (map.dimension == 2)
-    for (std::int64_t i = 0; i < map.columns; ++i)
-      solve_spline_coefficients(c + i, map.rows, map.columns, map.boundary);
-  return spline(coefficients);
+    for (std::int64_t i = -padding_before; i < map.columns + padding_after; ++i)
+      interpolate(first + i, map.rows, stride);
+  return spline(std::move(coefficients));
 }
 
-Height Height::profile(std::vector<double> coefficients, const std::vector<double>& wave_vector, double phase) {
+Height Height::profile(std::vector<double> coefficients, const std::vector<double>& wave_vector,
+                       double phase) {
   Height height(dimension_of(wave_vector));
   HeightMap turn; // of size 1
   turn.rows = 1;
   turn.columns = static_cast<std::int64_t>(coefficients.size());
   turn.values = std::move(coefficients);
-  Height along = spline(turn);
+  HeightMap padded_turn = padded(turn);
+  extend_spline_coefficients(padded_turn.values.data() + padding_before, turn.columns, padding_before,
+                             padding_after, 1, turn.boundary);
+  Height along = spline(std::move(padded_turn));
   ProfileHeight profile{along.nodes_[0].map, {0.0, 0.0}, phase - std::round(phase)};
   for (std::size_t a = 0; a < wave_vector.size(); ++a) {
     profile.wave_vector[a] = wave_vector[a];
-    if (wave_vector[a] != 0.0) height.feature_length_[a] = along.feature_length_[0] / std::fabs(wave_vector[a]);
+    if (wave_vector[a] != 0.0)
+      height.feature_length_[a] = along.feature_length_[0] / std::fabs(wave_vector[a]);
   }
   height.bound_ = along.bound_;
   height.continuity_ = along.continuity_;
@@ -141,41 +166,31 @@ Height Height::profile(std::vector<double> coefficients, const std::vector<doubl
   return height;
 }
 
-// values: the coefficients
-Height Height::spline(const HeightMap& map) {
+// values: the coefficients, with those beside the samples
+Height Height::spline(HeightMap map) {
   Height height(map.dimension);
-  const std::vector<double>& c = map.values;
   const std::int64_t count[2] = {map.columns, map.rows};
+  const bool periodic = map.boundary == MapBoundary::periodic;
+  const double outside = periodic ? 1.0 : cells_outside;
   MapHeight view{};
   for (std::int32_t a = 0; a < map.dimension; ++a) {
-    const bool periodic = map.boundary == MapBoundary::periodic;
     const double n = static_cast<double>(count[a]);
     const double spacing = map.size[a] / (periodic ? n : n - 1.0);
     view.origin[a] = map.origin[a];
     view.inverse_spacing[a] = 1.0 / spacing;
     view.period[a] = periodic ? n : 0.0;
     view.inverse_period[a] = periodic ? 1.0 / n : 0.0;
-    view.low[a] = view.first_cell[a] = -1.0; // periodic: what rounding may make of 0 and n
-    view.high[a] = view.last_cell[a] = n;
+    view.low[a] = view.first_cell[a] = -outside; // periodic: what rounding may make of 0 and n
+    view.high[a] = view.last_cell[a] = n - 1.0 + outside;
     height.feature_length_[a] = spacing;
   }
-  const std::int64_t before_rows = map.dimension == 2 ? padding_before : 0;
-  const std::int64_t after_rows = map.dimension == 2 ? padding_after : 0;
-  view.row_stride = map.columns + padding_before + padding_after;
-  std::vector<double> table;
-  table.reserve(index(before_rows + map.rows + after_rows) * index(view.row_stride));
-  for (std::int64_t j = -before_rows; j < map.rows + after_rows; ++j)
-    for (std::int64_t i = -padding_before; i < map.columns + padding_after; ++i) {
-      const std::int64_t row = source_index(j, map.rows, map.boundary);
-      table.push_back(c[index(row * map.columns + source_index(i, map.columns, map.boundary))]);
-    }
-
+  view.row_stride = row_length(map.columns);
   // A B-spline is a mean of its coefficients.
-  for (const double value : c) height.bound_ = std::max(height.bound_, std::fabs(value));
+  for (const double value : map.values) height.bound_ = std::max(height.bound_, std::fabs(value));
   view.bound = height.bound_;
   height.continuity_ = 2;
-  height.tables_.push_back(std::move(table));
-  view.coefficients = height.tables_[0].data() + before_rows * view.row_stride + padding_before;
+  height.tables_.push_back(std::move(map.values));
+  view.coefficients = height.tables_[0].data() + first_coefficient(map);
   height.nodes_[0].kind = HeightKind::map;
   height.nodes_[0].map = view;
   return height;
@@ -193,20 +208,32 @@ double Height::fingerprint() const {
   for (const HeightNode& node : nodes_) {
     add(static_cast<std::int32_t>(node.kind));
     switch (node.kind) {
-    case HeightKind::none: break;
-    case HeightKind::constant: add(node.value); break;
-    case HeightKind::sine: add(node.sine.amplitude, node.sine.wave_vector[0], node.sine.wave_vector[1], node.sine.phase); break;
-    case HeightKind::polynomial: add(node.polynomial.rows, node.polynomial.columns); break;
-    case HeightKind::gaussian:
-      add(node.gaussian.amplitude, node.gaussian.center[0], node.gaussian.center[1], node.gaussian.inverse_width);
+    case HeightKind::none:
       break;
-    case HeightKind::map: add_map(node.map); break;
+    case HeightKind::constant:
+      add(node.value);
+      break;
+    case HeightKind::sine:
+      add(node.sine.amplitude, node.sine.wave_vector[0], node.sine.wave_vector[1], node.sine.phase);
+      break;
+    case HeightKind::polynomial:
+      add(node.polynomial.rows, node.polynomial.columns);
+      break;
+    case HeightKind::gaussian:
+      add(node.gaussian.amplitude, node.gaussian.center[0], node.gaussian.center[1],
+          node.gaussian.inverse_width);
+      break;
+    case HeightKind::map:
+      add_map(node.map);
+      break;
     case HeightKind::profile:
       add_map(node.profile.of_turns);
       add(node.profile.wave_vector[0], node.profile.wave_vector[1], node.profile.phase);
       break;
     case HeightKind::sum:
-    case HeightKind::product: add(node.child_count, node.first_child); break;
+    case HeightKind::product:
+      add(node.child_count, node.first_child);
+      break;
     }
   }
   return print.number();

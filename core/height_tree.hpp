@@ -59,7 +59,7 @@ public:
   double feature_length(std::int32_t a) const { return feature_length_[a]; }
 
 private:
-  static Height spline(const HeightMap& coefficients);
+  static Height spline(HeightMap coefficients);
   static Height combine(HeightKind kind, std::vector<Height> parts);
 
   std::int32_t dimension_ = 1;

@@ -72,12 +72,21 @@ double third_derivative(const Height& height, double s) {
   return evaluate_height(height.root(), at).h2[0].d;
 }
 
-// Coefficients are at most 3 times the samples (the matrix is (4 +- 2)/6), a handful of roundings each; s is
-// rounded to eps |s| < 3 eps and the slope below 2 max|c| / spacing.
+// Coefficients for samples within +- 1. Periodic: 3, since the matrix is (4 +- 2)/6. Clamped: 3 inside of the
+// ends, 10/6 beside them; c_0 = (2/3)(f_0 + f_1 + f_2) - c_2 <= 5, c_-1 = 6 f_0 - 4 c_0 - c_1 <= 28. In two
+// directions their product.
+double largest_coefficient(MapBoundary boundary) { return boundary == MapBoundary::periodic ? 3.0 : 28.0; }
+double largest_coefficient(const HeightMap& map) {
+  const double one = largest_coefficient(map.boundary);
+  return map.dimension == 2 ? one * one : one;
+}
+
+// A handful of roundings of each coefficient; s is rounded to eps |s| < 3 eps and the slope below 2 max|c| /
+// spacing.
 double tolerance(const HeightMap& map) {
   double closest = spacing(map, 0);
   if (map.dimension == 2) closest = std::min(closest, spacing(map, 1));
-  return 9.0 * (16.0 + 2.0 * 3.0 / closest) * eps;
+  return largest_coefficient(map) * (16.0 + 2.0 * 3.0 / closest) * eps;
 }
 
 TEST(HeightMap, IsExactAtItsSamples) {
@@ -125,29 +134,52 @@ TEST(HeightMap, OnePeriodicRowIsAProfile) {
     }
 }
 
-TEST(HeightMap, SolvesItsTridiagonalSystem) {
+// Rows of the system, with the coefficients beyond the ends, and of a clamped map the differences that its
+// end condition makes zero: the fourth, of three samples the third, of two the second.
+TEST(HeightMap, SolvesItsSystem) {
+  constexpr std::int64_t before = 2, after = 3;
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (const MapBoundary boundary : boundaries)
     for (std::int64_t n = 1; n <= 30; ++n)
       for (const std::int64_t stride : {1, 3}) {
-        std::vector<double> f(static_cast<std::size_t>(n * stride));
+        if (boundary == MapBoundary::clamped && n == 1) continue;
+        std::vector<double> f(static_cast<std::size_t>((before + n + after) * stride));
         for (double& x : f) x = value(generator);
         std::vector<double> c = f;
-        solve_spline_coefficients(c.data(), n, stride, boundary);
-        for (std::int64_t i = 0; i < n; ++i) {
-          const auto neighbour = [&](std::int64_t k) {
-            const std::int64_t wrapped =
-                boundary == MapBoundary::periodic ? (k + n) % n : std::clamp<std::int64_t>(k, 0, n - 1);
-            return c[static_cast<std::size_t>(wrapped * stride)];
-          };
-          // |c| <= 3, a handful of roundings
-          EXPECT_NEAR((neighbour(i - 1) + 4.0 * neighbour(i) + neighbour(i + 1)) / 6.0,
-                      f[static_cast<std::size_t>(i * stride)], 3 * 8 * eps)
+        solve_spline_coefficients(c.data() + before * stride, n, stride, boundary);
+        extend_spline_coefficients(c.data() + before * stride, n, before, after, stride, boundary);
+        const auto at = [&](const std::vector<double>& v, std::int64_t i) {
+          return v[static_cast<std::size_t>((before + i) * stride)];
+        };
+        const double bound = largest_coefficient(boundary) * 16 * eps; // a handful of roundings
+        for (std::int64_t i = 0; i < n; ++i)
+          EXPECT_NEAR((at(c, i - 1) + 4.0 * at(c, i) + at(c, i + 1)) / 6.0, at(f, i), bound)
               << n << " samples";
-          for (std::int64_t k = 1; k < stride; ++k) // what lies between is not touched
-            EXPECT_EQ(c[static_cast<std::size_t>(i * stride + k)],
-                      f[static_cast<std::size_t>(i * stride + k)]);
+        for (std::int64_t i = -before; i < n + after; ++i) {
+          if (boundary == MapBoundary::periodic) {
+            EXPECT_EQ(at(c, i), at(c, ((i % n) + n) % n)) << n << " samples";
+          }
+          if (boundary == MapBoundary::clamped && i < -1) {
+            EXPECT_NEAR(at(c, i), at(f, 0), bound) << n << " samples";
+          }
+          if (boundary == MapBoundary::clamped && i > n) {
+            EXPECT_NEAR(at(c, i), at(f, n - 1), bound) << n << " samples";
+          }
+          for (std::int64_t k = 1; k < stride; ++k) { // what lies between is not touched
+            const std::size_t between = static_cast<std::size_t>((before + i) * stride + k);
+            EXPECT_EQ(c[between], f[between]);
+          }
+        }
+        if (boundary == MapBoundary::periodic) continue;
+        const int order = static_cast<int>(std::min<std::int64_t>(n, 4));
+        for (const std::int64_t first : {std::int64_t{-1}, n - order}) {
+          std::vector<double> difference;
+          for (std::int64_t i = first; i <= first + order; ++i) difference.push_back(at(c, i));
+          for (; difference.size() > 1; difference.pop_back())
+            for (std::size_t i = 0; i + 1 < difference.size(); ++i)
+              difference[i] = difference[i + 1] - difference[i];
+          EXPECT_NEAR(difference[0], 0.0, 16 * bound) << n << " samples"; // the sum of the binomials
         }
       }
 }
@@ -158,7 +190,7 @@ TEST(HeightMap, IsACubicInEveryCell) {
     const HeightMap map = random_map(1, boundary, 1, 9);
     const Height height = Height::map(map);
     const double d = spacing(map, 0);
-    for (int cell = -4; cell < 13; ++cell) {
+    for (int cell = -6; cell < 15; ++cell) {
       const double s = map.origin[0] + (cell + 0.125) * d, t = 0.75 * d;
       const HeightJet<1, double> a = jet(height, s), b = jet(height, s + t);
       const double h3 = third_derivative(height, s);
@@ -177,11 +209,11 @@ TEST(HeightMap, IsC2Everywhere) {
     const HeightMap map = random_map(1, boundary, 1, 9);
     const Height height = Height::map(map);
     const double d = spacing(map, 0), step = 0x1p-40 * d;
-    for (int knot = -3; knot < 13; ++knot) {
+    for (int knot = -5; knot < 15; ++knot) {
       const double s = map.origin[0] + knot * d;
       const HeightJet<1, double> left = jet(height, s - step), right = jet(height, s + step);
-      // Over 2 steps each may change by its own derivative: at most 3 |c| 8 / d^(order + 1).
-      const double bound = 8 * tolerance(map) + 2 * 0x1p-40 * 9 * 8;
+      // Over 2 steps each may change by its own derivative: at most |c| 8 / d^(order + 1).
+      const double bound = 8 * tolerance(map) + 2 * 0x1p-40 * largest_coefficient(map) * 8;
       EXPECT_NEAR(left.h, right.h, bound) << "knot " << knot;
       EXPECT_NEAR(left.h1[0] * d, right.h1[0] * d, bound) << "knot " << knot;
       EXPECT_NEAR(left.h2[0] * d * d, right.h2[0] * d * d, bound) << "knot " << knot;
@@ -195,7 +227,7 @@ TEST(HeightMap, IsC2EverywhereIn3D) {
     const Height height = Height::map(map);
     const double d[2] = {spacing(map, 0), spacing(map, 1)};
     for (int a = 0; a < 2; ++a)
-      for (int knot = -3; knot < 9; ++knot)
+      for (int knot = -5; knot < 11; ++knot)
         for (double other = -2.3; other < 8.0; other += 0.7) {
           double s[2];
           s[1 - a] = map.origin[1 - a] + other * d[1 - a];
@@ -203,7 +235,7 @@ TEST(HeightMap, IsC2EverywhereIn3D) {
           const HeightJet<2, double> left = evaluate_height(height.root(), s);
           s[a] = map.origin[a] + (knot + 0x1p-40) * d[a];
           const HeightJet<2, double> right = evaluate_height(height.root(), s);
-          const double bound = 3 * (8 * tolerance(map) + 2 * 0x1p-40 * 9 * 8); // |c| <= 9
+          const double bound = 3 * (8 * tolerance(map) + 2 * 0x1p-40 * largest_coefficient(map) * 8);
           EXPECT_NEAR(left.h, right.h, bound);
           EXPECT_NEAR(left.h1[0] * d[0], right.h1[0] * d[0], bound);
           EXPECT_NEAR(left.h1[1] * d[1], right.h1[1] * d[1], bound);
@@ -224,7 +256,9 @@ TEST(HeightMap, ThirdDerivativeOnAKnotIsThatOfTheRightCell) {
     const Height height = Height::map(map);
     for (int knot = -2; knot < 12; ++knot) {
       EXPECT_EQ(third_derivative(height, knot), third_derivative(height, knot + 0.5)) << knot;
-      if (knot < 0 || knot >= 7) continue;
+      const bool clamped = boundary == MapBoundary::clamped;
+      if (knot < 0 || knot >= 7 || (clamped && (knot == 1 || knot == 6)))
+        continue; // no knots: ClampedMapHasNoKnotBesideItsEnds
       EXPECT_NE(third_derivative(height, knot), third_derivative(height, knot - 0.5)) << knot;
     }
   }
@@ -248,41 +282,116 @@ TEST(HeightMap, PeriodsAreEqualToTheBit) {
   }
 }
 
-TEST(HeightMap, ClampedMapIsConstantOneSpacingOutside) {
+TEST(HeightMap, ClampedMapIsItsEdgeSampleThreeSpacingsOutside) {
   HeightMap map = random_map(1, MapBoundary::clamped, 1, 6);
   map.origin[0] = 0.0;
   map.size[0] = 5.0;
   const Height height = Height::map(map);
-  for (const double inner : {-1.0, 6.0})
+  for (const double inner : {-3.0, 8.0})
     for (const double out : {0.0, 0.25, 1.0, 7.0, 1e9, 1e300}) {
-      const HeightJet<1, double> edge = jet(height, inner),
-                                 beyond = jet(height, inner + std::copysign(out, inner));
-      EXPECT_EQ(beyond.h, edge.h);
+      const HeightJet<1, double> beyond = jet(height, inner + std::copysign(out, inner));
+      EXPECT_NEAR(beyond.h, inner < 0.0 ? map.values.front() : map.values.back(), tolerance(map));
+      EXPECT_EQ(beyond.h, jet(height, inner).h);
       EXPECT_EQ(beyond.h1[0], 0.0);
       EXPECT_EQ(beyond.h2[0], 0.0);
     }
-  EXPECT_NE(jet(height, -0.5).h, jet(height, -1.0).h);
-  EXPECT_NE(jet(height, 5.5).h, jet(height, 6.0).h);
+  EXPECT_NE(jet(height, -2.5).h, jet(height, -3.0).h);
+  EXPECT_NE(jet(height, 7.5).h, jet(height, 8.0).h);
 }
 
-// A map only bends at its edge: a sampled cubic is reproduced inside, up to an error that falls by
-// 2 - sqrt(3) per sample (the decay of the inverse of the matrix 1 4 1).
-TEST(HeightMap, ReproducesACubicInside) {
-  const auto f = [](double s) { return 1.0 - s + 2.0 * s * s - 0.5 * s * s * s; };
-  const std::int64_t n = 41;
-  const Height height = Height::map(sampled(MapBoundary::clamped, n, -1.0, 2.0, f));
-  const auto error_near = [&](double from_edge) {
-    const double s = -1.0 + 0.05 * from_edge;
-    return std::fabs(jet(height, s).h - f(s));
-  };
-  for (int k = 2; k < 10; ++k)
-    EXPECT_NEAR(error_near(k + 1.5) / error_near(k + 0.5), 2.0 - std::sqrt(3.0), 1e-3)
-        << k; // next mode: 1e-4 of it
-  // 20 samples inside: 0.27^20 = 4e-12 of the error at the edge, below 1; value, then one order less per
-  // derivative
-  EXPECT_NEAR(jet(height, 0.01).h, f(0.01), 4e-12);
-  EXPECT_NEAR(jet(height, 0.01).h1[0], -1.0 + 4.0 * 0.01 - 1.5 * 1e-4, 4e-12 / 0.05);
-  EXPECT_NEAR(jet(height, 0.01).h2[0], 4.0 - 3.0 * 0.01, 4e-12 / 0.0025);
+// The end condition of a clamped map is exact for cubics, of three samples for parabolas and of two for
+// lines: with their derivatives, up to and including its ends. Random cubics with coefficients in units of
+// the spacing, measured from the middle.
+TEST(HeightMap, ClampedMapReproducesCubics) {
+  std::mt19937_64 generator(11);
+  std::uniform_real_distribution<double> coefficient(-1.0, 1.0);
+  for (std::int64_t n = 2; n <= 40; ++n)
+    for (int trial = 0; trial < 50; ++trial) {
+      double c[4];
+      for (int k = 0; k < 4; ++k) c[k] = k < n ? coefficient(generator) : 0.0;
+      const double size = 2.0, d = size / static_cast<double>(n - 1);
+      const auto at = [&](double s) { return (s - 0.5 * size) / d; };
+      const auto f = [&](double s) { return c[0] + at(s) * (c[1] + at(s) * (c[2] + at(s) * c[3])); };
+      const Height height = Height::map(sampled(MapBoundary::clamped, n, 0.0, size, f));
+      const double half =
+          0.5 * static_cast<double>(n - 1); // |f| <= 4 half^3, slopes in spacings 4 half^3 as well
+      const double bound =
+          largest_coefficient(MapBoundary::clamped) * 24 * eps * 4 * std::max(1.0, half * half * half);
+      for (int i = 0; i <= 20; ++i) {
+        const double s = size * i / 20.0, u = at(s);
+        const HeightJet<1, double> got = jet(height, s);
+        EXPECT_NEAR(got.h, f(s), bound) << n << " samples, s = " << s;
+        EXPECT_NEAR(got.h1[0] * d, c[1] + u * (2 * c[2] + u * 3 * c[3]), bound) << n << " samples, s = " << s;
+        EXPECT_NEAR(got.h2[0] * d * d, 2 * c[2] + 6 * u * c[3], 4 * bound) << n << " samples, s = " << s;
+        if (i == 20) continue; // the third derivative there is that of the cell outside
+        EXPECT_NEAR(third_derivative(height, s) * d * d * d, 6 * c[3], 8 * bound)
+            << n << " samples, s = " << s;
+      }
+    }
+}
+
+// Bicubics of two coordinates, as the products of their powers
+TEST(HeightMap, ClampedMapReproducesCubicsIn3D) {
+  std::mt19937_64 generator(12);
+  std::uniform_real_distribution<double> coefficient(-1.0, 1.0);
+  for (std::int64_t rows = 2; rows <= 9; ++rows)
+    for (std::int64_t columns = 2; columns <= 9; ++columns) {
+      HeightMap map = random_map(2, MapBoundary::clamped, rows, columns);
+      double c[4][4];
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) c[i][j] = i < columns && j < rows ? coefficient(generator) : 0.0;
+      // value, slopes and second derivatives of u^i v^j, in spacings from the first sample
+      const auto exact = [&](double u, double v) {
+        std::array<double, 6> sum{};
+        const double pu[4] = {1, u, u * u, u * u * u}, pv[4] = {1, v, v * v, v * v * v};
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4; ++j) {
+            const double du = i > 0 ? i * pu[i - 1] : 0, dv = j > 0 ? j * pv[j - 1] : 0;
+            const double duu = i > 1 ? i * (i - 1) * pu[i - 2] : 0, dvv = j > 1 ? j * (j - 1) * pv[j - 2] : 0;
+            const double term[6] = {pu[i] * pv[j], du * pv[j], pu[i] * dv, duu * pv[j], du * dv, pu[i] * dvv};
+            for (std::size_t k = 0; k < 6; ++k) sum[k] += c[i][j] * term[k];
+          }
+        return sum;
+      };
+      double largest = 0.0;
+      for (std::int64_t j = 0; j < rows; ++j)
+        for (std::int64_t i = 0; i < columns; ++i) {
+          const double value = exact(static_cast<double>(i), static_cast<double>(j))[0];
+          map.values[static_cast<std::size_t>(j * columns + i)] = value;
+          test::raise(largest, std::fabs(value));
+        }
+      const Height height = Height::map(map);
+      const double d1 = spacing(map, 0), d2 = spacing(map, 1);
+      const double bound =
+          std::pow(largest_coefficient(MapBoundary::clamped), 2) * 48 * eps * std::max(1.0, largest);
+      for (int j = 0; j <= 8; ++j)
+        for (int i = 0; i <= 8; ++i) {
+          const double s[2] = {map.origin[0] + map.size[0] * i / 8, map.origin[1] + map.size[1] * j / 8};
+          const std::array<double, 6> want = exact((s[0] - map.origin[0]) / d1, (s[1] - map.origin[1]) / d2);
+          const HeightJet<2, double> got = evaluate_height(height.root(), s);
+          EXPECT_NEAR(got.h, want[0], bound);
+          EXPECT_NEAR(got.h1[0] * d1, want[1], bound);
+          EXPECT_NEAR(got.h1[1] * d2, want[2], bound);
+          EXPECT_NEAR(got.h2[0] * d1 * d1, want[3], bound);
+          EXPECT_NEAR(got.h2[1] * d1 * d2, want[4], bound);
+          EXPECT_NEAR(got.h2[2] * d2 * d2, want[5], bound);
+        }
+    }
+}
+
+// Not-a-knot: the third derivative does not jump at the samples beside the ends.
+TEST(HeightMap, ClampedMapHasNoKnotBesideItsEnds) {
+  for (std::int64_t n = 4; n <= 20; ++n) {
+    const HeightMap map = random_map(1, MapBoundary::clamped, 1, n);
+    const Height height = Height::map(map);
+    const double d = spacing(map, 0), last = static_cast<double>(n - 1);
+    const auto in_spacings = [&](double u) {
+      return third_derivative(height, map.origin[0] + u * d) * d * d * d;
+    };
+    const double bound = 8 * largest_coefficient(MapBoundary::clamped) * 16 * eps;
+    EXPECT_NEAR(in_spacings(0.5), in_spacings(1.5), bound) << n;
+    EXPECT_NEAR(in_spacings(last - 0.5), in_spacings(last - 1.5), bound) << n;
+  }
 }
 
 // Interpolation error of the cubic spline: h^4, h^3, h^2 (de Boor).
@@ -307,7 +416,8 @@ TEST(HeightMap, ConvergesWithFourthOrder) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(std::log2(error[0][k] / error[1][k]) / 2.0, 4.0 - k, 0.1) << k;
 }
 
-// Far outside double's sensible range, a periodic map still reads its own table only (run under ASan), and keeps its bound.
+// Far outside double's sensible range, a periodic map still reads its own table only (run under ASan), and
+// keeps its bound.
 TEST(HeightMap, StaysInItsTableForAnyNumber) {
   for (const MapBoundary boundary : boundaries) {
     const Height height = Height::map(random_map(2, boundary, 3, 4));

@@ -1,7 +1,9 @@
 #include "heights.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace mechanics {
 
@@ -9,32 +11,62 @@ using nlohmann::json;
 
 namespace {
 
-// Coefficients of the cubic B-spline through f: (c_{i-1} + 4 c_i + c_{i+1}) / 6 = f_i, by plain iteration.
-// The matrix is diagonally dominant with ratio 1/2: 80 sweeps leave 2^-80.
-std::vector<double> spline_coefficients(const std::vector<double>& f, bool periodic) {
-  const int n = static_cast<int>(f.size());
-  std::vector<double> c = f;
-  const auto at = [&](int i) {
-    if (periodic) return c[static_cast<std::size_t>(((i % n) + n) % n)];
-    return c[static_cast<std::size_t>(i < 0 ? 0 : (i >= n ? n - 1 : i))];
-  };
-  for (int sweep = 0; sweep < 80; ++sweep)
-    for (int i = 0; i < n; ++i) {
-      // a clamped edge repeats its own coefficient; a single periodic sample neighbours itself
-      double own = 4.0, others = 0.0;
-      for (const int j : {i - 1, i + 1}) {
-        const bool itself = periodic ? n == 1 : (j < 0 || j >= n);
-        own += itself ? 1.0 : 0.0;
-        others += itself ? 0.0 : at(j);
-      }
-      c[static_cast<std::size_t>(i)] = (6.0 * f[static_cast<std::size_t>(i)] - others) / own;
+// Beside the samples: c_-1 and c_n of a clamped map, then its edge samples
+constexpr int beyond = 2;
+
+// Gaussian elimination with column pivots
+std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (std::fabs(a[i][k]) > std::fabs(a[pivot][k])) pivot = i;
+    std::swap(a[k], a[pivot]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
     }
+  }
+  for (std::size_t k = n; k-- > 0;) {
+    for (std::size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+// Coefficients of the cubic B-spline through f: (c_{i-1} + 4 c_i + c_{i+1}) / 6 = f_i. Periodic: as many as
+// f. Clamped: `beyond` more at either end; c_-1 and c_n are unknowns of the system, and so that the first two
+// cells are one cubic, and the last two, the fourth difference vanishes there (of fewer samples: the third,
+// the second).
+std::vector<double> spline_coefficients(const std::vector<double>& f, bool periodic) {
+  const std::size_t n = f.size(), unknowns = periodic ? n : n + 2;
+  std::vector<std::vector<double>> matrix(unknowns, std::vector<double>(unknowns, 0.0));
+  std::vector<double> right(unknowns, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < 3; ++k)
+      matrix[i][periodic ? (i + k + n - 1) % n : i + k] += (k == 1 ? 4.0 : 1.0) / 6.0;
+    right[i] = f[i];
+  }
+  if (periodic) return solve(matrix, right);
+  const std::vector<double> difference = n == 2   ? std::vector<double>{1, -2, 1}
+                                         : n == 3 ? std::vector<double>{1, -3, 3, -1}
+                                                  : std::vector<double>{1, -4, 6, -4, 1};
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    matrix[n][k] = difference[k];
+    matrix[n + 1][unknowns - difference.size() + k] = difference[k];
+  }
+  std::vector<double> c = solve(matrix, right);
+  c.insert(c.begin(), beyond - 1, f.front());
+  c.insert(c.end(), beyond - 1, f.back());
   return c;
 }
 
-int wrap(long i, int n, bool periodic) {
-  if (periodic) return static_cast<int>(((i % n) + n) % n);
-  return static_cast<int>(i < 0 ? 0 : (i >= n ? n - 1 : i));
+// Place of coefficient i among those of spline_coefficients(), for n samples
+std::size_t place(long i, int n, bool periodic) {
+  if (periodic) return static_cast<std::size_t>(((i % n) + n) % n);
+  return static_cast<std::size_t>(std::clamp<long>(i, -beyond, n - 1 + beyond) + beyond);
 }
 
 json numbers(Random& random, int count, double bound) {
@@ -87,15 +119,19 @@ Height::Height(const json& text, int parameters) : parameters_(parameters) {
       table_ = {text.at("values").get<std::vector<double>>()};
     else
       table_ = text.at("values").get<std::vector<std::vector<double>>>();
-    for (auto& row : table_) row = spline_coefficients(row, periodic_);
     count_ = {static_cast<int>(table_[0].size()), static_cast<int>(table_.size())};
-    if (parameters == 2)
+    for (auto& row : table_) row = spline_coefficients(row, periodic_);
+    if (parameters == 2) {
+      std::vector<std::vector<double>> columns;
       for (std::size_t i = 0; i < table_[0].size(); ++i) {
         std::vector<double> column;
         for (const auto& row : table_) column.push_back(row[i]);
-        column = spline_coefficients(column, periodic_);
-        for (std::size_t j = 0; j < table_.size(); ++j) table_[j][i] = column[j];
+        columns.push_back(spline_coefficients(column, periodic_));
       }
+      table_.assign(columns[0].size(), {});
+      for (const auto& column : columns)
+        for (std::size_t j = 0; j < column.size(); ++j) table_[j].push_back(column[j]);
+    }
     const auto size = text.at("size").get<std::vector<double>>();
     origin_ = text.value("origin", std::vector<double>(2, 0.0));
     for (std::size_t a = 0; a < size.size(); ++a)
@@ -184,8 +220,8 @@ double Height::operator()(const double* s) const {
     for (int b = 0; b < 4; ++b)
       for (int a = 0; a < 4; ++a)
         sum += w1[static_cast<std::size_t>(a)] * w2[static_cast<std::size_t>(b)] *
-               table_[static_cast<std::size_t>(wrap(j + b - 1, count_[1], periodic_))]
-                     [static_cast<std::size_t>(wrap(i + a - 1, count_[0], periodic_))];
+               table_[parameters_ == 2 ? place(j + b - 1, count_[1], periodic_) : 0]
+                     [place(i + a - 1, count_[0], periodic_)];
     return sum;
   }
   case Kind::thread: {
@@ -193,7 +229,7 @@ double Height::operator()(const double* s) const {
     const long i = static_cast<long>(spline(0, turns(s), w));
     double sum = 0.0;
     for (int a = 0; a < 4; ++a)
-      sum += w[static_cast<std::size_t>(a)] * table_[0][static_cast<std::size_t>(wrap(i + a - 1, count_[0], true))];
+      sum += w[static_cast<std::size_t>(a)] * table_[0][place(i + a - 1, count_[0], true)];
     return sum;
   }
   case Kind::sum: {
@@ -221,8 +257,8 @@ long Height::cell(const double* s) const {
 }
 
 const std::vector<std::string>& height_kinds() {
-  static const std::vector<std::string> kinds = {"none",     "constant", "sine",    "polynomial",
-                                                 "gaussian", "sum",      "product", "map",        "thread"};
+  static const std::vector<std::string> kinds = {"none", "constant", "sine", "polynomial", "gaussian",
+                                                 "sum",  "product",  "map",  "thread"};
   return kinds;
 }
 
@@ -288,7 +324,10 @@ json draw_texture(Random& random, int parameters) {
   const auto wave = [&](double amplitude, double longest) {
     json wave_vector = json::array();
     for (int a = 0; a < parameters; ++a) wave_vector.push_back(random.uniform(-longest, longest));
-    return json{{"type", "sine"}, {"amplitude", amplitude}, {"wave_vector", wave_vector}, {"phase", random.uniform(-3, 3)}};
+    return json{{"type", "sine"},
+                {"amplitude", amplitude},
+                {"wave_vector", wave_vector},
+                {"phase", random.uniform(-3, 3)}};
   };
   const int choice = random.below(4);
   if (choice == 0) return wave(random.uniform(0.01, 0.05), 2.5);
@@ -333,8 +372,9 @@ json rescale_height(const json& height, double height_factor, double coordinate_
     for (const char* key : {"pitch", "crest", "root", "rounding", "offset"}) scale(key, coordinate_factor);
     if (height.contains("turn")) scale("turn", coordinate_factor);
     if (height_factor != coordinate_factor) // the flanks keep their angles, which have bounds
-      return {{"type", "product"},
-              {"of", json::array({{{"type", "constant"}, {"value", height_factor / coordinate_factor}}, out})}};
+      return {
+          {"type", "product"},
+          {"of", json::array({{{"type", "constant"}, {"value", height_factor / coordinate_factor}}, out})}};
   }
   if (type == "map") {
     scale("values", height_factor);
