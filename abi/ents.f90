@@ -2,14 +2,16 @@
 !
 ! ents - enriched node-to-segment contact elements for finite element codes: the Fortran 2003 view of ents.h.
 !
-! Same names, same order, same meaning as the header, which documents every argument (shape, unit, errors); a test compares every
-! constant, every struct offset and every procedure of the two. What Fortran adds or changes:
+! bindings.py writes ents.f90 from ents.h and ents.f90.in: change those. Names, order and meaning are those of the header, which
+! documents every argument (shape, unit, errors); tests compare constants, struct offsets and procedures. What Fortran changes:
+!   - arguments that may be null are type(c_ptr): c_loc of the array, of the zero-terminated text or of the struct, or c_null_ptr;
+!     other texts are character arrays that end with c_null_char: trim(path) // c_null_char;
 !   - types start zeroed and with null pointers; `call ents_init(x)` does the same again and sets x%struct_size;
 !   - arrays go into ents_input, ents_output ... as c_loc(array) of arrays with the target attribute; ENTS_XI | ENTS_GAP is
 !     ior(ENTS_XI, ENTS_GAP), or ENTS_XI + ENTS_GAP. A C array [m][d] is a Fortran array (d, m);
 !   - order of a segment's nodes, and which way its normal points: "Segments" at the top of ents.h, where nodes are counted from 0;
-!   - a model is a type(c_ptr); element numbers (`first`, report%element) are 0-based as in C;
-!   - text arguments are ordinary character values with their length; ents_string turns C texts and report%message into one;
+!   - a model is a type(c_ptr); element numbers (`first`, report%element) and all indices are 0-based as in C;
+!   - ents_string turns C texts (ents_status_text, layout%instruction_set) and report%message into Fortran's;
 !   - ents_version is called ents_library_version here: Fortran cannot tell it from the status value ENTS_VERSION.
 module ents
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, &
@@ -18,11 +20,10 @@ module ents
   public
   private :: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, c_null_char, c_null_ptr, c_ptr
 
-  ! What this module promises: pass both to ents_check_contract.
+  ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
+  ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 4
-
-  ! Status values. 0: done; 1 .. 99: recoverable, cut the step; -1 .. -99: the caller's mistake; -100 ..: installation or internal.
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -46,8 +47,6 @@ module ents
   integer(c_int32_t), parameter :: ENTS_BAD_PATTERN = -13
   integer(c_int32_t), parameter :: ENTS_NO_MEMORY = -100
   integer(c_int32_t), parameter :: ENTS_INTERNAL = -101
-
-  ! ents_layout%needs
   integer(c_int32_t), parameter :: ENTS_NEEDS_HEIGHT = 1
   integer(c_int32_t), parameter :: ENTS_NEEDS_SLOPE = 2
   integer(c_int32_t), parameter :: ENTS_NEEDS_CURVED = 4
@@ -57,8 +56,6 @@ module ents
   integer(c_int32_t), parameter :: ENTS_NEEDS_HISTORY = 64
   integer(c_int32_t), parameter :: ENTS_NEEDS_MULTIPLIERS = 128
   integer(c_int32_t), parameter :: ENTS_NEEDS_ONE_BY_ONE = 256
-
-  ! ents_output%wanted
   integer(c_int32_t), parameter :: ENTS_XI = 1
   integer(c_int32_t), parameter :: ENTS_GAP = 2
   integer(c_int32_t), parameter :: ENTS_NORMAL_GAP = 4
@@ -78,8 +75,6 @@ module ents
   integer(c_int32_t), parameter :: ENTS_TRACTION = 65536
   integer(c_int32_t), parameter :: ENTS_SLIP = 131072
   integer(c_int32_t), parameter :: ENTS_AGE = 262144
-
-  ! ents_output%flags
   integer(c_int32_t), parameter :: ENTS_FLAG_CONTACT = 1
   integer(c_int32_t), parameter :: ENTS_FLAG_OUTSIDE = 2
   integer(c_int32_t), parameter :: ENTS_FLAG_FAR_SIDE = 4
@@ -90,8 +85,8 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
-
-  ! Conditions of ents_surface_check; 0-based: value(ENTS_CHECK_FOLD + 1)
+  integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
+  integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
   integer(c_int32_t), parameter :: ENTS_CHECK_CONTINUITY = 0
   integer(c_int32_t), parameter :: ENTS_CHECK_FOLD = 1
   integer(c_int32_t), parameter :: ENTS_CHECK_EDGE = 2
@@ -102,10 +97,6 @@ module ents
   integer(c_int32_t), parameter :: ENTS_CHECK_SHADOW = 7
   integer(c_int32_t), parameter :: ENTS_CHECK_OCCLUSION = 8
   integer(c_int32_t), parameter :: ENTS_CHECK_CROSSING = 9
-
-  ! ends of ents_smooth
-  integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
-  integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
 
   type, bind(c) :: ents_report
     integer(c_int32_t) :: struct_size = 0
@@ -118,7 +109,7 @@ module ents
   type, bind(c) :: ents_data
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: reserved = 0
-    type(c_ptr) :: name = c_null_ptr ! zero-terminated
+    type(c_ptr) :: name = c_null_ptr ! a text that ends with c_null_char
     type(c_ptr) :: values = c_null_ptr ! (columns, rows)
     integer(c_int64_t) :: rows = 0
     integer(c_int64_t) :: columns = 0
@@ -136,15 +127,15 @@ module ents
     integer(c_int32_t) :: multipliers = 0
     integer(c_int32_t) :: friction = 0
     integer(c_int32_t) :: augmentable = 0
-    integer(c_int32_t) :: needs = 0 ! ENTS_NEEDS_...
-    type(c_ptr) :: instruction_set = c_null_ptr ! read it with ents_string
+    integer(c_int32_t) :: needs = 0
+    type(c_ptr) :: instruction_set = c_null_ptr ! a text that ends with c_null_char
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: segments = 0
-    type(c_ptr) :: connectivity = c_null_ptr ! (m, segments), counted from 0
+    type(c_ptr) :: connectivity = c_null_ptr ! (m, segments), int64
     integer(c_int64_t) :: nodes = 0
     type(c_ptr) :: positions = c_null_ptr ! (d, nodes)
     type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m, segments)
@@ -153,43 +144,15 @@ module ents
   type, bind(c) :: ents_detection
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: reserved = 0
-    type(c_ptr) :: slave = c_null_ptr ! (d, nodes)
+    type(c_ptr) :: slave = c_null_ptr ! (d, count)
     real(c_double) :: reach = 0
-    type(c_ptr) :: segment = c_null_ptr ! (nodes), int64, counted from 0
-    type(c_ptr) :: xi = c_null_ptr ! (d-1, nodes)
-    type(c_ptr) :: gap = c_null_ptr ! (nodes)
-    type(c_ptr) :: flags = c_null_ptr ! (nodes), int32
-    type(c_ptr) :: other = c_null_ptr ! (nodes), int64
-    type(c_ptr) :: slave_node = c_null_ptr ! (nodes), int64, counted from 0
+    type(c_ptr) :: segment = c_null_ptr ! (count), int64
+    type(c_ptr) :: xi = c_null_ptr ! (d-1, count)
+    type(c_ptr) :: gap = c_null_ptr ! (count)
+    type(c_ptr) :: flags = c_null_ptr ! (count), int32
+    type(c_ptr) :: other = c_null_ptr ! (count), int64
+    type(c_ptr) :: slave_node = c_null_ptr ! (count), int64
   end type ents_detection
-
-  type, bind(c) :: ents_combination
-    integer(c_int32_t) :: struct_size = 0
-    integer(c_int32_t) :: reserved = 0
-    integer(c_int64_t) :: points = 0
-    type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64, counted from 0
-    type(c_ptr) :: nodes = c_null_ptr ! int64, counted from 0
-    type(c_ptr) :: weights = c_null_ptr
-  end type ents_combination
-
-  type, bind(c) :: ents_system
-    integer(c_int32_t) :: struct_size = 0
-    integer(c_int32_t) :: index_size = 0 ! 4 or 8: bytes of an index in row_begin and columns
-    type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
-    type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
-    integer(c_int64_t) :: slave_nodes = 0
-    type(c_ptr) :: slave_equations = c_null_ptr ! (d, slave_nodes), int64, counted from 0; -1: none
-    integer(c_int64_t) :: master_nodes = 0
-    type(c_ptr) :: master_equations = c_null_ptr ! (d, master_nodes)
-    type(c_ptr) :: multiplier_equations = c_null_ptr ! (multipliers, elements)
-    integer(c_int64_t) :: rows = 0
-    type(c_ptr) :: residual = c_null_ptr ! (rows)
-    type(c_ptr) :: row_begin = c_null_ptr ! (rows + 1), counted from 0
-    type(c_ptr) :: columns = c_null_ptr ! counted from 0
-    type(c_ptr) :: values = c_null_ptr
-    type(c_ptr) :: places = c_null_ptr ! (places_size, elements), int64
-    integer(c_int64_t) :: places_size = 0
-  end type ents_system
 
   type, bind(c) :: ents_input
     integer(c_int32_t) :: struct_size = 0
@@ -209,7 +172,7 @@ module ents
     type(c_ptr) :: multiplier = c_null_ptr ! (multipliers, elements)
     integer(c_int64_t) :: multiplier_stride = 0
     type(c_ptr) :: mesh = c_null_ptr ! c_loc of an ents_master_mesh
-    type(c_ptr) :: segment = c_null_ptr ! (elements), int64, counted from 0
+    type(c_ptr) :: segment = c_null_ptr ! (elements), int64
     integer(c_int64_t) :: segment_stride = 0
   end type ents_input
 
@@ -228,7 +191,7 @@ module ents
     integer(c_int64_t) :: normal_stride = 0
     type(c_ptr) :: point = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: point_stride = 0
-    type(c_ptr) :: gap_gradient = c_null_ptr ! (n, elements), n = dofs - multipliers
+    type(c_ptr) :: gap_gradient = c_null_ptr ! (n, elements)
     integer(c_int64_t) :: gap_gradient_stride = 0
     type(c_ptr) :: gap_hessian = c_null_ptr ! (n, n, elements)
     integer(c_int64_t) :: gap_hessian_stride = 0
@@ -259,17 +222,45 @@ module ents
     integer(c_int64_t) :: age_stride = 0
   end type ents_output
 
+  type, bind(c) :: ents_combination
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: points = 0
+    type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64
+    type(c_ptr) :: nodes = c_null_ptr ! (begin[points]), int64
+    type(c_ptr) :: weights = c_null_ptr ! (begin[points])
+  end type ents_combination
+
+  type, bind(c) :: ents_system
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: index_size = 0
+    type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
+    type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
+    integer(c_int64_t) :: slave_nodes = 0
+    type(c_ptr) :: slave_equations = c_null_ptr ! (d, slave_nodes), int64
+    integer(c_int64_t) :: master_nodes = 0
+    type(c_ptr) :: master_equations = c_null_ptr ! (d, master_nodes), int64
+    type(c_ptr) :: multiplier_equations = c_null_ptr ! (multipliers, elements), int64
+    integer(c_int64_t) :: rows = 0
+    type(c_ptr) :: residual = c_null_ptr ! (rows)
+    type(c_ptr) :: row_begin = c_null_ptr ! (rows + 1)
+    type(c_ptr) :: columns = c_null_ptr ! (row_begin[rows])
+    type(c_ptr) :: values = c_null_ptr ! (row_begin[rows])
+    type(c_ptr) :: places = c_null_ptr ! (places_size, elements), int64
+    integer(c_int64_t) :: places_size = 0
+  end type ents_system
+
   type, bind(c) :: ents_surface
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: master = c_null_ptr ! (d, m)
     type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m)
-    type(c_ptr) :: xi = c_null_ptr ! (d-1, points)
-    type(c_ptr) :: point = c_null_ptr ! (d, points)
-    type(c_ptr) :: normal = c_null_ptr ! (d, points)
-    type(c_ptr) :: height = c_null_ptr ! (points)
-    type(c_ptr) :: base_point = c_null_ptr ! (d, points)
-    type(c_ptr) :: base_normal = c_null_ptr ! (d, points)
+    type(c_ptr) :: xi = c_null_ptr ! (d-1, count)
+    type(c_ptr) :: point = c_null_ptr ! (d, count)
+    type(c_ptr) :: normal = c_null_ptr ! (d, count)
+    type(c_ptr) :: height = c_null_ptr ! (count)
+    type(c_ptr) :: base_point = c_null_ptr ! (d, count)
+    type(c_ptr) :: base_normal = c_null_ptr ! (d, count)
   end type ents_surface
 
   type, bind(c) :: ents_admissibility
@@ -300,7 +291,7 @@ module ents
     real(c_double) :: value(16) = 0
     real(c_double) :: bound(16) = 0
     real(c_double) :: missing(16) = 0
-    integer(c_int64_t) :: segment(16) = 0 ! counted from 0
+    integer(c_int64_t) :: segment(16) = 0
     real(c_double) :: xi(2, 16) = 0
     real(c_double) :: point(3, 16) = 0
     integer(c_int64_t) :: other(16) = 0
@@ -311,13 +302,11 @@ module ents
 
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
-    module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
-      init_input, init_output, &
-      init_surface, init_admissibility, init_surface_admissibility
+    module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
+      init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
   end interface ents_init
-  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_combination, init_system, &
-    init_input, init_output, init_surface, &
-    init_admissibility, init_surface_admissibility
+  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_combination, &
+    init_system, init_surface, init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -325,23 +314,23 @@ module ents
   end interface ents_string
   private :: string_from_pointer, string_from_characters
 
-  ! `target` on the structs that hold pointers tells the compiler that their arrays are written: without it gfortran takes what an
+  ! `target` on structs tells the compiler that the arrays that they point to are written: without it gfortran takes what an
   ! intent(in) argument leads to for unchanged, and keeps old values of the arrays in registers.
   interface
-    ! Text of a status value; read it with ents_string.
+    ! Text of a status value.
     function ents_status_text(status) result(text) bind(c, name="ents_status_text")
       import :: c_int32_t, c_ptr
       integer(c_int32_t), value :: status
       type(c_ptr) :: text
     end function ents_status_text
 
-    ! Library version "major.minor.patch"; read it with ents_string.
+    ! Library version ("major.minor.patch", static text).
     function ents_library_version() result(text) bind(c, name="ents_version")
       import :: c_ptr
       type(c_ptr) :: text
     end function ents_library_version
 
-    ! Does this library serve ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR of this module? 0 or ENTS_VERSION.
+    ! Does this library serve the caller's header?
     function ents_check_contract(major, minor, report) result(status) bind(c, name="ents_check_contract")
       import :: c_int32_t, ents_report
       integer(c_int32_t), value :: major, minor
@@ -349,22 +338,20 @@ module ents
       integer(c_int32_t) :: status
     end function ents_check_contract
 
-    ! Read a model from text of `length` bytes. directory: c_loc of a zero-terminated text, or c_null_ptr; data: c_loc of the first
-    ! of data_count ents_data, or c_null_ptr.
+    ! Read a model from text (abi/model.schema.json says what it may hold).
     function ents_model_create(text, length, directory, data, data_count, model, report) result(status) &
       bind(c, name="ents_model_create")
       import :: c_char, c_int32_t, c_int64_t, c_ptr, ents_report
       character(kind=c_char), intent(in) :: text(*)
       integer(c_int64_t), value :: length
-      type(c_ptr), value :: directory
-      type(c_ptr), value :: data
+      type(c_ptr), value :: directory, data
       integer(c_int64_t), value :: data_count
       type(c_ptr), intent(out) :: model
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_model_create
 
-    ! The same from a JSON file; path is zero-terminated: trim(path) // c_null_char.
+    ! The same from a JSON file; relative names of height maps start at the file's own folder.
     function ents_model_create_from_file(path, model, report) result(status) bind(c, name="ents_model_create_from_file")
       import :: c_char, c_int32_t, c_ptr, ents_report
       character(kind=c_char), intent(in) :: path(*)
@@ -373,7 +360,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_model_create_from_file
 
-    ! Release a model and set the handle to c_null_ptr.
+    ! Release a model and set the handle to null.
     function ents_model_destroy(model, report) result(status) bind(c, name="ents_model_destroy")
       import :: c_int32_t, c_ptr, ents_report
       type(c_ptr), intent(inout) :: model
@@ -381,38 +368,14 @@ module ents
       integer(c_int32_t) :: status
     end function ents_model_destroy
 
-    ! Sizes of everything a caller allocates for this model.
     function ents_model_layout(model, layout, report) result(status) bind(c, name="ents_model_layout")
       import :: c_int32_t, c_ptr, ents_layout, ents_report
       type(c_ptr), value :: model
-      type(ents_layout), intent(inout) :: layout
+      type(ents_layout), intent(inout), target :: layout
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_model_layout
 
-    ! Evaluate the elements first .. first + count - 1 (0-based) of the arrays that input and output name.
-    function ents_evaluate(model, first, count, input, output, report) result(status) bind(c, name="ents_evaluate")
-      import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_output, ents_report
-      type(c_ptr), value :: model
-      integer(c_int64_t), value :: first, count
-      type(ents_input), intent(in), target :: input
-      type(ents_output), intent(in), target :: output
-      type(ents_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function ents_evaluate
-
-    ! Fill `count` state blocks, `stride` doubles apart, for elements without history.
-    function ents_state_init(model, count, state, stride, report) result(status) bind(c, name="ents_state_init")
-      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
-      type(c_ptr), value :: model
-      integer(c_int64_t), value :: count
-      real(c_double), intent(inout) :: state(*)
-      integer(c_int64_t), value :: stride
-      type(ents_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function ents_state_init
-
-    ! Doubles that the tree of a master surface takes.
     function ents_tree_size(model, segments, size, report) result(status) bind(c, name="ents_tree_size")
       import :: c_int32_t, c_int64_t, c_ptr, ents_report
       type(c_ptr), value :: model
@@ -422,7 +385,6 @@ module ents
       integer(c_int32_t) :: status
     end function ents_tree_size
 
-    ! Make the tree: once.
     function ents_tree_build(model, mesh, tree, size, report) result(status) bind(c, name="ents_tree_build")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_master_mesh, ents_report
       type(c_ptr), value :: model
@@ -433,7 +395,6 @@ module ents
       integer(c_int32_t) :: status
     end function ents_tree_build
 
-    ! Fit it to new positions.
     function ents_tree_refit(model, mesh, tree, size, report) result(status) bind(c, name="ents_tree_refit")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_master_mesh, ents_report
       type(c_ptr), value :: model
@@ -444,7 +405,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_tree_refit
 
-    ! Project slave nodes on a whole surface.
+    ! Project the slave nodes first .. first + count - 1 on the surface.
     function ents_detect(model, mesh, tree, size, first, count, detection, report) result(status) bind(c, name="ents_detect")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_master_mesh, ents_report
       type(c_ptr), value :: model
@@ -456,7 +417,73 @@ module ents
       integer(c_int32_t) :: status
     end function ents_detect
 
-    ! Positions of points that are linear combinations of nodes. positions: (dimension, nodes); points: (dimension, points).
+    ! Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges).
+    function ents_evaluate(model, first, count, input, output, report) result(status) bind(c, name="ents_evaluate")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_output, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: first, count
+      type(ents_input), intent(in), target :: input
+      type(ents_output), intent(in), target :: output
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_evaluate
+
+    ! Fill `count` state blocks for elements without history.
+    function ents_state_init(model, count, state, stride, report) result(status) bind(c, name="ents_state_init")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      real(c_double), intent(inout) :: state(*)
+      integer(c_int64_t), value :: stride
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_init
+
+    ! Augmented Lagrangian with multipliers in the state (Uzawa).
+    function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
+      bind(c, name="ents_state_augment")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: count
+      real(c_double), intent(inout) :: state_begin(*)
+      integer(c_int64_t), value :: begin_stride
+      real(c_double), intent(in) :: state_end(*)
+      integer(c_int64_t), value :: end_stride
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_augment
+
+    ! A slave node moves on to another segment.
+    function ents_state_transfer(model, old_master, old_surface_coordinates, new_master, new_surface_coordinates, state, moved, &
+      report) result(status) bind(c, name="ents_state_transfer")
+      import :: c_double, c_int32_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      real(c_double), intent(in) :: old_master(*)
+      type(c_ptr), value :: old_surface_coordinates
+      real(c_double), intent(in) :: new_master(*)
+      type(c_ptr), value :: new_surface_coordinates
+      real(c_double), intent(in) :: state(*)
+      real(c_double), intent(inout) :: moved(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_state_transfer
+
+    ! Tributary areas of slave nodes.
+    function ents_tributary_areas(facet, facets, connectivity, nodes, positions, thickness, areas, report) result(status) &
+      bind(c, name="ents_tributary_areas")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
+      character(kind=c_char), intent(in) :: facet(*)
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), value :: thickness
+      real(c_double), intent(inout) :: areas(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_tributary_areas
+
+    ! Positions of the points, or what else is given per node (surface coordinates).
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
       import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
       type(ents_combination), intent(in), target :: combination
@@ -468,8 +495,8 @@ module ents
       integer(c_int32_t) :: status
     end function ents_combine
 
-    ! Sampling points inside slave facets; arguments as of ents_tributary_areas. begin: (points + 1); point_nodes, weights: (nodes of
-    ! the facet, points); areas: (points).
+    ! Sampling points of slave facets, so that texture between slave nodes is seen and a constant pressure gives every slave node
+    ! its exact share (Zavarise and De Lorenzis, IJNME 79, 2009).
     function ents_sampling_points(facet, per_direction, facets, connectivity, nodes, positions, thickness, begin, point_nodes, &
       weights, areas, report) result(status) bind(c, name="ents_sampling_points")
       import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
@@ -486,7 +513,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_sampling_points
 
-    ! Sizes of what ents_smooth fills.
+    ! A smoothed master surface over ordinary facets.
     function ents_smooth_size(facet, basis, ends, facets, connectivity, nodes, points, terms, report) result(status) &
       bind(c, name="ents_smooth_size")
       import :: c_char, c_int32_t, c_int64_t, ents_report
@@ -500,8 +527,6 @@ module ents
       integer(c_int32_t) :: status
     end function ents_smooth_size
 
-    ! A smoothed surface over facets. facet, basis: zero-terminated names; connectivity: (nodes of the facet, facets), counted from
-    ! 0; segment_points: (m, facets); begin: (points + 1); point_nodes, weights: (terms).
     function ents_smooth(facet, basis, ends, facets, connectivity, nodes, points, terms, segment_points, begin, point_nodes, &
       weights, report) result(status) bind(c, name="ents_smooth")
       import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
@@ -516,7 +541,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_smooth
 
-    ! Evaluate elements and add them to the host's equations. output: c_loc of an ents_output or c_null_ptr.
+    ! ents_evaluate, and what is an element's goes into the host's equations.
     function ents_assemble(model, first, count, input, output, system, report) result(status) bind(c, name="ents_assemble")
       import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_report, ents_system
       type(c_ptr), value :: model
@@ -528,7 +553,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_assemble
 
-    ! ents_detect and ents_assemble in one call. output: c_loc of an ents_output or c_null_ptr; system: of an ents_system or c_null_ptr.
+    ! All of an iteration in one call.
     function ents_iterate(model, mesh, tree, size, first, count, detection, input, output, system, report) result(status) &
       bind(c, name="ents_iterate")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_input, ents_master_mesh, ents_report
@@ -543,53 +568,6 @@ module ents
       integer(c_int32_t) :: status
     end function ents_iterate
 
-    ! Uzawa: the multipliers of the end states into the begin states; solve the increment again.
-    function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
-      bind(c, name="ents_state_augment")
-      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
-      type(c_ptr), value :: model
-      integer(c_int64_t), value :: count
-      real(c_double), intent(inout) :: state_begin(*)
-      integer(c_int64_t), value :: begin_stride
-      real(c_double), intent(in) :: state_end(*)
-      integer(c_int64_t), value :: end_stride
-      type(ents_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function ents_state_augment
-
-    ! The state of a slave node that moves on to another segment. masters: (d, m); surface coordinates: c_loc of (d-1, m) or
-    ! c_null_ptr.
-    function ents_state_transfer(model, old_master, old_surface_coordinates, new_master, new_surface_coordinates, state, moved, &
-      report) result(status) bind(c, name="ents_state_transfer")
-      import :: c_double, c_int32_t, c_ptr, ents_report
-      type(c_ptr), value :: model
-      real(c_double), intent(in) :: old_master(*)
-      type(c_ptr), value :: old_surface_coordinates
-      real(c_double), intent(in) :: new_master(*)
-      type(c_ptr), value :: new_surface_coordinates
-      real(c_double), intent(in) :: state(*)
-      real(c_double), intent(inout) :: moved(*)
-      type(ents_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function ents_state_transfer
-
-    ! Tributary areas of slave nodes. facet: zero-terminated name; connectivity: (nodes of the facet, facets), counted from 0;
-    ! positions: (d, nodes); areas: (nodes).
-    function ents_tributary_areas(facet, facets, connectivity, nodes, positions, thickness, areas, report) result(status) &
-      bind(c, name="ents_tributary_areas")
-      import :: c_char, c_double, c_int32_t, c_int64_t, ents_report
-      character(kind=c_char), intent(in) :: facet(*)
-      integer(c_int64_t), value :: facets
-      integer(c_int64_t), intent(in) :: connectivity(*)
-      integer(c_int64_t), value :: nodes
-      real(c_double), intent(in) :: positions(*)
-      real(c_double), value :: thickness
-      real(c_double), intent(inout) :: areas(*)
-      type(ents_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function ents_tributary_areas
-
-    ! Points of the enriched surface, for pictures, meshes and checks.
     function ents_surface_evaluate(model, count, surface, report) result(status) bind(c, name="ents_surface_evaluate")
       import :: c_int32_t, c_int64_t, c_ptr, ents_report, ents_surface
       type(c_ptr), value :: model
@@ -599,19 +577,14 @@ module ents
       integer(c_int32_t) :: status
     end function ents_surface_evaluate
 
-    ! Is the enrichment admissible on this segment? master: c_loc of (d, m); surface_coordinates: c_loc of (d-1, m) or c_null_ptr.
-    function ents_model_check(model, master, surface_coordinates, result, report) result(status) &
-      bind(c, name="ents_model_check")
+    function ents_model_check(model, master, surface_coordinates, result, report) result(status) bind(c, name="ents_model_check")
       import :: c_int32_t, c_ptr, ents_admissibility, ents_report
-      type(c_ptr), value :: model
-      type(c_ptr), value :: master
-      type(c_ptr), value :: surface_coordinates
-      type(ents_admissibility), intent(inout) :: result
+      type(c_ptr), value :: model, master, surface_coordinates
+      type(ents_admissibility), intent(inout), target :: result
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_model_check
 
-    ! Is the enrichment admissible on a whole surface?
     function ents_surface_check(model, mesh, result, report) result(status) bind(c, name="ents_surface_check")
       import :: c_int32_t, c_ptr, ents_master_mesh, ents_report, ents_surface_admissibility
       type(c_ptr), value :: model
@@ -651,16 +624,6 @@ contains
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_detection
 
-  subroutine init_combination(x)
-    type(ents_combination), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
-  end subroutine init_combination
-
-  subroutine init_system(x)
-    type(ents_system), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
-  end subroutine init_system
-
   subroutine init_input(x)
     type(ents_input), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
@@ -670,6 +633,16 @@ contains
     type(ents_output), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_output
+
+  subroutine init_combination(x)
+    type(ents_combination), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_combination
+
+  subroutine init_system(x)
+    type(ents_system), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_system
 
   subroutine init_surface(x)
     type(ents_surface), intent(out) :: x

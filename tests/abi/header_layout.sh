@@ -1,17 +1,14 @@
 #!/bin/sh
-# header_layout.sh CC ents.h layout.c layout.f90: write the same program twice, in C over ents.h and in Fortran over ents.f90. It
+# header_layout.sh PYTHON ents.h layout.c layout.f90: write the same program twice, in C over ents.h and in Fortran over ents.f90. It
 # prints every constant, and the offset and size of every field of every struct; the lists of both are taken from the header, so a
 # constant or field that ents.f90 lacks does not compile, and one that it has in excess changes the size of its struct.
 set -eu
-compiler=$1 header=$2 c=$3 fortran=$4
-tables=$(dirname "$0")/header_tables.awk
+python=$1 header=$2 c=$3 fortran=$4
 
-fields=$("$compiler" -E -P "$header" | awk -f "$tables" | awk '$1 == "struct" { print $2, $5 }')
+facts=$("$python" "$(dirname "$header")/bindings.py" facts "$header")
+fields=$(printf '%s\n' "$facts" | awk '$1 == "struct" { print $2, $5 }')
 structs=$(printf '%s\n' "$fields" | cut -d' ' -f1 | uniq)
-constants=$(
-  awk '/^#define ENTS_[A-Z0-9_]+ +[(0-9]/ { print $2 }' "$header"
-  awk '/^ *X\(ENTS_/ { sub(/^ *X\(/, ""); sub(/,.*/, ""); print }' "$header"
-)
+constants=$(printf '%s\n' "$facts" | awk '$1 == "constant" { print $2 }')
 [ -n "$fields" ] && [ -n "$constants" ] || { echo "header_layout.sh: nothing found in $header" >&2; exit 1; }
 
 {

@@ -1,15 +1,15 @@
 #!/bin/sh
-# header_prototypes.sh CC FC ents.h ents.f90: the compiler's own C prototypes of the Fortran module (gfortran -fc-prototypes) name the
+# header_prototypes.sh PYTHON FC ents.h ents.f90: the compiler's own C prototypes of the Fortran module (gfortran -fc-prototypes) name the
 # same structs with the same fields and the same functions with the same arguments, passed the same way, as the header.
 set -eu
-compiler=$1 fortran_compiler=$2 header=$3 module=$4
-tables=$(dirname "$0")/header_tables.awk
+python=$1 fortran_compiler=$2 header=$3 module=$4
+facts() { "$python" "$(dirname "$header")/bindings.py" facts "$1" | grep -v ^constant | sort; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-"$compiler" -E -P "$header" | awk -f "$tables" | sort >"$scratch/c"
+facts "$header" >"$scratch/c"
 (cd "$scratch" && "$fortran_compiler" -fsyntax-only -fc-prototypes "$module") >"$scratch/prototypes.h"
-"$compiler" -E -P "$scratch/prototypes.h" | awk -f "$tables" | sort >"$scratch/fortran"
+facts "$scratch/prototypes.h" >"$scratch/fortran"
 
 lines=$(wc -l <"$scratch/c")
 [ "$lines" -gt 0 ] || { echo "nothing found in $header" >&2; exit 1; }

@@ -52,8 +52,8 @@ class Header(unittest.TestCase):
         self.numbers = {words[0]: tuple(map(int, words[1:])) for words in map(str.split, printed(layout_program))}
 
     def test_structs(self):
-        for struct in ents.STRUCTS:
-            name = struct.__name__
+        self.assertEqual({name for name in self.numbers if name.startswith("ents_") and "%" not in name}, set(ents.STRUCTS))
+        for name, struct in ents.STRUCTS.items():
             fields = {key.split("%")[1]: value for key, value in self.numbers.items() if key.startswith(name + "%")}
             mine = {field: (getattr(struct, field).offset, getattr(struct, field).size) for field, _ in struct._fields_}
             self.assertEqual(mine, fields, name)

@@ -8,7 +8,7 @@ import pathlib
 import numpy as np
 
 from ._arrays import Error, _array, _combination, _new
-from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, Report, Status
+from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Report, Status
 
 
 def _installed():
@@ -32,17 +32,23 @@ class Library:
             self.c = ctypes.CDLL(self.path)
         except OSError as error:
             raise Error(Status.FILE, f"{error}: give Library(path), set ENTS_LIBRARY to the file libents.so, or install ents") from None
-        self.c.ents_version.restype = ctypes.c_char_p
-        self.call("check_contract", ctypes.c_int32(CONTRACT_MAJOR), ctypes.c_int32(CONTRACT_MINOR))
+        self._declare("ents_check_contract")
+        self.call("check_contract", CONTRACT_MAJOR, CONTRACT_MINOR)
+        for name in FUNCTIONS:  # an older library may lack some
+            self._declare(name)
+
+    def _declare(self, name):
+        function = getattr(self.c, name)
+        function.restype, function.argtypes = FUNCTIONS[name]
 
     def version(self):
         return self.c.ents_version().decode()
 
     def call(self, name, *arguments):
-        """ents_`name`(arguments, report). Negative statuses raise; the report comes back. Plain integers are int64."""
+        """ents_`name`(arguments, report). Negative statuses raise; the report comes back."""
         report = _new(Report)
-        converted = [ctypes.c_int64(a) if isinstance(a, (int, np.integer)) else ctypes.byref(a) if isinstance(a, ctypes.Structure)
-                     else ctypes.c_void_p(a.ctypes.data) if isinstance(a, np.ndarray) else a for a in arguments]
+        converted = [int(a) if isinstance(a, np.integer) else ctypes.byref(a) if isinstance(a, ctypes.Structure)
+                     else a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
         status = getattr(self.c, "ents_" + name)(*converted, ctypes.byref(report))
         if status < 0:
             raise Error(Status(status) if status in Status._value2member_map_ else status, report.message.decode(), report.element)
@@ -54,7 +60,7 @@ class Library:
         positions = _array("positions", positions, (None, 2 if facet.startswith("line") else 3))
         areas = np.zeros(len(positions))
         self.call("tributary_areas", facet.encode(), len(connectivity), connectivity, len(positions), positions,
-                  ctypes.c_double(thickness), areas)
+                  thickness, areas)
         return areas
 
     def sampling_points(self, facet, per_direction, connectivity, positions, thickness=1.0):
@@ -66,15 +72,15 @@ class Library:
         points = len(connectivity) * max(per_direction, 0) ** (1 if line else 2)
         begin, areas = np.zeros(points + 1, np.int64), np.zeros(points)
         of, weights = np.zeros(points * connectivity.shape[1], np.int64), np.zeros(points * connectivity.shape[1])
-        self.call("sampling_points", facet.encode(), ctypes.c_int32(per_direction), len(connectivity), connectivity, len(positions), positions,
-                  ctypes.c_double(thickness), begin, of, weights, areas)
+        self.call("sampling_points", facet.encode(), per_direction, len(connectivity), connectivity, len(positions), positions, thickness, begin,
+                  of, weights, areas)
         return (begin, of, weights), areas
 
     def smooth(self, facet, basis, connectivity, nodes, ends=ENDS_STRAIGHT):
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
         and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
         connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        head = (facet.encode(), basis.encode(), ctypes.c_int32(ends), len(connectivity), connectivity, *_array("nodes", [nodes], (1,), np.int64))
+        head = (facet.encode(), basis.encode(), ends, len(connectivity), connectivity, *_array("nodes", [nodes], (1,), np.int64))
         points, terms = ctypes.c_int64(), ctypes.c_int64()
         self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms))
         digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
@@ -88,7 +94,7 @@ class Library:
         begin = combination[0]
         values = _array("values", values, (None, None))
         points = np.zeros((len(begin) - 1, values.shape[1]))
-        self.call("combine", _combination(combination), ctypes.c_int32(values.shape[1]), len(values), values, points)
+        self.call("combine", _combination(combination), values.shape[1], len(values), values, points)
         return points
 
 

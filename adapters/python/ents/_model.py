@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import Error, _address, _array, _new
-from ._structs import _STRIDED, QUANTITIES, Data, Input, Layout, Output, Status, Surface
+from ._structs import INPUTS, QUANTITIES, RESULTS, Data, Input, Layout, Output, Status, Surface
 
 
 class Model:
@@ -25,8 +25,7 @@ class Model:
         self._handle = ctypes.c_void_p()
         arrays = {name: np.atleast_2d(np.ascontiguousarray(values, np.float64)) for name, values in (data or {}).items()}
         names = [name.encode() for name in arrays]
-        structs = (Data * len(arrays))(*(_new(Data, name=ctypes.cast(ctypes.c_char_p(name), ctypes.c_void_p), values=_address(values),
-                                              rows=values.shape[0], columns=values.shape[1])
+        structs = (Data * len(arrays))(*(_new(Data, name=name, values=_address(values), rows=values.shape[0], columns=values.shape[1])
                                          for name, values in zip(names, arrays.values())))
         if isinstance(source, dict):
             source = json.dumps(source)
@@ -53,6 +52,13 @@ class Model:
 
     def _call(self, name, *arguments):
         return self.library.call(name, self._handle, *arguments)
+
+    def _shape(self, extents):
+        """Shape of an array of one element, from its extents in ents.h."""
+        lay = self.layout
+        sizes = {"d": lay.dimension, "d-1": lay.parameters, "m": lay.nodes, "n": lay.dofs - lay.multipliers, "dofs": lay.dofs,
+                 "tangent_leading_dimension": lay.dofs, "state_size": lay.state_size, "multipliers": lay.multipliers}
+        return tuple(sizes[extent] for extent in extents)
 
     def state_init(self, count):
         """[count][state_size]: states of elements without history."""
@@ -115,16 +121,13 @@ class Model:
 
     def _input(self, slave, tree, segment, **inputs):
         """ents_input, and the arrays that it points to."""
-        lay = self.layout
-        d, m, n = lay.dimension, lay.nodes, len(slave)
+        n = len(slave)
         given = {"slave": slave}
-        block = _new(Input, slave=slave.ctypes.data, slave_stride=d)
-        shapes = {"master": (m, d), "surface_coordinates": (m, d - 1), "start": (d - 1,), "area": (), "state_begin": (lay.state_size,),
-                  "multiplier": (lay.multipliers,)}
+        block = _new(Input, slave=slave.ctypes.data, slave_stride=self.layout.dimension)
         for name, value in inputs.items():
             if value is None:
                 continue
-            shape = shapes[name]
+            shape = self._shape(INPUTS[name])
             number = np.ndim(value) == 0 and len(shape) < 2  # of all elements and all entries
             shared = number or np.ndim(value) == len(shape)
             given[name] = np.full(shape, value, np.float64) if number else _array(name, value, shape if shared else (n, *shape))
@@ -137,15 +140,10 @@ class Model:
 
     def _output(self, n, want, out):
         """ents_output, and the arrays that it points to: new ones, or those of `out`."""
-        lay = self.layout
-        d, dofs, own = lay.dimension, lay.dofs, lay.dofs - lay.multipliers
         names = want.split() if isinstance(want, str) else list(want)
         unknown = [name for name in names if name not in QUANTITIES]
         if unknown:
             raise Error(Status.BAD_MASK, f"want: there is no {', '.join(unknown)}; take some of {', '.join(QUANTITIES)}")
-        shapes = {"xi": (d - 1,), "normal": (d,), "point": (d,), "traction": (d,), "gap_gradient": (own,), "gap_hessian": (own, own),
-                  "xi_gradient": (d - 1, own), "xi_hessian": (d - 1, own, own), "residual": (dofs,), "tangent": (dofs, dofs),
-                  "state_end": (lay.state_size,)}
         result = {} if out is None else out
 
         def target(name, shape, dtype):
@@ -161,10 +159,10 @@ class Model:
             return array.ctypes.data
 
         block_out = _new(Output, wanted=sum(QUANTITIES[name] for name in set(names)), status=target("status", (), np.int32), status_stride=1)
-        for name, kind in _STRIDED:
+        for name, (_, kind, extents) in RESULTS.items():
             if name in names:
-                shape = shapes.get(name, ())
-                setattr(block_out, name, target(name, shape, np.int32 if kind == "i" else np.float64))
+                shape = self._shape(extents)
+                setattr(block_out, name, target(name, shape, np.dtype(kind)))
                 setattr(block_out, name + "_stride", int(np.prod(shape)))
         return result, block_out
 

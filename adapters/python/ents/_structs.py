@@ -1,61 +1,373 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constants and structs of ents.h, in its order. A test compares them with the header as a C compiler sees it."""
+"""Constants, structs and functions of ents.h. Written by abi/bindings.py: change ents.h, not this file."""
 import ctypes
 import enum
 
-CONTRACT_MAJOR, CONTRACT_MINOR = 1, 4
-ENDS_STRAIGHT, ENDS_REPEATED = 0, 1
+CONTRACT_MAJOR = 1
+CONTRACT_MINOR = 4
+ENDS_STRAIGHT = 0
+ENDS_REPEATED = 1
 
 
 class Status(enum.IntEnum):
     """Statuses of ents.h. 1 .. 99: cut the step; negative: raised as Error."""
     OK = 0
-    NO_PROJECTION, SINGULAR_PROJECTION, AMBIGUOUS_PROJECTION, DEGENERATE_SEGMENT, GRAZING_RAY, DEEP_PENETRATION, OUT_OF_RANGE = range(1, 8)
-    NULL_ARGUMENT, STRUCT_SIZE, VERSION, NON_FINITE, JSON_SYNTAX, UNKNOWN_KEY = range(-1, -7, -1)
-    BAD_VALUE, FILE, BAD_MASK, BAD_COUNT, BAD_HANDLE, BAD_STATE, BAD_PATTERN = range(-7, -14, -1)
-    NO_MEMORY, INTERNAL = -100, -101
+    NO_PROJECTION = 1
+    SINGULAR_PROJECTION = 2
+    AMBIGUOUS_PROJECTION = 3
+    DEGENERATE_SEGMENT = 4
+    GRAZING_RAY = 5
+    DEEP_PENETRATION = 6
+    OUT_OF_RANGE = 7
+    NULL_ARGUMENT = -1
+    STRUCT_SIZE = -2
+    VERSION = -3
+    NON_FINITE = -4
+    JSON_SYNTAX = -5
+    UNKNOWN_KEY = -6
+    BAD_VALUE = -7
+    FILE = -8
+    BAD_MASK = -9
+    BAD_COUNT = -10
+    BAD_HANDLE = -11
+    BAD_STATE = -12
+    BAD_PATTERN = -13
+    NO_MEMORY = -100
+    INTERNAL = -101
 
 
 class Flag(enum.IntFlag):
     """Bits of result["flags"]."""
-    CONTACT, OUTSIDE, FAR_SIDE, SEARCHED, STICK, SLIP, SHEAR_LIMIT, CHANGED, AMBIGUOUS, BEHIND_EDGE = (1 << i for i in range(10))
+    CONTACT = 1
+    OUTSIDE = 2
+    FAR_SIDE = 4
+    SEARCHED = 8
+    STICK = 16
+    SLIP = 32
+    SHEAR_LIMIT = 64
+    AMBIGUOUS = 256
+    BEHIND_EDGE = 512
+    CHANGED = 128
 
 
 class Need(enum.IntFlag):
     """Bits of Model.layout.needs: what the elements of a model need. What they do not need is not computed."""
-    HEIGHT, SLOPE, CURVED, ITERATION, MASTER, FRICTION, HISTORY, MULTIPLIERS, ONE_BY_ONE = (1 << i for i in range(9))
+    HEIGHT = 1
+    SLOPE = 2
+    CURVED = 4
+    ITERATION = 8
+    MASTER = 16
+    FRICTION = 32
+    HISTORY = 64
+    MULTIPLIERS = 128
+    ONE_BY_ONE = 256
 
 
-# Kinds of fields, below as "kind:name" in the order of ents.h.
-_KINDS = {"i": ctypes.c_int32, "l": ctypes.c_int64, "d": ctypes.c_double, "p": ctypes.c_void_p, "s": ctypes.c_char_p, "m": ctypes.c_char * 512,
-          "l16": ctypes.c_int64 * 16, "d16": ctypes.c_double * 16, "d16x2": ctypes.c_double * 2 * 16, "d16x3": ctypes.c_double * 3 * 16}
+# Results of elements: bit of `wanted`, type of the numbers, shape (without sizes that are 1).
+RESULTS = {
+    "xi": (1, "float64", ("d-1",)),
+    "gap": (2, "float64", ()),
+    "normal_gap": (4, "float64", ()),
+    "normal": (8, "float64", ("d",)),
+    "point": (16, "float64", ("d",)),
+    "gap_gradient": (32, "float64", ("n",)),
+    "gap_hessian": (64, "float64", ("n", "n")),
+    "xi_gradient": (128, "float64", ("d-1", "n")),
+    "xi_hessian": (256, "float64", ("d-1", "n", "n")),
+    "energy": (512, "float64", ()),
+    "pressure": (1024, "float64", ()),
+    "residual": (2048, "float64", ("dofs",)),
+    "tangent": (4096, "float64", ("dofs", "tangent_leading_dimension")),
+    "state_end": (8192, "float64", ("state_size",)),
+    "flags": (16384, "int32", ()),
+    "iterations": (32768, "int32", ()),
+    "traction": (65536, "float64", ("d",)),
+    "slip": (131072, "float64", ()),
+    "age": (262144, "float64", ()),
+}
+QUANTITIES = {name: bit for name, (bit, _, _) in RESULTS.items()}
+
+# Inputs of elements: the shape of one element's.
+INPUTS = {
+    "slave": ("d",),
+    "master": ("m", "d"),
+    "surface_coordinates": ("m", "d-1"),
+    "start": ("d-1",),
+    "area": (),
+    "state_begin": ("state_size",),
+    "multiplier": ("multipliers",),
+}
+
+# Places in the arrays of SurfaceAdmissibility.
+CONDITIONS = ("continuity", "fold", "edge", "jump", "kink", "wedge", "projection", "shadow", "occlusion", "crossing")
 
 
-def _struct(name, fields):
-    pairs = [field.split(":") for field in ("i:struct_size " + fields).split()]
-    return type(name, (ctypes.Structure,), {"_fields_": [(field, _KINDS[kind]) for kind, field in pairs]})
+class Report(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("status", ctypes.c_int32),
+        ("element", ctypes.c_int64),
+        ("step_factor", ctypes.c_double),
+        ("message", ctypes.c_char * 512),
+    ]
 
 
-_STRIDED = [  # name of the quantity, kind of its numbers; in the order of the bits ENTS_XI, ENTS_GAP ... except `state_end`
-    *((name, "d") for name in "xi gap normal_gap normal point gap_gradient gap_hessian xi_gradient xi_hessian energy pressure residual tangent "
-      "state_end".split()), ("flags", "i"), ("iterations", "i"), *((name, "d") for name in "traction slip age".split())]
-QUANTITIES = {name: 1 << bit for bit, (name, _) in enumerate(_STRIDED)}
+class Data(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("name", ctypes.c_char_p),
+        ("values", ctypes.c_void_p),
+        ("rows", ctypes.c_int64),
+        ("columns", ctypes.c_int64),
+    ]
 
-Report = _struct("ents_report", "i:status l:element d:step_factor m:message")
-Data = _struct("ents_data", "i:reserved p:name p:values l:rows l:columns")
-Layout = _struct("ents_layout", "i:dimension i:nodes i:parameters i:dofs i:state_size i:symmetric_tangent i:own_surface_coordinates "
-                 "i:multipliers i:friction i:augmentable i:needs s:instruction_set")
-MasterMesh = _struct("ents_master_mesh", "i:reserved l:segments p:connectivity l:nodes p:positions p:surface_coordinates")
-Detection = _struct("ents_detection", "i:reserved p:slave d:reach p:segment p:xi p:gap p:flags p:other p:slave_node")
-Input = _struct("ents_input", "i:reserved " + " ".join(f"p:{name} l:{name}_stride" for name in (
-    "slave", "master", "surface_coordinates", "start", "area", "state_begin", "multiplier")) + " p:mesh p:segment l:segment_stride")
-Output = _struct("ents_output", "i:wanted p:status l:status_stride " + " ".join(
-    f"p:{name} l:{name}_stride" + (" l:tangent_leading_dimension" if name == "tangent" else "") for name, _ in _STRIDED))
-Surface = _struct("ents_surface", "i:reserved p:master p:surface_coordinates p:xi p:point p:normal p:height p:base_point p:base_normal")
-Combination = _struct("ents_combination", "i:reserved l:points p:begin p:nodes p:weights")
-SystemOfHost = _struct("ents_system", "i:index_size p:slave p:master l:slave_nodes p:slave_equations l:master_nodes p:master_equations "
-                       "p:multiplier_equations l:rows p:residual p:row_begin p:columns p:values p:places l:places_size")
-SurfaceCheck = _struct("ents_surface_admissibility", "i:samples d:reach d:kink p:violations l:judged l:violated d16:value d16:bound d16:missing "
-                       "l16:segment d16x2:xi d16x3:point l16:other d16x2:other_xi d:height_min d:height_max")
-STRUCTS = (Report, Data, Layout, MasterMesh, Detection, Input, Output, Surface, Combination, SystemOfHost, SurfaceCheck)
-CONDITIONS = "continuity fold edge jump kink wedge projection shadow occlusion crossing".split()  # places in the arrays of SurfaceCheck
+
+class Layout(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("dimension", ctypes.c_int32),
+        ("nodes", ctypes.c_int32),
+        ("parameters", ctypes.c_int32),
+        ("dofs", ctypes.c_int32),
+        ("state_size", ctypes.c_int32),
+        ("symmetric_tangent", ctypes.c_int32),
+        ("own_surface_coordinates", ctypes.c_int32),
+        ("multipliers", ctypes.c_int32),
+        ("friction", ctypes.c_int32),
+        ("augmentable", ctypes.c_int32),
+        ("needs", ctypes.c_int32),
+        ("instruction_set", ctypes.c_char_p),
+    ]
+
+
+class MasterMesh(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("segments", ctypes.c_int64),
+        ("connectivity", ctypes.c_void_p),
+        ("nodes", ctypes.c_int64),
+        ("positions", ctypes.c_void_p),
+        ("surface_coordinates", ctypes.c_void_p),
+    ]
+
+
+class Detection(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("slave", ctypes.c_void_p),
+        ("reach", ctypes.c_double),
+        ("segment", ctypes.c_void_p),
+        ("xi", ctypes.c_void_p),
+        ("gap", ctypes.c_void_p),
+        ("flags", ctypes.c_void_p),
+        ("other", ctypes.c_void_p),
+        ("slave_node", ctypes.c_void_p),
+    ]
+
+
+class Input(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("slave", ctypes.c_void_p),
+        ("slave_stride", ctypes.c_int64),
+        ("master", ctypes.c_void_p),
+        ("master_stride", ctypes.c_int64),
+        ("surface_coordinates", ctypes.c_void_p),
+        ("surface_coordinates_stride", ctypes.c_int64),
+        ("start", ctypes.c_void_p),
+        ("start_stride", ctypes.c_int64),
+        ("area", ctypes.c_void_p),
+        ("area_stride", ctypes.c_int64),
+        ("state_begin", ctypes.c_void_p),
+        ("state_begin_stride", ctypes.c_int64),
+        ("multiplier", ctypes.c_void_p),
+        ("multiplier_stride", ctypes.c_int64),
+        ("mesh", ctypes.c_void_p),
+        ("segment", ctypes.c_void_p),
+        ("segment_stride", ctypes.c_int64),
+    ]
+
+
+class Output(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("wanted", ctypes.c_int32),
+        ("status", ctypes.c_void_p),
+        ("status_stride", ctypes.c_int64),
+        ("xi", ctypes.c_void_p),
+        ("xi_stride", ctypes.c_int64),
+        ("gap", ctypes.c_void_p),
+        ("gap_stride", ctypes.c_int64),
+        ("normal_gap", ctypes.c_void_p),
+        ("normal_gap_stride", ctypes.c_int64),
+        ("normal", ctypes.c_void_p),
+        ("normal_stride", ctypes.c_int64),
+        ("point", ctypes.c_void_p),
+        ("point_stride", ctypes.c_int64),
+        ("gap_gradient", ctypes.c_void_p),
+        ("gap_gradient_stride", ctypes.c_int64),
+        ("gap_hessian", ctypes.c_void_p),
+        ("gap_hessian_stride", ctypes.c_int64),
+        ("xi_gradient", ctypes.c_void_p),
+        ("xi_gradient_stride", ctypes.c_int64),
+        ("xi_hessian", ctypes.c_void_p),
+        ("xi_hessian_stride", ctypes.c_int64),
+        ("energy", ctypes.c_void_p),
+        ("energy_stride", ctypes.c_int64),
+        ("pressure", ctypes.c_void_p),
+        ("pressure_stride", ctypes.c_int64),
+        ("residual", ctypes.c_void_p),
+        ("residual_stride", ctypes.c_int64),
+        ("tangent", ctypes.c_void_p),
+        ("tangent_stride", ctypes.c_int64),
+        ("tangent_leading_dimension", ctypes.c_int64),
+        ("state_end", ctypes.c_void_p),
+        ("state_end_stride", ctypes.c_int64),
+        ("flags", ctypes.c_void_p),
+        ("flags_stride", ctypes.c_int64),
+        ("iterations", ctypes.c_void_p),
+        ("iterations_stride", ctypes.c_int64),
+        ("traction", ctypes.c_void_p),
+        ("traction_stride", ctypes.c_int64),
+        ("slip", ctypes.c_void_p),
+        ("slip_stride", ctypes.c_int64),
+        ("age", ctypes.c_void_p),
+        ("age_stride", ctypes.c_int64),
+    ]
+
+
+class Combination(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("points", ctypes.c_int64),
+        ("begin", ctypes.c_void_p),
+        ("nodes", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+    ]
+
+
+class System(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("index_size", ctypes.c_int32),
+        ("slave", ctypes.c_void_p),
+        ("master", ctypes.c_void_p),
+        ("slave_nodes", ctypes.c_int64),
+        ("slave_equations", ctypes.c_void_p),
+        ("master_nodes", ctypes.c_int64),
+        ("master_equations", ctypes.c_void_p),
+        ("multiplier_equations", ctypes.c_void_p),
+        ("rows", ctypes.c_int64),
+        ("residual", ctypes.c_void_p),
+        ("row_begin", ctypes.c_void_p),
+        ("columns", ctypes.c_void_p),
+        ("values", ctypes.c_void_p),
+        ("places", ctypes.c_void_p),
+        ("places_size", ctypes.c_int64),
+    ]
+
+
+class Surface(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("master", ctypes.c_void_p),
+        ("surface_coordinates", ctypes.c_void_p),
+        ("xi", ctypes.c_void_p),
+        ("point", ctypes.c_void_p),
+        ("normal", ctypes.c_void_p),
+        ("height", ctypes.c_void_p),
+        ("base_point", ctypes.c_void_p),
+        ("base_normal", ctypes.c_void_p),
+    ]
+
+
+class Admissibility(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("samples", ctypes.c_int32),
+        ("continuity", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("fold", ctypes.c_double),
+        ("fold_xi", ctypes.c_double * 2),
+        ("edge_height", ctypes.c_double),
+        ("edge_height_xi", ctypes.c_double * 2),
+        ("reach", ctypes.c_double),
+        ("reach_xi", ctypes.c_double * 2),
+        ("shadow", ctypes.c_double),
+        ("shadow_xi", ctypes.c_double * 2),
+        ("height_min", ctypes.c_double),
+        ("height_max", ctypes.c_double),
+    ]
+
+
+class SurfaceAdmissibility(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("samples", ctypes.c_int32),
+        ("reach", ctypes.c_double),
+        ("kink", ctypes.c_double),
+        ("violations", ctypes.c_void_p),
+        ("judged", ctypes.c_int64),
+        ("violated", ctypes.c_int64),
+        ("value", ctypes.c_double * 16),
+        ("bound", ctypes.c_double * 16),
+        ("missing", ctypes.c_double * 16),
+        ("segment", ctypes.c_int64 * 16),
+        ("xi", ctypes.c_double * 2 * 16),
+        ("point", ctypes.c_double * 3 * 16),
+        ("other", ctypes.c_int64 * 16),
+        ("other_xi", ctypes.c_double * 2 * 16),
+        ("height_min", ctypes.c_double),
+        ("height_max", ctypes.c_double),
+    ]
+
+
+STRUCTS = {
+    "ents_report": Report,
+    "ents_data": Data,
+    "ents_layout": Layout,
+    "ents_master_mesh": MasterMesh,
+    "ents_detection": Detection,
+    "ents_input": Input,
+    "ents_output": Output,
+    "ents_combination": Combination,
+    "ents_system": System,
+    "ents_surface": Surface,
+    "ents_admissibility": Admissibility,
+    "ents_surface_admissibility": SurfaceAdmissibility,
+}
+
+# Type of the result, types of the arguments.
+FUNCTIONS = {
+    "ents_status_text": (ctypes.c_char_p, (ctypes.c_int32,)),
+    "ents_version": (ctypes.c_char_p, ()),
+    "ents_check_contract": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_int32, ctypes.c_void_p)),
+    "ents_model_create": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_model_create_from_file": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_model_destroy": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_model_layout": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_tree_size": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_tree_build": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
+    "ents_tree_refit": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
+    "ents_detect": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_evaluate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_state_init": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
+    "ents_state_augment": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
+    "ents_state_transfer": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_tributary_areas": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_combine": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_smooth": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_assemble": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_iterate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_surface_evaluate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_model_check": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_surface_check": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+}

@@ -5,7 +5,7 @@ import ctypes
 import numpy as np
 
 from ._arrays import Error, _address, _array, _new
-from ._structs import CONDITIONS, Detection, MasterMesh, Status, SurfaceCheck
+from ._structs import CONDITIONS, Detection, MasterMesh, Status, SurfaceAdmissibility
 
 
 class Tree:
@@ -70,7 +70,7 @@ class Tree:
         "other", "other_xi"; "violations" [segments]: bits 1 << place in CONDITIONS; "height_min", "height_max", "samples"."""
         d = self.model.layout.dimension
         violations = np.zeros(len(self.connectivity), np.int64)
-        c = _new(SurfaceCheck, samples=samples, reach=reach, kink=kink, violations=violations.ctypes.data)
+        c = _new(SurfaceAdmissibility, samples=samples, reach=reach, kink=kink, violations=violations.ctypes.data)
         report = self.model._call("surface_check", self.mesh, c)
         if report.status:
             raise Error(Status(report.status), report.message.decode(), report.element)

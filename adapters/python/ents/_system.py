@@ -4,8 +4,9 @@ import ctypes
 
 import numpy as np
 
+from . import _structs
 from ._arrays import Error, _array, _combination, _new
-from ._structs import Status, SystemOfHost
+from ._structs import Status
 
 
 class System:
@@ -41,7 +42,7 @@ class System:
     def _struct(self, model, tree, elements):
         lay = model.layout
         slave, master = (None if points is None else ctypes.addressof(points) for points in self._combinations)
-        out = _new(SystemOfHost, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
+        out = _new(_structs.System, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
                    rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
         if self.slave_equations.shape[1] != lay.dimension:
             raise Error(Status.BAD_COUNT, f"slave_equations: wanted are {lay.dimension} of each node")
