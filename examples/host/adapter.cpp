@@ -16,12 +16,12 @@
 #include "adapters/program.hpp"
 #include "error.hpp"
 #include "json_reader.hpp"
+#include "own_elements.hpp"
 
 namespace host {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int32_t adapters_tell = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE;
 
 using adapters::Program;
 using adapters::UserElement;
@@ -50,6 +50,7 @@ struct Route {
   decltype(&ents_model_layout) layout = nullptr;
   decltype(&ents_model_destroy) destroy = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
+  decltype(&ents_assemble) assemble = nullptr;
   fs::path folder; ///< of ents_k.json; the working directory while the adapter is called
   int last_number = 0;
   std::map<const ents_model*, WrittenModel> models;
@@ -142,7 +143,12 @@ int model_number(WrittenModel& model, const std::vector<double>& coordinates) {
   return entry->second;
 }
 
-/// Element k of the input as the program sees it.
+/// Residual [dofs], tangent [dofs][dofs] column-major and state at the end of one element.
+struct ElementResult {
+  std::vector<double> residual, tangent, state;
+};
+
+/// An element as the program sees it.
 UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
   const ents_layout& layout = model.layout;
   const auto d = static_cast<std::size_t>(layout.dimension), m = static_cast<std::size_t>(layout.nodes),
@@ -153,34 +159,27 @@ UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
   e.nodes = 1 + layout.nodes + (multipliers > 0 ? 1 : 0);
   e.state_size = layout.state_size;
   e.place = static_cast<int>(k);
-  const auto append = [&](std::vector<double>& to, const double* array, int64_t stride, std::size_t size) {
-    to.insert(to.end(), array + k * stride, array + k * stride + size);
-  };
-  append(e.position, in.slave, in.slave_stride, d);
-  append(e.position, in.master, in.master_stride, m * d);
+  e.position.assign(in.slave, in.slave + d);
+  e.position.insert(e.position.end(), in.master, in.master + m * d);
   const std::size_t rows = static_cast<std::size_t>(e.rows());
   e.position.resize(rows);
   e.displacement.resize(rows);
-  for (std::size_t j = 0; j < multipliers; ++j)
-    e.displacement[(m + 1) * d + j] = in.multiplier[k * in.multiplier_stride + static_cast<int64_t>(j)];
+  std::copy_n(in.multiplier, multipliers, e.displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
   std::vector<double> s;
-  if (in.surface_coordinates != nullptr)
-    append(s, in.surface_coordinates, in.surface_coordinates_stride, coordinates);
+  if (in.surface_coordinates != nullptr) s.assign(in.surface_coordinates, in.surface_coordinates + coordinates);
   const int number = model_number(model, route.program->coordinates ? std::vector<double>{} : s);
-  e.properties = {static_cast<double>(number), in.area != nullptr ? in.area[k * in.area_stride] : 1.0, 0};
+  e.properties = {static_cast<double>(number), *in.area, 0};
   if (route.program->coordinates) e.properties.insert(e.properties.end(), s.begin(), s.end());
-  if (in.state_begin != nullptr)
-    append(e.state, in.state_begin, in.state_begin_stride, static_cast<std::size_t>(e.state_size));
-  e.state.resize(static_cast<std::size_t>(e.state_size));
+  if (in.state_begin != nullptr) e.state.assign(in.state_begin, in.state_begin + e.state_size);
   constexpr double unset = std::numeric_limits<double>::quiet_NaN();
   e.residual.assign(rows, unset);
   e.tangent.assign(rows * rows, unset);
   return e;
 }
 
-/// Element k through the adapter: entries of `out` that were asked for.
+/// An element through the adapter: what its program asks for.
 /// @return the step factor; < 1: the adapter wants a cut and nothing was written
-double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, const ents_output& out) {
+double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, ElementResult& out) {
   const ents_layout& layout = model.layout;
   UserElement e = user_element(model, k, in);
   if (e.properties[1] == 0) return 1; // a node without area is in no deck: its forces are zero
@@ -191,51 +190,45 @@ double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, const 
              first_multiplier = static_cast<std::size_t>((layout.nodes + 1) * layout.dimension),
              rows = static_cast<std::size_t>(e.rows());
   const auto row = [&](std::size_t i) { return i < of_nodes ? i : first_multiplier + i - of_nodes; };
-  const auto leading = out.tangent_leading_dimension != 0 ? out.tangent_leading_dimension : layout.dofs;
   for (std::size_t j = 0; j < dofs; ++j) {
-    const double force = e.residual[row(j)];
-    if (!std::isfinite(force)) throw JobError(option() + "a force is not finite");
-    if ((out.wanted & ENTS_RESIDUAL) != 0)
-      out.residual[k * out.residual_stride + static_cast<int64_t>(j)] = force;
-    for (std::size_t i = 0; route.program->tangent && (out.wanted & ENTS_TANGENT) != 0 && i < dofs; ++i) {
-      const double stiffness = e.tangent[row(i) + rows * row(j)];
+    out.residual[j] = e.residual[row(j)];
+    if (!std::isfinite(out.residual[j])) throw JobError(option() + "a force is not finite");
+    for (std::size_t i = 0; route.program->tangent && i < dofs; ++i) {
+      const double stiffness = out.tangent[i + dofs * j] = e.tangent[row(i) + rows * row(j)];
       if (!std::isfinite(stiffness)) throw JobError(option() + "a stiffness is not finite");
-      out.tangent[k * out.tangent_stride + static_cast<int64_t>(i) + leading * static_cast<int64_t>(j)] =
-          stiffness;
     }
   }
-  if ((out.wanted & ENTS_STATE) != 0)
-    std::copy(e.state.begin(), e.state.end(), out.state_end + k * out.state_end_stride);
+  out.state = e.state;
   return 1;
 }
 
-/// Element k through the plain interface. What is left of an adapter is where it starts the projection: on
-/// the segment without its height, unless the history knows better. This program starts where the last
-/// iteration ended, which is quicker, and gives other last bits.
+/// An element through the plain interface; `start` says where the projection starts, or null.
 /// @return as evaluate_one
-double evaluate_directly(const ents_model* handle, const WrittenModel& model, int64_t k, const ents_input& in,
-                         ents_output out) {
-  ents_input mine = in;
-  double start[2] = {};
-  mine.start = nullptr;
-  if (model.base != nullptr) {
-    std::vector<double> all(
-        static_cast<std::size_t>((k + 1) * model.layout.parameters)); // of which element k counts
-    ents_input plain = mine;
-    plain.state_begin = nullptr;
-    auto projection = ents_struct<ents_output>();
-    projection.wanted = ENTS_XI;
-    projection.xi = all.data(), projection.xi_stride = model.layout.parameters;
-    if (route.evaluate(model.base, k, 1, &plain, &projection, nullptr) == ENTS_OK) {
-      std::copy(all.end() - model.layout.parameters, all.end(), start);
-      mine.start = start, mine.start_stride = 0;
-    }
-  }
-  out.wanted &= adapters_tell;
+double evaluate_plainly(const ents_model* handle, ents_input in, const double* start, ElementResult& result) {
+  auto out = ents_struct<ents_output>();
+  out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | (result.state.empty() ? 0 : ENTS_STATE);
+  out.residual = result.residual.data(), out.tangent = result.tangent.data(), out.state_end = result.state.data();
+  in.start = start;
   auto report = ents_struct<ents_report>();
-  const int32_t status = route.evaluate(handle, k, 1, &mine, &out, &report);
+  const int32_t status = route.evaluate(handle, 0, 1, &in, &out, &report);
   if (status < 0) throw JobError(option() + report.message);
   return status > 0 ? report.step_factor : 1;
+}
+
+/// What is left of an adapter without its program is where it starts the projection: on the segment without its height, unless
+/// the history knows better. This program starts where it has detected the node, which is quicker, and gives other last bits.
+double evaluate_directly(const ents_model* handle, const WrittenModel& model, const ents_input& in, ElementResult& result) {
+  double start[2] = {};
+  bool found = false;
+  if (model.base != nullptr) {
+    ents_input plain = in;
+    plain.start = nullptr, plain.state_begin = nullptr;
+    auto projection = ents_struct<ents_output>();
+    projection.wanted = ENTS_XI;
+    projection.xi = start;
+    found = route.evaluate(model.base, 0, 1, &plain, &projection, nullptr) == ENTS_OK;
+  }
+  return evaluate_plainly(handle, in, found ? start : nullptr, result);
 }
 
 /// While adapters are called the models are in the working directory, and what they write on standard output
@@ -263,16 +256,14 @@ private:
   int output_;
 };
 
-int32_t evaluate_elements(const ents_model* handle, int64_t first, int64_t count, const ents_input* input,
-                          const ents_output* output, ents_report* report) {
-  const auto model = route.models.find(handle);
-  if ((output->wanted & adapters_tell) == 0 || model == route.models.end())
-    return route.evaluate(handle, first, count, input, output, report);
-  if (input->master == nullptr)
-    throw JobError(option() + "elements need the positions of their master nodes");
-  // What adapters do not tell: projections, flags. Forces are asked for, too: kinematics alone would look
-  // beyond the segment's border.
-  const int32_t status = route.evaluate(handle, first, count, input, output, report);
+int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count, const ents_input* input,
+                          const ents_output* output, const ents_system* system, ents_report* report) {
+  WrittenModel& model = route.models.at(handle);
+  const ents_layout& layout = model.layout;
+  // What adapters do not tell: flags, projections, elements without a segment.
+  ents_system no_forces = *system;
+  no_forces.residual = no_forces.values = nullptr;
+  const int32_t status = route.assemble(handle, first, count, input, output, &no_forces, report);
   if (status < 0) return status;
   if (status > 0 && !route.program->cuts)
     throw JobError(option() + "an element needs a smaller load step (" + report->message +
@@ -280,17 +271,33 @@ int32_t evaluate_elements(const ents_model* handle, int64_t first, int64_t count
                    " cannot ask for: give /steps/values more entries");
   double step_factor = 1;
   int64_t k = first;
-  {
-    const JobSurroundings surroundings;
-    for (; k < first + count && step_factor == 1; ++k)
-      step_factor = route.program == &direct ? evaluate_directly(handle, model->second, k, *input, *output)
-                                             : evaluate_one(model->second, k, *input, *output);
+  OwnElements elements(layout, *input, *system);
+  const auto dofs = static_cast<std::size_t>(layout.dofs);
+  const JobSurroundings surroundings;
+  for (; k < first + count && step_factor == 1; ++k) {
+    if (!elements.has_segment(k)) {
+      route.assemble(handle, k, 1, input, output, system, report);
+      continue;
+    }
+    const ents_input in = elements.input(k);
+    ElementResult result{std::vector<double>(dofs), std::vector<double>(dofs * dofs),
+                         std::vector<double>(static_cast<std::size_t>(layout.state_size))};
+    if (route.program == &direct) {
+      step_factor = evaluate_directly(handle, model, in, result);
+    } else {
+      if (!route.program->tangent && system->values != nullptr) evaluate_plainly(handle, in, in.start, result);
+      step_factor = evaluate_one(model, k, in, result);
+    }
+    if (step_factor < 1) break;
+    elements.add(k, result.residual.data(), result.tangent.data());
+    if ((output->wanted & ENTS_STATE) != 0)
+      std::copy(result.state.begin(), result.state.end(), output->state_end + k * output->state_end_stride);
   }
   if (step_factor == 1) return status;
   if (status == ENTS_OK) { // the search of the adapter went another way than that of this program
     *report = ents_struct<ents_report>();
     report->status = ENTS_NO_PROJECTION;
-    report->element = k - 1;
+    report->element = k;
   }
   report->step_factor = step_factor;
   return report->status;
@@ -321,7 +328,8 @@ void install_adapter(EntsLibrary& library, const std::string& name) {
   }
   route.program = *entry;
   route.create = std::exchange(library.model_create, create_model);
-  route.evaluate = std::exchange(library.evaluate, evaluate_elements);
+  route.evaluate = library.evaluate;
+  route.assemble = std::exchange(library.assemble, assemble_elements);
   route.layout = library.model_layout;
   route.destroy = std::exchange(library.model_destroy, destroy_model);
   if (route.program == &direct) return;

@@ -71,4 +71,11 @@ std::string advice_if_deep(const Json& model) {
   return smaller_steps + (stiffness.empty() ? "" : ", or raise " + stiffness);
 }
 
+std::string advice_if_behind_edge(const Json& model) {
+  const bool has_one = model.is_object() && model.contains("border");
+  return "take a smoothed segment (/contact/model/segment), which has no edges, or " +
+         std::string(has_one ? "raise /contact/model/border" : "write \"border\": 0.1 into /contact/model") +
+         ", so that the segments reach beyond theirs";
+}
+
 } // namespace host

@@ -26,4 +26,7 @@ std::string advice_if_stuck(const IterationHistory& history, const Json& model);
 /// Slave nodes went too deep (ENTS_DEEP_PENETRATION).
 std::string advice_if_deep(const Json& model);
 
+/// A slave node lies behind a concave edge between two segments (ENTS_FLAG_BEHIND_EDGE).
+std::string advice_if_behind_edge(const Json& model);
+
 } // namespace host

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simulation: everything that later increments depend on, as JSON. Numbers are written with as many digits as
 // reading them back to the same bits takes.
-#include <cmath>
 #include <limits>
 
 #include "hash.hpp"
@@ -9,20 +8,6 @@
 
 namespace host {
 namespace {
-
-/// JSON has no NaN; here it is a projection that is not known yet.
-Json numbers_with_gaps(const std::vector<double>& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(std::isnan(value) ? Json(nullptr) : Json(value));
-  return array;
-}
-
-std::vector<double> read_numbers_with_gaps(const JsonValue& value) {
-  std::vector<double> numbers;
-  for (const JsonValue& item : value.items())
-    numbers.push_back(item.json().is_null() ? std::numeric_limits<double>::quiet_NaN() : item.number());
-  return numbers;
-}
 
 /// What decides whether a checkpoint fits: the scene without what a user may well change before the run goes on, be it words, be
 /// it how it is solved. Steps are compared where they are known, see restart.cpp.
@@ -65,9 +50,9 @@ Json Simulation::checkpoint() const {
             {"rate", rate_}};
   if (contact_) {
     const ContactHistory history = contact_->history();
-    json["contact"] = {{"segment", history.segment},
+    json["contact"] = {{"segment", history.at.segment},
                        {"state", history.state},
-                       {"xi", numbers_with_gaps(history.xi)},
+                       {"xi", history.at.xi},
                        {"pressure", history.pressure},
                        {"traction", history.traction}};
   }
@@ -96,9 +81,9 @@ void Simulation::restore(const Json& checkpoint) {
     JsonObject contact(object.at("contact"));
     ContactHistory history;
     for (const JsonValue& item : contact.at("segment").items())
-      history.segment.push_back(item.integer(-1, std::numeric_limits<int>::max()));
+      history.at.segment.push_back(item.integer(-1, std::numeric_limits<int>::max()));
     history.state = contact.at("state").numbers();
-    history.xi = read_numbers_with_gaps(contact.at("xi"));
+    history.at.xi = contact.at("xi").numbers();
     history.pressure = contact.at("pressure").numbers();
     history.traction = contact.at("traction").numbers();
     contact.finish();
@@ -130,9 +115,9 @@ std::string Simulation::fingerprint() const {
   for (const double value : {now_.motion, now_.force, now_.load_factor}) hash.add(&value, sizeof value);
   if (contact_) {
     const ContactHistory history = contact_->history();
-    hash.add_all(history.segment);
+    hash.add_all(history.at.segment);
     hash.add_all(history.state);
-    hash.add_all(history.xi);
+    hash.add_all(history.at.xi);
     hash.add_all(history.pressure);
     hash.add_all(history.traction);
   }

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "configuration.hpp"
+#include "detector.hpp"
 #include "dof_map.hpp"
 #include "master.hpp"
-#include "segment_search.hpp"
 #include "slave_points.hpp"
 #include "sparse_system.hpp"
 
@@ -32,15 +32,15 @@ struct ContactFields {
   std::vector<double> traction;                  ///< [slaves][d] tangential, on the master
   std::vector<double> slip, age;                 ///< [slaves] accumulated; increments since the last change of status
   std::vector<std::int32_t> flags;               ///< [slaves] ENTS_FLAG_...; no segment: ENTS_FLAG_OUTSIDE
-  std::vector<int> segment;                      ///< [slaves] -1: none
+  std::vector<std::int64_t> segment;             ///< [slaves] -1: none
   std::vector<double> node_forces;               ///< [slaves][d] on the master
   std::vector<double> force;                     ///< [d] their sum
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.
 struct ContactHistory {
-  std::vector<int> segment;
-  std::vector<double> state, xi, pressure, traction;
+  Projections at;
+  std::vector<double> state, pressure, traction;
 };
 
 class Contact {
@@ -68,26 +68,31 @@ public:
   /// An increment begins here, whatever was tried before.
   void begin_increment(const Configuration& begin);
 
-  /// Choose a segment for every slave node: of those near by, the one that is least outside, then the
-  /// closest, then the first. The history of a node that moved on to another segment moves with it.
-  /// @param only_lost  a node that projects inside its segment or its margin stays there
+  /// Find the segment of every slave node. A closed node is followed, an open one is searched anew: it may have moved over another
+  /// flank of the surface. The history of a node that moved on to another segment moves with it.
+  /// @param only_lost  a closed node on its segment's border stays there, else it is searched, too
   /// @param report     of a history that could not be moved: its status is positive, cut the step
-  /// @return the choice is not that of the last `stencil`: the pattern of a deformable master's equations is another one
+  /// @return the choice is not that of the last `build_tangent`: a deformable master needs it again
   bool choose(const Configuration& at, bool only_lost, ents_report& report);
 
-  /// Equations of the elements for the present choice.
-  StencilGroup stencil();
-  /// One equation each: multipliers of nodes without an element, which are zero.
-  StencilGroup idle_stencil() const;
+  /// Where the last `choose` found a slave node behind a concave edge between two segments, open although it has penetrated;
+  /// empty: nowhere.
+  const std::string& behind_edge() const { return behind_edge_; }
 
-  /// Add the contact forces to the residual and the tangents to the system.
+  /// The tangent's pattern for the present choice.
+  void build_tangent();
+  /// Tangent of the elements over `unknowns`, compressed rows.
+  const SparseMatrix& tangent() const { return tangent_; }
+  /// Those of [dofs, multipliers] that contact elements have.
+  const std::vector<std::size_t>& unknowns() const { return unknowns_; }
+
+  /// Add the contact forces to the residual; the tangents are in `tangent` then.
   /// @param residual  [dofs, multipliers]
-  /// @param system    optional; the group numbers are `group` (stencil) and `group + 1` (idle_stencil)
   /// @param coupling  optional, rigid master only
-  /// @param squared_force  sum |R_s|^2: the size of the contact forces
+  /// @param squared_force  |R|^2 on the slave nodes: the size of the contact forces
   /// @return status of the library; positive: cut the step, see `report`
-  std::int32_t assemble(const Configuration& at, std::vector<double>& residual, SparseSystem* system,
-                        std::size_t group, RigidCoupling* coupling, double& squared_force, ents_report& report);
+  std::int32_t assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent, RigidCoupling* coupling,
+                        double& squared_force, ents_report& report);
 
   /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are close enough.
   /// @return by how much forces and multipliers differ over the stiffness: penetration or elastic slip [L]
@@ -109,64 +114,54 @@ public:
   /// Fields at the end of the last accepted increment.
   const ContactFields& accepted() const { return accepted_; }
 
-  ContactHistory history() const;
+  ContactHistory history() const { return {begin_at_, state_begin_, accepted_.pressure, accepted_.traction}; }
   /// @throws InputError if the sizes or the state blocks are not of this model
   void restore(const ContactHistory& history, const Configuration& at);
 
 private:
-  /// Slave and master positions of the active elements, one after the other.
-  void gather(const Configuration& at);
-  void gather_master(std::size_t segment, const std::vector<double>& displacement, double motion,
-                     double* positions) const;
-  ents_input input() const;
-  /// Where the master's segments are; once for a rigid master, without its motion.
-  void build_grid(const std::vector<double>& displacement);
-  /// Segments of all slave nodes for this configuration.
-  void search(const Configuration& at, bool only_lost);
-  /// History of the active elements as seen from their segments.
+  std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
+  std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
+  void number_unknowns();
+  /// Slave and master positions; those of a rigid master stay, and the slaves move against it.
+  void place(const Configuration& at);
+  ents_master_mesh mesh() const;
+  ents_input input(const ents_master_mesh& mesh) const;
+  /// The library's elements, added to `system`.
+  /// @throws JobError for what a smaller step does not cure
+  std::int32_t add_elements(const ents_output& out, const ents_system& system, ents_report& report);
+  /// Nodes [m][d] of a segment at the begin of the increment.
+  void gather(std::int64_t segment, std::vector<double>& positions) const;
+  /// History of the elements as seen from their segments.
   void move_history(ents_report& report);
-  void list_active();
-  /// Dofs of an element in the mesh: a slave point inside a face has those of the face's nodes.
-  std::size_t expanded_dofs() const { return element_dofs_ + (points_.nodes_per_point - 1) * d_; }
-  struct Expanded {
-    std::vector<double> residual, tangent;
-  };
-  void expand(std::size_t k, const double* residual, const double* tangent, Expanded& out) const;
-  /// Does the slave point of this element lie ahead of all that its segment's enriched surface fills, or beside it? Then it is open,
-  /// also where its projection cannot be found.
-  bool is_far(std::size_t element) const;
-  /// Status of a call that found no projection for some elements: ENTS_OK if these are far, else that of the first that is not.
-  /// The history of those that are far begins anew.
-  std::int32_t without_far(const std::vector<std::int32_t>& status, const ents_input& in, ents_report& report);
-  std::size_t unknown(std::size_t element, std::size_t expanded) const; ///< index into [dofs, multipliers]
-  /// Projections on the segment without its height, for elements whose own is not known yet: the point of a rough surface
-  /// straight ahead of the node, at the price of a plain segment. Searching the whole enriched one would find a closer point
-  /// somewhere else, or two that are equally close.
-  /// @return false: none found, the library shall search
-  bool start_from_base();
+  void count_changes(const std::vector<std::int32_t>& flags);
+  void couple(const std::vector<double>& force, RigidCoupling& coupling) const;
 
   Master master_;
   const Mesh* mesh_;
   const DofMap* dofs_;
   SlavePoints points_;
-  std::size_t d_, m_, parameters_, element_dofs_, node_dofs_, state_size_, multipliers_;
+  std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
-  /// [slaves] chosen; chosen when the history was written; chosen when the equations were listed
-  std::vector<int> segment_, segment_begin_, stencil_segment_;
+  Detector detector_;
+  std::unique_ptr<Detector> base_detector_; ///< on the segments without their height
+  Projections at_, begin_at_;               ///< present ones; those of the history
+  std::vector<std::int64_t> pattern_segment_; ///< for which the tangent's pattern was made
   std::vector<double> state_begin_;          ///< [slaves][state_size]
   Configuration begin_;                      ///< where the increment began
   /// [slaves] segment and status that the last `assemble` found; -1: open
-  std::vector<int> found_;
+  std::vector<std::int64_t> found_;
+  std::string behind_edge_;
+  std::vector<char> closed_; ///< [slaves] by the last `assemble`
   int status_changes_ = 0, switches_ = 0, moves_ = 0;
-  // The elements of the present choice, in the order of `active_`.
-  std::vector<std::size_t> active_; ///< slaves with a segment
-  std::vector<double> slave_positions_, master_positions_, active_coordinates_, active_areas_, active_multipliers_;
+  std::vector<double> slave_positions_, master_positions_, multiplier_values_;
   std::vector<double> state_in_, state_out_;
-  std::vector<double> last_xi_, xi_begin_; ///< [slaves][d-1] where the projection was last, NaN: unknown
-  std::vector<double> start_;              ///< [active][d-1]; empty: search
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
-  std::unique_ptr<SegmentSearch> grid_;
-  std::vector<double> grid_masters_; ///< [segments][m][d]
+  // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes, multipliers.
+  std::vector<std::size_t> unknowns_;
+  std::size_t slave_dofs_ = 0; ///< so many come first
+  std::vector<std::int64_t> dof_equations_; ///< [dofs of the mesh] -1: none
+  std::vector<std::int64_t> slave_equations_, multiplier_equations_, point_begin_, point_nodes_, places_;
+  SparseMatrix tangent_;
   ContactFields accepted_;
 };
 

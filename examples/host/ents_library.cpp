@@ -62,8 +62,10 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(model_layout, "ents_model_layout");
     find(tree_size, "ents_tree_size");
     find(tree_build, "ents_tree_build");
+    find(tree_refit, "ents_tree_refit");
     find(detect, "ents_detect");
     find(evaluate, "ents_evaluate");
+    find(assemble, "ents_assemble");
     find(state_init, "ents_state_init");
     find(state_augment, "ents_state_augment");
     find(state_transfer, "ents_state_transfer");

@@ -36,8 +36,10 @@ public:
   decltype(&ents_model_layout) model_layout = nullptr;
   decltype(&ents_tree_size) tree_size = nullptr;
   decltype(&ents_tree_build) tree_build = nullptr;
+  decltype(&ents_tree_refit) tree_refit = nullptr;
   decltype(&ents_detect) detect = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
+  decltype(&ents_assemble) assemble = nullptr;
   decltype(&ents_state_init) state_init = nullptr;
   decltype(&ents_state_augment) state_augment = nullptr;
   decltype(&ents_state_transfer) state_transfer = nullptr;

@@ -2,8 +2,8 @@
 #include "master.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "mesh_size.hpp"
 #include "smoothing.hpp"
@@ -11,7 +11,7 @@
 namespace host {
 namespace {
 
-constexpr double margin = 0.25;
+constexpr double border = 0.25; // in natural coordinates: an eighth of a segment's length
 
 std::string where(const Scene& scene) { return scene.contact->model_where; }
 
@@ -32,12 +32,9 @@ bool has_triangles(const Json& model) {
 
 } // namespace
 
-double Master::excess(const double* xi, double end) const {
-  const int parameters = model->layout().parameters;
-  if (triangles) return std::max({0., -xi[0], -xi[1], xi[0] + xi[1] - 1});
-  double result = 0;
-  for (int i = 0; i < parameters; ++i) result = std::max(result, std::abs(xi[i]) - end);
-  return result;
+bool Master::covers(const double* xi) const {
+  if (triangles) return xi[0] >= 0 && xi[1] >= 0 && xi[0] + xi[1] <= 1;
+  return std::all_of(xi, xi + model->layout().parameters, [](double x) { return std::abs(x) <= 1; });
 }
 
 Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& mesh) {
@@ -54,8 +51,9 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   const auto d = static_cast<std::size_t>(scene.dimension);
   if (master.rigid) {
     check_sizes(scene, *master.model, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
-    master.segments = 1;
     master.positions = contact.rigid;
+    master.connectivity.resize(contact.rigid.size() / d);
+    std::iota(master.connectivity.begin(), master.connectivity.end(), 0);
     master.direction = contact.direction;
     return master;
   }
@@ -64,17 +62,16 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
     throw InputError(contact.master_where + ": no faces \"" + contact.master + "\" in the mesh");
   if (const std::string segment = contact.model.value("segment", ""); is_smoothed(segment)) {
     check_sizes(scene, *master.model, static_cast<std::size_t>(master.model->layout().nodes), contact.master_where);
-    master.nodes = smoothed_nodes(library, segment, found->second, contact.master_where);
+    master.connectivity = smoothed_nodes(library, segment, found->second, contact.master_where);
   } else {
     for (const Face& face : found->second) {
       check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
-      master.nodes.insert(master.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+      master.connectivity.insert(master.connectivity.end(), face.nodes.begin(), face.nodes.begin() + face.count);
     }
   }
-  master.segments = found->second.size();
-  for (const int node : contact.surface_axes.empty() ? std::vector<int>{} : master.nodes)
+  for (const std::int64_t node : master.connectivity)
     for (const int axis : contact.surface_axes)
-      master.surface_coordinates.push_back(mesh.node(node)[static_cast<std::size_t>(axis)]);
+      master.surface_coordinates.push_back(mesh.node(static_cast<int>(node))[static_cast<std::size_t>(axis)]);
   return master;
 }
 
@@ -90,15 +87,13 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   check_sizes(scene, enriched, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
 
   const auto n = static_cast<std::size_t>(divisions), row = n + 1;
-  const SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, even_grid(enriched.layout().parameters, n));
-  const auto point = [&](std::size_t i, std::size_t j, std::size_t c) {
-    return sample.point[(j * row + i) * d + c];
-  };
+  SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, even_grid(enriched.layout().parameters, n));
 
   Json model;
   model["segment"] = d == 2 ? "line2" : "quad4";
   model["height"] = nullptr;
   model["master"] = "rigid";
+  model["border"] = border;
   model["contact"] = contact.model.contains("contact") ? contact.model.at("contact") : Json();
   if (contact.model.contains("penetration_limit"))
     model["penetration_limit"] = contact.model.at("penetration_limit");
@@ -106,25 +101,14 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   Master master;
   master.model = std::make_unique<EntsModel>(library, model.dump(), scene.file.parent_path(), where(scene));
   master.direction = contact.direction;
-  master.segments = d == 2 ? n : n * n;
-  master.border = 1 / (1 + margin);
-  const double out = 1 + margin;
-  master.positions.reserve(master.segments * (d == 2 ? 2 : 4) * d);
+  master.positions = std::move(sample.point);
   for (std::size_t j = 0; j < (d == 2 ? 1 : n); ++j)
-    for (std::size_t i = 0; i < n; ++i)
-      if (d == 2) {
-        for (const double at : {-out, out})
-          for (std::size_t c = 0; c < d; ++c)
-            master.positions.push_back(0.5 * ((1 - at) * point(i, 0, c) + (1 + at) * point(i + 1, 0, c)));
-      } else {
-        static constexpr std::array<std::array<double, 2>, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-        for (const auto& [s, t] : corners)
-          for (std::size_t c = 0; c < d; ++c)
-            master.positions.push_back(0.25 * ((1 - out * s) * (1 - out * t) * point(i, j, c) +
-                                               (1 + out * s) * (1 - out * t) * point(i + 1, j, c) +
-                                               (1 + out * s) * (1 + out * t) * point(i + 1, j + 1, c) +
-                                               (1 - out * s) * (1 + out * t) * point(i, j + 1, c)));
-      }
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto first = static_cast<std::int64_t>(j * row + i), above = first + static_cast<std::int64_t>(row);
+      for (const std::int64_t node : {first, first + 1}) master.connectivity.push_back(node);
+      if (d == 3)
+        for (const std::int64_t node : {above + 1, above}) master.connectivity.push_back(node);
+    }
   return master;
 }
 

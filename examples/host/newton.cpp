@@ -86,7 +86,6 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
   Evaluation result;
   result.residual.assign(at.displacement.size() + at.multiplier.size(), 0.0);
   double squared_contact = 0;
-  std::size_t group = bulk_stencils_.size();
   {
     const Stopwatch watch;
     // The tangent of a linear bulk is assembled once.
@@ -107,9 +106,8 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
   if (!springs_.empty()) {
     for (std::size_t dof = 0; dof < springs_.size(); ++dof) {
       result.residual[dof] += springs_[dof] * (at.displacement[dof] + (direction.empty() ? 0 : direction[dof]));
-      if (want_tangent) system_->add(group, dof, &springs_[dof]);
+      if (want_tangent) system_->add(bulk_stencils_.size(), dof, &springs_[dof]);
     }
-    ++group;
   }
   if (contact_) {
     const Stopwatch watch;
@@ -117,8 +115,8 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     auto report = ents_struct<ents_report>();
     RigidCoupling* coupling = contact_->master().rigid ? &result.coupling : nullptr;
     const std::int32_t status =
-        contact_->assemble(at, result.residual, want_tangent ? system_.get() : nullptr, group, coupling,
-                           squared_contact, report);
+        contact_->assemble(at, result.residual, want_tangent, coupling, squared_contact, report);
+    if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent());
     timings_.contact += watch.seconds();
     timings_.contact_cpu += cpu.seconds();
     if (status != ENTS_OK) {
@@ -276,6 +274,8 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   // ... then Newton's iteration; with multipliers in the state again and again, until they stay.
   const double enough = contact_ ? scene_->solver.gap_tolerance * contact_->size() : 0;
   IterationHistory history; // with the present multipliers
+  constexpr int looked_back = 4;
+  std::string lost;
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
     // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs or its
     // margin: beside a kink of a plain mesh they could otherwise change sides for ever.
@@ -310,6 +310,10 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
         }
         outcome.augmentations.push_back({error, 0});
       }
+      if (contact_ && !contact_->behind_edge().empty()) {
+        outcome.advice = advice_if_behind_edge(scene_->contact->model);
+        return fail(std::string(contact_->behind_edge()), 0.5);
+      }
       outcome.converged = true;
       timings_.total += watch.seconds();
       if (!keep) return outcome;
@@ -326,6 +330,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
       factors_fit_ = !contact_ || !contact_->has_history();
       return outcome;
     }
+    if (contact_ && iteration > scene_->solver.max_iterations - looked_back && lost.empty()) lost = contact_->behind_edge();
     if (!solve(state, true, 0, error_of(state), next)) {
       outcome.advice = advice_if_singular(next);
       return fail("the tangent is singular", 0.5);
@@ -336,7 +341,9 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   const std::vector<double>& residuals = history.residuals;
   for (std::size_t i = residuals.size() - std::min<std::size_t>(residuals.size(), 4); i < residuals.size(); ++i)
     last += " " + format_number(residuals[i], 2);
-  outcome.advice = advice_if_stuck(history, contact_ ? scene_->contact->model : Json());
+  const Json model = contact_ ? scene_->contact->model : Json();
+  outcome.advice = advice_if_stuck(history, model);
+  if (!lost.empty()) outcome.advice = lost + ": " + advice_if_behind_edge(model);
   return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations, residuals" + last, 0.5);
 }
 

@@ -79,17 +79,14 @@ vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
   cells.type = d == 2 ? vtu::Cell::line : master.triangles ? vtu::Cell::triangle : vtu::Cell::quad;
   cells.nodes_per_cell = d == 2 ? 2 : master.triangles ? 3 : 4;
   const auto corners = static_cast<std::size_t>(cells.nodes_per_cell);
-  for (std::size_t s = 0; s < master.segments; ++s)
+  for (std::size_t s = 0; s < master.segments(); ++s)
     for (std::size_t a = 0; a < corners; ++a) {
       cells.connectivity.push_back(static_cast<std::int64_t>(s * corners + a));
-      for (std::size_t i = 0; i < d; ++i)
-        if (master.rigid) {
-          grid.points.push_back(master.positions[(s * m + a) * d + i] +
-                                simulation.now().motion * master.direction[i]);
-        } else {
-          const std::size_t dof = static_cast<std::size_t>(master.nodes[s * m + a]) * d + i;
-          grid.points.push_back(mesh.coordinates[dof] + simulation.now().displacement[dof]);
-        }
+      for (std::size_t i = 0; i < d; ++i) {
+        const std::size_t dof = static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i;
+        grid.points.push_back(master.rigid ? master.positions[dof] + simulation.now().motion * master.direction[i]
+                                           : mesh.coordinates[dof] + simulation.now().displacement[dof]);
+      }
     }
   grid.cells.push_back(std::move(cells));
   return grid;
@@ -106,7 +103,7 @@ std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation
     parts.push_back(part("slave", [&] { return slave_grid(simulation, record); }));
     parts.push_back(part("surface", [&] {
       const Master& master = simulation.contact()->master();
-      return master.rigid && master.segments == 1 && !master.triangles ? surface_grid(simulation)
+      return master.rigid && master.segments() == 1 && !master.triangles ? surface_grid(simulation)
                                                                        : segments_grid(simulation, master);
     }));
   }

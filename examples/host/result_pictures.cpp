@@ -185,7 +185,7 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
 pictures::Map height_map(const Simulation& simulation, const Contact& contact, pictures::Maps& frame) {
   pictures::Map map;
   const Master& master = contact.master();
-  if (!master.rigid || master.segments != 1 || master.triangles || simulation.mesh().dimension != 3) return map;
+  if (!master.rigid || master.segments() != 1 || master.triangles || simulation.mesh().dimension != 3) return map;
   const SurfaceSample sample = sample_surface(*master.model, master.positions, {}, even_grid(2, 512));
   // xi_1 may run along either axis: the points' own coordinates sort them.
   const auto grid_line = [&](double position) { return std::llround(position / (1e-6 * (frame.x_max - frame.x_min))); };

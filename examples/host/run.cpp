@@ -22,6 +22,8 @@ double first_touch(Simulation& simulation) {
   Configuration at = simulation.now();
   std::fill(at.displacement.begin(), at.displacement.end(), 0.0);
   at.motion = 0;
+  auto report = ents_struct<ents_report>();
+  contact->choose(at, false, report);
   const ContactFields fields = contact->fields(at);
   double smallest = std::numeric_limits<double>::infinity();
   for (const double gap : fields.gap)

@@ -190,20 +190,20 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
 void Simulation::build_pattern() {
   std::vector<const StencilGroup*> groups;
   for (const StencilGroup& group : bulk_stencils_) groups.push_back(&group);
-  // In the order in which `evaluate` counts them: bulk, springs, contact elements, multipliers without an element.
-  StencilGroup springs, contact, idle;
+  // In the order in which `evaluate` counts them: bulk, springs.
+  StencilGroup springs;
+  MatrixPart contact;
   if (!springs_.empty()) {
     springs.dofs = 1;
     for (std::size_t dof = 0; dof < springs_.size(); ++dof) springs.equations.push_back(dofs_->equation(dof));
     groups.push_back(&springs);
   }
   if (contact_) {
-    contact = contact_->stencil();
-    idle = contact_->idle_stencil();
-    groups.push_back(&contact);
-    groups.push_back(&idle);
+    contact_->build_tangent();
+    contact.matrix = &contact_->tangent();
+    for (const std::size_t unknown : contact_->unknowns()) contact.equations.push_back(equation(unknown));
   }
-  system_->build(groups);
+  system_->build(groups, contact);
   solver_->analyze(system_->matrix());
   bulk_values_.clear();
   factors_fit_ = false;
@@ -218,18 +218,9 @@ Sizes Simulation::sizes() const {
   if (contact_) {
     const Master& master = contact_->master();
     sizes.slaves = contact_->slaves().size();
-    sizes.master_segments = master.segments;
-    const std::size_t d = static_cast<std::size_t>(mesh_.dimension), n = master.segments;
-    if (!master.rigid)
-      sizes.master_dofs = std::set<int>(master.nodes.begin(), master.nodes.end()).size() * d;
-    else if (n == 1)
-      sizes.master_dofs = master.positions.size();
-    else if (d == 2)
-      sizes.master_dofs = (n + 1) * d;
-    else { // n = k x k segments of an explicit mesh have (k + 1)^2 nodes
-      const auto k = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(n))));
-      sizes.master_dofs = (k + 1) * (k + 1) * d;
-    }
+    sizes.master_segments = master.segments();
+    sizes.master_dofs = std::set<std::int64_t>(master.connectivity.begin(), master.connectivity.end()).size() *
+                        static_cast<std::size_t>(mesh_.dimension);
   }
   return sizes;
 }

@@ -11,7 +11,7 @@ bool is_smoothed(const std::string& segment) {
   return segment.starts_with("catmull_rom") || segment.starts_with("bspline");
 }
 
-std::vector<int> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
+std::vector<std::int64_t> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
                                 const std::vector<Face>& faces, const std::string& where) {
   const bool line = segment.ends_with("4");
   const int corners = line ? 2 : 4;
@@ -41,7 +41,7 @@ std::vector<int> smoothed_nodes(const EntsLibrary& library, const std::string& s
   check(library.smooth(facet, segment.c_str(), ENTS_ENDS_REPEATED, count, connectivity.data(), nodes, points,
                        terms, segment_points.data(), begin.data(), point_nodes.data(), weights.data(),
                        &report));
-  std::vector<int> result;
+  std::vector<std::int64_t> result;
   for (const int64_t point : segment_points) {
     const auto i = static_cast<std::size_t>(point);
     if (begin[i + 1] != begin[i] + 1)
@@ -49,7 +49,7 @@ std::vector<int> smoothed_nodes(const EntsLibrary& library, const std::string& s
           where +
           ": the faces are irregular, so that control points are no nodes of the mesh; this program takes "
           "regular ones only (ents_assemble takes both)");
-    result.push_back(static_cast<int>(point_nodes[static_cast<std::size_t>(begin[i])]));
+    result.push_back(point_nodes[static_cast<std::size_t>(begin[i])]);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 // Smoothed segments over the faces of a body: which nodes each of them sees.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ bool is_smoothed(const std::string& segment);
 /// of this program serve them as they serve any segment.
 /// @param where  for messages: faces that do not fit, or a mesh that is not regular
 /// @return [faces][4 or 16]
-std::vector<int> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
+std::vector<std::int64_t> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
                                 const std::vector<Face>& faces, const std::string& where);
 
 } // namespace host

@@ -5,57 +5,77 @@
 
 namespace host {
 
-void SparseSystem::build(std::span<const StencilGroup* const> groups) {
-  const auto n = static_cast<std::size_t>(size_);
-  // Which elements touch an equation, as compressed lists per group.
-  struct Touching {
-    std::vector<int> start, element;
-  };
-  std::vector<Touching> touching(groups.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    auto& [start, element] = touching[g];
-    const auto dofs = static_cast<std::size_t>(groups[g]->dofs);
-    start.assign(n + 1, 0);
-    for (const int equation : groups[g]->equations)
+namespace {
+
+/// Which elements touch an equation, as compressed lists.
+struct Touching {
+  std::vector<int> start, element;
+
+  Touching(const std::vector<int>& equations, std::size_t dofs, std::size_t size) : start(size + 1, 0) {
+    for (const int equation : equations)
       if (equation >= 0) ++start[static_cast<std::size_t>(equation) + 1];
-    for (std::size_t i = 0; i < n; ++i) start[i + 1] += start[i];
-    element.resize(static_cast<std::size_t>(start[n]));
+    for (std::size_t i = 0; i < size; ++i) start[i + 1] += start[i];
+    element.resize(static_cast<std::size_t>(start[size]));
     std::vector<int> next(start.begin(), start.end() - 1);
-    for (std::size_t i = 0; i < groups[g]->equations.size(); ++i) {
-      const int equation = groups[g]->equations[i];
-      if (equation >= 0)
-        element[static_cast<std::size_t>(next[static_cast<std::size_t>(equation)]++)] =
-            static_cast<int>(i / dofs);
-    }
+    for (std::size_t i = 0; i < equations.size(); ++i)
+      if (const int equation = equations[i]; equation >= 0)
+        element[static_cast<std::size_t>(next[static_cast<std::size_t>(equation)]++)] = static_cast<int>(i / dofs);
   }
+
+  std::span<const int> of(std::size_t equation) const {
+    const auto first = static_cast<std::size_t>(start[equation]), last = static_cast<std::size_t>(start[equation + 1]);
+    return std::span(element).subspan(first, last - first);
+  }
+};
+
+/// Unknowns with an entry in the same row.
+std::span<const int> columns(const SparseMatrix& matrix, std::size_t row) {
+  const int *begin = matrix.outerIndexPtr() + row, first = begin[0], last = begin[1];
+  return {matrix.innerIndexPtr() + first, static_cast<std::size_t>(last - first)};
+}
+
+} // namespace
+
+SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups, const MatrixPart& part) {
+  const auto n = static_cast<std::size_t>(size);
+  std::vector<Touching> touching;
+  for (const StencilGroup* group : groups)
+    touching.emplace_back(group->equations, static_cast<std::size_t>(group->dofs), n);
+  const Touching part_touching(part.equations, 1, n);
 
   std::vector<int> outer(n + 1, 0), inner, column, seen(n, -1);
   for (std::size_t j = 0; j < n; ++j) {
     column.assign(1, static_cast<int>(j)); // the diagonal is always there
     seen[j] = static_cast<int>(j);
+    const auto take = [&](int row) {
+      if (row < 0 || (lower && row < static_cast<int>(j))) return;
+      if (seen[static_cast<std::size_t>(row)] == static_cast<int>(j)) return;
+      seen[static_cast<std::size_t>(row)] = static_cast<int>(j);
+      column.push_back(row);
+    };
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const auto dofs = static_cast<std::size_t>(groups[g]->dofs);
-      for (int t = touching[g].start[j]; t < touching[g].start[j + 1]; ++t) {
-        const auto element = static_cast<std::size_t>(touching[g].element[static_cast<std::size_t>(t)]);
-        for (std::size_t a = 0; a < dofs; ++a) {
-          const int row = groups[g]->equations[element * dofs + a];
-          if (row < 0 || (symmetric_ && row < static_cast<int>(j))) continue;
-          if (seen[static_cast<std::size_t>(row)] == static_cast<int>(j)) continue;
-          seen[static_cast<std::size_t>(row)] = static_cast<int>(j);
-          column.push_back(row);
-        }
-      }
+      for (const int element : touching[g].of(j))
+        for (std::size_t a = 0; a < dofs; ++a)
+          take(groups[g]->equations[static_cast<std::size_t>(element) * dofs + a]);
     }
+    for (const int unknown : part_touching.of(j))
+      for (const int other : columns(*part.matrix, static_cast<std::size_t>(unknown)))
+        take(part.equations[static_cast<std::size_t>(other)]);
     std::sort(column.begin(), column.end());
     inner.insert(inner.end(), column.begin(), column.end());
     outer[j + 1] = static_cast<int>(inner.size());
   }
-  matrix_.resize(size_, size_);
-  matrix_.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
-  std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
-  std::copy(inner.begin(), inner.end(), matrix_.innerIndexPtr());
-  set_zero();
+  SparseMatrix matrix(size, size);
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
+  std::copy(outer.begin(), outer.end(), matrix.outerIndexPtr());
+  std::copy(inner.begin(), inner.end(), matrix.innerIndexPtr());
+  std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
+  return matrix;
+}
 
+void SparseSystem::build(std::span<const StencilGroup* const> groups, const MatrixPart& part) {
+  matrix_ = pattern_of(size_, symmetric_, groups, part);
   slots_.assign(groups.size(), {});
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto dofs = static_cast<std::size_t>(groups[g]->dofs);
@@ -74,10 +94,14 @@ void SparseSystem::build(std::span<const StencilGroup* const> groups) {
         }
     }
   }
+  part_slots_.clear();
+  for (std::size_t i = 0; i < part.equations.size(); ++i)
+    for (const int j : columns(*part.matrix, i))
+      part_slots_.push_back(slot(part.equations[i], part.equations[static_cast<std::size_t>(j)]));
 }
 
 std::int32_t SparseSystem::slot(int row, int column) const {
-  if (row < 0 || column < 0) return -1;
+  if (row < 0 || column < 0 || (symmetric_ && row < column)) return -1;
   const int* begin = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column];
   const int* end = matrix_.innerIndexPtr() + matrix_.outerIndexPtr()[column + 1];
   return static_cast<std::int32_t>(std::lower_bound(begin, end, row) - matrix_.innerIndexPtr());
@@ -100,6 +124,12 @@ void SparseSystem::add(std::size_t group, std::size_t element, const double* tan
       // A slot on the diagonal is the first entry of its column.
       if (a != b && *at >= 0 && matrix_.outerIndexPtr()[matrix_.innerIndexPtr()[*at]] == *at)
         values[*at] += tangent[a * dofs + b];
+}
+
+void SparseSystem::add(const Matrix& part) {
+  double* values = matrix_.valuePtr();
+  for (std::size_t i = 0; i < part_slots_.size(); ++i)
+    if (part_slots_[i] >= 0) values[part_slots_[i]] += part.valuePtr()[i];
 }
 
 } // namespace host

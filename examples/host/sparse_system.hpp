@@ -18,15 +18,28 @@ struct StencilGroup {
   std::size_t size() const { return dofs == 0 ? 0 : equations.size() / static_cast<std::size_t>(dofs); }
 };
 
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+/// A matrix over other unknowns, of symmetric pattern in compressed rows, that is added as a whole.
+struct MatrixPart {
+  const SparseMatrix* matrix = nullptr;
+  std::vector<int> equations; ///< of each unknown; -1: none
+};
+
+/// Zero entries wherever a group or the part has one, and on the diagonal. Symmetric in its pattern, so that the
+/// compressed columns are compressed rows, too.
+/// @param lower  only the lower triangle is stored
+SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups, const MatrixPart& part = {});
+
 class SparseSystem {
 public:
-  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+  using Matrix = SparseMatrix;
 
   /// @param symmetric  only the lower triangle is stored
   SparseSystem(int size, bool symmetric) : size_(size), symmetric_(symmetric) {}
 
-  /// Pattern of all groups together, entries zero.
-  void build(std::span<const StencilGroup* const> groups);
+  /// Pattern of all groups and the part together, entries zero.
+  void build(std::span<const StencilGroup* const> groups, const MatrixPart& part = {});
 
   bool symmetric() const { return symmetric_; }
   const Matrix& matrix() const { return matrix_; }
@@ -41,8 +54,11 @@ public:
   /// @param tangent            [dofs][dofs] column-major
   void add(std::size_t group, std::size_t element, const double* tangent);
 
+  /// Add the part of `build`, whose pattern is the same as then.
+  void add(const Matrix& part);
+
 private:
-  std::int32_t slot(int row, int column) const;
+  std::int32_t slot(int row, int column) const; ///< -1: not stored
 
   int size_;
   bool symmetric_;
@@ -53,6 +69,7 @@ private:
     std::vector<char> doubled; ///< elements in which two dofs share an equation (symmetric storage only)
   };
   std::vector<Slots> slots_;
+  std::vector<std::int32_t> part_slots_; ///< of each entry
 };
 
 } // namespace host

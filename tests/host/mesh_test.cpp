@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "segment_search.hpp"
 
 namespace host {
 namespace {
@@ -120,21 +119,6 @@ TEST(TributaryAreas, OfADiscWeighWithTheRadius) {
   EXPECT_NEAR(areas[0], pi / 3, 1e-14);
   EXPECT_NEAR(areas[1], 2 * pi * (1. / 3 + 5. / 3), 1e-14);
   EXPECT_NEAR(areas[2], 2 * pi * (7. / 3), 1e-14);
-}
-
-TEST(SegmentSearch, ANodeFarThroughAThinSurfaceStillFindsIt) {
-  // A strip of 100 segments of length 0.01 and height 0.05: an iterate may lie many segments' lengths below
-  // or above.
-  constexpr int count = 100;
-  std::vector<SegmentSearch::Point> corners;
-  for (int s = 0; s < count; ++s)
-    for (const double x : {s / 100., (s + 1) / 100.}) corners.emplace_back(x, 0.05 * x, 0.);
-  const SegmentSearch search(corners, 2);
-  for (const double y : {-0.3, 0.02, 0.3}) {
-    const auto near = search.near({0.425, y, 0});
-    EXPECT_TRUE(std::find(near.begin(), near.end(), 42) != near.end()) << y;
-    EXPECT_LE(near.size(), 5u) << "segments elsewhere along the surface";
-  }
 }
 
 } // namespace

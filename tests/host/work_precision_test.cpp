@@ -146,13 +146,13 @@ TEST(WorkPrecision, SegmentsThatFollowASine) {
 /// rho_e at xi of a segment of a master.
 std::vector<double> point(const Master& master, std::size_t segment, double xi) {
   const auto m = static_cast<std::size_t>(master.model->layout().nodes);
-  const auto part = [&](const std::vector<double>& values, std::size_t width) {
-    if (values.empty()) return std::vector<double>{};
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(segment * m * width);
-    return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(m * width));
-  };
-  return sample_surface(*master.model, part(master.positions, 2), part(master.surface_coordinates, 1), {xi})
-      .point;
+  std::vector<double> positions, coordinates;
+  for (std::size_t a = segment * m; a < (segment + 1) * m; ++a) {
+    const double* node = master.positions.data() + 2 * master.connectivity[a];
+    positions.insert(positions.end(), node, node + 2);
+    if (!master.surface_coordinates.empty()) coordinates.push_back(master.surface_coordinates[a]);
+  }
+  return sample_surface(*master.model, positions, coordinates, {xi}).point;
 }
 
 // Catmull-Rom segments through equidistant points of a parabola are the parabola: height and base together

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "error.hpp"
+#include "own_elements.hpp"
 
 namespace host::chart {
 namespace {
@@ -25,9 +26,10 @@ struct Sine {
   double amplitude = 1, wave[2] = {}, phase = 0; // wave in turns, phase in radians
 };
 
-/// What `evaluate` cannot be told by its arguments.
+/// What `assemble` cannot be told by its arguments.
 struct Element {
-  decltype(&ents_evaluate) evaluate = nullptr; // the library's own
+  decltype(&ents_assemble) assemble = nullptr; // the library's own
+  ents_layout layout{};
   double stiffness = 0;
   double coordinates[4][2] = {};
   std::vector<Sine> sines; // h is their product
@@ -117,34 +119,26 @@ void differentiate(const double* slave, const double* master, double area, const
   }
 }
 
-std::int32_t evaluate_automatically(const ents_model* model, std::int64_t first, std::int64_t count,
-                                    const ents_input* input, const ents_output* output, ents_report* report) {
-  constexpr std::int32_t needed = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_XI | ENTS_FLAGS;
-  if ((output->wanted & needed) != needed)
-    return element.evaluate(model, first, count, input, output, report);
-  if (output->tangent_leading_dimension != 3)
-    throw JobError("automatic tangent: elements of a rigid master have 3 dofs");
+std::int32_t assemble_automatically(const ents_model* model, std::int64_t first, std::int64_t count,
+                                    const ents_input* input, const ents_output* output, const ents_system* system,
+                                    ents_report* report) {
+  if (system->values == nullptr) return element.assemble(model, first, count, input, output, system, report);
+  ents_system no_forces = *system;
+  no_forces.residual = no_forces.values = nullptr;
   ents_output rest = *output;
-  rest.wanted &= ~(ENTS_RESIDUAL | ENTS_TANGENT);
-  std::vector<double> pressure; // something of the law has to be asked for, or nothing would be in contact
-  if ((rest.wanted & ENTS_PRESSURE) == 0) {
-    pressure.resize(static_cast<std::size_t>(first + count));
-    rest.wanted |= ENTS_PRESSURE;
-    rest.pressure = pressure.data(), rest.pressure_stride = 1;
-  }
-  const std::int32_t status = element.evaluate(model, first, count, input, &rest, report);
+  std::vector<double> xi(2 * static_cast<std::size_t>(first + count)), pressure(xi.size());
+  rest.wanted |= ENTS_XI | ENTS_PRESSURE; // something of the law has to be asked for, or nothing would be in contact
+  rest.xi = xi.data(), rest.xi_stride = 2;
+  rest.pressure = pressure.data(), rest.pressure_stride = 1;
+  const std::int32_t status = element.assemble(model, first, count, input, &rest, &no_forces, report);
   if (status != ENTS_OK) return status;
+  OwnElements elements(element.layout, *input, *system);
   for (std::int64_t e = first; e < first + count; ++e) {
-    double *residual = output->residual + e * output->residual_stride,
-           *tangent = output->tangent + e * output->tangent_stride;
-    if ((output->flags[e * output->flags_stride] & ENTS_FLAG_CONTACT) != 0) {
-      differentiate(input->slave + e * input->slave_stride, input->master + e * input->master_stride,
-                    input->area[e * input->area_stride], output->xi + e * output->xi_stride, residual,
-                    tangent);
-    } else {
-      std::fill_n(residual, 3, 0.0);
-      std::fill_n(tangent, 9, 0.0);
-    }
+    if ((output->flags[e * output->flags_stride] & ENTS_FLAG_CONTACT) == 0) continue;
+    const ents_input in = elements.input(e);
+    double residual[3], tangent[9];
+    differentiate(in.slave, in.master, *in.area, xi.data() + 2 * e, residual, tangent);
+    elements.add(e, residual, tangent);
   }
   return ENTS_OK;
 }
@@ -183,7 +177,8 @@ Element element_of(const Scene& scene) {
 AutomaticTangent::AutomaticTangent(const EntsLibrary& library, const Scene& scene)
     : library_(library.path()) {
   element = element_of(scene);
-  element.evaluate = std::exchange(library_.evaluate, evaluate_automatically);
+  element.layout = EntsModel(library, scene.contact->model.dump(), scene.file.parent_path(), scene.contact->model_where).layout();
+  element.assemble = std::exchange(library_.assemble, assemble_automatically);
 }
 AutomaticTangent::~AutomaticTangent() { element = {}; }
 

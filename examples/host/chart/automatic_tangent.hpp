@@ -8,7 +8,7 @@
 
 namespace host::chart {
 
-/// One at a time: while it lives, its evaluate() belongs to this scene.
+/// One at a time: while it lives, its assemble() belongs to this scene.
 class AutomaticTangent {
 public:
   /// @param scene  a rigid quad4 master whose height is a sine or a product of sines, with a penalty,

@@ -17,6 +17,7 @@ struct PointGrid {
   std::size_t components = 0;
 
   std::size_t row() const { return n + 3; }
+  std::int64_t number(std::size_t i, std::size_t j) const { return static_cast<std::int64_t>(j * row() + i); }
   double* at(std::size_t i, std::size_t j) { return values.data() + (j * row() + i) * components; }
 };
 
@@ -75,14 +76,11 @@ Master smoothed_master(const EntsLibrary& library, const Scene& scene, int divis
   Master master;
   master.model = model_of(library, scene, model);
   master.direction = scene.contact->direction;
-  master.segments = grid.d == 2 ? grid.n : grid.n * grid.n;
   for (std::size_t j = 0; j < (grid.d == 2 ? 1 : grid.n); ++j)
     for (std::size_t i = 0; i < grid.n; ++i)
       for (std::size_t b = 0; b < (grid.d == 2 ? 1u : 4u); ++b)
-        for (std::size_t a = 0; a < 4; ++a) {
-          const double* point = grid.at(i + a, j + b);
-          master.positions.insert(master.positions.end(), point, point + grid.d);
-        }
+        for (std::size_t a = 0; a < 4; ++a) master.connectivity.push_back(grid.number(i + a, j + b));
+  master.positions = std::move(grid.values);
   return master;
 }
 
@@ -98,13 +96,13 @@ Master base_master(const EntsLibrary& library, const Scene& scene, int divisions
   model["height"] = nullptr;
   master.base = model_of(library, scene, model);
   master.direction = scene.contact->direction;
-  master.segments = grid.n;
   for (std::size_t i = 0; i < grid.n; ++i)
     for (std::size_t a = smooth ? 0 : 1; a < (smooth ? 4u : 3u); ++a) {
-      const double* point = grid.at(i + a, 0);
-      master.positions.insert(master.positions.end(), point, point + grid.d);
-      master.surface_coordinates.push_back(point[grid.d]);
+      master.connectivity.push_back(grid.number(i + a, 0));
+      master.surface_coordinates.push_back(grid.at(i + a, 0)[grid.d]);
     }
+  for (std::size_t i = 0; i < grid.row(); ++i)
+    master.positions.insert(master.positions.end(), grid.at(i, 0), grid.at(i, 0) + grid.d);
   return master;
 }
 

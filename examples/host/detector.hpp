@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which master segment each slave point is projected on: ents_detect with its tree.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ents_library.hpp"
+
+namespace host {
+
+/// Segments and natural coordinates of slave points.
+struct Projections {
+  std::vector<std::int64_t> segment; ///< [slaves] -1: none
+  std::vector<double> xi;            ///< [slaves][d-1]; 0 where there is no segment
+};
+
+class Detector {
+public:
+  /// @param model  has to live as long as this
+  explicit Detector(const EntsModel& model) : model_(&model) {}
+
+  /// Has the master been anywhere yet?
+  bool is_placed() const { return !tree_.empty(); }
+  /// The master is at `mesh.positions` now.
+  void move(const ents_master_mesh& mesh);
+
+  /// @param slaves  [slaves][d] positions
+  /// @param at      in: the projections of before, which are followed; segment -1: all segments are searched. out: the present ones
+  /// @return the first slave that lies behind an edge between two segments: it has penetrated, but projects on neither; -1: none
+  /// @throws JobError with the library's message
+  std::int64_t find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const;
+
+private:
+  const EntsModel* model_;
+  std::vector<double> tree_;
+};
+
+} // namespace host

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Slave nodes behind a concave edge between two plain segments: they project on neither, and no result may
+// come from a step that leaves one there.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace host {
+namespace {
+
+using test::axis;
+
+std::string failure_of(const Json& json, const std::filesystem::path& file = "test.json") {
+  const Scene scene = read_scene_text(json.dump(), file);
+  Simulation simulation(scene, &test::library());
+  try {
+    solve(simulation, {});
+  } catch (const StepFailure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
+/// A rigid V groove y = left |x|, right x, and a block whose middle node comes to (x, -depth); all nodes that
+/// touch are held.
+class Groove : public testing::Test {
+protected:
+  Groove() : folder_(std::filesystem::temp_directory_path() / ("ents_groove_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~Groove() override { std::filesystem::remove_all(folder_); }
+
+  Json scene(double left, double right, double x, double depth) const {
+    std::ofstream(folder_ / "groove.inp")
+        << "*NODE\n1, -1, -1\n2, 0, -1\n3, 1, -1\n4, -1, " << left << "\n5, 0, 0\n6, 1, " << right
+        << "\n*ELEMENT, TYPE=CPE4, ELSET=ALL\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n"
+           "*NSET, NSET=ALL\n1, 2, 3, 4, 5, 6\n*SURFACE, NAME=TOP, TYPE=ELEMENT\n1, S3\n2, S3\n";
+    return {
+        {"dimension", 2},
+        {"formulation", "plane_strain"},
+        {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 1}, {"poisson", 0.3}}}}},
+        {"parts",
+         {{{"name", "groove"}, {"material", "m"}, {"deck", "groove.inp"}},
+          {{"name", "b"},
+           {"material", "m"},
+           {"element", "quad4"},
+           {"x", axis(x - 0.5, x + 0.5, 2)},
+           {"y", axis(0, 1, 2)}}}},
+        {"supports",
+         {{{"nodes", "groove.ALL"}, {"x", 0}, {"y", 0}}, {{"nodes", "b.y_min"}, {"x", 0}, {"y", -depth}}}},
+        {"contact",
+         {{"slave", "b.y_min"},
+          {"master", {{"faces", "groove.TOP"}}},
+          {"model",
+           {{"segment", "line2"}, {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 30}}}}}}}}},
+        {"steps", {{"control", "load_factor"}, {"values", {1}}}},
+        {"solver", {{"min_step", 0.9}}}};
+  }
+
+  std::filesystem::path folder_;
+};
+
+// Equilibrium is found at once with the node open: nothing but this test of its place can tell.
+TEST_F(Groove, AStepThatLeavesANodeBehindTheEdgeFails) {
+  test::Random random(3);
+  int lost = 0, held = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double left = random.uniform(0.05, 0.6), right = random.uniform(0.05, 0.6),
+                 depth = random.uniform(0.01, 0.1);
+    const double x = depth * random.uniform(-2 * left, 2 * right);
+    // Projections on the two lines end before the bottom where (x, -depth) lies between their normals there.
+    const bool between = x > -left * depth && x < right * depth;
+    Json json = scene(left, right, x, depth);
+    const std::string failure = failure_of(json, folder_ / "scene.json");
+    if (between) {
+      EXPECT_NE(failure.find("behind a concave edge"), std::string::npos) << failure;
+      EXPECT_NE(failure.find("write \"border\": 0.1 into /contact/model"), std::string::npos) << failure;
+      json["contact"]["model"]["border"] = 0.2; // 0.2 halves of a segment: more than depth times slope
+      EXPECT_EQ(failure_of(json, folder_ / "scene.json"), "");
+    } else {
+      EXPECT_EQ(failure, "") << left << " " << right << " " << x << " " << depth;
+    }
+    ++(between ? lost : held);
+  }
+  EXPECT_GT(std::min(lost, held), 15);
+}
+
+/// A stiff block presses beside a node of a soft block's flat surface, which bends to a concave kink there.
+Json pressed(double from, double to, double depth) {
+  const auto part = [](const char* name, const char* material, const Json& x, const Json& y) {
+    return Json{{"name", name}, {"material", material}, {"element", "tri3"}, {"x", x}, {"y", y}};
+  };
+  const auto material = [](double young) {
+    return Json{{"law", "st_venant_kirchhoff"}, {"young", young}, {"poisson", 0.3}};
+  };
+  return {
+      {"dimension", 2},
+      {"formulation", "plane_strain"},
+      {"materials", {{"soft", material(1000)}, {"stiff", material(37000)}}},
+      {"parts",
+       {part("lower", "soft", axis(0, 4, 13), axis(0, 2, 4)),
+        part("upper", "stiff", axis(from, to, 6), axis(2.05, 3.55, 5))}},
+      {"supports",
+       {{{"nodes", "lower.y_min"}, {"x", 0}, {"y", 0}}, {{"nodes", "upper.y_max"}, {"x", 0}, {"y", -depth}}}},
+      {"contact",
+       {{"slave", "upper.y_min"},
+        {"master", {{"faces", "lower.y_max"}}},
+        {"model",
+         {{"segment", "line2"}, {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 3662}}}}}}}}},
+      {"steps", {{"control", "load_factor"}, {"values", {0.2, 0.4, 0.6, 0.8, 1}}}}};
+}
+
+// The iteration alternates between the node open in the kink and pushed out of it.
+TEST(BehindEdge, AnIterationThatStallsInAKinkNamesTheCure) {
+  test::Random random(1);
+  int stalled = 0;
+  for (int i = 0; i < 12; ++i) {
+    Json json = pressed(0.5, 1.21546 + random.uniform(-2e-3, 2e-3), 0.1458 + random.uniform(-2e-3, 2e-3));
+    const std::string failure = failure_of(json);
+    if (failure.empty()) continue;
+    ++stalled;
+    EXPECT_NE(failure.find("no convergence"), std::string::npos) << failure;
+    EXPECT_NE(failure.find("write \"border\": 0.1 into /contact/model"), std::string::npos) << failure;
+    EXPECT_NE(failure.find("take a smoothed segment"), std::string::npos) << failure;
+    json["contact"]["model"]["segment"] =
+        "bspline4"; // a border ends the stall as well, but nodes may then change sides for ever
+    EXPECT_EQ(failure_of(json), "");
+  }
+  EXPECT_GE(stalled, 3);
+}
+
+} // namespace
+} // namespace host
