@@ -393,4 +393,44 @@ TEST(SilentMistakes, FrictionOnAnotherSegmentNeedsATransfer) {
   EXPECT_GT(transferred, samples(100));
 }
 
+// Only the caller knows whether this is the first increment, and the library cannot refuse: README.md says
+// what the caller sees.
+TEST(SilentMistakes, FrictionWithoutStatesIsNoFrictionAndItsAgeIsZero) {
+  test::Random random(29);
+  int compared = 0;
+  for (const char* base : {"line2", "tri3", "quad4", "quad9"}) {
+    const std::string segment = R"({"segment": ")" + std::string(base) + R"(", "contact": )";
+    const Model model(segment + coulomb + "}"), frictionless(segment + penalty + "}");
+    for (int trial = 0; trial < samples(100); ++trial) {
+      Element with = with_new_state(model, draw(model, basis(base), random, -0.03, -0.02));
+      Element without = with;
+      without[state_begin].clear();
+      Results kept(model.layout), lost(model.layout), plain(frictionless.layout);
+      const int32_t wanted = ENTS_RESIDUAL | ENTS_STATE | ENTS_FLAGS | ENTS_AGE;
+      double friction = 0.0;
+      for (int increment = 0; increment < 3; ++increment) {
+        if (test::evaluate(model, with, wanted, kept) != ENTS_OK || (kept.flags & ENTS_FLAG_CONTACT) == 0)
+          break;
+        ASSERT_EQ(test::evaluate(model, without, wanted, lost), ENTS_OK);
+        Element none = without;
+        ASSERT_EQ(test::evaluate(frictionless, none, ENTS_RESIDUAL, plain), ENTS_OK);
+        EXPECT_EQ(lost.of(ENTS_AGE)[0], 0.0) << base << ", increment " << increment;
+        for (std::size_t i = 0; i < plain.of(ENTS_RESIDUAL).size(); ++i) {
+          EXPECT_NEAR(lost.of(ENTS_RESIDUAL)[i], plain.of(ENTS_RESIDUAL)[i], 1e-14); // forces of order 0.3
+          friction = std::max(friction, std::fabs(kept.of(ENTS_RESIDUAL)[i] - plain.of(ENTS_RESIDUAL)[i]));
+        }
+        EXPECT_EQ(kept.of(ENTS_AGE)[0], increment) << base; // it sticks all the while
+        with[state_begin] = kept.of(ENTS_STATE);
+        for (double& x : with[slave]) x += random(-1e-4, 1e-4); // sticks
+        without[slave] = with[slave];
+        if (increment == 2) {
+          EXPECT_GT(friction, 1e-6) << base;
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 3 * samples(100));
+}
+
 } // namespace
