@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""gallery.py EXAMPLES ENTS_HOST: what it says of bounds that are met and missed, and that every scene is in its list."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+EXAMPLES, HOST = Path(sys.argv[1]), Path(sys.argv[2])
+
+
+class Gallery(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def run_gallery(self, entries, *arguments):
+        list_file = self.folder / "list.json"
+        list_file.write_text(json.dumps(entries))
+        return subprocess.run([sys.executable, EXAMPLES / "gallery.py", "--host", HOST, "--list", list_file, "--out", self.folder / "out",
+                               *arguments], capture_output=True, text=True, check=False)
+
+    def entry(self, **check):
+        return {"scene": "slope", "checks": [{"quantity": "moved", "exact": "a rigid block", **check}]}
+
+    def test_every_scene_is_listed(self):
+        listed = {entry["scene"] for entry in json.loads((EXAMPLES / "gallery.json").read_text())}
+        there = {file.parent.name for file in EXAMPLES.glob("*/scene.json")}
+        self.assertEqual(there - listed, {"fortran_host"})  # solved by a program of its own
+        self.assertEqual(listed - there, set())
+
+    def test_a_bound_that_is_met(self):
+        done = self.run_gallery([self.entry(bound=5e-5), {"scene": "chatter", "fails": "no convergence"}])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        table = (self.folder / "out/gallery.md").read_text()
+        self.assertIn("| slope | moved | a rigid block |", table)
+        self.assertNotIn("MISSED", table)
+        self.assertIn("chatter", (self.folder / "out/index.html").read_text())
+
+    def test_a_bound_that_is_missed(self):
+        for check in ({"bound": 1e-9}, {"absolute_bound": 1e-12}):
+            done = self.run_gallery([self.entry(**check)])
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("MISSED slope: moved differs by", done.stderr)
+            self.assertIn("MISSED", (self.folder / "out/gallery.md").read_text())
+
+    def test_a_quantity_that_is_not_there(self):
+        done = self.run_gallery([{"scene": "slope", "checks": [{"quantity": "speed", "exact": "none", "bound": 1}]}])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('no step has an exact "speed"; there are: friction / mu N', done.stderr)
+
+    def test_a_scene_that_ends_otherwise(self):
+        for entry in ({"scene": "chatter"}, {"scene": "slope", "fails": "no convergence"}, {"scene": "chatter", "fails": "out of memory"}):
+            done = self.run_gallery([entry])
+            self.assertEqual(done.returncode, 1, entry)
+            self.assertIn(f"MISSED {entry['scene']}: ", done.stderr)
+
+    def test_a_command_line_that_is_wrong(self):
+        for done, text in ((self.run_gallery([], "slop"), 'no scene "slop"'), (self.run_gallery([{"scene": "none"}]), '"scene": "none"'),
+                           (self.run_gallery([], "--host", "nowhere"), "no program nowhere")):
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(text, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
