@@ -53,6 +53,21 @@ bool Simulation::choose(const Configuration& at, bool only_lost, std::string& re
   return false;
 }
 
+double Simulation::rounding_of_forces() const {
+  double squared = 0;
+  const auto d = static_cast<std::size_t>(mesh_.dimension);
+  for (std::size_t i = 0; i < d; ++i) {
+    double low = INFINITY, high = -low;
+    for (std::size_t k = i; k < mesh_.coordinates.size(); k += d) {
+      low = std::min(low, mesh_.coordinates[k]);
+      high = std::max(high, mesh_.coordinates[k]);
+    }
+    squared += (high - low) * (high - low);
+  }
+  constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
+  return roundings * std::sqrt(squared) * system_->matrix().diagonal().norm();
+}
+
 double Simulation::relative_residual(const Evaluation& at) const {
   Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
   const auto dofs = static_cast<std::size_t>(dofs_->dofs());
@@ -64,6 +79,8 @@ double Simulation::relative_residual(const Evaluation& at) const {
       if (i >= dofs) squared_gaps += force * force;
     }
   const double norm = residual.norm();
+  // Bodies that nothing presses or loads: the forces present are rounding, as the residual is.
+  if (const double rounding = rounding_of_forces(); std::max(norm, at.force_scale) <= rounding) return 0;
   // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they are zero.
   return norm == 0 ? 0 : norm / std::max(at.force_scale, std::sqrt(squared_gaps));
 }

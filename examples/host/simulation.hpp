@@ -120,6 +120,8 @@ private:
   /// Segments for the configuration, and the pattern that goes with them. False: see `reason`, cut the step.
   bool choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor);
   double relative_residual(const Evaluation& at) const;
+  /// What rounding makes of the forces of bodies without stress: a strain of some epsilon times the stiffness of all nodes [F].
+  double rounding_of_forces() const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;

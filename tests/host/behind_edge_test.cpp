@@ -119,7 +119,7 @@ Json pressed(double from, double to, double depth) {
 TEST(BehindEdge, AnIterationThatStallsInAKinkNamesTheCure) {
   test::Random random(1);
   int stalled = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 24; ++i) {
     Json json = pressed(0.5, 1.21546 + random.uniform(-2e-3, 2e-3), 0.1458 + random.uniform(-2e-3, 2e-3));
     const std::string failure = failure_of(json);
     if (failure.empty()) continue;
