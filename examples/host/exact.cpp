@@ -16,10 +16,6 @@ constexpr double pi = std::numbers::pi;
 
 double squared(double value) { return value * value; }
 
-Quantity quantity(std::string name, std::string unit, double value, double exact) {
-  return {std::move(name), std::move(unit), value, exact, value / exact - 1, true};
-}
-
 } // namespace
 
 HertzLine hertz_line(double force, double radius, double contact_modulus) {
@@ -113,8 +109,8 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
   case Type::hertz_line: {
     const HertzLine reference = hertz_line(state.force / setup.thickness, exact.radius, modulus);
     const EdgeBracket bracket = edge_bracket(state);
-    return {quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-            quantity("half-width", units.length, contact_edge(state), reference.half_width),
+    return {exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+            exact_quantity("half-width", units.length, contact_edge(state), reference.half_width),
             {"last closed node", units.length, bracket.closed},
             {"first open node", units.length, bracket.open}};
   }
@@ -126,9 +122,9 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     // The approach is one to points far away, which only a half-space has.
     const HertzPoint reference = scene.half_space ? hertz_point(state.approach, exact.radius, modulus)
                                                   : hertz_point_under(state.force, exact.radius, modulus);
-    std::vector<Quantity> result{quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-                                 quantity("contact radius", units.length, radius, reference.radius)};
-    if (scene.half_space) result.insert(result.begin(), quantity("force", units.force, state.force, reference.force));
+    std::vector<Quantity> result{exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+                                 exact_quantity("contact radius", units.length, radius, reference.radius)};
+    if (scene.half_space) result.insert(result.begin(), exact_quantity("force", units.force, state.force, reference.force));
     return result;
   }
   case Type::westergaard: {
@@ -137,8 +133,8 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const EdgeBracket bracket = edge_bracket(state);
     const double sine = std::sin(pi * edge / exact.wavelength);
     const double exact_edge = westergaard_half_width(full, state.mean_pressure, 1);
-    return {quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
-            quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
+    return {exact_quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
+            exact_quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
             {"last closed node / lambda", "", bracket.closed / exact.wavelength},
             {"first open node / lambda", "", bracket.open / exact.wavelength}};
   }
@@ -150,7 +146,7 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     // the last point is about to come off.
     if (std::all_of(state.closed.begin(), state.closed.end(), [](char c) { return c != 0; })) {
       const double smallest = *std::min_element(state.pressure.begin(), state.pressure.end());
-      result.push_back(quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
+      result.push_back(exact_quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
     }
     return result;
   }
@@ -164,11 +160,12 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
       squares += state.area[k] * squared(state.pressure[k] / exact.pressure - 1);
       area += state.area[k];
     }
-    return {quantity("largest pressure", units.pressure, peak, exact.pressure),
-            quantity("smallest pressure", units.pressure,
+    return {exact_quantity("largest pressure", units.pressure, peak, exact.pressure),
+            exact_quantity("smallest pressure", units.pressure,
                      *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
             {"scatter of the pressure (rms)", "", std::sqrt(squares / area)}};
   }
+  case Type::boundary_elements: // exact_layer.hpp
   case Type::none:
     break;
   }

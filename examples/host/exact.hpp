@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene.hpp"
@@ -84,6 +85,11 @@ struct Quantity {
   double error = std::numeric_limits<double>::quiet_NaN(); ///< relative, with sign
   bool compared = false;
 };
+
+/// One that is compared.
+inline Quantity exact_quantity(std::string name, std::string unit, double value, double exact) {
+  return {std::move(name), std::move(unit), value, exact, value / exact - 1, true};
+}
 
 /// Where the pressure vanishes, more finely than the nodes lie: p^2 falls linearly to zero at the edge of a contact
 /// (Hertz, Westergaard: p ~ sqrt(a - x)). Least-squares parabola of p^2 through the outer closed nodes, the outermost

@@ -23,10 +23,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Quantity quantity(std::string name, std::string unit, double value, double exact) {
-  return {std::move(name), std::move(unit), value, exact, value / exact - 1, true};
-}
-
 /// f(x, a) of the comment above.
 double elliptical(double x, double a) {
   x = std::abs(x);
@@ -77,13 +73,13 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
   if (!(normal > 0)) return {};
   const HertzLine hertz = hertz_line(normal, exact.radius, modulus);
   const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
-  std::vector<Quantity> result{quantity("peak pressure", units.pressure, peak, hertz.peak_pressure),
-                               quantity("half-width", units.length, contact_edge(state), hertz.half_width)};
+  std::vector<Quantity> result{exact_quantity("peak pressure", units.pressure, peak, hertz.peak_pressure),
+                               exact_quantity("half-width", units.length, contact_edge(state), hertz.half_width)};
   const double limit = exact.coefficient * normal, ratio = std::abs(shear) / limit;
   result.push_back({"Q / mu P", "", ratio});
   if (ratio < 0.02) return result; // slip has not come further in than a node or two
   const double stick = hertz.half_width * std::sqrt(std::max(0., 1 - ratio));
-  result.push_back(quantity("stick half-width", units.length, stick_edge(state, exact.coefficient), stick));
+  result.push_back(exact_quantity("stick half-width", units.length, stick_edge(state, exact.coefficient), stick));
   double last_stick = 0, first_slip = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < state.place.size(); ++k) {
     if (state.sticks[k]) last_stick = std::max(last_stick, std::abs(state.place[k]));
@@ -96,7 +92,7 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
   const double reach = exact.distance, rest_force = limit - std::abs(shear);
   const double compliance = 2 / (pi * contact_modulus(scene));
   const double inner = rest_force > 0 ? rest_force * (elliptical(reach, stick) - elliptical(0, stick)) : 0;
-  result.push_back(quantity("tangential displacement", units.length, moved,
+  result.push_back(exact_quantity("tangential displacement", units.length, moved,
                             compliance * (limit * (elliptical(reach, hertz.half_width) -
                                                    elliptical(0, hertz.half_width)) - inner)));
   return result;
@@ -114,7 +110,7 @@ std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState&
   std::vector<Quantity> result;
   result.push_back({"tan(slope) / mu", "", tangent / scene.exact.coefficient});
   if (tangent > 0)
-    result.push_back(quantity("friction / mu N", "", friction / (scene.exact.coefficient * normal),
+    result.push_back(exact_quantity("friction / mu N", "", friction / (scene.exact.coefficient * normal),
                               std::min(tangent / scene.exact.coefficient, 1.)));
   result.push_back({"slipping nodes", "%", closed > 0 ? 100 * slipping / closed : 0});
   // Beyond the threshold only the springs under the block hold what friction does not.
@@ -123,7 +119,7 @@ std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState&
   moved = std::abs(moved / area);
   const double rest = std::abs(state.load[0]) - scene.exact.coefficient * std::abs(state.load[1]);
   if (rest > 0 && !scene.springs.empty())
-    result.push_back(quantity("moved", scene.units.length, moved, rest / (scene.springs.front().stiffness[0] * area)));
+    result.push_back(exact_quantity("moved", scene.units.length, moved, rest / (scene.springs.front().stiffness[0] * area)));
   else
     result.push_back({"moved", scene.units.length, moved, std::numeric_limits<double>::quiet_NaN(),
                       std::numeric_limits<double>::quiet_NaN(), true});

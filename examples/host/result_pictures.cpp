@@ -277,6 +277,8 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
   note(draw(pictures::residual_history("Newton's iteration", residuals, labels), folder, "residuals"));
   if (simulation.contact() == nullptr) return problems;
   const ExactSpec::Type type = simulation.scene().exact.type;
+  const bool along_line = type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine &&
+                          type != ExactSpec::Type::boundary_elements; // the exact pressure
   if (simulation.scene().control == Control::load_factor && records.size() > 1)
     note(draw(force_history(simulation.scene(), records), folder, "force"));
   if (type == ExactSpec::Type::slope) return problems;
@@ -286,13 +288,12 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
   }
   if (type == ExactSpec::Type::none && simulation.scene().dimension == 2)
     note(draw(pressure_along_surface(simulation, records.back()), folder, "pressure"));
-  if (type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine)
+  if (along_line)
     note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
   if (type == ExactSpec::Type::westergaard)
     note(draw(westergaard_curve(simulation, records), folder, "westergaard"));
   if (type == ExactSpec::Type::hertz_point) note(draw(force_curve(simulation, records), folder, "force"));
-  if (simulation.scene().control != Control::load_factor &&
-      (type == ExactSpec::Type::none || type == ExactSpec::Type::double_sine)) {
+  if (simulation.scene().control != Control::load_factor && !along_line) {
     note(draw(against_pressure(simulation, records, false), folder, "contact_fraction"));
     note(draw(against_pressure(simulation, records, true), folder, "mean_gap"));
     if (const pictures::Maps maps = surface_maps(simulation, records.back()); !maps.maps.empty())

@@ -124,7 +124,9 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   }
   record.contact_fraction = closed / simulation.contact_area();
   record.mean_gap = gap / gap_area;
-  record.exact = compare_with_exact(scene, surface_state(simulation, record));
+  const SurfaceState state = surface_state(simulation, record);
+  const ExactLayer* layer = simulation.exact_layer();
+  record.exact = layer != nullptr ? layer->compare(simulation.now().motion, state) : compare_with_exact(scene, state);
 }
 
 } // namespace

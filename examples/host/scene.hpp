@@ -81,7 +81,7 @@ enum class Control {
 
 /// Which exact solution the result is held against.
 struct ExactSpec {
-  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope, uniform_pressure };
+  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope, uniform_pressure, boundary_elements };
   Type type = Type::none;
   std::string where;                    ///< file and path, for messages
   double radius = 0;                    ///< hertz_line, hertz_point, cattaneo [L]
@@ -89,6 +89,7 @@ struct ExactSpec {
   double distance = 0;                  ///< cattaneo: of the points that displacements are measured against [L]
   double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
   double pressure = 0;                  ///< uniform_pressure [F/L^2]
+  int points = 128;                     ///< boundary_elements: along the longer side of the layer
 };
 
 /// Words for tables and pictures; the numbers are never converted.

@@ -17,7 +17,8 @@ const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
                                         {"double_sine", Type::double_sine},
                                         {"cattaneo", Type::cattaneo},
                                         {"slope", Type::slope},
-                                        {"uniform_pressure", Type::uniform_pressure}};
+                                        {"uniform_pressure", Type::uniform_pressure},
+                                        {"boundary_elements", Type::boundary_elements}};
 
 bool is_rigid(const Scene& scene) { return !scene.contact->rigid.empty(); }
 
@@ -27,7 +28,7 @@ void check_formulation(Type type, const JsonValue& word, const Scene& scene) {
   if (type == Type::uniform_pressure) return;
   const bool axisymmetric =
       scene.dimension == 2 && scene.parts.front().setup.formulation == Formulation::axisymmetric;
-  const bool point = type == Type::hertz_point, space = type == Type::double_sine;
+  const bool point = type == Type::hertz_point, space = type == Type::double_sine || type == Type::boundary_elements;
   if (point   ? scene.dimension == 3 || axisymmetric
       : space ? scene.dimension == 3
               : scene.dimension == 2 && !axisymmetric)
@@ -99,6 +100,8 @@ ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
     exact.coefficient = object.at("coefficient").positive();
   } else if (exact.type == Type::uniform_pressure) {
     exact.pressure = object.at("pressure").positive();
+  } else if (exact.type == Type::boundary_elements) {
+    exact.points = object.integer_or("points", 8, 1024, exact.points);
   } else {
     exact.amplitude = object.at("amplitude").positive();
     exact.wavelength = object.at("wavelength").positive();

@@ -174,6 +174,8 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
   const std::vector<Face>& slaves = find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
   exact_axis_ = host::exact_axis(*scene_, *library);
+  if (scene_->exact.type == ExactSpec::Type::boundary_elements && divisions == 0 && !maker)
+    exact_layer_ = std::make_shared<ExactLayer>(*scene_, *library, mesh_, *dofs_);
   Master master = maker           ? maker(*library, *scene_)
                   : divisions > 0 ? explicit_master(*library, *scene_, divisions)
                                   : scene_master(*library, *scene_, mesh_);

@@ -11,6 +11,7 @@
 #include "configuration.hpp"
 #include "contact.hpp"
 #include "exact.hpp"
+#include "exact_layer.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
 
@@ -69,6 +70,8 @@ public:
   Contact* contact() { return contact_.get(); }
   /// Of the scene's exact solution.
   const ExactAxis& exact_axis() const { return exact_axis_; }
+  /// Boundary elements, if they are the scene's exact solution and the master is the scene's own; else null.
+  const ExactLayer* exact_layer() const { return exact_layer_.get(); }
   const Configuration& now() const { return now_; }
   Sizes sizes() const;
   const Timings& timings() const { return timings_; }
@@ -142,6 +145,7 @@ private:
   std::unique_ptr<Bulk> bulk_;
   std::unique_ptr<Contact> contact_;
   ExactAxis exact_axis_;
+  std::shared_ptr<const ExactLayer> exact_layer_;
   std::vector<StencilGroup> bulk_stencils_;
   std::unique_ptr<SparseSystem> system_;
   std::unique_ptr<LinearSolver> solver_;

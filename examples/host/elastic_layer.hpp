@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boundary elements: a rigid surface pressed without friction on an elastic layer that is bonded to a rigid
+// base and whose sides are planes of symmetry. An answer that shares nothing with the elements, projections
+// and laws of the other scenes.
+//   Compliance of the layer: K. L. Johnson, Contact Mechanics, 1985, section 13.2 (half-space), and R. B.
+//   Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94 (bonded layer); conjugate gradients with p >= 0: I. A.
+//   Polonsky and L. M. Keer, Wear 231 (1999) 206; area: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribol.
+//   Int. 114 (2017) 161.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "material.hpp"
+
+namespace host {
+
+/// Displacement of a layer's surface per pressure, both a cosine of this wave number k, against the pressure.
+/// @param k  k = 0: uniform pressure [1/L]
+/// @return [L^3/F]
+double layer_compliance(double k, double thickness, const Material& material);
+
+/// What is known of a contact; its pressures are those of the finer of two grids.
+struct LayerContact {
+  Eigen::ArrayXXd pressure; ///< [x][y] at the centres of equal cells
+  double mean_pressure = 0, peak_pressure = 0;
+  double fraction = 0;         ///< of the area in contact, corrected by the length of its border
+  double fraction_counted = 0; ///< cells that carry pressure
+  int iterations = 0;
+};
+
+class ElasticLayer {
+public:
+  /// @param nx, ny  cells
+  /// @param lx, ly  lengths of the sides
+  ElasticLayer(Eigen::Index nx, Eigen::Index ny, double lx, double ly, double thickness,
+               const Material& material);
+
+  /// Centre of a cell from the corner of the layer.
+  double x(Eigen::Index i) const {
+    return (static_cast<double>(i) + 0.5) * lx_ / static_cast<double>(modes_x_.rows());
+  }
+  double y(Eigen::Index j) const {
+    return (static_cast<double>(j) + 0.5) * ly_ / static_cast<double>(modes_y_.rows());
+  }
+  Eigen::Index cells_x() const { return modes_x_.rows(); }
+  Eigen::Index cells_y() const { return modes_y_.rows(); }
+
+  /// Displacement of the surface away from the rigid body under a pressure.
+  Eigen::ArrayXXd displacement(const Eigen::ArrayXXd& pressure) const;
+
+  /// Pressure >= 0 under a rigid surface, where gap + displacement >= 0, one of them zero.
+  /// @param gap  [x][y] of the undeformed layer, < 0: overlap
+  /// @throws JobError if the iteration does not converge
+  LayerContact press(const Eigen::ArrayXXd& gap) const;
+
+private:
+  double lx_, ly_;
+  Eigen::MatrixXd modes_x_, modes_y_; ///< [cells][modes] orthonormal cosines
+  Eigen::ArrayXXd compliance_;        ///< [modes x][modes y]
+};
+
+} // namespace host
