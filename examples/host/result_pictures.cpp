@@ -177,6 +177,15 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
     curve.y.push_back(gap ? record.mean_gap : 100 * record.contact_fraction);
   }
   chart.curves = {curve};
+  if (gap || simulation.exact_layer() == nullptr) return chart;
+  chart.curves[0].label = "computed (slave nodes)";
+  Curve exact{"boundary elements, hard contact", {}, {}, Style::exact};
+  for (const StepRecord& record : records)
+    for (const Quantity& quantity : record.exact) {
+      if (quantity.name == "mean pressure") exact.x.push_back(quantity.exact);
+      if (quantity.name == "contact fraction") exact.y.push_back(100 * quantity.exact);
+    }
+  chart.curves.push_back(exact);
   return chart;
 }
 
