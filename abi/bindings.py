@@ -24,12 +24,15 @@ import sys
 
 # Argument types of functions that take null; the header says so in words. Fortran passes c_loc of them, or c_null_ptr.
 NULLABLE = {"ents_model_create": ("directory", "data"), "ents_assemble": ("output",), "ents_iterate": ("output", "system"),
+            "ents_model_bind": ("parameters", "fields"), "ents_field_init": ("samples",), "ents_wear_collect": ("volume",),
             "ents_model_check": ("master", "surface_coordinates"),
             "ents_state_transfer": ("old_surface_coordinates", "new_surface_coordinates")}
 FORTRAN = {"int32_t": ("integer(c_int32_t)", "0"), "int64_t": ("integer(c_int64_t)", "0"), "double": ("real(c_double)", "0"),
-           "char": ("character(kind=c_char)", "c_null_char")}
-PYTHON = {"int32_t": "ctypes.c_int32", "int64_t": "ctypes.c_int64", "double": "ctypes.c_double", "char": "ctypes.c_char"}
-KINDS = {"int32_t": "int32", "int": "int32", "int64_t": "int64", "long": "int64", "double": "float64", "char": "char"}
+           "char": ("character(kind=c_char)", "c_null_char"), "ents_height_function": ("type(c_funptr)", "c_null_funptr")}
+PYTHON = {"int32_t": "ctypes.c_int32", "int64_t": "ctypes.c_int64", "double": "ctypes.c_double", "char": "ctypes.c_char",
+          "ents_height_function": "ctypes.c_void_p"}
+KINDS = {"int32_t": "int32", "int": "int32", "int64_t": "int64", "long": "int64", "double": "float64", "char": "char",
+         "ents_height_function": "function", "function_pointer": "function"}
 
 
 def shape_of(text):
@@ -71,6 +74,7 @@ class Header:
         order = {name: re.search(rf"(#define|X\() ?{name}\b", text).start() for name in self.constants}
         self.constants = {name: self.constants[name] for name in sorted(self.constants, key=order.get)}
         code = re.sub(r"^#(?:[^\n]*\\\n)*[^\n]*$", "", text, flags=re.M)  # without directives
+        code = re.sub(r"\w+ \(\*(\w+)\) ?\(\)", r"function_pointer \1", code)  # as gfortran writes them
         self.structs = {name: [v for part in re.findall(r"([^;]+);[ \t]*(?:/\*(.*?)\*/)?", re.sub(r"^\s*/\*.*?\*/", "", body, flags=re.S), re.S)
                                for v in self._declared(*part)]
                         for name, body in re.findall(r"typedef struct (ents_\w+) \{(.*?)\} \1;", code, re.S)}
@@ -168,13 +172,13 @@ def fortran_argument(header, function, v):
     if v.name in NULLABLE.get(function, ()) or (handle and v.stars == 1):
         return "type(c_ptr), value", ""
     if handle:
-        return f"type(c_ptr), intent({'inout' if function.endswith('_destroy') else 'out'})", ""
+        return f"type(c_ptr), intent({'inout' if function.endswith(('_destroy', '_bind')) else 'out'})", ""
     if v.type == "ents_report":
         return "type(ents_report), intent(inout)", ""
     intent = "intent(in)" if v.const else "intent(inout)"
     if v.type in header.structs:
         return f"type({v.type}), {intent}, target", ""
-    return f"{FORTRAN[v.type][0]}, {intent}", "" if function.endswith("_size") and not v.const else "(*)"
+    return f"{FORTRAN[v.type][0]}, {intent}", "" if function.endswith(("_size", "_place")) and not v.const else "(*)"
 
 
 def fortran_interfaces(header):
@@ -230,7 +234,9 @@ def python(header):
     out = ["# SPDX-License-Identifier: BSD-3-Clause",
            '"""Constants, structs and functions of ents.h. Written by abi/bindings.py: change ents.h, not this file."""', "import ctypes", "import enum", ""]
     enums = {"Status": "Statuses of ents.h. 1 .. 99: cut the step; negative: raised as Error.", "Flag": 'Bits of result["flags"].',
-             "Need": "Bits of Model.layout.needs: what the elements of a model need. What they do not need is not computed."}
+             "Need": "Bits of Model.layout.needs: what the elements of a model need. What they do not need is not computed.",
+             "Shared": "Bits of Input.shared: arrays of Model.assemble that all elements share."}
+    of_prefix = {"NEEDS": "Need", "FLAG": "Flag", "SHARED": "Shared"}
     members, plain, conditions = {name: [] for name in enums}, [], []
     results = header.results()
     of_results = {constant for constant, _, _ in results.values()}
@@ -239,8 +245,8 @@ def python(header):
         prefix = name.split("_")[0]
         if prefix == "CHECK":
             conditions.append((value, name[len("CHECK_"):].lower()))
-        elif prefix in ("NEEDS", "FLAG"):
-            members["Need" if prefix == "NEEDS" else "Flag"].append(f"    {name[len(prefix) + 1:]} = {value}")
+        elif prefix in of_prefix:
+            members[of_prefix[prefix]].append(f"    {name[len(prefix) + 1:]} = {value}")
         elif prefix in ("CONTRACT", "ENDS"):
             plain.append(f"{name} = {value}")
         elif constant not in of_results:
@@ -254,7 +260,8 @@ def python(header):
     out += ["}", 'QUANTITIES = {name: bit for name, (bit, _, _) in RESULTS.items()}', "",
             "# Inputs of elements: the shape of one element's.", "INPUTS = {"]
     inputs = header.structs["ents_input"]
-    out += [f'    "{v.name}": {tuple_of(v.shape)},' for v in inputs if v.stars and v.type == "double"]
+    strides = {v.name for v in inputs if v.name.endswith("_stride")}
+    out += [f'    "{v.name}": {tuple_of(v.shape)},' for v in inputs if v.type == "double" and v.name + "_stride" in strides]
     out += ["}", "", "# Places in the arrays of SurfaceAdmissibility.", f"CONDITIONS = {tuple_of(name for _, name in sorted(conditions))}", ""]
     names = {}
     for struct, fields in header.structs.items():

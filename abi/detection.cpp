@@ -3,6 +3,7 @@
 #include "core/detection.hpp"
 
 #include <cmath>
+#include <cstddef>
 
 #include "abi/detection_call.hpp"
 #include "abi/guard.hpp"
@@ -111,7 +112,14 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
   model = handle, tree = boxes;
   io = known_struct(detection, copy, "detection", status, report);
   if (!io) return status;
+  judges = detection->struct_size >=
+           static_cast<std::int32_t>(offsetof(ents_detection, permitted) + sizeof(ents_detection::permitted));
   if ((status = check_reserved(io->reserved, "detection", report)) != ENTS_OK) return status;
+  if (judges && (io->permitted & ~std::int64_t{ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE}) != 0)
+    return report_message(report, ENTS_BAD_MASK, -1,
+                          "detection.permitted has unknown bits (%lld): ENTS_FLAG_LEFT and "
+                          "ENTS_FLAG_BEHIND_EDGE are known",
+                          static_cast<long long>(io->permitted));
   constexpr std::int64_t most = std::int64_t{1} << 50;
   if (first < 0 || count < 0 || first > most - count)
     return report_message(report, ENTS_BAD_COUNT, -1,
@@ -128,10 +136,29 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
   return ENTS_OK;
 }
 
-std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, std::int64_t& lost,
-                                       ents_report* report) const {
+// Of a slave without a segment of its own: that of its state, if it is in contact and knows it; else -1.
+std::int64_t DetectionCall::segment_before(std::int64_t slave, double (&xi)[2]) const {
+  if (io->segment[slave] >= 0 || !state_begin) {
+    for (int a = 0; io->segment[slave] >= 0 && a < model->plan.parameters; ++a)
+      xi[a] = io->xi[slave * model->plan.parameters + a];
+    return io->segment[slave];
+  }
+  const StateLayout& layout = model->plan.state;
+  const double* state = state_begin + state_begin_stride * slave;
+  if (!is_state(layout, state) || !is_segment_number(state[layout.size]) ||
+      !(state[StateLayout::history_at] > 1.0) || state[layout.size] > static_cast<double>(mesh.segments))
+    return -1;
+  for (int a = 0; a < model->plan.parameters; ++a) xi[a] = state[StateLayout::xi_at + a];
+  return static_cast<std::int64_t>(state[layout.size]) - 1;
+}
+
+std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, ents_report* report) const {
   const Plan& plan = model->plan;
-  lost = -1;
+  const std::int64_t permitted = judges ? io->permitted : 0;
+  struct {
+    std::int64_t slave = -1, before = -1;
+    Lost contact = Lost::no;
+  } lost; // the first one
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;
     double* xi = io->xi + i * plan.parameters;
@@ -158,6 +185,8 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
                               static_cast<long long>(i));
       for (int a = 0; a < plan.parameters; ++a) found.at.xi[a] = xi[a];
     }
+    double xi_before[2] = {};
+    const std::int64_t before = judges ? segment_before(i, xi_before) : -1;
     const Status outcome = detect(plan, mesh, tree, slave, io->reach, found);
     if (outcome == Status::bad_state)
       return report_status(report, ENTS_BAD_STATE, i,
@@ -166,16 +195,24 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, s
                            "ents_tree_build");
     if (outcome != Status::ok) return explain_segment(plan, mesh, outcome, found.segment, report);
     io->segment[i] = found.segment;
+    Lost contact = Lost::no;
+    if (found.segment < 0 && before >= 0)
+      contact = judge_lost_contact(plan, mesh, tree, slave, before, xi_before, found);
+    else if (found.behind_edge && needs_all)
+      contact = Lost::behind_edge;
+    const bool left = contact == Lost::beside || contact == Lost::too_deep;
     if (found.segment >= 0)
       for (int a = 0; a < plan.parameters; ++a) xi[a] = found.at.xi[a];
     if (io->gap) io->gap[i] = found.segment >= 0 ? found.at.gap : 0.0;
     if (io->flags)
       io->flags[i] = (found.searched ? ENTS_FLAG_SEARCHED : 0) |
                      (found.at.ambiguous ? ENTS_FLAG_AMBIGUOUS : 0) |
-                     (found.behind_edge ? ENTS_FLAG_BEHIND_EDGE : 0);
+                     (found.behind_edge ? ENTS_FLAG_BEHIND_EDGE : 0) | (left ? ENTS_FLAG_LEFT : 0);
     if (io->other) io->other[i] = found.other;
-    if (found.behind_edge && lost < 0) lost = i;
+    const std::int64_t flag = left ? ENTS_FLAG_LEFT : ENTS_FLAG_BEHIND_EDGE;
+    if (contact != Lost::no && (permitted & flag) == 0 && lost.slave < 0) lost = {i, before, contact};
   }
+  if (lost.slave >= 0) return explain_lost_contact(lost.contact, lost.slave, lost.before, io->reach, report);
   return report_ok(report);
 }
 
@@ -216,8 +253,7 @@ int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const
         guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
     ents::DetectionCall call;
     const std::int32_t status = call.open(model, mesh, tree, size, first, count, detection, report);
-    std::int64_t lost = -1;
-    return status == ENTS_OK ? call.detect_all(first, count, lost, report) : status;
+    return status == ENTS_OK ? call.detect_all(first, count, report) : status;
   });
 }
 

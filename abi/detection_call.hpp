@@ -2,7 +2,7 @@
 // One call of the caller's slave nodes: arguments checked once, then a detection each.
 #pragma once
 
-#include "abi/mesh.hpp"
+#include "abi/lost_contact.hpp"
 
 namespace ents {
 
@@ -13,13 +13,24 @@ struct DetectionCall {
   const ents_detection* io;
 
   // Nothing is written.
-  std::int32_t open(const ents_model* model, const ents_master_mesh* mesh, const double* tree, std::int64_t size, std::int64_t first,
-                    std::int64_t count, const ents_detection* detection, ents_report* report);
+  std::int32_t open(const ents_model* model, const ents_master_mesh* mesh, const double* tree,
+                    std::int64_t size, std::int64_t first, std::int64_t count,
+                    const ents_detection* detection, ents_report* report);
 
-  // lost: the first slave that is behind an edge; -1: none
-  std::int32_t detect_all(std::int64_t first, std::int64_t count, std::int64_t& lost, ents_report* report) const;
+  // States of the begin of the increment: a slave in contact there has a segment, even if the caller gives
+  // none.
+  const double* state_begin = nullptr;
+  std::int64_t state_begin_stride = 0;
+  // A slave behind an edge that had no segment ends the call, too.
+  bool needs_all = false;
+
+  // Ends with ENTS_NO_PROJECTION if a slave's contact is lost and the caller does not permit it.
+  std::int32_t detect_all(std::int64_t first, std::int64_t count, ents_report* report) const;
 
 private:
+  std::int64_t segment_before(std::int64_t slave, double (&xi)[2]) const;
+
+  bool judges;         // the caller's struct has `permitted`
   ents_detection copy; // of an older caller's
 };
 

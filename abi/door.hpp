@@ -13,24 +13,29 @@
 
 namespace ents {
 
-// Write a report as far as it reaches (an older caller's is shorter); `text` is cut to the report's room. Returns the
-// status. A null report is skipped.
-std::int32_t report_status(ents_report* report, std::int32_t status, std::int64_t element, const char* text) noexcept;
+// Write a report as far as it reaches (an older caller's is shorter); `text` is cut to the report's room.
+// Returns the status. A null report is skipped.
+std::int32_t report_status(ents_report* report, std::int32_t status, std::int64_t element,
+                           const char* text) noexcept;
 
 // The same with a printf-like message (only %s, %d, %lld, %g are used: the C locale's decimal point
 // does not matter for what is printed).
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
-std::int32_t report_message(ents_report* report, std::int32_t status, std::int64_t element, const char* format,
-                            ...) noexcept;
+std::int32_t
+report_message(ents_report* report, std::int32_t status, std::int64_t element, const char* format,
+               ...) noexcept;
 
-inline constexpr std::int32_t smallest_struct = 8;      // struct_size and one more field
-inline constexpr std::int32_t largest_struct = 1 << 16; // no struct will ever be larger: a wild size is not read
+inline constexpr std::int32_t smallest_struct = 8; // struct_size and one more field
+inline constexpr std::int32_t largest_struct =
+    1 << 16; // no struct will ever be larger: a wild size is not read
 
-// A size that some version of the struct may have: between the limits, and a multiple of its alignment as every sizeof.
+// A size that some version of the struct may have: between the limits, and a multiple of its alignment as
+// every sizeof.
 template <class Struct> constexpr bool possible_size(std::int32_t size) noexcept {
-  return size >= smallest_struct && size <= largest_struct && size % static_cast<std::int32_t>(alignof(Struct)) == 0;
+  return size >= smallest_struct && size <= largest_struct &&
+         size % static_cast<std::int32_t>(alignof(Struct)) == 0;
 }
 
 // Are the fields of a newer caller that this library does not know zero?
@@ -72,8 +77,8 @@ const Struct* known_struct(const Struct* caller, Struct& copy, const char* name,
   const std::int32_t size = caller->struct_size;
   if (size == known) return caller;
   if (!possible_size<Struct>(size)) {
-    status = report_message(report, ENTS_STRUCT_SIZE, -1, "%s.struct_size is %d; set it to sizeof (%d in this library)",
-                            name, size, known);
+    status = report_message(report, ENTS_STRUCT_SIZE, -1,
+                            "%s.struct_size is %d; set it to sizeof (%d in this library)", name, size, known);
     return nullptr;
   }
   if (size < known) {
@@ -82,9 +87,10 @@ const Struct* known_struct(const Struct* caller, Struct& copy, const char* name,
     return &copy;
   }
   if (!zero_tail(caller)) {
-    status = report_message(report, ENTS_STRUCT_SIZE, -1,
-                            "%s uses fields that this library (struct_size %d) does not know; zero them or update ents",
-                            name, known);
+    status = report_message(
+        report, ENTS_STRUCT_SIZE, -1,
+        "%s uses fields that this library (struct_size %d) does not know; zero them or update ents", name,
+        known);
     return nullptr;
   }
   return caller;
@@ -93,15 +99,17 @@ const Struct* known_struct(const Struct* caller, Struct& copy, const char* name,
 // A field kept for later versions holds zero: what stands there by chance must not get a meaning one day.
 inline std::int32_t check_reserved(std::int32_t reserved, const char* name, ents_report* report) noexcept {
   if (reserved == 0) return ENTS_OK;
-  return report_message(report, ENTS_STRUCT_SIZE, -1, "%s.reserved is %d; zero the struct before filling it", name,
-                        reserved);
+  return report_message(report, ENTS_STRUCT_SIZE, -1, "%s.reserved is %d; zero the struct before filling it",
+                        name, reserved);
 }
 
 // Write a filled struct back into the caller's, as far as the caller's reaches.
 template <class Struct> void give_back(Struct& filled, Struct* caller) noexcept {
   const std::int32_t size = caller->struct_size;
   filled.struct_size = size;
-  std::memcpy(caller, &filled, size < static_cast<std::int32_t>(sizeof filled) ? static_cast<std::size_t>(size) : sizeof filled);
+  std::memcpy(caller, &filled,
+              size < static_cast<std::int32_t>(sizeof filled) ? static_cast<std::size_t>(size)
+                                                              : sizeof filled);
 }
 
 // Run an entry point's body; what it throws becomes a status.
@@ -118,4 +126,4 @@ template <class Body> std::int32_t at_the_door(ents_report* report, Body&& body)
   }
 }
 
-}  // namespace ents
+} // namespace ents

@@ -20,6 +20,7 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   b.start = in.start, b.start_stride = in.start_stride;
   b.area = in.area, b.area_stride = in.area_stride;
   b.state_begin = in.state_begin, b.state_begin_stride = in.state_begin_stride;
+  b.multiplier = in.multiplier, b.multiplier_stride = in.multiplier_stride;
   b.first = first;
   b.wanted = pair_results(model, out.wanted);
   b.residual = out.residual, b.residual_stride = out.residual_stride;
@@ -54,6 +55,7 @@ void begin_at_first(PairBlock& b) noexcept {
   move(b.start, b.start_stride);
   move(b.area, b.area_stride);
   move(b.state_begin, b.state_begin_stride);
+  move(b.multiplier, b.multiplier_stride);
   move(b.residual, b.residual_stride);
   move(b.tangent, b.tangent_stride);
   if (only_forces(b.wanted)) return;
@@ -103,6 +105,8 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
         shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) &&
         shared(in->start, in->start_stride, t) && shared(in->area, in->area_stride, 1) &&
         shared(in->state_begin, in->state_begin_stride, model->sizes.state) &&
+        (plan.multipliers == 0 ||
+         (in->multiplier && shared(in->multiplier, in->multiplier_stride, plan.multipliers))) &&
         own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&
         own(want::tangent, out->tangent, out->tangent_stride, (n - 1) * leading + n) &&
         (!out->status || one || (out->status_stride >= 1 && out->status_stride < most))))
@@ -125,23 +129,22 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
 
 } // namespace
 
-bool evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count,
-                         const ents_input* in, const ents_output* out, const ents_report* report) noexcept {
-  if (count > PairBlock::most || !is_plain_call(model, first, count, in, out, report)) return false;
+PlainCall evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count,
+                              const ents_input* in, const ents_output* out,
+                              const ents_report* report) noexcept {
+  if (count > PairBlock::most || !is_plain_call(model, first, count, in, out, report)) return {};
   if (in->state_begin)
     for (std::int64_t e = first; e < first + count; ++e)
-      if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size]))
-        return false;
+      if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size])) return {};
   const PairBlock block = pair_block(*model, *in, *out, first);
-  const std::int32_t size = static_cast<std::int32_t>(count);
-  if (model->plan.pairs(model->plan, block, size) != ~std::uint64_t{0} >> (PairBlock::most - size))
-    return false;
-  if (out->status)
-    for (std::int64_t e = first; e < first + count; ++e) out->status[e * out->status_stride] = ENTS_OK;
-  if ((out->wanted & ENTS_STATE) != 0) // without a mesh nobody knows the segment
-    for (std::int64_t e = first; e < first + count; ++e)
-      out->state_end[e * out->state_end_stride + model->plan.state.size] = 0.0;
-  return true;
+  const std::uint64_t done = model->plan.pairs(model->plan, block, static_cast<std::int32_t>(count));
+  for (std::int64_t k = 0; k < count; ++k) {
+    if ((done >> k & 1) == 0) continue;
+    if (out->status) out->status[(first + k) * out->status_stride] = ENTS_OK;
+    if ((out->wanted & ENTS_STATE) != 0) // without a mesh nobody knows the segment
+      out->state_end[(first + k) * out->state_end_stride + model->plan.state.size] = 0.0;
+  }
+  return {true, done};
 }
 
 } // namespace ents

@@ -7,20 +7,25 @@
 namespace ents {
 
 // The arrays of a call from element `first` on.
-PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out, std::int64_t first) noexcept;
+PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out,
+                     std::int64_t first) noexcept;
 
-// The same elements, their arrays made to begin with them: for a caller who puts arrays of his own in the place of some.
+// The same elements, their arrays made to begin with them: for a caller who puts arrays of his own in the
+// place of some.
 void begin_at_first(PairBlock& block) noexcept;
 
-// A call of ordinary elements with nothing to complain of, done without looking at the arguments one by one. False: not all of it
-// is done; nothing is said of why.
-bool evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count, const ents_input* in, const ents_output* out,
-                         const ents_report* report) noexcept;
+// A call with nothing to complain of, done without looking at the arguments one by one.
+struct PlainCall {
+  bool plain = false;     // false: nothing has been done, nothing is said of why
+  std::uint64_t done = 0; // bit k: element first + k is evaluated; the others need care
+};
+PlainCall evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count,
+                              const ents_input* in, const ents_output* out,
+                              const ents_report* report) noexcept;
 
-// Results that these kernels write, if they know this model. Of tangents they know the consistent one.
+// Results that the block kernels write, if they know this model and its elements are single segments.
 inline std::int32_t pair_results(const ents_model& model, std::int32_t wanted) noexcept {
-  if (!model.plan.pairs || !model.model.patch.empty()) return 0;
-  return wanted & (model.plan.tangent == TangentKind::consistent ? PairBlock::results : PairBlock::results & ~want::tangent);
+  return model.model.patch.empty() ? wanted & model.plan.block_results : 0;
 }
 
 } // namespace ents

@@ -187,7 +187,7 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
   std::int32_t status = check_handle(handle, report);
   if (status != ENTS_OK) return status;
   model = handle, plan = &handle->plan;
-  keeps_history = handle->model.law.has_friction();
+  keeps_history = handle->model.law.has_friction() || handle->model.law.wear.on;
   in = known_struct(input, input_copy, "input", status, report);
   if (!in) return status;
   out = known_struct(output, output_copy, "output", status, report);
@@ -225,8 +225,11 @@ void ElementCall::write_open(std::int64_t e) const {
     else
       std::fill_n(at(static_cast<double*>(const_cast<void*>(a.data)), a.stride, e), a.size, 0.0);
   }
-  if ((out->wanted & ENTS_STATE) != 0)
-    at(out->state_end, out->state_end_stride, e)[StateLayout::tag_at] = plan->state.tag;
+  if ((out->wanted & ENTS_STATE) != 0) {
+    double* state = at(out->state_end, out->state_end_stride, e);
+    state[StateLayout::tag_at] = plan->state.tag;
+    keep_worn_depths(plan->state, at(in->state_begin, in->state_begin_stride, e), state);
+  }
 }
 
 // R = -A / eps lambda, K = -A / eps; in each the roundings of the element kernel. A slave without area has
@@ -304,7 +307,7 @@ std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* repor
   result.wanted = want::gap;
   result.gap = &gap;
   bool open;
-  evaluate_one(element(e, nodes), result, open);
+  evaluate_one(element(e, nodes), result, true, open);
   const long long number = e;
   if (plan->penetration_limit > 0.0)
     return report_message(

@@ -57,6 +57,7 @@ inline bool writes_start(const ents_model& model, const ents_input& in, const en
 std::int32_t refuse_without_contact(const char* asks, ents_report* report);
 
 class StagedResults;
+struct PlainCall;
 
 struct ElementCall {
   const ents_model* model;
@@ -65,7 +66,7 @@ struct ElementCall {
   const ents_output* out;
   MasterMesh mesh;            // if the input has one
   bool start_first = false;   // input.start comes before the history's xi
-  bool keeps_history = false; // of a place on the master: friction's anchor
+  bool keeps_history = false; // of a place on the master: the anchor of friction, of wear
 
   // What an assembly wants of an element, beside what the caller does; each or null.
   struct Wanted {
@@ -98,10 +99,12 @@ struct ElementCall {
 
   // nodes: of its segment, if the input has a mesh
   ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;
-  Status evaluate_one(const ElementInput& element, const ElementOutput& results, bool& open) const {
+  // hard: the block kernel has left it
+  Status evaluate_one(const ElementInput& element, const ElementOutput& results, bool hard,
+                      bool& open) const {
     open = false;
-    return model->model.patch.empty() ? plan->element(*plan, element, results)
-                                      : evaluate_patch(*plan, model->model, element, results, open);
+    if (!model->model.patch.empty()) return evaluate_patch(*plan, model->model, element, results, open);
+    return hard ? plan->element(*plan, element, results) : evaluate_segment(*plan, element, results);
   }
 
   // An element without a segment is open: zeros, a fresh state, ENTS_FLAG_OUTSIDE; its multipliers are held
@@ -110,7 +113,7 @@ struct ElementCall {
   std::int32_t evaluate_open(std::int64_t e, const Wanted& also) const;
 
   // Status of the element, not yet explained in the report unless its segment is at fault.
-  std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report) const;
+  std::int32_t evaluate(std::int64_t e, const Wanted& also, ents_report* report, bool hard = false) const;
 
   // All elements of a range: ordinary ones in blocks, the others one by one. `result` is settled with them;
   // negative: the call ends.
@@ -120,7 +123,8 @@ struct ElementCall {
   // Both, for any call; apart, so that the way of plain calls stays short.
   ENTS_NOINLINE static std::int32_t evaluate_call(const ents_model* model, std::int64_t first,
                                                   std::int64_t count, const ents_input* input,
-                                                  const ents_output* output, ents_report* report);
+                                                  const ents_output* output, const PlainCall& before,
+                                                  ents_report* report);
 
   // Nodes of the segments of a block, side by side. False if a segment is bad.
   struct BlockNodes {

@@ -11,19 +11,21 @@
 !     ior(ENTS_XI, ENTS_GAP), or ENTS_XI + ENTS_GAP. A C array [m][d] is a Fortran array (d, m);
 !   - order of a segment's nodes, and which way its normal points: "Segments" at the top of ents.h, where nodes are counted from 0;
 !   - a model is a type(c_ptr); element numbers (`first`, report%element) and all indices are 0-based as in C;
+!   - a height function (ents_height_register) is a type(c_funptr): c_funloc of a bind(c) function with the arguments of
+!     ents_height_function in ents.h: user_data, order and count by value, s(count, d-1), jet(count, numbers);
 !   - ents_string turns C texts (ents_status_text, layout%instruction_set) and report%message into Fortran's;
 !   - ents_version is called ents_library_version here: Fortran cannot tell it from the status value ENTS_VERSION.
 module ents
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, &
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_int8_t, c_associated, &
     c_null_char, c_null_ptr, c_ptr
   implicit none
   public
-  private :: c_char, c_double, c_f_pointer, c_int32_t, c_int64_t, c_int8_t, c_associated, c_null_char, c_null_ptr, c_ptr
+  private :: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_int8_t, c_associated, c_null_char, c_null_ptr, c_ptr
 
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 4
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 6
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -56,6 +58,12 @@ module ents
   integer(c_int32_t), parameter :: ENTS_NEEDS_HISTORY = 64
   integer(c_int32_t), parameter :: ENTS_NEEDS_MULTIPLIERS = 128
   integer(c_int32_t), parameter :: ENTS_NEEDS_ONE_BY_ONE = 256
+  integer(c_int32_t), parameter :: ENTS_SHARED_SLAVE = 1
+  integer(c_int32_t), parameter :: ENTS_SHARED_SEGMENT = 2
+  integer(c_int32_t), parameter :: ENTS_SHARED_AREA = 4
+  integer(c_int32_t), parameter :: ENTS_SHARED_STATE = 8
+  integer(c_int32_t), parameter :: ENTS_SHARED_MULTIPLIER = 16
+  integer(c_int32_t), parameter :: ENTS_SHARED_NO_STATE = 32
   integer(c_int32_t), parameter :: ENTS_XI = 1
   integer(c_int32_t), parameter :: ENTS_GAP = 2
   integer(c_int32_t), parameter :: ENTS_NORMAL_GAP = 4
@@ -84,6 +92,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_SHEAR_LIMIT = 64
   integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
+  integer(c_int32_t), parameter :: ENTS_FLAG_LEFT = 1024
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
   integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
   integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
@@ -129,6 +138,10 @@ module ents
     integer(c_int32_t) :: augmentable = 0
     integer(c_int32_t) :: needs = 0
     type(c_ptr) :: instruction_set = c_null_ptr ! a text that ends with c_null_char
+    integer(c_int32_t) :: named_parameters = 0
+    integer(c_int32_t) :: fields = 0
+    integer(c_int32_t) :: worn = 0
+    integer(c_int32_t) :: reserved = 0
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh
@@ -152,6 +165,7 @@ module ents
     type(c_ptr) :: flags = c_null_ptr ! (count), int32
     type(c_ptr) :: other = c_null_ptr ! (count), int64
     type(c_ptr) :: slave_node = c_null_ptr ! (count), int64
+    integer(c_int64_t) :: permitted = 0
   end type ents_detection
 
   type, bind(c) :: ents_input
@@ -174,6 +188,8 @@ module ents
     type(c_ptr) :: mesh = c_null_ptr ! c_loc of an ents_master_mesh
     type(c_ptr) :: segment = c_null_ptr ! (elements), int64
     integer(c_int64_t) :: segment_stride = 0
+    type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
+    integer(c_int64_t) :: shared = 0
   end type ents_input
 
   type, bind(c) :: ents_output
@@ -221,6 +237,29 @@ module ents
     type(c_ptr) :: age = c_null_ptr ! (elements)
     integer(c_int64_t) :: age_stride = 0
   end type ents_output
+
+  type, bind(c) :: ents_derivatives
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    type(c_ptr) :: gap = c_null_ptr ! (named_parameters, elements)
+    type(c_ptr) :: energy = c_null_ptr ! (named_parameters, elements)
+    type(c_ptr) :: residual = c_null_ptr ! (dofs, named_parameters, elements)
+    type(c_ptr) :: adjoint = c_null_ptr ! (dofs, elements)
+    type(c_ptr) :: product = c_null_ptr ! (named_parameters)
+  end type ents_derivatives
+
+  type, bind(c) :: ents_area
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: surface = 0
+    real(c_double) :: counted = 0
+    real(c_double) :: border_corrected = 0
+    real(c_double) :: zero_line = 0
+    real(c_double) :: estimate = 0
+    real(c_double) :: error = 0
+    real(c_double) :: peak_pressure = 0
+    real(c_double) :: peak_drop = 0
+  end type ents_area
 
   type, bind(c) :: ents_combination
     integer(c_int32_t) :: struct_size = 0
@@ -303,10 +342,10 @@ module ents
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
-      init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
+      init_derivatives, init_area, init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
   end interface ents_init
-  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_combination, &
-    init_system, init_surface, init_admissibility, init_surface_admissibility
+  private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_derivatives, &
+    init_area, init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -337,6 +376,18 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_check_contract
+
+    ! Register a height function under a name.
+    function ents_height_register(name, dimension, function, user_data, report) result(status) &
+      bind(c, name="ents_height_register")
+      import :: c_char, c_funptr, c_int32_t, c_ptr, ents_report
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), value :: dimension
+      type(c_funptr), value :: function
+      type(c_ptr), value :: user_data
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_height_register
 
     ! Read a model from text (abi/model.schema.json says what it may hold).
     function ents_model_create(text, length, directory, data, data_count, model, report) result(status) &
@@ -375,6 +426,60 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_model_layout
+
+    ! Numbers of a model may be named parameters.
+    function ents_model_bind(model, parameters, fields, field_count, bound, report) result(status) bind(c, name="ents_model_bind")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model, parameters, fields
+      integer(c_int64_t), value :: field_count
+      type(c_ptr), intent(inout) :: bound
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_model_bind
+
+    ! Place of a named parameter among `parameters`.
+    function ents_parameter_place(model, name, place, report) result(status) bind(c, name="ents_parameter_place")
+      import :: c_char, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), intent(inout) :: place
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_parameter_place
+
+    ! The block of numbers of a field.
+    function ents_field_size(model, name, size, report) result(status) bind(c, name="ents_field_size")
+      import :: c_char, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), intent(inout) :: size
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_field_size
+
+    function ents_field_init(model, name, samples, block, size, report) result(status) bind(c, name="ents_field_init")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), value :: samples
+      real(c_double), intent(inout) :: block(*)
+      integer(c_int64_t), value :: size
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_field_init
+
+    function ents_field_sample(model, name, block, size, count, s, height, report) result(status) &
+      bind(c, name="ents_field_sample")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, ents_report
+      type(c_ptr), value :: model
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(in) :: block(*)
+      integer(c_int64_t), value :: size, count
+      real(c_double), intent(in) :: s(*)
+      real(c_double), intent(inout) :: height(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_field_sample
 
     function ents_tree_size(model, segments, size, report) result(status) bind(c, name="ents_tree_size")
       import :: c_int32_t, c_int64_t, c_ptr, ents_report
@@ -417,7 +522,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_detect
 
-    ! Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges).
+    ! Evaluate the elements first .. first + count - 1 of the arrays.
     function ents_evaluate(model, first, count, input, output, report) result(status) bind(c, name="ents_evaluate")
       import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_output, ents_report
       type(c_ptr), value :: model
@@ -428,7 +533,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_evaluate
 
-    ! Fill `count` state blocks for elements without history.
+    ! Fill state blocks for elements without history.
     function ents_state_init(model, count, state, stride, report) result(status) bind(c, name="ents_state_init")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
       type(c_ptr), value :: model
@@ -439,7 +544,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_state_init
 
-    ! Augmented Lagrangian with multipliers in the state (Uzawa).
+    ! Augmented Lagrangian with multipliers in the state (Uzawa's iteration).
     function ents_state_augment(model, count, state_begin, begin_stride, state_end, end_stride, report) result(status) &
       bind(c, name="ents_state_augment")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report
@@ -453,7 +558,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_state_augment
 
-    ! A slave node moves on to another segment.
+    ! Move a state to another segment, for a slave node that has moved there.
     function ents_state_transfer(model, old_master, old_surface_coordinates, new_master, new_surface_coordinates, state, moved, &
       report) result(status) bind(c, name="ents_state_transfer")
       import :: c_double, c_int32_t, c_ptr, ents_report
@@ -467,6 +572,36 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_state_transfer
+
+    ! Wear.
+    function ents_wear_collect(model, first, count, input, thickness, state, state_stride, name, block, size, volume, report) &
+      result(status) bind(c, name="ents_wear_collect")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, ents_input, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: first, count
+      type(ents_input), intent(in), target :: input
+      real(c_double), value :: thickness
+      real(c_double), intent(inout) :: state(*)
+      integer(c_int64_t), value :: state_stride
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: block(*)
+      integer(c_int64_t), value :: size
+      type(c_ptr), value :: volume
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_wear_collect
+
+    ! Derivatives of gap, energy and residual of the elements first .. first + count - 1 by every named parameter.
+    function ents_parameter_derivatives(model, first, count, input, derivatives, report) result(status) &
+      bind(c, name="ents_parameter_derivatives")
+      import :: c_int32_t, c_int64_t, c_ptr, ents_derivatives, ents_input, ents_report
+      type(c_ptr), value :: model
+      integer(c_int64_t), value :: first, count
+      type(ents_input), intent(in), target :: input
+      type(ents_derivatives), intent(in), target :: derivatives
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_parameter_derivatives
 
     ! Tributary areas of slave nodes.
     function ents_tributary_areas(facet, facets, connectivity, nodes, positions, thickness, areas, report) result(status) &
@@ -483,7 +618,24 @@ module ents
       integer(c_int32_t) :: status
     end function ents_tributary_areas
 
-    ! Positions of the points, or what else is given per node (surface coordinates).
+    ! Contact area of a slave surface from the results at its nodes.
+    function ents_contact_area(facet, facets, connectivity, nodes, positions, thickness, gap, pressure, modulus, area, report) &
+      result(status) bind(c, name="ents_contact_area")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_area, ents_report
+      character(kind=c_char), intent(in) :: facet(*)
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), value :: thickness
+      real(c_double), intent(in) :: gap(*), pressure(*)
+      real(c_double), value :: modulus
+      type(ents_area), intent(inout), target :: area
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_contact_area
+
+    ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates).
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
       import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
       type(ents_combination), intent(in), target :: combination
@@ -541,7 +693,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_smooth
 
-    ! ents_evaluate, and what is an element's goes into the host's equations.
+    ! Evaluate the elements first .. first + count - 1 and add their residuals and tangents to the host's equations.
     function ents_assemble(model, first, count, input, output, system, report) result(status) bind(c, name="ents_assemble")
       import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_report, ents_system
       type(c_ptr), value :: model
@@ -553,7 +705,7 @@ module ents
       integer(c_int32_t) :: status
     end function ents_assemble
 
-    ! All of an iteration in one call.
+    ! Contact of one Newton iteration in one call.
     function ents_iterate(model, mesh, tree, size, first, count, detection, input, output, system, report) result(status) &
       bind(c, name="ents_iterate")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_input, ents_master_mesh, ents_report
@@ -633,6 +785,16 @@ contains
     type(ents_output), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_output
+
+  subroutine init_derivatives(x)
+    type(ents_derivatives), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_derivatives
+
+  subroutine init_area(x)
+    type(ents_area), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_area
 
   subroutine init_combination(x)
     type(ents_combination), intent(out) :: x

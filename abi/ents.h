@@ -31,18 +31,30 @@
  *                                       middle four: the corners of catmull_rom16 are points 5, 6, 10, 9, in the order of quad4
  *   bezier15                  triangle  control points: corners as tri3, then three on each of the sides 01, 12, 20, in its direction,
  *                                       then the three inner ones, each next to its corner
- * The normal has to point out of the master's body, to the slave nodes. 2D: it is on the left of the direction from the first end of
- * the line to the other (towards +y if that is +x). 3D: seen from its tip, the corners go round counter-clockwise (it is +z if they
- * do so in the plane of x and y). The library cannot detect a wrong order: a segment with the reversed normal takes open nodes for
- * penetrating ones and penetrating ones for open ones; one with its middles between the corners is another surface.
+ * The normal has to point out of the master's body, towards the slave nodes. 2D: the normal is on the left of the direction from the
+ * first end of the line to the second (direction +x: normal +y). 3D: seen from the tip of the normal, the corners go round
+ * counter-clockwise (counter-clockwise in the plane of x and y: normal +z). The library cannot detect a wrong order of nodes: on a
+ * segment with the reversed normal, open slave nodes are pressed and penetrating ones are open; a quadratic segment whose middle nodes
+ * stand between the corners in the list is another surface.
+ *
+ * Words
+ *   slave node         the point of an element that must not pass through its segment
+ *   open, in contact   an element without, with contact pressure
+ *   history, state     what an element remembers from one increment to the next (projection, friction, multipliers), in the host's memory
+ *   anchor             the point of the master surface at which friction holds a slave node that sticks
+ *   reach              the largest |gap| at which a search finds a slave node
+ *   border             natural coordinates by which a segment reaches beyond its edges (key "border" of the model)
+ *   patch              several segments in one element, for hosts whose elements have fixed nodes
+ *   shadow projection  projection along a given direction, or towards a point, instead of along the normal
  *
  * Rules
- *   - a model is the only handle. It is immutable: any number of threads may evaluate it at once;
+ *   - a model is the only handle. It is immutable: any number of threads may evaluate it at once. (One that ents_model_bind has made
+ *     changes in that call alone);
  *   - an evaluation is a pure function: the same inputs give the same bits, whatever the thread, the
  *     batch, or the calls before. It allocates nothing, prints nothing, throws nothing, takes no lock,
  *     and leaves the floating-point environment (rounding, traps, flags) as it found it;
- *   - a call needs up to 256 KiB of stack (100 KiB for one element of one segment; models are made with more): give the threads of a host
- *     as much (OpenMP: OMP_STACKSIZE);
+ *   - a call needs up to 256 KiB of stack (100 KiB for one element of one segment; ents_model_create needs more): the threads of a host
+ *     need that much (OpenMP: OMP_STACKSIZE);
  *   - every struct starts with `struct_size`: zero the struct, then set struct_size = sizeof(struct).
  *     A shorter (older) struct is served; a longer (newer) one is served if its unknown tail is zero;
  *   - every function returns a status, see ENTS_STATUS_TABLE. Messages go into the caller's report.
@@ -72,7 +84,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 4
+#define ENTS_CONTRACT_MINOR 6
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -146,6 +158,32 @@ typedef struct ents_data {
   int64_t columns;      /* samples along s_1 */
 } ents_data;
 
+/* A height function of the host: h and its derivatives at `count` points.
+ *   user_data  as registered
+ *   order      2 or 3: derivatives up to this one are wanted
+ *   count      1 .. 8
+ *   s          [d-1][count] surface coordinates: s_1 of all points, then s_2
+ *   jet        [numbers][count] out, [L] per unit of s. numbers, with one surface coordinate: order + 1, in the order h, h_1, h_11, h_111;
+ *              with two: 6 or 10, in the order h, h_1, h_2, h_11, h_12, h_22, h_111, h_112, h_122, h_222
+ * Returns 0. Any other value means that the height is not defined at one of the points: it is then undefined at all of them, and the
+ * projection ends with ENTS_NO_PROJECTION. The same is true of points whose numbers are NaN.
+ * The function is called by all threads that evaluate a model, several at a time. The same s must give the same bits at any time, for
+ * any count and order, else results differ between calls. It must not call this library, throw, or jump. It runs with rounding to nearest
+ * and without traps. It should be continuous with its derivatives up to the third: tangents have third derivatives. */
+typedef int32_t (*ents_height_function)(void *user_data, int32_t order, int32_t count, const double *s, double *jet);
+
+/* Register a height function under a name: models that are made afterwards may say {"type": "callback", "name": NAME, ...}. Since
+ * contract 1.6.
+ *   name       zero-terminated, 1 to 64 bytes; copied
+ *   dimension  d-1: surface coordinates, 1 (segments that are lines) or 2. One name may have a function of each
+ *   function   replaces an earlier one of this name and dimension for models to come; null: the name is forgotten
+ *   user_data  given to the function; may be null
+ * A model copies both pointers when it is made: function and user_data have to live as long as the models that use them.
+ * Takes a lock: any thread may call it, but not from within a height function. Errors: NULL_ARGUMENT, BAD_VALUE, BAD_COUNT (more than
+ * 4096 names), NO_MEMORY. */
+ENTS_API int32_t ents_height_register(const char *name, int32_t dimension, ents_height_function function, void *user_data,
+                                      ents_report *report);
+
 /* Read a model from text (abi/model.schema.json says what it may hold).
  *   text, length     UTF-8; length in bytes, or -1 if zero-terminated
  *   directory        where relative file names of height maps start; null: the working directory
@@ -179,29 +217,79 @@ typedef struct ents_layout {
   int32_t needs;               /* ENTS_NEEDS_... bits (since contract 1.3, as what follows; `reserved` before) */
   const char *instruction_set; /* of the kernels of its residuals and tangents: "portable", "avx2", "avx512". Static text. The
                                   bits of the results do not depend on it */
+  int32_t named_parameters;    /* of the model's key "parameters": ents_model_bind (since contract 1.6, as what follows) */
+  int32_t fields;              /* heights of type "field": ents_model_bind */
+  int32_t worn;                /* wear: place in the state of three numbers: depth lost by the slave surface [L]; depth lost by the
+                                  master surface that no field has yet [L], see ents_wear_collect; pressure [F/A]; else -1 */
+  int32_t reserved;            /* 0 */
 } ents_layout;
 
-/* What the elements of a model need, decided when it is made. What it does not need is not computed. (A call does not compute what it does
- * not ask for, either, and an open element ends at its gap.) `ents-bench --savings` measures what each is worth. */
-#define ENTS_NEEDS_HEIGHT      (1 << 0)  /* a height that is not zero everywhere; else the segments are plain ones, whatever the text says */
-#define ENTS_NEEDS_SLOPE       (1 << 1)  /* a height of another type than "constant": it is evaluated with its derivatives at each step of a projection */
-#define ENTS_NEEDS_CURVED      (1 << 2)  /* segments whose normal varies: all but line2 and tri3. It is followed through projection and variations */
+/* What the elements of a model need. ents_model_create decides it from the model's text; what is not needed is not computed. (Results
+ * that output.wanted does not have are not computed either, and the evaluation of an open element ends with its gap.) `ents-bench
+ * --savings` measures the time that each bit costs. */
+#define ENTS_NEEDS_HEIGHT      (1 << 0)  /* a height that is not zero everywhere; without this bit the segments are evaluated as plain ones */
+#define ENTS_NEEDS_SLOPE       (1 << 1)  /* a height of another type than "constant": each step of a projection evaluates its derivatives */
+#define ENTS_NEEDS_CURVED      (1 << 2)  /* segments whose normal varies (all but line2 and tri3): projection and variations have its derivatives */
 #define ENTS_NEEDS_ITERATION   (1 << 3)  /* projections by Newton's method; else (plain line2, tri3) in closed form */
-#define ENTS_NEEDS_MASTER      (1 << 4)  /* a master that deforms: R and K of its dofs, too; else ("master": "rigid") of the slave's alone */
+#define ENTS_NEEDS_MASTER      (1 << 4)  /* a master that deforms: R and K have its dofs; without ("master": "rigid") those of the slave alone */
 #define ENTS_NEEDS_FRICTION    (1 << 5)  /* tangential forces and their limit; else K is symmetric and no anchor is kept */
-#define ENTS_NEEDS_HISTORY     (1 << 6)  /* the force depends on ents_input.state_begin (friction, multipliers in the state); else on positions
-                                            alone, and the state serves as start of the projection of a slave in contact */
+#define ENTS_NEEDS_HISTORY     (1 << 6)  /* the force depends on ents_input.state_begin (friction, multipliers in the state); without, it
+                                            depends on positions alone, and the state only gives the start of the projection */
 #define ENTS_NEEDS_MULTIPLIERS (1 << 7)  /* dofs of multipliers after those of the nodes */
-#define ENTS_NEEDS_ONE_BY_ONE  (1 << 8)  /* residual and tangent from the general kernel, element by element: the model has something that
-                                            the kernels of ordinary elements, which take as many at once as a register holds, do not
-                                            know (a shadow projection, a law other than penalty and power, a tangent other
-                                            than the consistent one, "symmetrised", a patch ...) */
+#define ENTS_NEEDS_ONE_BY_ONE  (1 << 8)  /* the elements of a call are evaluated one after the other; without this bit several at once, in
+                                            the lanes of vector registers. It is set for patches, for laws with multipliers as dofs, and
+                                            for segments of more than nine nodes unless the model has the normal projection, a penalty or
+                                            power law and the consistent tangent */
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
 
+/* ---- heights and laws that change -------------------------------------------------------------- */
+
+/* Numbers of a model may be named parameters: {"parameters": {"wear": 0.1}, "height": {"type": "scale", "by": "wear", "of": ...}}, and
+ * a height may be a field, {"type": "field", "name": "worn", ...}, a height map in the caller's memory. ents_model_bind makes a model
+ * with the caller's values of both; every function takes it in place of the model that it was made from.
+ *   model        the model, or one bound to it
+ *   parameters   [named_parameters] their values, in the alphabetical order of their names; null: those of the text
+ *   fields       one for each field of the model: its name; `values`: the block of ents_field_init, which the bound model reads until it is
+ *                bound again; rows 1; columns: length of the block. Null, 0 if the model has none
+ *   bound        in and out. Null: a new model, to be destroyed as any other, before or after `model`. One that this function made from
+ *                the same model: it gets the new values; that allocates nothing and takes less than 1 us for small heights
+ * Bind again after a field has changed. No thread may use `bound` during the call. Trees of ents_tree_build have to be refitted when the
+ * values of the height have changed (else BAD_STATE). Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_HANDLE (`bound` is no model bound to
+ * `model`), NON_FINITE, BAD_VALUE (a stiffness or coefficient that is not positive), BAD_STATE (a field that is missing, or whose block was not
+ * made by ents_field_init), NO_MEMORY. After an error `bound` is as it was. */
+ENTS_API int32_t ents_model_bind(const ents_model *model, const double *parameters, const ents_data *fields, int64_t field_count,
+                                 ents_model **bound, ents_report *report);
+
+/* Place of a named parameter among `parameters`.
+ *   name   zero-terminated
+ *   place  out
+ * Errors: BAD_VALUE, the message has the names of the model. */
+ENTS_API int32_t ents_parameter_place(const ents_model *model, const char *name, int64_t *place, ents_report *report);
+
+/* The block of numbers of a field: a header, then the B-spline coefficients of the map.
+ *   ents_field_size    number of doubles of the block
+ *   ents_field_init    the spline through samples
+ *   ents_field_sample  the field's heights at places of the surface
+ * Arguments
+ *   model    the model, bound or not
+ *   name     of the field, zero-terminated
+ *   size     of ents_field_size: out; of the others: length of the block
+ *   samples  [points_2][points_1] at the places of a height map's samples, [L], finite; null: zero
+ *   block    [size], the caller's; copy it to save the field
+ *   count    number of places, >= 0
+ *   s        [count][d-1] surface coordinates, finite
+ *   height   [count] out, [L]
+ * Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (no such field), NON_FINITE, BAD_STATE (no block of this field), NO_MEMORY (ents_field_init). */
+ENTS_API int32_t ents_field_size(const ents_model *model, const char *name, int64_t *size, ents_report *report);
+ENTS_API int32_t ents_field_init(const ents_model *model, const char *name, const double *samples, double *block, int64_t size,
+                                 ents_report *report);
+ENTS_API int32_t ents_field_sample(const ents_model *model, const char *name, const double *block, int64_t size, int64_t count,
+                                   const double *s, double *height, ents_report *report);
+
 /* ---- whole surfaces --------------------------------------------------------------------------- */
 
-/* A master surface: many segments of the model's basis over one set of nodes. The arrays stay the caller's. */
+/* A master surface: many segments of the model's basis over one set of nodes. The caller owns the arrays. */
 typedef struct ents_master_mesh {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
@@ -209,64 +297,85 @@ typedef struct ents_master_mesh {
   const int64_t *connectivity;       /* [segments][m], 0 <= index < nodes */
   int64_t nodes;
   const double *positions;           /* [nodes][d] current positions, [L], finite */
-  const double *surface_coordinates; /* [segments][m][d-1] s of each segment's nodes (a seam has two values in one node);
-                                        null: the model's own, else s = xi */
+  const double *surface_coordinates; /* [segments][m][d-1] s of each segment's nodes (per segment, since a node on a seam has
+                                        two values); null: those of the model's text, or s = xi if it has none */
 } ents_master_mesh;
 
-/* Detection: which segment is a slave node projected on? A tree of boxes around the enriched segments answers for any
- * number of threads. It lives in the caller's memory:
- *   ents_tree_size    doubles that it takes (about segments * (1 + d))
- *   ents_tree_build   once; O(n log n), needs d doubles per segment of memory of its own while it works (NO_MEMORY)
- *   ents_tree_refit   whenever positions or surface coordinates have changed, and before the tree is used with a model of another height,
- *                     segment or border (a height that wears); O(n). ents_detect finds the right segments only in a tree that has been
- *                     refitted to the positions; a tree that was made with another height, segment or border is refused (BAD_STATE)
- * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE, BAD_STATE (not a tree
- * of this surface, or one that was written over; after an error it has to be built again). */
+/* Detection finds the segment that a slave node is projected on. A tree of boxes around the enriched segments makes the search fast. The
+ * tree lies in memory of the caller, and any number of threads may search it at once:
+ *   ents_tree_size    number of doubles of the tree (about segments * (1 + d))
+ *   ents_tree_build   makes the tree, once: O(n log n). Allocates d doubles per segment while it works (NO_MEMORY)
+ *   ents_tree_refit   fits the boxes to new positions: O(n). Call it whenever positions or surface coordinates have changed, and before
+ *                     the tree is used with a model of another height, segment or border (a height that wears). If you skip this
+ *                     call after the positions have changed, ents_detect finds wrong segments or none and reports no error; a
+ *                     tree that was made with another height, segment or border is refused (BAD_STATE)
+ * Arguments
+ *   model, mesh  the model, and the surface as it is now
+ *   segments     number of segments, 0 .. 2^40
+ *   size         of ents_tree_size: out; of the others: length of `tree`, at least that number
+ *   tree         [size], the caller's
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (a node that does not exist), NON_FINITE, BAD_STATE (the memory holds no
+ * tree of this surface, or was written over). After an error the tree has to be built again. */
 ENTS_API int32_t ents_tree_size(const ents_model *model, int64_t segments, int64_t *size, ents_report *report);
 ENTS_API int32_t ents_tree_build(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
                                  ents_report *report);
 ENTS_API int32_t ents_tree_refit(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
                                  ents_report *report);
 
-/* Slave nodes and what was found for them. */
+/* Slave nodes, and the segments that ents_detect finds for them. */
 typedef struct ents_detection {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
   const double *slave;               /* [count][d] positions, [L], finite */
   double reach;                      /* [L], > 0: a projection with a larger |gap| is none */
-  int64_t *segment;                  /* [count] in: the segment of before, or -1; out: the segment, -1: nothing within reach */
-  double *xi;                        /* [count][d-1] in (where segment >= 0): the projection of before; out: natural coordinates */
+  int64_t *segment;                  /* [count] in: the segment of the last projection, or -1; out: the segment, or -1: none within reach */
+  double *xi;                        /* [count][d-1] in (where segment >= 0): natural coordinates of the last projection; out: of this one */
   double *gap;                       /* [count] out or null: [L], along n_e (normal) or along the ray (shadow); 0 where segment is -1 */
-  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE */
+  int32_t *flags;                    /* [count] out or null: ENTS_FLAG_SEARCHED, _AMBIGUOUS, _BEHIND_EDGE, _LEFT */
   int64_t *other;                    /* [count] out or null: another segment with an equally good projection elsewhere, or on the other side
                                         of a sheet without thickness; or -1 */
   const int64_t *slave_node;         /* [count] or null: the node of the mesh that each slave is, or -1. Segments with this node in their
                                         connectivity are left out. Without it a slave that is a node of the master surface finds itself,
                                         at gap 0 (self-contact). Since contract 1.4 */
+  int64_t permitted;                 /* ENTS_FLAG_LEFT, ENTS_FLAG_BEHIND_EDGE: slaves with this flag do not end the call with
+                                        ENTS_NO_PROJECTION: the caller looks at `flags`. Since contract 1.5 */
 } ents_detection;
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
- *   normal   the closest of all projections on all segments
- *   shadow   of all points on the ray the one that is nearest to the light
- * A slave with a projection of before that is still on that segment and within reach keeps it: it stays on the branch it was
- * on, whatever else has come closer. Where it has left its segment, or has none, all segments are searched (ENTS_FLAG_SEARCHED),
- * and the answer is the best one of all, proved by bounds, or ENTS_FLAG_AMBIGUOUS is set: there are two equally good ones (the
- * one on the segment with the smaller number is given), or the proof took too long.
- * Edges (normal projection). A slave beyond the edges of all segments has no projection, unless it lies within the model's "border" of one.
- * Where a point of an edge is closer to the slave than every projection, the normals of the segments that meet there decide. Behind a
- * concave edge (a kink of a plain mesh) the slave has penetrated, but projects on neither segment: segment is -1 and
- * ENTS_FLAG_BEHIND_EDGE is set: cut the step, widen the border, or smooth the surface. Ahead of a ridge the slave is open: segment is -1,
- * and a farther face that it would project on from behind is no contact. Beside a free edge of the surface a slave is open, too.
- * (At a point where more than 64 segments meet nothing is proved: a slave whose closest point it is is flagged.)
- * Returns 0 or a negative status; then nothing is written from the node with the error on. */
+ *   model, mesh       the model, and the surface as it was when the tree was built or last refitted
+ *   tree, size        of ents_tree_build
+ *   first, count      range of slave nodes, >= 0; threads may take ranges of one ents_detection
+ *   detection         slave nodes and results
+ * Which projection: with normal projection the closest one on all segments; with shadow projection the point on the ray that is nearest
+ * to the light.
+ * Following. A slave node with segment >= 0 when the call begins is projected on that segment, from detection.xi on. If the projection
+ * lies on the segment and within reach, it is the answer, even if another segment is closer: the slave node stays on the branch that
+ * it was on. In all other cases all segments are searched (ENTS_FLAG_SEARCHED). The answer is then proved, by bounds, to be the best one;
+ * ENTS_FLAG_AMBIGUOUS is set if a second one is equally good (the segment with the smaller number is returned), or if the proof
+ * takes more than a bounded number of steps.
+ * Edges (normal projection). A slave node beyond the edges of all segments has no projection, unless it lies within the model's
+ * "border" of one. Where a point of an edge is closer to the slave node than every projection, the normals of the segments that meet
+ * there decide. Behind a concave edge (a kink of a plain mesh) the slave node has penetrated, but projects on neither segment: segment is
+ * -1 and ENTS_FLAG_BEHIND_EDGE is set. Take a smaller step, widen the border, or smooth the surface. Ahead of a ridge the slave node is
+ * open: segment is -1, even if it lies behind a farther face. Beside a free edge of the surface a slave node is open, too.
+ * (Where more than 64 segments meet in the closest point of a slave node, ENTS_FLAG_BEHIND_EDGE is set without a proof.)
+ * Lost contact. A slave that had a segment (segment >= 0 when the call begins) and finds none is open if it has risen from the surface.
+ * Otherwise its contact is lost: it is behind an edge (ENTS_FLAG_BEHIND_EDGE), or ENTS_FLAG_LEFT is set because it lies beside a free
+ * edge and not above the surface as it would go on there (not above its greatest height, if it has one), or deeper than `reach`. All
+ * slaves are then written, and the call returns ENTS_NO_PROJECTION for the first of them, unless `permitted` has the flag. Set
+ * segment = -1 for open slaves before the call: they may leave the surface as they like. The call does not look for lost contact if the
+ * caller's ents_detection ends before `permitted`.
+ * Returns 0; ENTS_NO_PROJECTION as just said, after everything has been written; or a negative status, and then nothing is written from
+ * the slave with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
 
 /* ---- evaluation ------------------------------------------------------------------------------- */
 
-/* Inputs of contact elements: one slave node and one master segment each. `..._stride` is the
- * distance in doubles between consecutive elements; 0 means that all elements share the values (one
- * segment for many slave nodes, say). */
+/* Inputs of contact elements: one slave node and one master segment each. The caller owns all arrays; the library only reads them.
+ * `..._stride` is the distance between consecutive elements, in numbers of the array's type; 0 means that all elements share the
+ * values (one segment for many slave nodes, say), see ENTS_SHARED_... A call that ends at element 0 (first = 0, count = 1) does not
+ * read strides. */
 typedef struct ents_input {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
@@ -276,24 +385,41 @@ typedef struct ents_input {
   int64_t master_stride;
   const double *surface_coordinates; /* [m][d-1] s of each master node; null: the model's own, else s = xi */
   int64_t surface_coordinates_stride;
-  const double *start;               /* [d-1] start of the projection, natural coordinates; null: search the whole segment */
+  const double *start;               /* [d-1] natural coordinates from which the projection starts; null: the whole segment is searched */
   int64_t start_stride;
   const double *area;                /* [1] tributary area of the slave node, [A], >= 0; null: 1. Without area there is no force, and
                                         multiplier dofs are held at zero */
   int64_t area_stride;
   const double *state_begin;         /* [state_size] begin of increment, read only; null: no history.
-                                        A state in contact overrides `start` */
+                                        The projection of a state in contact is used instead of `start` */
   int64_t state_begin_stride;
   const double *multiplier;          /* [multipliers] values of the multiplier dofs: lambda_n [F/A], then with friction
                                         lambda_a [F L/A], covariant in xi; required if the layout has any */
   int64_t multiplier_stride;
   const ents_master_mesh *mesh;      /* with `segment`: nodes and surface coordinates come from here instead of `master`
                                         and `surface_coordinates`, which are then null */
-  const int64_t *segment;            /* [1] index of the segment in `mesh`; as ents_detect gives it, but never -1. Not read without `mesh` */
+  const int64_t *segment;            /* [1] index of the segment in `mesh`, as ents_detect gives it; -1 (open) for ents_assemble alone.
+                                        Not read without `mesh` */
   int64_t segment_stride;
+  const double *positions_begin;     /* [nodes][d] positions of the mesh at the begin of the increment, [L]; ents_iterate alone reads
+                                        them, to move states with friction to other segments. May be mesh.positions if the
+                                        master does not deform, and null if the model says "master": "rigid". Since contract 1.5 */
+  int64_t shared;                    /* ENTS_SHARED_... bits: arrays whose stride is 0, and states that are left out, on purpose; read by ents_assemble and ents_iterate.
+                                        Since contract 1.5 */
 } ents_input;
 
-/* What to compute. What is not asked for is neither computed nor touched. */
+/* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a
+ * forgotten one: ents_assemble and ents_iterate refuse it (BAD_COUNT) for these arrays, unless the array's bit is set. They do not refuse
+ * it if the call ends at element 0, or if the caller's ents_input ends before `shared`; ents_evaluate never refuses it. */
+#define ENTS_SHARED_SLAVE      (1 << 0)
+#define ENTS_SHARED_SEGMENT    (1 << 1)
+#define ENTS_SHARED_AREA       (1 << 2)
+#define ENTS_SHARED_STATE      (1 << 3)  /* state_begin: one state of ents_state_init for all elements, say */
+#define ENTS_SHARED_MULTIPLIER (1 << 4)
+#define ENTS_SHARED_NO_STATE   (1 << 5)  /* state_begin is null although the law has a history (ENTS_NEEDS_HISTORY): it begins with this call.
+                                            Without this bit ents_assemble and ents_iterate refuse that (since contract 1.6) */
+
+/* Bits of ents_output.wanted: which results to compute. Other results are not computed, and their arrays are not written. */
 #define ENTS_XI            (1 << 0)  /* xi            [d-1]          natural coordinates of the projection */
 #define ENTS_GAP           (1 << 1)  /* gap           [1]    [L]     along n_e (normal) or along the ray (shadow) */
 #define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
@@ -314,22 +440,24 @@ typedef struct ents_input {
 #define ENTS_SLIP          (1 << 17) /* slip          [1]    [L]     accumulated slip of the state, end of increment */
 #define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
 
-/* Of a model with "contact", flags are those of the element, whatever else is wanted. */
+/* Bits of flags. If the model has "contact", they describe the contact element (in contact or open ...), whichever results are wanted. */
 #define ENTS_FLAG_CONTACT  1   /* the element carries pressure */
 #define ENTS_FLAG_OUTSIDE  2   /* the projection lies outside the segment: open, R = 0, K = 0 */
-#define ENTS_FLAG_FAR_SIDE 4   /* slave beyond a centre of curvature: the projection is not a minimum of the distance */
+#define ENTS_FLAG_FAR_SIDE 4   /* the slave node is beyond a centre of curvature: the projection is no minimum of the distance */
 #define ENTS_FLAG_SEARCHED 8   /* the whole segment was searched */
 #define ENTS_FLAG_STICK    16  /* friction: elastic */
 #define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
-#define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or might be */
-#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: the closest point is on an edge between segments, and the slave is behind it: not open, but lost */
-#define ENTS_FLAG_CHANGED  128 /* open, stick or slip differs from the begin of the increment; a new state is open */
+#define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or it is not proved that they are not */
+#define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: the closest point is on an edge between segments and the slave node is behind it: it has
+                                    penetrated, but has no segment */
+#define ENTS_FLAG_LEFT 1024 /* ents_detect: a slave node in contact has left all segments beside a free edge, or is deeper than `reach` */
+#define ENTS_FLAG_CHANGED  128 /* the element was open, sticking or slipping at the begin of the increment and is not now; a new state is open */
 
-/* Outputs. Strides in units of the array's own type; the distance of consecutive elements, at least the size of one (else
- * BAD_COUNT): 0 is not "shared" as with inputs. With first = 0 and count = 1 alone strides are not read and may be 0. A
- * pointer may be null unless its bit is set in `wanted`. Outputs must not overlap each other or inputs, except that xi may take the
- * place of input.start (the same pointer and stride). */
+/* Outputs. The caller owns all arrays; the library writes those whose bit is set in `wanted`, and the others may be null. A stride is the
+ * distance between consecutive elements, in numbers of the array's type, and at least the size of one element (else BAD_COUNT). A
+ * call that ends at element 0 (first = 0, count = 1) does not read strides. Outputs must not overlap each other or inputs, with one
+ * exception: xi may be input.start (the same pointer and stride). */
 typedef struct ents_output {
   int32_t struct_size;
   int32_t wanted;                      /* ENTS_... bits */
@@ -357,48 +485,99 @@ typedef struct ents_output {
   double *age;           int64_t age_stride;
 } ents_output;
 
-/* Evaluate the elements first .. first + count - 1 of the arrays (a host's threads take ranges). count = 1 is the single
- * element; n elements give the same bits as n single calls. All levels are here: kinematics (ENTS_XI .. ENTS_XI_HESSIAN) to
- * build any method of eq. (3)-(4) with, and the element (ENTS_ENERGY .. ENTS_STATE), which needs "contact" in the model.
- * For a kinematic quantity alone the segment has no border: xi may lie outside. An element whose slave is so far beside the segment
- * that there is no projection is open (ENTS_FLAG_OUTSIDE): its xi, gap, normal and point are where the iteration left off.
- * A model with a "patch" has elements of several segments (for hosts whose elements have fixed nodes): m is then the number of the
- * patch's nodes, `start` is not used, and the segment is chosen as ents_detect does: a slave in contact is followed from `state_begin` on,
- * an open one is searched anew; xi and its variations are those of that segment. In the increment in which a slave with friction changes
- * its segment, the anchor moves over in the current positions, whose change the tangent leaves out (up to a third of its largest entry;
- * exact with "surface_coordinates" or a rigid master). A slave behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the
- * functions of whole surfaces take such a model's segments one by one.
- * Returns 0; or the first negative status, then outputs of elements before it are written; or, all elements having been
- * visited, the recoverable status of the first element that has one. */
+/* Evaluate the elements first .. first + count - 1 of the arrays. n elements give the same bits as n calls of one element each.
+ *   model         any model; bits that need a contact law (ENTS_ENERGY .. ENTS_TANGENT, ENTS_TRACTION ...) need "contact" in its text
+ *   first, count  range of elements, >= 0; a host's threads may take ranges of the same arrays
+ *   input         positions, areas and states, all finite
+ *   output        which results to compute, and where to write them
+ * Kinematic results (ENTS_XI .. ENTS_XI_HESSIAN) alone do not see the border of the segment: xi may lie outside. An element whose slave
+ * node is so far beside the segment that no projection exists is open (ENTS_FLAG_OUTSIDE); its xi, gap, normal and point are those of
+ * the last iterate.
+ * Patches. A model with a "patch" has elements of several segments, for hosts whose elements have fixed nodes. m is then the number of
+ * the patch's nodes, and `start` is not used. The segment is chosen as ents_detect chooses it: a slave node in contact is followed from
+ * `state_begin` on, an open one is searched in all segments. xi and its variations are those of the chosen segment. In the increment in
+ * which a slave node with friction changes its segment, its anchor moves to the new segment in the current positions. The tangent leaves
+ * out how the moved anchor depends on these positions (up to a third of its largest entry; nothing with "surface_coordinates" or a
+ * rigid master). A slave node behind a concave edge is NO_PROJECTION. ents_surface_evaluate, ents_model_check and the functions of
+ * whole surfaces take the segments of such a model one by one.
+ * Returns 0; or the first negative status, then results of elements before that one are written; or, when all elements have been
+ * evaluated, the recoverable status of the first element that has one. */
 ENTS_API int32_t ents_evaluate(const ents_model *model, int64_t first, int64_t count,
                                const ents_input *input, const ents_output *output,
                                ents_report *report);
 
-/* Fill `count` state blocks for elements without history. stride >= state_size, in doubles. A state knows the segment type and the kinds of
- * normal law and friction, and refuses (BAD_STATE) to be read by a model of others; it knows neither the height nor the numbers of the
- * law: another model of the same kinds goes on with it (heights that wear between increments). A state that was written with
- * ents_input.mesh knows the number of its segment, too: with friction or multipliers in the state, an element on another segment refuses
- * it until ents_state_transfer has moved it. */
+/* Fill state blocks for elements without history.
+ *   count   number of blocks, >= 0
+ *   state   [count] blocks of state_size doubles, out
+ *   stride  distance between blocks in doubles, >= state_size
+ * A state block knows the segment type and the kinds of normal law and friction of the model that wrote it; a model with others refuses
+ * it (BAD_STATE). It does not know the height or the numbers of the law: another model of the same kinds goes on with it (heights that
+ * wear between increments). A state that was written with ents_input.mesh also knows the number of its segment. With friction, an
+ * element on another segment then refuses it, unless ents_iterate moves it, or ents_state_transfer has moved it. */
 ENTS_API int32_t ents_state_init(const ents_model *model, int64_t count, double *state,
                                  int64_t stride, ents_report *report);
 
-/* Augmented Lagrangian with multipliers in the state (Uzawa): after a converged solve, put the multipliers
- * of the end states into the begin states and solve the increment again, until penetration and slip are small. The rest
- * of `state_begin` stays: it is still the begin of the increment. Both arrays: stride >= state_size. */
+/* Augmented Lagrangian with multipliers in the state (Uzawa's iteration). After a converged solve, this call copies the multipliers of the
+ * states of the end into the states of the begin; the host then solves the same increment again, until penetration and slip are
+ * small. Nothing else in `state_begin` changes: it is still the begin of the increment.
+ *   count         number of blocks, >= 0
+ *   state_begin   [count] blocks, in and out; begin_stride >= state_size
+ *   state_end     [count] blocks; end_stride >= state_size
+ * Errors: BAD_STATE if the model keeps no multipliers in the state, or a block is not a state of this model. */
 ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, double *state_begin, int64_t begin_stride,
                                     const double *state_end, int64_t end_stride, ents_report *report);
 
-/* A slave node moves on to another segment: `state` as seen from the new one. The anchor of friction and the
- * multipliers move with the material of the master surface, so that no slip history is lost: through the
- * surface coordinates where both are given and lead to the same place (not over a seam, not if they are constant along the
- * segment), else to the closest point of the new segment (extended over its border).
- *   old_master, new_master  [m][d] positions, [L], both at the same instant (the begin of the increment)
- *   old_..., new_surface_coordinates  [m][d-1] or null: the model's own, else s = xi (then positions decide)
+/* Move a state to another segment, for a slave node that has moved there. (ents_iterate does this itself.) The anchor of friction and
+ * the multipliers keep their place on the material of the master surface, so that no slip is lost. Their place on the new segment is the
+ * point with the same surface coordinates, if both arrays of surface coordinates are given and lead to the same point of space (they
+ * do not over a seam, or if they are constant along the segment); otherwise the closest point of the new segment, extended
+ * beyond its border.
+ *   old_master, new_master  [m][d] positions, [L], both at the same time: the begin of the increment
+ *   old_..., new_surface_coordinates  [m][d-1]; null: those of the model, or s = xi if it has none (positions decide then)
  *   state, moved            [state_size] in, out; may not overlap
  * Recoverable: NO_PROJECTION (of the anchor: without friction there is none), DEGENERATE_SEGMENT. */
 ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_master, const double *old_surface_coordinates,
                                      const double *new_master, const double *new_surface_coordinates,
                                      const double *state, double *moved, ents_report *report);
+
+/* Wear. A model with "wear" in its "contact" loses k p ds of height per increment (Archard), within the element: see the key. What the
+ * slave surface has lost stays in the states of its points. What the master surface has lost is there, too, until this call moves it
+ * into a field, for the place where it was lost: once per increment, for the states of the converged end (not for a step that is cut).
+ * The field loses exactly the volume depth x area of all elements, spread over the B-splines around each point.
+ *   model         with wear, bound to the field
+ *   first, count  range of elements, >= 0
+ *   input         as of ents_evaluate: slave, areas, and the segments on which the states were made; state_begin has to be null
+ *   thickness     2D: of the bodies, as in the areas, [L], > 0; axisymmetric bodies: 0; 3D: not read
+ *   state         [elements] in and out: their lost depth of the master becomes zero
+ *   state_stride  >= state_size
+ *   name          of the field, zero-terminated
+ *   block, size   in and out: the field of ents_field_init. Bind it again afterwards
+ *   volume        out or null: what the field has lost in this call, [L^3]
+ * Errors: those of ents_evaluate and ents_field_sample; BAD_STATE also for a state of another segment than the input's, BAD_VALUE for a model
+ * with a "patch". All elements are checked before the field changes. */
+ENTS_API int32_t ents_wear_collect(const ents_model *model, int64_t first, int64_t count, const ents_input *input, double thickness,
+                                   double *state, int64_t state_stride, const char *name, double *block, int64_t size, double *volume,
+                                   ents_report *report);
+
+/* Derivatives by the named parameters of the model, at fixed positions and states. Each array may be null. */
+typedef struct ents_derivatives {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  double *gap;                       /* [elements][named_parameters] dg/dtheta */
+  double *energy;                    /* [elements][named_parameters] dW/dtheta, times area */
+  double *residual;                  /* [elements][named_parameters][dofs] dR/dtheta */
+  const double *adjoint;             /* [elements][dofs] lambda; needed for `product` */
+  double *product;                   /* [named_parameters] lambda . dR/dtheta of all elements is added, one after the other */
+} ents_derivatives;
+
+/* Derivatives of gap, energy and residual of the elements first .. first + count - 1 by every named parameter.
+ *   input        as of ents_evaluate
+ *   derivatives  arrays of elements 0 .. first + count - 1, one element behind the other
+ * With the tangent K and the derivatives dR/dtheta of a converged solution, du/dtheta = - K^-1 dR/dtheta; with an adjoint K^T lambda = df/du,
+ * df/dtheta = - lambda . dR/dtheta. Models with multiplier dofs and patches are refused (BAD_VALUE). Statuses: as ents_evaluate;
+ * an open element has zeros. */
+ENTS_API int32_t ents_parameter_derivatives(const ents_model *model, int64_t first, int64_t count, const ents_input *input,
+                                            const ents_derivatives *derivatives, ents_report *report);
 
 /* Tributary areas of slave nodes: of each facet, the part of its area that belongs to each node (row sums for linear
  * facets; lumped in proportion to the integral of N_i^2 for quadratic ones, so that all are positive).
@@ -411,6 +590,42 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
  * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
+
+/* Area in contact and peak pressure on a slave mesh, with estimates of what the mesh leaves open. The tributary areas of
+ * closed nodes are too large together: a node closes as soon as a part of its area is in contact. */
+typedef struct ents_area {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  double surface;                    /* of all facets, [A] */
+  double counted;                    /* tributary areas of the closed nodes, [A] */
+  double border_corrected;           /* counted - (pi - 1 + ln 2) / 24 * spacing * length of the border of contact, [A] (V. A. Yastrebov,
+                                        G. Anciaux, J.-F. Molinari, Tribol. Int. 114, 2017); lines: counted */
+  double zero_line;                  /* facets cut where pressure and gap at the ends of their edges say that contact ends, [A]; 0
+                                        without a modulus */
+  double estimate;                   /* [A] the mean of the two (lines: zero_line); without a modulus border_corrected */
+  double error;                      /* estimate of its error, [A]. Roughness between the nodes is not known and not in it */
+  double peak_pressure;              /* largest nodal pressure, [F/L^2] */
+  double peak_drop;                  /* peak_pressure minus the mean pressure of the neighbouring nodes, [F/L^2]: from a third of the
+                                        peak on the mesh does not resolve it, and the true peak may be twice as high */
+} ents_area;
+
+/* Contact area of a slave surface from the results at its nodes. Near the border of contact the pressure is k sqrt(s) inside and
+ * the gap 4 k s^(3/2) / (3 modulus) outside, s the distance from it (K. L. Johnson, Contact Mechanics, 1985): that gives the place
+ * where contact ends on every edge between a closed node (pressure > 0) and an open one.
+ *   facet         "line2", "tri3", "quad4"
+ *   connectivity  [facets][nodes of the facet], 0 <= index < nodes
+ *   positions     [nodes][d], [L]
+ *   thickness     as of ents_tributary_areas
+ *   gap           [nodes] [L]; read at open nodes only; NaN or infinite: nothing is opposite
+ *   pressure      [nodes] [F/L^2], finite; a node is closed where it is > 0
+ *   modulus       E / (1 - nu^2) against a rigid master, of two bodies 1 / (1/modulus_1 + 1/modulus_2), [F/L^2]; 0: not known
+ *   area          out; zero it and set its struct_size
+ * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (another facet; a node that does not exist,
+ * report.element; a thickness or modulus that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area,
+ * report.element). After any of them nothing is written. */
+ENTS_API int32_t ents_contact_area(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
+                                   const double *positions, double thickness, const double *gap, const double *pressure,
+                                   double modulus, ents_area *area, ents_report *report);
 
 /* ---- points inside facets, and assembly -------------------------------------------------------- */
 
@@ -425,7 +640,7 @@ typedef struct ents_combination {
   const double *weights;             /* [begin[points]] */
 } ents_combination;
 
-/* Positions of the points, or what else is given per node (surface coordinates).
+/* Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates).
  *   dimension  numbers per node: 1, 2 or 3
  *   positions  [nodes][d] of the host's nodes, [L], finite
  *   points     [points][d] out */
@@ -453,7 +668,7 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  * same natural coordinates, and control points that are linear combinations of the host's nodes. It follows from the connectivity
  * alone: make it once. From then on a surface is
  *   mesh.connectivity = segment_points, mesh.nodes = points, mesh.positions = ents_combine(positions of the nodes),
- * and ents_assemble, told of the combination in system.master, puts residual and tangent on the host's own nodes.
+ * and ents_assemble, with the combination in system.master, adds residual and tangent to the equations of the host's own nodes.
  *   facet -> basis
  *   line2 -> catmull_rom4   through the nodes; C1
  *   line2 -> bspline4       near the nodes (at x the curve is at x_(i-1)/6 + 2 x_i/3 + x_(i+1)/6); C2
@@ -493,7 +708,8 @@ ENTS_API int32_t ents_smooth(const char *facet, const char *basis, int32_t ends,
                              int64_t nodes, int64_t points, int64_t terms, int64_t *segment_points, int64_t *begin,
                              int64_t *point_nodes, double *weights, ents_report *report);
 
-/* The host's equations. */
+/* The host's equations: rows of the dofs, right-hand side, and matrix in compressed rows. Rows and columns are counted from 0. The caller
+ * owns all arrays; residual, values and places are written. */
 typedef struct ents_system {
   int32_t struct_size;
   int32_t index_size;                /* 4 or 8: bytes of an index in row_begin and columns */
@@ -509,39 +725,55 @@ typedef struct ents_system {
   const void *row_begin;             /* [rows + 1] compressed rows, counted from 0: the first is 0 */
   const void *columns;               /* [row_begin[rows]] ascending in each row */
   double *values;                    /* [row_begin[rows]] K is added; null: not wanted */
-  int64_t *places;                   /* [elements][places_size] or null: where the entries of each element are in `values`, kept
-                                        from call to call: zero it once, and whenever row_begin or columns change. Other segments, nodes
-                                        or equations of an element are noticed */
+  int64_t *places;                   /* [elements][places_size] or null: the library remembers here where the entries of each element
+                                        are in `values`, and adds faster the next time. Set all to 0 before the first call, and
+                                        whenever row_begin or columns change. If an element gets another segment, other nodes
+                                        or other equations, the library finds its places again by itself */
   int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination */
 } ents_system;
 
-/* ents_evaluate, and what is an element's goes into the host's equations: residual and tangent are added to `system` (and
- * must not be asked for in output.wanted). The segments come from input.mesh and input.segment, as ents_detect gives
- * them; an element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init, all else zero but
- * the equations "multiplier = 0" of open elements, R = -A/eps lambda, K = -A/eps. Its inputs are checked as those of all others; `start` is not read.
- * What is open adds nothing but these equations. Where no results per element are asked for, elements that are
- * clearly open (the slave above all of a line2 or tri3 and its height's bound, or of a plain quad4) are not projected.
- * Ranges of one system may run at the same time only if they have no row in common; elements are added in their order.
- *   output  results per element as of ents_evaluate, or null
+/* Evaluate the elements first .. first + count - 1 and add their residuals and tangents to the host's equations.
+ *   model         any model with "contact"
+ *   first, count  range of elements, >= 0. Ranges of one system may be added at the same time only if they have no row in common;
+ *                 within a call elements are added in their order
+ *   input         as of ents_evaluate. The segments come from input.mesh and input.segment, as ents_detect gives them; strides of 0
+ *                 have to be named in input.shared
+ *   output        other results per element as of ents_evaluate, without ENTS_RESIDUAL and ENTS_TANGENT; or null
+ *   system        the host's equations
+ * An element with segment -1 is open: its flags are ENTS_FLAG_OUTSIDE, its state is that of ents_state_init with the worn depths of
+ * before, its other results are zero.
+ * Its inputs are checked as those of all others, except `start`, which is not read. Open elements add nothing but the equations
+ * "multiplier = 0": R = -A/eps lambda, K = -A/eps. If no results per element are wanted, elements that are clearly open are not
+ * projected (the slave node is above the whole line2 or tri3 by more than its greatest height, or above a whole plain quad4).
  * Errors: those of ents_evaluate; BAD_PATTERN names the row and column that the pattern lacks. After an error or a
- * recoverable status the system holds a part of the sum: start again from zero. */
+ * recoverable status `system` holds a part of the sum: set residual and values to their values before the call. */
 ENTS_API int32_t ents_assemble(const ents_model *model, int64_t first, int64_t count, const ents_input *input,
                                const ents_output *output, const ents_system *system, ents_report *report);
 
-/* All of an iteration in one call: ents_detect, then ents_assemble of the elements found (system null: results per element only,
- * residual and tangent among them if wanted). `input` gives areas, states and multipliers; its slave, master, mesh, segment
- * and start must be null: they come from the detection, the start even where input.state_begin has one. A slave that is lost
- * (ENTS_FLAG_BEHIND_EDGE) ends it with NO_PROJECTION. All arguments but the numbers of single slaves and elements are checked before anything is
- * written. With friction use the two calls: a state has to follow its slave to another segment
- * in between (ents_state_transfer). */
+/* Contact of one Newton iteration in one call: ents_detect, then ents_assemble with the segments found.
+ *   model, mesh, tree, size, first, count, detection   as of ents_detect
+ *   input    areas, states, multipliers and positions_begin. Its slave, master, surface_coordinates, mesh, segment and start must be
+ *            null: the detection gives them, `start` even where input.state_begin has a projection
+ *   output   as of ents_assemble; without `system` as of ents_evaluate
+ *   system   as of ents_assemble; null: results per element only
+ * Friction. If the state in input.state_begin is in contact on another segment than the one found, the call moves a copy of the state
+ * to that segment, as ents_state_transfer does, in input.positions_begin. ents_assemble and ents_iterate write states that know their
+ * segments; a state that knows none is taken as one of the segment found. input.state_begin does not change: it is the begin of the
+ * increment in all iterations.
+ * Lost contact. A slave whose contact is lost (see ents_detect) ends the call with NO_PROJECTION, unless detection.permitted has its flag:
+ * ENTS_FLAG_BEHIND_EDGE even if the slave had no segment; ENTS_FLAG_LEFT even if only its state is in contact. The detection is then
+ * complete, and no element has been evaluated.
+ * All arguments are checked before anything is written, except the numbers of single slaves and elements.
+ * Errors: those of ents_detect and ents_assemble; NULL_ARGUMENT if positions_begin is needed and null. Recoverable: those of
+ * ents_assemble and ents_state_transfer, as status of the element. */
 ENTS_API int32_t ents_iterate(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
                               int64_t count, const ents_detection *detection, const ents_input *input, const ents_output *output,
                               const ents_system *system, ents_report *report);
 
 /* ---- the enriched surface itself --------------------------------------------------------------- */
 
-/* Points of the surface, for pictures, meshes and checks. Pointers that are null are skipped. Those before a point that is refused
- * (report.element) are written. */
+/* Points of one enriched segment, for pictures, meshes and checks. Results whose pointer is null are not computed. If a point is refused,
+ * report.element is its number, and the points before it are written. */
 typedef struct ents_surface {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
@@ -580,8 +812,8 @@ ENTS_API int32_t ents_model_check(const ents_model *model, const double *master,
                                   const double *surface_coordinates, ents_admissibility *result,
                                   ents_report *report);
 
-/* Conditions of a whole surface (sections 2 and 3 and Fig. 4 of the paper): name, place in the arrays below, and the bound that the
- * worst value is held against. Grids and facets measure them: what is smaller than the distance of the samples may be missed. */
+/* Conditions of a whole surface (sections 2 and 3 and Fig. 4 of the paper): name, index in the arrays below, and the bound that the
+ * worst value must keep. They are measured on grids of samples: features smaller than the distance of the samples may be missed. */
 #define ENTS_CONDITION_TABLE(X)                                                                                        \
   X(ENTS_CHECK_CONTINUITY, 0, "derivatives of h: at least 2; with 3 the exact tangent of friction is continuous, too") \
   X(ENTS_CHECK_FOLD, 1, "max |h| |kappa| of rho: below 1, else rho_e folds over itself")                               \
@@ -602,10 +834,10 @@ enum {
 };
 
 /* Is the enrichment admissible on a whole surface? All arrays: one entry per condition.
- *   judged       bit 1 << ENTS_CHECK_...: the model, the surface or the caller sets a bound; else the value is for information
+ *   judged       bit 1 << ENTS_CHECK_...: the model, the surface or the caller sets a bound; without, the value is for information only
  *   violated     the same: the value is beyond its bound. Bounds of 0 [L] leave room for rounding, see `bound`
- *   projection   normal projection only. Places beside a kink between two segments have two projections by nature and do not
- *                count. Without a reach: the smallest radius of curvature of rho_e alone
+ *   projection   normal projection only. Points beside a kink between two segments always have two projections and do not count.
+ *                Without a reach: the smallest radius of curvature of rho_e alone
  *   shadow, occlusion   shadow projections only
  *   kink, edge, jump, wedge   neighbours are segments that share the nodes at the ends of an edge (smoothed segments: the inner
  *                nodes, between which they lie); `kink` does not depend on whether the base has it, too

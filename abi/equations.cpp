@@ -177,9 +177,12 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
       if (at < 0) {
         at = pattern_.find(rows[i], columns[j]);
         if (at < 0)
-          return report_message(
-              report_, ENTS_BAD_PATTERN, e, "the pattern has no entry (%lld, %lld), which element %lld needs",
-              static_cast<long long>(rows[i]), static_cast<long long>(columns[j]), static_cast<long long>(e));
+          return report_message(report_, ENTS_BAD_PATTERN, e,
+                                "system.columns has no entry (%lld, %lld), which element %lld needs: the "
+                                "pattern has to couple all dofs of the "
+                                "slave node and of the master nodes of its segment",
+                                static_cast<long long>(rows[i]), static_cast<long long>(columns[j]),
+                                static_cast<long long>(e));
         if (in_line && j == 0 && at + column.size <= pattern_.begin(rows[i] + 1) &&
             pattern_.column(at + column.size - 1) == columns[column.size - 1]) {
           known = at;

@@ -33,7 +33,7 @@ static_assert(flag::far_side == ENTS_FLAG_FAR_SIDE && flag::searched == ENTS_FLA
 static_assert(flag::stick == ENTS_FLAG_STICK && flag::slip == ENTS_FLAG_SLIP);
 static_assert(flag::shear_limit == ENTS_FLAG_SHEAR_LIMIT && flag::changed == ENTS_FLAG_CHANGED);
 
-std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_report* report) const {
+std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_report* report, bool hard) const {
   SegmentNodes nodes;
   if (in->mesh) {
     const std::int64_t s = segment(e);
@@ -70,7 +70,7 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   ElementOutput nothing = results;
   nothing.wanted = 0;
   std::int32_t outcome =
-      static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, open));
+      static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, hard, open));
   if (open && outcome == ENTS_OK) return evaluate_open(e, also);
   if (!follows && outcome >= 0) outcome = ENTS_BAD_STATE;
   if (outcome == ENTS_OK) mark_state(e);
@@ -115,13 +115,12 @@ std::int32_t ElementCall::evaluate_staged(std::int64_t first, std::int64_t count
 
 std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged,
                                           std::int32_t& result, ents_report* report) const {
-  // Some results may be the element kernel's alone: then it does all of the element, but for what the block
-  // kernel writes otherwise.
-  const std::int32_t known = pair_results(*model, out->wanted);
-  const bool mixed = known == 0 || known != out->wanted;
-  const std::int64_t most = mixed ? 1
-                                  : std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most,
-                                                           staged ? StagedResults::block_size(*plan) : count);
+  // Where some results are the element kernel's alone it goes element by element.
+  const bool in_blocks = out->wanted != 0 && pair_results(*model, out->wanted) == out->wanted;
+  const std::int64_t most = in_blocks
+                                ? std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most,
+                                                         staged ? StagedResults::block_size(*plan) : count)
+                                : 1;
   BlockNodes nodes;
   PairBlock block = pair_block(*model, *in, *out, first);
   block.start_first = start_first;
@@ -132,8 +131,8 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
     bool follow = true;
     for (std::int64_t k = 0; k < size && in->state_begin; ++k) follow = follow && state_follows(first + k);
     if (staged) staged->redirect(here);
-    if (!mixed && follow && (!in->mesh || gather_block(first, size, nodes, here)))
-      done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    const bool tried = in_blocks && follow && (!in->mesh || gather_block(first, size, nodes, here));
+    if (tried) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
     if (staged) staged->keep(first, size, done);
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {
@@ -141,16 +140,8 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
         if (out->status) *at(out->status, out->status_stride, first + k) = ENTS_OK;
         continue;
       }
-      const bool twice = mixed && known != 0;
-      double start[2]; // before xi takes its place
-      if (twice && in->start)
-        std::copy_n(at(in->start, in->start_stride, first + k), plan->parameters, start);
-      const std::int32_t outcome = evaluate(first + k, {}, report);
+      const std::int32_t outcome = evaluate(first + k, {}, report, tried);
       if (const std::int32_t end = settle(outcome, first + k, result, report); end < 0) return end;
-      if (!twice || outcome != ENTS_OK || (in->mesh && !gather_block(first, size, nodes, here))) continue;
-      begin_at_first(here);
-      if (in->start) here.start = start, here.start_stride = 0;
-      plan->pairs(*plan, here, 1);
     }
   }
   return result;
@@ -158,14 +149,22 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
 
 std::int32_t ElementCall::evaluate_call(const ents_model* model, std::int64_t first, std::int64_t count,
                                         const ents_input* input, const ents_output* output,
-                                        ents_report* report) {
+                                        const PlainCall& before, ents_report* report) {
   ElementCall call;
   if (const std::int32_t status = call.open(model, first, count, input, output, report); status != ENTS_OK)
     return status;
   report_ok(report);
   std::int32_t result = ENTS_OK;
-  const std::int32_t end = call.evaluate_range(first, count, result, report);
-  return end < 0 ? end : result;
+  if (!before.plain) {
+    const std::int32_t end = call.evaluate_range(first, count, result, report);
+    return end < 0 ? end : result;
+  }
+  for (std::int64_t k = 0; k < count; ++k) {
+    if ((before.done >> k & 1) != 0) continue;
+    const std::int32_t outcome = call.evaluate(first + k, {}, report, true);
+    if (const std::int32_t end = call.settle(outcome, first + k, result, report); end < 0) return end;
+  }
+  return result;
 }
 
 } // namespace ents
@@ -176,8 +175,10 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
                       const ents_output* output, ents_report* report) {
   return ents::at_the_door(report, [&] {
     const ents::FloatingPointGuard guard;
-    if (ents::evaluate_plain_call(model, first, count, input, output, report)) return ents::report_ok(report);
-    return ents::ElementCall::evaluate_call(model, first, count, input, output, report);
+    const ents::PlainCall call = ents::evaluate_plain_call(model, first, count, input, output, report);
+    if (call.plain && call.done == ~std::uint64_t{0} >> (ents::PairBlock::most - count))
+      return ents::report_ok(report);
+    return ents::ElementCall::evaluate_call(model, first, count, input, output, call, report);
   });
 }
 

@@ -28,8 +28,8 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t sticky_flags = 0x3f;  // invalid .. inexact
-  static constexpr std::uint32_t all_masked = 0x1f80;  // nearest, no trap, no flush to zero
+  static constexpr std::uint32_t sticky_flags = 0x3f; // invalid .. inexact
+  static constexpr std::uint32_t all_masked = 0x1f80; // nearest, no trap, no flush to zero
   std::uint32_t saved_;
 #else
   FloatingPointGuard() noexcept {
@@ -43,4 +43,4 @@ private:
 #endif
 };
 
-}  // namespace ents
+} // namespace ents

@@ -2,18 +2,34 @@
 // The model behind the handle.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "abi/door.hpp"
 #include "abi/patch.hpp"
+#include "core/height_binding.hpp"
 #include "core/plan.hpp"
 
+namespace ents {
+
+// What a model and those bound to it (ents_model_bind) have in common.
+struct SharedModel {
+  PatchedModel model;
+  Plan plan, base; // of one segment, with and without the height; they point into this struct
+};
+
+} // namespace ents
+
 struct ents_model {
-  static constexpr std::uint64_t live = 0x656e74736d6f646c; // "entsmodl"
+  static constexpr std::uint64_t live = 0x656e74736d6f646c;    // "entsmodl"
+  static constexpr std::uint64_t unbound = 0x656e7473756e626e; // live, but its fields have no memory yet
   static constexpr std::uint64_t dead = 0x646561646d6f646c;
   std::uint64_t magic;
-  ents::Plan plan; // of one segment; points into `model`, and to `base`
-  ents::PatchedModel model;
-  ents::ElementSizes sizes; // of an element as the host sees it
-  ents::Plan base;          // as `plan`, without the height
+  ents::Plan plan; // of one segment
+  std::shared_ptr<const ents::SharedModel> shared;
+  const ents::PatchedModel& model; // its numbers are those of the text: those of `plan` count
+  ents::ElementSizes sizes;        // of an element as the host sees it
+  ents::BoundHeight height;        // of a bound model; else without nodes
 };
 
 namespace ents {
@@ -22,12 +38,24 @@ namespace ents {
 // address.
 inline constexpr int most_bits = 60;
 
-// A usable handle? Best effort for freed ones: their memory may be reused.
-inline std::int32_t check_handle(const ents_model* model, ents_report* report) noexcept {
+// A handle of any kind? Best effort for freed ones: their memory may be reused.
+inline std::int32_t check_any_handle(const ents_model* model, ents_report* report) noexcept {
   if (!model) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
-  if (model->magic != ents_model::live)
+  if (model->magic != ents_model::live && model->magic != ents_model::unbound)
     return report_status(report, ENTS_BAD_HANDLE, -1,
                          "argument 'model' is not a live handle of this library (already destroyed?)");
+  return ENTS_OK;
+}
+
+// One that can be evaluated?
+inline std::int32_t check_handle(const ents_model* model, ents_report* report) noexcept {
+  if (const std::int32_t status = check_any_handle(model, report); status != ENTS_OK) return status;
+  if (model->magic == ents_model::unbound)
+    return report_message(
+        report, ENTS_BAD_STATE, -1,
+        "the height has a field, \"%s\", without memory: make it with ents_field_init, give it to "
+        "ents_model_bind, and use the model bound to it",
+        model->model.fields.front().c_str());
   return ENTS_OK;
 }
 

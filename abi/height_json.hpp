@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "abi/json_check.hpp"
 #include "abi/model_json.hpp"
 #include "core/height_tree.hpp"
 
@@ -17,7 +18,13 @@ struct HeightSources {
   std::int32_t dimension;          // surface coordinates of the segment: 1 or 2
   std::filesystem::path directory; // where relative file names start
   std::span<const NamedData> data;
+  std::span<const NamedParameter> parameters; // those of the model's key "parameters"
+  std::vector<std::string>* fields;           // names of fields so far
 };
+
+// A number, or the name of a parameter, whose number it is then; bound_to: 1 + its index, or 0.
+double read_bound_double(const nlohmann::json& value, const std::string& path, Range range,
+                         std::span<const NamedParameter> parameters, std::uint8_t& bound_to);
 
 // `value`: an object with "type", at `path`.
 Height read_height(const nlohmann::json& value, const std::string& path, const HeightSources& sources);

@@ -114,7 +114,43 @@ bool read_file(const json& value, const std::string& path, const HeightSources& 
   return true;
 }
 
+MapBoundary read_boundary(const json& value, const std::string& path) {
+  const bool periodic =
+      read_choice(value.at("boundary"), member(path, "boundary"), {"periodic", "clamped"}) == 0;
+  return periodic ? MapBoundary::periodic : MapBoundary::clamped;
+}
+
 } // namespace
+
+HeightMap read_grid(const json& value, const std::string& path, std::int32_t dimension) {
+  HeightMap map;
+  map.dimension = dimension;
+  map.boundary = read_boundary(value, path);
+  const auto n = static_cast<std::size_t>(dimension);
+  const std::string points_path = member(path, "points");
+  const std::vector<double> points = read_vector(value.at("points"), points_path, n, Range::positive,
+                                                 "samples along each surface coordinate");
+  const std::vector<double> size =
+      read_vector(value.at("size"), member(path, "size"), n, Range::positive, per_coordinate);
+  std::vector<double> origin(n, 0.0);
+  if (value.contains("origin"))
+    origin = read_vector(value.at("origin"), member(path, "origin"), n, Range::any, per_coordinate);
+  const double fewest = map.boundary == MapBoundary::clamped ? 2.0 : 1.0;
+  double all = 1.0;
+  for (std::size_t a = 0; a < n; ++a) {
+    all *= points[a];
+    if (points[a] != std::floor(points[a]) || points[a] < fewest ||
+        all > static_cast<double>(most_map_samples))
+      fail(ENTS_BAD_VALUE, item(points_path, a),
+           "is " + shown(points[a]) + "; write a whole number of samples, at least " + shown(fewest) +
+               ", and at most " + std::to_string(most_map_samples) + " in all");
+    map.size[a] = size[a];
+    map.origin[a] = origin[a];
+  }
+  map.columns = static_cast<std::int64_t>(points[0]);
+  map.rows = n == 2 ? static_cast<std::int64_t>(points[1]) : 1;
+  return map;
+}
 
 HeightMap read_map(const json& value, const std::string& path, const HeightSources& sources) {
   const bool file = value.contains("file"), values = value.contains("values"), data = value.contains("data");
@@ -128,7 +164,8 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
   else if (data)
     check_keys(value, path, {"type", "data", "boundary", "size"}, {"origin", "scale"});
   else {
-    check_keys(value, path, {"type"}, {"boundary", "file", "values", "data", "size", "origin", "scale", "length_unit"});
+    check_keys(value, path, {"type"},
+               {"boundary", "file", "values", "data", "size", "origin", "scale", "length_unit"});
     fail(ENTS_UNKNOWN_KEY, path,
          "the heights are missing; write one of \"file\", \"values\" and \"data\"" +
              std::string(value.contains("boundary") ? "" : ", and \"boundary\""));
@@ -136,9 +173,7 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
 
   HeightMap map;
   map.dimension = sources.dimension;
-  map.boundary = read_choice(value.at("boundary"), member(path, "boundary"), {"periodic", "clamped"}) == 0
-                     ? MapBoundary::periodic
-                     : MapBoundary::clamped;
+  map.boundary = read_boundary(value, path);
   const std::size_t n = static_cast<std::size_t>(map.dimension);
   // Cheap keys first: nothing is read from disk for a model that is wrong anyway.
   std::vector<double> size, origin(n, 0.0);

@@ -23,4 +23,8 @@ namespace ents {
 // (n-1)/n.
 HeightMap read_map(const nlohmann::json& value, const std::string& path, const HeightSources& sources);
 
+// A map without its samples: "points" (their number along each surface coordinate), "boundary", "size",
+// "origin".
+HeightMap read_grid(const nlohmann::json& value, const std::string& path, std::int32_t dimension);
+
 } // namespace ents

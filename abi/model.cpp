@@ -23,15 +23,15 @@ static_assert(need::history == ENTS_NEEDS_HISTORY && need::multipliers == ENTS_N
 static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE);
 
 std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* report) {
-  ents_model* handle = new ents_model{ents_model::live, Plan{}, std::move(checked), {}, Plan{}};
-  handle->plan = make_plan(handle->model);
-  handle->base = make_base_plan(handle->model);
-  handle->plan.base = handle->base.base = &handle->base;
-  if (!handle->model.patch.empty())
-    handle->plan.surface_coordinates = handle->base.surface_coordinates =
-        nullptr; // they are those of the patch's nodes
-  handle->sizes = sizes_of(handle->plan, handle->model.patch);
-  *model = handle;
+  const auto shared = std::make_shared<SharedModel>(SharedModel{std::move(checked), Plan{}, Plan{}});
+  shared->plan = make_plan(shared->model);
+  shared->base = make_base_plan(shared->model);
+  shared->plan.base = shared->base.base = &shared->base;
+  if (!shared->model.patch.empty()) // they are those of the patch's nodes
+    shared->plan.surface_coordinates = shared->base.surface_coordinates = nullptr;
+  const std::uint64_t magic = shared->model.fields.empty() ? ents_model::live : ents_model::unbound;
+  *model = new ents_model{
+      magic, shared->plan, shared, shared->model, sizes_of(shared->plan, shared->model.patch), {}};
   return report_ok(report);
 }
 
@@ -129,7 +129,7 @@ int32_t ents_model_create_from_file(const char* path, ents_model** model, ents_r
 int32_t ents_model_destroy(ents_model** model, ents_report* report) {
   return ents::at_the_door(report, [&] {
     if (!model || !*model) return ents::report_ok(report);
-    if (const std::int32_t status = ents::check_handle(*model, report); status != ENTS_OK) return status;
+    if (const std::int32_t status = ents::check_any_handle(*model, report); status != ENTS_OK) return status;
     *const_cast<volatile std::uint64_t*>(&(*model)->magic) =
         ents_model::dead; // not a dead store: handles may be stale
     delete *model;
@@ -140,7 +140,7 @@ int32_t ents_model_destroy(ents_model** model, ents_report* report) {
 
 int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    std::int32_t status = ents::check_handle(model, report);
+    std::int32_t status = ents::check_any_handle(model, report);
     if (status != ENTS_OK) return status;
     ents_layout copy;
     const ents_layout* known = ents::known_struct(layout, copy, "layout", status, report);
@@ -151,16 +151,18 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.parameters = model->plan.parameters;
     out.dofs = model->sizes.dofs;
     out.state_size = model->sizes.state;
-    out.symmetric_tangent = !model->model.law.has_friction() || model->model.law.symmetrised;
+    const ents::ContactLaw& law = model->plan.law;
+    out.symmetric_tangent = !(law.has_friction() || law.wear.on) || law.symmetrised;
     out.own_surface_coordinates = model->model.own_surface_coordinates;
     out.multipliers = model->plan.multipliers;
-    out.friction = model->model.law.has_friction();
-    out.augmentable = model->model.law.multiplier_in_state();
-    constexpr std::int32_t forces = ents::want::residual | ents::want::tangent;
-    const bool one_by_one = ents::pair_results(*model, forces) != forces;
+    out.friction = law.has_friction();
+    out.augmentable = law.multiplier_in_state();
+    const bool one_by_one = ents::is_one_by_one(model->model, !model->model.patch.empty());
     out.needs = ents::needs_of(model->model, model->plan) | (one_by_one ? ents::need::one_by_one : 0);
-    out.instruction_set =
-        (one_by_one ? ents::portable::pair_kernels : ents::best_pair_kernels()).instruction_set;
+    out.named_parameters = static_cast<std::int32_t>(model->model.parameters.size());
+    out.fields = static_cast<std::int32_t>(model->model.fields.size());
+    out.worn = model->plan.state.wear_at;
+    out.instruction_set = ents::best_pair_kernels().instruction_set;
     ents::give_back(out, layout);
     return ents::report_ok(report);
   });

@@ -12,6 +12,7 @@
 #include "abi/json_text.hpp"
 #include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
+#include "core/height_binding.hpp"
 
 namespace ents {
 
@@ -32,8 +33,8 @@ std::vector<double> read_surface_coordinates(const json& value, const BasisEntry
   check_array(value, path, most_json_values, "arrays, one per master node");
   if (value.size() != nodes)
     fail(ENTS_BAD_VALUE, path,
-         "has " + std::to_string(value.size()) + " entries; " + (patch.empty() ? basis.name : "the patch") + " has " +
-             std::to_string(nodes) + " master nodes, write one array for each");
+         "has " + std::to_string(value.size()) + " entries; " + (patch.empty() ? basis.name : "the patch") +
+             " has " + std::to_string(nodes) + " master nodes, write one array for each");
   std::vector<double> result;
   for (std::size_t i = 0; i < nodes; ++i)
     for (const double s : read_vector(value[i], item(path, i), static_cast<std::size_t>(basis.parameters),
@@ -56,7 +57,8 @@ Patch read_patch(const json& value, const BasisEntry& basis) {
         fail(ENTS_BAD_VALUE, item(path, s),
              "has an entry that is not a node 0 .. " + std::to_string(most_patch_nodes - 1));
       const auto index = static_cast<std::int64_t>(node);
-      if (std::count(patch.connectivity.end() - static_cast<std::ptrdiff_t>(patch.connectivity.size() % nodes.size()),
+      if (std::count(patch.connectivity.end() -
+                         static_cast<std::ptrdiff_t>(patch.connectivity.size() % nodes.size()),
                      patch.connectivity.end(), index) > 0)
         fail(ENTS_BAD_VALUE, item(path, s), "has node " + std::to_string(index) + " twice");
       patch.connectivity.push_back(index);
@@ -65,7 +67,8 @@ Patch read_patch(const json& value, const BasisEntry& basis) {
   }
   for (std::int64_t node = 0; node < patch.nodes; ++node)
     if (std::find(patch.connectivity.begin(), patch.connectivity.end(), node) == patch.connectivity.end())
-      fail(ENTS_BAD_VALUE, path, "has no segment with node " + std::to_string(node) + "; nodes are numbered without gaps");
+      fail(ENTS_BAD_VALUE, path,
+           "has no segment with node " + std::to_string(node) + "; nodes are numbered without gaps");
   return patch;
 }
 
@@ -95,23 +98,57 @@ void read_projection(const json& value, Model& model) {
   for (double& r : model.ray) r /= std::sqrt(squared);
 }
 
-void read_normal(const json& normal, const std::string& path, ContactLaw& law) {
+std::vector<NamedParameter> read_parameters(const json& value) {
+  const std::string path = "/parameters";
+  if (!value.is_object())
+    fail(ENTS_BAD_VALUE, path,
+         "is no object; write {\"NAME\": NUMBER, ...}, the names and the values where the caller binds none");
+  std::vector<NamedParameter> parameters;
+  for (const auto& [name, number] : value.items()) {
+    if (name.empty()) fail(ENTS_BAD_VALUE, path, "has a parameter without a name");
+    parameters.push_back({name, read_double(number, member(path, name), Range::any)});
+  }
+  std::sort(parameters.begin(), parameters.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  if (parameters.size() > most_parameters)
+    fail(ENTS_BAD_VALUE, path,
+         "has " + std::to_string(parameters.size()) + " parameters; at most " +
+             std::to_string(most_parameters) + " are possible");
+  return parameters;
+}
+
+// A positive number of the law, or the name of a parameter
+double read_law_number(const json& object, const std::string& path, const char* key, const Model& model,
+                       std::uint8_t& bound_to) {
+  const double number =
+      read_bound_double(object.at(key), member(path, key), Range::any, model.parameters, bound_to);
+  if (bound_to != 0 && number >= 1e-100) return number;
+  return bound_to == 0 ? read_double(object, path, key, Range::positive)
+                       : (fail(ENTS_BAD_VALUE, member(path, key),
+                               "is a parameter whose value is " + shown(number) + "; it has to be positive"),
+                          0.0);
+}
+
+void read_normal(const json& normal, const std::string& path, Model& model) {
+  ContactLaw& law = model.law;
+  std::uint8_t& bound_to = model.law_binding.normal;
   switch (read_type(normal, path,
                     {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier"})) {
   case 1: {
     check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
     law.normal = NormalKind::power;
-    law.stiffness = read_double(normal, path, "coefficient", Range::positive);
+    law.stiffness = read_law_number(normal, path, "coefficient", model, bound_to);
     const double exponent = read_double(normal, path, "exponent", Range::positive);
     if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
-      fail(ENTS_BAD_VALUE, member(path, "exponent"), "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
+      fail(ENTS_BAD_VALUE, member(path, "exponent"),
+           "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
     law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
     return;
   }
   case 2:
     check_keys(normal, path, {"type", "pressure", "clearance"}, {});
     law.normal = NormalKind::exponential;
-    law.pressure = read_double(normal, path, "pressure", Range::positive);
+    law.pressure = read_law_number(normal, path, "pressure", model, bound_to);
     law.clearance = read_double(normal, path, "clearance", Range::positive);
     return;
   case 0:
@@ -128,10 +165,11 @@ void read_normal(const json& normal, const std::string& path, ContactLaw& law) {
     break;
   }
   check_keys(normal, path, {"type", "stiffness"}, {});
-  law.stiffness = read_double(normal, path, "stiffness", Range::positive);
+  law.stiffness = read_law_number(normal, path, "stiffness", model, bound_to);
 }
 
-void read_friction(const json& friction, const std::string& path, ContactLaw& law) {
+void read_friction(const json& friction, const std::string& path, Model& model) {
+  ContactLaw& law = model.law;
   const bool rough = read_type(friction, path, {"coulomb", "rough"}) == 1;
   if (rough) {
     check_keys(friction, path, {"type", "stiffness"}, {});
@@ -139,19 +177,53 @@ void read_friction(const json& friction, const std::string& path, ContactLaw& la
   } else {
     check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
     law.friction = FrictionKind::coulomb;
-    law.friction_coefficient = read_double(friction, path, "coefficient", Range::positive);
+    law.friction_coefficient =
+        read_law_number(friction, path, "coefficient", model, model.law_binding.friction);
     law.shear_limit =
         friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
   }
   law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
 }
 
+void read_wear(const json& wear, const std::string& path, Model& model) {
+  check_keys(wear, path, {"coefficient"}, {"scheme", "slave", "sliding"});
+  Wear& law = model.law.wear;
+  const auto number = [&](const char* key, std::uint8_t& bound_to) {
+    const double value =
+        read_bound_double(wear.at(key), member(path, key), Range::any, model.parameters, bound_to);
+    if (!(value >= 0.0))
+      fail(ENTS_BAD_VALUE, member(path, key), "is " + shown(value) + "; it is not negative");
+    return value;
+  };
+  law.on = true;
+  law.coefficient = number("coefficient", model.law_binding.wear);
+  if (wear.contains("sliding")) law.sliding = number("sliding", model.law_binding.sliding);
+  if (wear.contains("scheme")) {
+    constexpr double weights[] = {1.0, 0.5, 0.0};
+    law.implicit = weights[read_choice(wear.at("scheme"), member(path, "scheme"),
+                                       {"implicit", "trapezoidal", "explicit"})];
+  }
+  if (wear.contains("slave")) {
+    law.slave = read_double(wear, path, "slave", Range::any);
+    if (!(law.slave >= 0.0 && law.slave <= 1.0))
+      fail(ENTS_BAD_VALUE, member(path, "slave"),
+           "is " + shown(law.slave) +
+               "; it is the part of the worn depth that the slave surface loses, 0 .. 1");
+  }
+  if (model.law.multiplier_is_dof())
+    fail(ENTS_BAD_VALUE, path,
+         "needs a normal law whose pressure follows from the gap; write \"penalty\", \"power\", "
+         "\"exponential\" or \"augmented\" as /contact/normal/type");
+}
+
 void read_contact(const json& value, Model& model) {
   const std::string path = "/contact";
-  check_keys(value, path, {"normal"}, {"friction", "symmetrised"});
-  read_normal(value.at("normal"), member(path, "normal"), model.law);
+  check_keys(value, path, {"normal"}, {"friction", "symmetrised", "wear"});
+  read_normal(value.at("normal"), member(path, "normal"), model);
   if (value.contains("friction") && !value.at("friction").is_null())
-    read_friction(value.at("friction"), member(path, "friction"), model.law);
+    read_friction(value.at("friction"), member(path, "friction"), model);
+  if (value.contains("wear") && !value.at("wear").is_null())
+    read_wear(value.at("wear"), member(path, "wear"), model);
   if (value.contains("symmetrised"))
     model.law.symmetrised = read_bool(value.at("symmetrised"), member(path, "symmetrised"));
 }
@@ -159,16 +231,17 @@ void read_contact(const json& value, Model& model) {
 } // namespace
 
 PatchedModel read_model(std::string_view text, const std::filesystem::path& directory,
-                 std::span<const NamedData> data) {
+                        std::span<const NamedData> data) {
   const JsonTree tree = parse_json(text);
   const json& root = *tree;
-  check_keys(
-      root, "", {"segment"},
-      {"height", "surface_coordinates", "projection", "contact", "tangent", "master", "penetration_limit", "border", "patch"});
+  check_keys(root, "", {"segment"},
+             {"height", "surface_coordinates", "projection", "contact", "tangent", "master",
+              "penetration_limit", "border", "patch", "parameters"});
 
   PatchedModel model;
   model.basis = read_segment(root.at("segment"));
   const BasisEntry& basis = basis_entry(model.basis);
+  if (root.contains("parameters")) model.parameters = read_parameters(root.at("parameters"));
   if (root.contains("patch")) model.patch = read_patch(root.at("patch"), basis);
   if (root.contains("surface_coordinates")) {
     model.own_surface_coordinates = true;
@@ -189,7 +262,8 @@ PatchedModel read_model(std::string_view text, const std::filesystem::path& dire
   if (root.contains("border")) {
     model.border = read_double(root, "", "border", Range::positive);
     if (model.border < 1e-9 || model.border > 0.5)
-      fail(ENTS_BAD_VALUE, "/border", "is " + shown(model.border) + ", not in 1e-9 .. 0.5; it is a length in natural coordinates");
+      fail(ENTS_BAD_VALUE, "/border",
+           "is " + shown(model.border) + ", not in 1e-9 .. 0.5; it is a length in natural coordinates");
   }
 
   if (!model.patch.empty() && model.law.multiplier_in_state() && model.law.has_friction())
@@ -200,7 +274,8 @@ PatchedModel read_model(std::string_view text, const std::filesystem::path& dire
   // Last: it may read a file.
   model.height = Height(basis.parameters);
   if (root.contains("height") && !root.at("height").is_null())
-    model.height = read_height(root.at("height"), "/height", {basis.parameters, directory, data});
+    model.height = read_height(root.at("height"), "/height",
+                               {basis.parameters, directory, data, model.parameters, &model.fields});
   return model;
 }
 

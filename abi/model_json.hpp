@@ -23,7 +23,7 @@ struct NamedData {
 // directory: where relative file names of height maps start; empty: the working directory.
 // Throws ModelError, and std::bad_alloc when memory runs out.
 PatchedModel read_model(std::string_view text, const std::filesystem::path& directory = {},
-                 std::span<const NamedData> data = {});
+                        std::span<const NamedData> data = {});
 
 // The same from a file; relative names start at its own folder. path: UTF-8.
 PatchedModel read_model_file(std::string_view path);

@@ -11,7 +11,12 @@ if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_LIBRARY_ARCHITECTURE OR ENTS_SANITIZE)
 endif()
 set(libdir lib/${CMAKE_LIBRARY_ARCHITECTURE})
 set(private ${libdir}/ents) # ents-host looks for ../lib/libents.so beside its own folder, and for adapters there
-set(ENTS_MAINTAINER "the ents authors <ents@example.org>" CACHE STRING "Maintainer of the Debian packages: NAME <ADDRESS>")
+# The same variables as Debian's own tools; without them an address that is nobody's.
+set(maintainer "the ents authors <ents@example.org>")
+if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(ENTS_MAINTAINER "${maintainer}" CACHE STRING "Maintainer of the Debian packages: NAME <ADDRESS>; default: DEBFULLNAME <DEBEMAIL>")
 set(revision 1)
 get_target_property(soversion ents SOVERSION)
 set(generated ${PROJECT_BINARY_DIR}/packages/files)

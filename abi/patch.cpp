@@ -10,7 +10,7 @@ namespace ents {
 
 namespace {
 
-constexpr int most_nodes = 1 + 16, most_dofs = 3 * most_nodes, most_state = 16;
+constexpr int most_nodes = 1 + 16, most_dofs = 3 * most_nodes;
 
 // One element: which segment it is on now, and the kernel's results spread over the patch's dofs.
 class PatchElement {
@@ -41,7 +41,7 @@ public:
     if (const Status status = choose(found); status != Status::ok) return status;
     SegmentNodes nodes;
     if (const Status status = gather(plan_, mesh_, segment_, nodes); status != Status::ok) return status;
-    double state_begin[most_state], state_end[most_state];
+    double state_begin[largest_state], state_end[largest_state];
     if (in_.state_begin) {
       std::copy_n(in_.state_begin, plan_.state.size, state_begin);
       if (in_contact() && before() != segment_) {
@@ -79,7 +79,7 @@ public:
     local(want::residual, results.residual, residual_);
     local(want::tangent, results.tangent, tangent_);
     if (spreads()) results.tangent_leading_dimension = plan_.dofs;
-    const Status status = plan_.element(plan_, element, results);
+    const Status status = evaluate_segment(plan_, element, results);
     if (status != Status::ok) return status;
     if ((out_.wanted & want::state) != 0) {
       std::copy_n(state_end, plan_.state.size, out_.state_end);
@@ -246,6 +246,17 @@ private:
 };
 
 } // namespace
+
+Status evaluate_segment(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
+  if (!plan.pairs || out.wanted == 0) return plan.element(plan, in, out);
+  double start[2]; // xi may take its place
+  if (in.start) std::copy_n(in.start, plan.parameters, start);
+  PairBlock block = block_of(in, out, in.start ? start : nullptr, out.wanted & plan.block_results);
+  ElementOutput rest = out;
+  rest.wanted &= ~plan.block_results;
+  if (rest.wanted != 0) block.one = &in, block.rest = &rest;
+  return plan.pairs(plan, block, 1) != 0 ? Status::ok : plan.element(plan, in, out);
+}
 
 ElementSizes sizes_of(const Plan& plan, const Patch& patch) {
   if (patch.empty()) return {plan.nodes, plan.dofs, plan.state.size + 1};

@@ -25,7 +25,8 @@ std::int32_t check_combination(const ents_combination* caller, const char* name,
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "%s.%s is null", name,
                           !out.begin ? "begin" : (!out.nodes ? "nodes" : "weights"));
   if (out.points > 0 && out.begin[0] != 0)
-    return report_message(report, ENTS_BAD_VALUE, -1, "%s.begin[0] is %lld; it must be 0", name, static_cast<long long>(out.begin[0]));
+    return report_message(report, ENTS_BAD_VALUE, -1, "%s.begin[0] is %lld; it must be 0", name,
+                          static_cast<long long>(out.begin[0]));
   return ENTS_OK;
 }
 

@@ -70,8 +70,8 @@ std::int32_t smooth(const Surface& s, Smoothed& out, ents_report* report) {
   if (!lines && !triangles && !(is(s.facet, "quad4") && (regular || is(s.basis, "bspline16"))))
     return report_status(
         report, ENTS_BAD_VALUE, -1,
-        "arguments 'facet' and 'basis': line2 becomes catmull_rom4 or bspline4, tri3 becomes bezier15, quad4 "
-        "becomes catmull_rom16 or bspline16; there is nothing else");
+        "arguments 'facet' and 'basis': line2 has catmull_rom4 and bspline4, tri3 has bezier15, quad4 has "
+        "catmull_rom16 and bspline16; write one of these pairs");
   if (s.ends != ENTS_ENDS_STRAIGHT && s.ends != ENTS_ENDS_REPEATED)
     return report_message(
         report, ENTS_BAD_VALUE, -1,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents and residuals that no cache holds. An element per lane, they would be written to memory a piece here and a piece there; so
-// they are written block by block to a place that a cache does hold, and copied from there. While one block is computed the one
-// before is copied, a few lines at a time: the memory takes them as fast as they come, and nobody waits.
+// Tangents and residuals that no cache holds. An element per lane, they would be written to memory a piece
+// here and a piece there; so they are written block by block to a place that a cache does hold, and copied
+// from there. While one block is computed the one before is copied, a few lines at a time: the memory takes
+// them as fast as they come, and nobody waits.
 #pragma once
 
 #include <algorithm>
@@ -25,14 +26,16 @@ public:
   }
 
   // Is a call of `count` elements so long, its results such that they are staged?
-  static bool pays(const ents_model& model, const ents_output& out, std::int32_t known, std::int64_t count) noexcept {
+  static bool pays(const ents_model& model, const ents_output& out, std::int32_t known,
+                   std::int64_t count) noexcept {
     const std::int64_t entries = std::int64_t{model.plan.dofs} * model.plan.dofs;
-    return (known & want::tangent) != 0 && block_size(model.plan) * entries <= room && count > beyond_caches / entries &&
-           leading_dimension(model, out) == model.plan.dofs;
+    return (known & want::tangent) != 0 && block_size(model.plan) * entries <= room &&
+           count > beyond_caches / entries && leading_dimension(model, out) == model.plan.dofs;
   }
   // Elements at a time: whole registers, few.
   static std::int64_t block_size(const Plan& plan) noexcept {
-    return std::clamp<std::int64_t>(nearest / (std::int64_t{plan.dofs} * plan.dofs) & ~std::int64_t{7}, 8, PairBlock::most);
+    return std::clamp<std::int64_t>(nearest / (std::int64_t{plan.dofs} * plan.dofs) & ~std::int64_t{7}, 8,
+                                    PairBlock::most);
   }
 
   // The kernel shall write its next block here, and copy the last one meanwhile.
@@ -63,7 +66,8 @@ public:
 
 private:
   // numbers: in the first cache, in all caches, in tangents of a block, in its residuals
-  static constexpr std::int64_t nearest = 2304, beyond_caches = std::int64_t{1} << 19, room = 7200, narrow = 6 * PairBlock::most;
+  static constexpr std::int64_t nearest = 2304, beyond_caches = std::int64_t{1} << 19, room = 7200,
+                                narrow = 6 * PairBlock::most;
 
   void copy_last() noexcept {
     if (last_.count > 0) copy_past_caches_(last_.from, last_.count, last_.to);

@@ -9,14 +9,15 @@ using namespace ents;
 
 std::int32_t check_blocks(const ents_model* model, std::int64_t count, const void* array, std::int64_t stride,
                           const char* name, ents_report* report) {
-  if (const std::int32_t status = check_handle(model, report); status != ENTS_OK) return status;
+  if (const std::int32_t status = check_any_handle(model, report); status != ENTS_OK) return status;
   const std::int32_t size = model->sizes.state;
   constexpr std::int64_t most = std::int64_t{1} << most_bits;
   if (count < 0 || stride < size || (count > 1 && count > most / stride))
-    return report_message(
-        report, ENTS_BAD_COUNT, -1,
-        "count = %lld must be >= 0 and the stride of '%s' (%lld) at least %d, together less than any memory",
-        static_cast<long long>(count), name, static_cast<long long>(stride), size);
+    return report_message(report, ENTS_BAD_COUNT, -1,
+                          "count = %lld must be >= 0, the stride of '%s' (%lld) at least %d (state_size), "
+                          "and their product less than "
+                          "2^60",
+                          static_cast<long long>(count), name, static_cast<long long>(stride), size);
   if (count > 0 && !array)
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null", name);
   return ENTS_OK;

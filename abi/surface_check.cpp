@@ -27,7 +27,8 @@ ENTS_SAME_CONDITION(CROSSING, crossing)
 #undef ENTS_SAME_CONDITION
 static_assert(int{condition::count} <= int{ENTS_CHECK_COUNT_});
 
-void tell(const Plan& plan, const MasterMesh& mesh, const Finding& finding, int which, ents_surface_admissibility& out) {
+void tell(const Plan& plan, const MasterMesh& mesh, const Finding& finding, int which,
+          ents_surface_admissibility& out) {
   if (finding.judged) out.judged |= std::int64_t{1} << which;
   if (finding.violated) out.violated |= std::int64_t{1} << which;
   out.value[which] = finding.value;
@@ -42,8 +43,8 @@ void tell(const Plan& plan, const MasterMesh& mesh, const Finding& finding, int 
     plan.surface(plan, nodes.positions, nodes.surface_coordinates, finding.xi, wanted);
 }
 
-std::int32_t check(const ents_model* model, const ents_master_mesh* caller, ents_surface_admissibility* result,
-                   ents_report* report) {
+std::int32_t check(const ents_model* model, const ents_master_mesh* caller,
+                   ents_surface_admissibility* result, ents_report* report) {
   std::int32_t status = check_handle(model, report);
   MasterMesh mesh;
   if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
@@ -52,12 +53,15 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller, ents
   const ents_surface_admissibility* io = known_struct(result, copy, "result", status, report);
   if (!io) return status;
   if (io->samples != 0 && (io->samples < 2 || io->samples > most_samples))
-    return report_message(report, ENTS_BAD_COUNT, -1, "result.samples is %d; 0 or 2 .. %d", io->samples, most_samples);
+    return report_message(report, ENTS_BAD_COUNT, -1, "result.samples is %d; 0 or 2 .. %d", io->samples,
+                          most_samples);
   const FloatingPointGuard guard; // first of all: to compare with a NaN may trap
   if (!(io->reach >= 0.0) || !(io->reach < 1e100))
-    return report_message(report, ENTS_BAD_VALUE, -1, "result.reach is %g; a length in 0 .. 1e100 is needed", io->reach);
+    return report_message(report, ENTS_BAD_VALUE, -1, "result.reach is %g; a length in 0 .. 1e100 is needed",
+                          io->reach);
   if (!(io->kink >= 0.0) || !(io->kink <= std::numbers::pi))
-    return report_message(report, ENTS_BAD_VALUE, -1, "result.kink is %g; an angle in 0 .. pi is needed", io->kink);
+    return report_message(report, ENTS_BAD_VALUE, -1, "result.kink is %g; an angle in 0 .. pi is needed",
+                          io->kink);
   SurfaceAdmissibility a;
   std::int64_t segment = -1;
   const SurfaceLimits limits = {io->samples, io->reach, io->kink};
@@ -68,7 +72,8 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller, ents
   out.samples = a.samples;
   out.reach = io->reach, out.kink = io->kink, out.violations = io->violations;
   std::fill_n(out.segment, ENTS_CHECK_COUNT_, -1), std::fill_n(out.other, ENTS_CHECK_COUNT_, -1);
-  for (int which = 0; which < condition::count; ++which) tell(model->plan, mesh, a.findings[which], which, out);
+  for (int which = 0; which < condition::count; ++which)
+    tell(model->plan, mesh, a.findings[which], which, out);
   out.height_min = a.height_min, out.height_max = a.height_max;
   if (io->violations) std::copy(a.violations.begin(), a.violations.end(), io->violations);
   give_back(out, result);

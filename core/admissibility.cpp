@@ -41,7 +41,7 @@ bool has_base_normal(Basis basis, const double* master, const double* xi) {
   return plan.surface(plan, master, nullptr, xi, {}) == Status::ok;
 }
 
-}  // namespace
+} // namespace
 
 double cosine_of_ray(const Plan& plan, const double* point, const double* normal) {
   if (plan.projection == ProjectionKind::normal) return 1.0;
@@ -61,7 +61,9 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
   const bool triangle = plan.simplex;
   const bool surface = plan.parameters == 2;
   constexpr double infinity = Height::unbounded;
-  result = {n, model.height.continuity(), {-1.0, {}}, {-1.0, {}}, {infinity, {}}, {infinity, {}}, infinity, -infinity};
+  result = {
+      n,        model.height.continuity(), {-1.0, {}}, {-1.0, {}}, {infinity, {}}, {infinity, {}}, infinity,
+      -infinity};
   for (int j = 0; j < (surface ? n : 1); ++j)
     for (int i = 0; i < (triangle ? n - j : n); ++i) {
       const double u = i / (n - 1.0), v = surface ? j / (n - 1.0) : 0.0;
@@ -69,7 +71,8 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
       double point[3], normal[3], height, curvature, base_curvature;
       const SurfacePoint out = {point, normal, &height, nullptr, nullptr, &curvature, &base_curvature};
       const Status status = plan.surface(plan, master, surface_coordinates, xi, out);
-      if (status == Status::degenerate_segment && plan.height && has_base_normal(model.basis, master, xi)) { // a fold of rho_e
+      if (status == Status::degenerate_segment && plan.height &&
+          has_base_normal(model.basis, master, xi)) { // a fold of rho_e
         keep_larger(result.fold, infinity, xi);
         keep_smaller(result.reach, 0.0, xi);
         continue;
@@ -86,4 +89,4 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
   return Status::ok;
 }
 
-}  // namespace ents
+} // namespace ents

@@ -14,12 +14,12 @@ struct Worst {
 };
 
 struct Admissibility {
-  int samples;         // per direction
-  int continuity;      // h is C^continuity; Height::smooth: all derivatives
-  Worst fold;          // max |h| |kappa| of rho; >= 1: rho_e folds over itself
-  Worst edge_height;   // max |h| on the segment's edges
-  Worst reach;         // min 1 / |kappa_e|; infinite for a flat rho_e
-  Worst shadow;        // min n_e . e; 1 for normal projection
+  int samples;       // per direction
+  int continuity;    // h is C^continuity; Height::smooth: all derivatives
+  Worst fold;        // max |h| |kappa| of rho; >= 1: rho_e folds over itself
+  Worst edge_height; // max |h| on the segment's edges
+  Worst reach;       // min 1 / |kappa_e|; infinite for a flat rho_e
+  Worst shadow;      // min n_e . e; 1 for normal projection
   double height_min, height_max;
 };
 
@@ -32,4 +32,4 @@ double cosine_of_ray(const Plan& plan, const double* point, const double* normal
 Status check_admissibility(const Model& model, const Plan& plan, const double* master,
                            const double* surface_coordinates, int samples, Admissibility& result);
 
-}  // namespace ents
+} // namespace ents

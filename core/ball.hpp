@@ -81,7 +81,8 @@ ENTS_INLINE void narrow_by(Vec<Ball, D>& x, const Ball (&xi)[T], F&& derivative)
   for (int k = 0; k < D; ++k) x[k].r = lesser(x[k].r, radius[k]);
 }
 
-// Of rho_,ab, rho_,a and rho, from the higher derivatives: evaluate_surface calls it before it computes with them.
+// Of rho_,ab, rho_,a and rho, from the higher derivatives: evaluate_surface calls it before it computes with
+// them.
 template <int Order, class B, class Surface>
 ENTS_INLINE void narrow(const Ball (&xi)[B::dim - 1], Surface& s) {
   constexpr int T = B::dim - 1;
@@ -223,6 +224,45 @@ ENTS_INLINE HeightJet<1, Ball> map_height(const MapHeight& map, const Ball (&s)[
 }
 ENTS_INLINE HeightJet<2, Ball> map_height(const MapHeight& map, const Ball (&s)[2]) {
   return map_height_range(map, s);
+}
+
+// Range of an external height: values at the centre, radii from its bounds of the quantity itself or, better
+// in a small box, from those of its derivatives (mean value theorem). Where it is not defined: any value.
+template <int T>
+ENTS_NOINLINE HeightJet<T, Ball> external_height(const ExternalHeight& height, const Ball (&s)[T]) {
+  static_assert(ExternalHeight::no_range == no_bound);
+  constexpr int K = T * (T + 1) / 2, numbers = T == 1 ? 4 : 10, thirds = 1 + T + K;
+  double centre[T], low[T], high[T], at[numbers], least[numbers], most[numbers];
+  for (int a = 0; a < T; ++a) centre[a] = s[a].v, low[a] = s[a].v - s[a].r, high[a] = s[a].v + s[a].r;
+  height.jets(height, 2, 1, centre, at);
+  height.ranges(height, low, high, least, most);
+  Ball all[numbers];
+  bool holds = true; // do the bounds hold at the centre?
+  for (int i = 0; i < thirds; ++i) {
+    const double rounding = 1e-9 * greater(absolute(least[i]), absolute(most[i]));
+    holds = holds && !(at[i] < least[i] - rounding || at[i] > most[i] + rounding);
+  }
+  // number i; largest sizes of its derivatives
+  const auto narrowed = [&](int i, double by_1, double by_2) ENTS_LAMBDA_INLINE {
+    if (!(absolute(at[i]) < no_bound)) return Ball(0.0, no_bound);
+    if (!holds) return Ball(at[i], no_bound);
+    double mean = by_1 * s[0].r;
+    if constexpr (T == 2) mean += by_2 * s[1].r;
+    const bool known = least[i] > -no_bound && most[i] < no_bound;
+    const double whole = known ? greater(most[i] - at[i], at[i] - least[i]) : no_bound;
+    return Ball(at[i], lesser(greater(whole, 0.0), lesser(mean, no_bound)));
+  };
+  const auto size = [&](int i) ENTS_LAMBDA_INLINE { return greater(absolute(least[i]), absolute(most[i])); };
+  for (int k = 0; k < K; ++k)
+    all[1 + T + k] = narrowed(1 + T + k, size(thirds + k), T == 2 ? size(thirds + k + 1) : 0.0);
+  for (int a = 0; a < T; ++a)
+    all[1 + a] = narrowed(1 + a, magnitude(all[1 + T + a]), magnitude(all[T + T + a]));
+  all[0] = narrowed(0, magnitude(all[1]), magnitude(all[T]));
+  HeightJet<T, Ball> out;
+  out.h = all[0];
+  for (int a = 0; a < T; ++a) out.h1[a] = all[1 + a];
+  for (int k = 0; k < K; ++k) out.h2[k] = all[1 + T + k];
+  return out;
 }
 
 } // namespace ents::ENTS_ISA

@@ -15,16 +15,15 @@
 
 namespace ents::ENTS_ISA {
 
-template <class S, int T, int M>
-struct Shape {
+template <class S, int T, int M> struct Shape {
   S n[M];
   S d1[T][M];
   S d2[symmetric_size<T>][M];
   S d3[T == 1 ? 1 : 4][M];
 };
 
-// One-dimensional families: values and derivatives [order][function] at x in -1 .. 1; powers: sum_i f_i v_i as factors of 1, x, x^2 ...,
-// for vectors v.
+// One-dimensional families: values and derivatives [order][function] at x in -1 .. 1; powers: sum_i f_i v_i
+// as factors of 1, x, x^2 ..., for vectors v.
 struct Linear1D {
   static constexpr int count = 2, degree = 1;
   template <int Order, class S> static ENTS_INLINE void eval(S x, S (&f)[4][count]) {
@@ -34,7 +33,7 @@ struct Linear1D {
     f[1][1] = S(0.5);
   }
 };
-struct Quadratic1D {  // ends, then middle
+struct Quadratic1D { // ends, then middle
   static constexpr int count = 3, degree = 2;
   template <int Order, class S> static ENTS_INLINE void eval(S x, S (&f)[4][count]) {
     f[0][0] = 0.5 * x * (x - 1.0);
@@ -146,13 +145,13 @@ template <class F, class Numbering> struct TensorBasis {
     }
   }
 };
-struct Corners {  // (-1,-1) (1,-1) (1,1) (-1,1)
+struct Corners { // (-1,-1) (1,-1) (1,1) (-1,1)
   static constexpr int i[4] = {0, 1, 1, 0}, j[4] = {0, 0, 1, 1};
 };
-struct CornersMidsidesCentre {  // corners, mid-sides 12 23 34 41, centre
+struct CornersMidsidesCentre { // corners, mid-sides 12 23 34 41, centre
   static constexpr int i[9] = {0, 1, 1, 0, 2, 1, 2, 0, 2}, j[9] = {0, 0, 1, 1, 0, 2, 1, 2, 2};
 };
-struct RowByRow {  // index 4 j + i, i along the first direction
+struct RowByRow { // index 4 j + i, i along the first direction
   static constexpr int i[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
   static constexpr int j[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 };
@@ -205,7 +204,7 @@ struct Tri3 {
   }
 };
 
-struct Tri6 {  // corners, mid-sides 12 23 31
+struct Tri6 { // corners, mid-sides 12 23 31
   static constexpr int dim = 3, nodes = 6;
   static constexpr bool simplex = true;
   static constexpr bool second[3] = {true, true, true};
@@ -232,18 +231,20 @@ struct Tri6 {  // corners, mid-sides 12 23 31
   }
 };
 
-// Quartic Bezier triangle: the control points b_ijk of sum 24 / (i! j! k!) z^i x^j y^k b_ijk, z = 1 - x - y. Corners, then the three on
-// each edge 12 23 31 in its direction, then the inner ones, each next to its corner. It has every regular patch of Loop's
-// subdivision surface.
+// Quartic Bezier triangle: the control points b_ijk of sum 24 / (i! j! k!) z^i x^j y^k b_ijk, z = 1 - x - y.
+// Corners, then the three on each edge 12 23 31 in its direction, then the inner ones, each next to its
+// corner. It has every regular patch of Loop's subdivision surface.
 struct Bezier15 {
   static constexpr int dim = 3, nodes = 15;
   static constexpr bool simplex = true;
   static constexpr bool second[3] = {true, true, true};
   static constexpr bool third[4] = {true, true, true, true};
-  static constexpr int power[nodes][3] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 1, 0}, {2, 2, 0}, {1, 3, 0}, {0, 3, 1}, {0, 2, 2},
-                                          {0, 1, 3}, {1, 0, 3}, {2, 0, 2}, {3, 0, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
+  static constexpr int power[nodes][3] = {{4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 1, 0}, {2, 2, 0},
+                                          {1, 3, 0}, {0, 3, 1}, {0, 2, 2}, {0, 1, 3}, {1, 0, 3},
+                                          {2, 0, 2}, {3, 0, 1}, {2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
 
-  // Derivatives of Bernstein polynomials are differences of those of lower degree: by x, lower j less lower i.
+  // Derivatives of Bernstein polynomials are differences of those of lower degree: by x, lower j less lower
+  // i.
   template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
     const S of[3] = {1.0 - xi[0] - xi[1], xi[0], xi[1]};
     S p[3][5];
@@ -284,10 +285,11 @@ template <class B> ENTS_INLINE void domain_centre(double (&xi)[B::dim - 1]) {
 }
 
 // Does the basis bend at all? Flat segments (line2, tri3) have a constant normal.
-template <class B> inline constexpr bool is_flat = [] {
+template <class B>
+inline constexpr bool is_flat = [] {
   for (bool k : B::second)
     if (k) return false;
   return true;
 }();
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

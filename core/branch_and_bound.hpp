@@ -25,12 +25,12 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int search_budget = 10000; // evaluations of the surface
+inline constexpr int search_budget = 10000;  // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
-// How close natural coordinates come to a corner where two nodes of a quad4 are one: rounding of the normal there, over that distance, times
-// the height stays small beside the tangents.
+// How close natural coordinates come to a corner where two nodes of a quad4 are one: rounding of the normal
+// there, over that distance, times the height stays small beside the tangents.
 template <bool H> inline constexpr double next_to_collapsed_edge = H ? 1e-6 : 1e-9;
 
 template <int T> struct Box { double c[T], w[T]; };
@@ -85,8 +85,8 @@ template <class B, bool H> struct Candidates {
     return true;
   }
 
-  // As close to a corner where two nodes are one as natural coordinates make sense the surface is taken as it is there: the
-  // projection is known to that part of the segment's size.
+  // As close to a corner where two nodes are one as natural coordinates make sense the surface is taken as it
+  // is there: the projection is known to that part of the segment's size.
   ENTS_NOINLINE bool attempt_next_to_corner(const double (&xi)[T], Projection<B, H>& p) {
     for (int a = 0; a < T; ++a) p.xi[a] = xi[a];
     ++evaluations;
@@ -149,7 +149,8 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
   return lesser(first, second);
 }
 
-// A quad4 with two neighbouring nodes in one place is a triangle, and its natural coordinates lose their meaning towards that corner.
+// A quad4 with two neighbouring nodes in one place is a triangle, and its natural coordinates lose their
+// meaning towards that corner.
 
 // The edge from node e to the next whose ends are one; -1: none, or it has two surface coordinates.
 template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
@@ -162,16 +163,18 @@ template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
   return -1;
 }
 
-// Search of that triangle, whose nodes are e, e + 2 and e + 3, and natural coordinates of the quad4. False: heights are given in natural
-// coordinates, or in surface coordinates that differ in the two nodes: then they are not those of a triangle.
+// Search of that triangle, whose nodes are e, e + 2 and e + 3, and natural coordinates of the quad4. False:
+// heights are given in natural coordinates, or in surface coordinates that differ in the two nodes: then they
+// are not those of a triangle.
 template <bool H>
-ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit, int e, Search& result,
-                                    double (&xi)[2], int& evaluations) {
+ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
+                                    int e, Search& result, double (&xi)[2], int& evaluations) {
   const int nodes[3] = {e, (e + 2) % 4, (e + 3) % 4};
   Geometry<Tri3> triangle;
   double coordinates[6];
   for (int i = 0; i < 3; ++i) triangle.y[i] = g.y[nodes[i]];
-  triangle.surface_coordinates = nullptr, triangle.height = g.height, triangle.smallest_area2 = g.smallest_area2;
+  triangle.surface_coordinates = nullptr, triangle.height = g.height,
+  triangle.smallest_area2 = g.smallest_area2;
   if constexpr (H) {
     const double* s = g.surface_coordinates;
     if (!s || s[2 * e] != s[2 * ((e + 1) % 4)] || s[2 * e + 1] != s[2 * ((e + 1) % 4) + 1]) return false;
@@ -188,7 +191,9 @@ ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, c
   const double along = off > 0.0 ? clamp(p.xi[1] / off, -beside, 1.0 + beside) : 0.5;
   const int normal = e % 2 == 0; // the direction that ends in the corner, at this side
   const double sign = e == 1 || e == 2 ? 1.0 : -1.0;
-  const auto coordinate = [&](int node) { return 2.0 * (normal == 1 ? Corners::i[node] : Corners::j[node]) - 1.0; };
+  const auto coordinate = [&](int node) {
+    return 2.0 * (normal == 1 ? Corners::i[node] : Corners::j[node]) - 1.0;
+  };
   xi[1 - normal] = coordinate(nodes[1]) + (coordinate(nodes[2]) - coordinate(nodes[1])) * along;
   xi[normal] = sign * (in_corner ? 1.0 - next_to_collapsed_edge<H> : 1.0 - 2.0 * off);
   return true;
@@ -198,8 +203,8 @@ enum class Verdict { drop, halve };
 
 // What the box may hold. `longest`: the direction to halve; `sign`: on which side to look first.
 template <class B, bool H>
-ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
-                            Projection<B, H>& p, int& longest, double (&towards)[B::dim - 1]) {
+ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all, Projection<B, H>& p,
+                            int& longest, double (&towards)[B::dim - 1]) {
   constexpr int D = B::dim, T = D - 1;
   const Geometry<B>& g = all.g;
   const Target& t = all.t;
@@ -220,7 +225,9 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
       return Verdict::drop;
     }
     // no normal somewhere in the box: the height is anywhere within its bound
-    if (H) return normal && least_length(s.d) - all.plan.height_bound > all.limit() ? Verdict::drop : Verdict::halve;
+    if (H)
+      return normal && least_length(s.d) - all.plan.height_bound > all.limit() ? Verdict::drop
+                                                                               : Verdict::halve;
   }
   for (int a = 0; a < T; ++a) narrow_by(s.e[a], xi, [&](int b) { return &s.e2[symmetric_index(a, b)]; });
   Vec<double, D> d, e[T];
@@ -242,11 +249,13 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all,
     for (int k = 0; k < D; ++k) range[k] = s.d[k] - along * ray[k];
     along.r = lesser(along.r, largest_change(s, ray, box.w));
   }
-  for (int a = 0; a < T; ++a) { // a large box has many slopes of its height: its mean one is that of the segment
+  for (int a = 0; a < T;
+       ++a) { // a large box has many slopes of its height: its mean one is that of the segment
     towards[a] = 0.0;
     for (int k = 0; k < D; ++k) towards[a] += off[k] * s.a[a][k].v;
   }
-  if (all.inside && !all.no_normal) { // all of it is the place that was found, as next to a corner where two nodes are one
+  if (all.inside &&
+      !all.no_normal) { // all of it is the place that was found, as next to a corner where two nodes are one
     double away2 = 0.0;
     const double same = 100.0 * all.tie;
     for (int k = 0; k < D; ++k) {
@@ -341,7 +350,8 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     if (Search found; collapsed >= 0 && t.kind == ProjectionKind::normal) {
       double xi[T];
       int evaluations = 0;
-      if (search_collapsed<H>(g, t, plan, limit, collapsed, found, xi, evaluations) && found.found == Found::yes) {
+      if (search_collapsed<H>(g, t, plan, limit, collapsed, found, xi, evaluations) &&
+          found.found == Found::yes) {
         all.evaluations += evaluations;
         all.inside = false, all.result = {Found::not_converged, false};
         if (!all.attempt(xi, p) || !all.inside) all.attempt_next_to_corner(xi, p);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Enriched segments that intersect each other (neighbours beside a concave edge, parts of a surface that come near each
-// other) or themselves (a fold). Facets find the pairs, exact projections confirm them and say how deep they overlap.
+// Enriched segments that intersect each other (neighbours beside a concave edge, parts of a surface that come
+// near each other) or themselves (a fold). Facets find the pairs, exact projections confirm them and say how
+// deep they overlap.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double touching = 1e-9;    // of the facets' size
-constexpr int most_attempts = 64;    // to find a sample behind, for facets of two segments that may only touch
-constexpr int most_searches = 4;     // of these without a start
+constexpr double touching = 1e-9; // of the facets' size
+constexpr int most_attempts = 64; // to find a sample behind, for facets of two segments that may only touch
+constexpr int most_searches = 4;  // of these without a start
 
 struct Contact {
   bool touch = false;   // or intersect
@@ -35,10 +36,14 @@ Contact lines_meet(const Vector3d& a, const Vector3d& b, const Vector3d& c, cons
     return (along.x() * (x.y() - from.y()) - along.y() * (x.x() - from.x())) / along.norm();
   };
   const double c_off = off(c, a, u), d_off = off(d, a, u), a_off = off(a, c, v), b_off = off(b, c, v);
-  const auto apart = [&](double x, double y) { return (x > tolerance && y > tolerance) || (x < -tolerance && y < -tolerance); };
+  const auto apart = [&](double x, double y) {
+    return (x > tolerance && y > tolerance) || (x < -tolerance && y < -tolerance);
+  };
   if (apart(c_off, d_off) || apart(a_off, b_off)) return {};
   // parallel lines: they touch if they overlap, which the boxes say well enough
-  const auto through = [](double x, double y) { return x * y < 0.0 ? std::min(std::fabs(x), std::fabs(y)) : 0.0; };
+  const auto through = [](double x, double y) {
+    return x * y < 0.0 ? std::min(std::fabs(x), std::fabs(y)) : 0.0;
+  };
   const double depth = std::min(through(c_off, d_off), through(a_off, b_off));
   return {true, depth > tolerance ? depth : 0.0};
 }
@@ -64,7 +69,8 @@ Contact edge_meets(const Vector3d& p, const Vector3d& q, const Vector3d (&t)[3],
 
 Contact triangles_meet(const Vector3d (&a)[3], const Vector3d (&b)[3]) {
   double size = 0.0;
-  for (int k = 0; k < 3; ++k) size = std::max({size, (a[k] - a[(k + 1) % 3]).norm(), (b[k] - b[(k + 1) % 3]).norm()});
+  for (int k = 0; k < 3; ++k)
+    size = std::max({size, (a[k] - a[(k + 1) % 3]).norm(), (b[k] - b[(k + 1) % 3]).norm()});
   Contact all;
   for (int k = 0; k < 3; ++k)
     for (const Contact& one : {edge_meets(a[k], a[(k + 1) % 3], b, touching * size),
@@ -101,22 +107,23 @@ public:
       const auto [a, b] = segments;
       if (!(pair.worst.depth > (a == b ? 0.0 : touching * c_.size))) continue;
       c_.mark(condition::crossing, a), c_.mark(condition::crossing, b);
-      c_.keep(condition::crossing, pair.worst.depth > c_.finding(condition::crossing).value, pair.worst.depth, a,
-              pair.worst.xi, b, pair.worst.other_xi);
+      c_.keep(condition::crossing, pair.worst.depth > c_.finding(condition::crossing).value, pair.worst.depth,
+              a, pair.worst.xi, b, pair.worst.other_xi);
     }
   }
 
 private:
   struct Pair {
     int attempts = 0;
-    Deepest worst; // xi on the pair's first segment
+    Deepest worst;                         // xi on the pair's first segment
     std::unordered_set<std::int64_t> seen; // samples
   };
 
   // Touching boxes count: facets may lie in a coordinate plane.
   bool near(const Box& a, const Box& b) const {
     const double margin = touching * c_.size;
-    return ((a.min().array() <= b.max().array() + margin) && (b.min().array() <= a.max().array() + margin)).all();
+    return ((a.min().array() <= b.max().array() + margin) && (b.min().array() <= a.max().array() + margin))
+        .all();
   }
   Box box_of(std::int64_t index) const {
     Facets::Piece piece[2];
@@ -129,7 +136,8 @@ private:
   }
 
   // Do they meet on the borders of both segments? That is what neighbours do.
-  bool meet_on_borders(const Facets::Cell& a, const Facets::Piece& x, const Facets::Cell& b, const Facets::Piece& y) const {
+  bool meet_on_borders(const Facets::Cell& a, const Facets::Piece& x, const Facets::Cell& b,
+                       const Facets::Piece& y) const {
     for (int i = 0; i < f_.corners(); ++i)
       for (int j = 0; j < f_.corners(); ++j)
         if (f_.on_border(x.corner[i][0], x.corner[i][1]) && f_.on_border(y.corner[j][0], y.corner[j][1]) &&
@@ -147,7 +155,8 @@ private:
     for (int p = 0; p < x_count; ++p)
       for (int q = 0; q < y_count; ++q) {
         const Contact contact = meet(a, x[p], b, y[q]);
-        if (!contact.touch || (contact.through == 0.0 && (itself || meet_on_borders(a, x[p], b, y[q])))) continue;
+        if (!contact.touch || (contact.through == 0.0 && (itself || meet_on_borders(a, x[p], b, y[q]))))
+          continue;
         Pair& pair = pairs_[{a.segment, b.segment}];
         if (itself) { // the surface has no side to be behind of: what sticks through of a facet, at least
           if (contact.through <= pair.worst.depth) continue;
@@ -164,18 +173,21 @@ private:
       }
   }
 
-  Contact meet(const Facets::Cell& a, const Facets::Piece& x, const Facets::Cell& b, const Facets::Piece& y) const {
+  Contact meet(const Facets::Cell& a, const Facets::Piece& x, const Facets::Cell& b,
+               const Facets::Piece& y) const {
     const auto at = [&](const Facets::Cell& cell, const Facets::Piece& piece, int k) -> const Vector3d& {
       return f_.point(cell, piece.corner[k]);
     };
     if (f_.corners() == 2) return lines_meet(at(a, x, 0), at(a, x, 1), at(b, y, 0), at(b, y, 1));
-    const Vector3d first[3] = {at(a, x, 0), at(a, x, 1), at(a, x, 2)}, second[3] = {at(b, y, 0), at(b, y, 1), at(b, y, 2)};
+    const Vector3d first[3] = {at(a, x, 0), at(a, x, 1), at(a, x, 2)},
+                   second[3] = {at(b, y, 0), at(b, y, 1), at(b, y, 2)};
     return triangles_meet(first, second);
   }
 
-  // From the corners of a facet over all samples of its segment that are behind the other: how deep is the deepest?
-  void behind(const Facets::Cell& cell, const Facets::Piece& piece, const Facets::Cell& other, const Facets::Piece& there,
-              bool swapped, Pair& pair) {
+  // From the corners of a facet over all samples of its segment that are behind the other: how deep is the
+  // deepest?
+  void behind(const Facets::Cell& cell, const Facets::Piece& piece, const Facets::Cell& other,
+              const Facets::Piece& there, bool swapped, Pair& pair) {
     SegmentNodes nodes;
     if (gather(plan_, c_.mesh, other.segment, nodes) != Status::ok) return;
     struct Visit {
@@ -199,7 +211,9 @@ private:
       const auto project = [&](const double* start) {
         return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, c_.size, at);
       };
-      if (!project(visit.start) && (visits >= f_.corners() || pair.attempts >= most_searches || !project(nullptr))) continue;
+      if (!project(visit.start) &&
+          (visits >= f_.corners() || pair.attempts >= most_searches || !project(nullptr)))
+        continue;
       if (!(at.gap < 0.0)) continue;
       if (-at.gap > pair.worst.depth) {
         Deepest& worst = pair.worst;
@@ -214,7 +228,8 @@ private:
       const int rows = f_.corners() == 3 ? f_.n : 1;
       for (const auto& [i, j] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
         const int next_i = visit.i + i, next_j = visit.j + j;
-        if (next_i < 0 || next_j < 0 || next_j >= rows || next_i >= (c_.plan.simplex ? f_.n - next_j : f_.n)) continue;
+        if (next_i < 0 || next_j < 0 || next_j >= rows || next_i >= (c_.plan.simplex ? f_.n - next_j : f_.n))
+          continue;
         waiting.push_back({next_i, next_j, {at.xi[0], at.xi[1]}});
       }
     }

@@ -69,15 +69,18 @@ ENTS_INLINE void add_quarters(double quarters, double& sine, double& cosine) {
   cosine = __builtin_bit_cast(double, c ^ swap ^ (((n + 1) & 2) << 62));
 }
 
-// Sine and cosine of 2 pi f, |f| <= 1/8. Polynomials in f^2 through the zeros of Chebyshev's: sine to 1.3e-17 of 2 pi f, cosine to
-// 1.2e-19, where arithmetic is exact. Summed in pairs, not one after the other: whoever waits for a sine waits for the longest chain.
+// Sine and cosine of 2 pi f, |f| <= 1/8. Polynomials in f^2 through the zeros of Chebyshev's: sine to 1.3e-17
+// of 2 pi f, cosine to 1.2e-19, where arithmetic is exact. Summed in pairs, not one after the other: whoever
+// waits for a sine waits for the longest chain.
 template <class R> ENTS_INLINE void sin_cos_near_zero(R f, R& sine, R& cosine) {
   const R z = f * f, z2 = z * z, z4 = z2 * z2;
-  const R s = ((-41.341702240399755 + z * 81.6052492760517) + z2 * (-76.70585973561397 + z * 42.05868917945876)) +
-              z4 * (-15.094054064726203 + z * 3.786430011879243);
+  const R s =
+      ((-41.341702240399755 + z * 81.6052492760517) + z2 * (-76.70585973561397 + z * 42.05868917945876)) +
+      z4 * (-15.094054064726203 + z * 3.786430011879243);
   sine = f * two_pi + (f * z * s + f * 2.4492935982947064e-16); // the rest of 2 pi
-  const R c = ((19.739208802178716 + z * -64.93939402266824) + z2 * (85.45681720664378 + z * -60.24464135269435)) +
-              z4 * ((26.426253274804587 + z * -7.903206845861561) + z2 * 1.6990328650055457);
+  const R c =
+      ((19.739208802178716 + z * -64.93939402266824) + z2 * (85.45681720664378 + z * -60.24464135269435)) +
+      z4 * ((26.426253274804587 + z * -7.903206845861561) + z2 * 1.6990328650055457);
   cosine = 1.0 - z * c;
 }
 

@@ -9,11 +9,11 @@
 
 namespace ents::ENTS_ISA {
 
-// Shape functions at xi, and area per natural area there; in 2D times the thickness, or the full turn about the
-// second axis where that is 0.
+// Shape functions at xi, and area per natural area there; in 2D times the thickness, or the full turn about
+// the second axis where that is 0.
 template <class B>
-double facet_density(const std::int64_t* nodes, const double* positions, double thickness, const double (&xi)[B::dim - 1],
-                     Shape<double, B::dim - 1, B::nodes>& N) {
+double facet_density(const std::int64_t* nodes, const double* positions, double thickness,
+                     const double (&xi)[B::dim - 1], Shape<double, B::dim - 1, B::nodes>& N) {
   constexpr int D = B::dim, T = D - 1, M = B::nodes;
   B::template shape<1>(xi, N);
   Vec<double, D> a[T];
@@ -35,18 +35,27 @@ double facet_density(const std::int64_t* nodes, const double* positions, double 
   return density;
 }
 
-// Calls f with a null pointer to the basis of a facet; bad_value for the smoothed bases, which have no facet of their own.
+// Calls f with a null pointer to the basis of a facet; bad_value for the smoothed bases, which have no facet
+// of their own.
 template <class Result, class F> Result with_facet(Basis basis, Result otherwise, F&& f) {
   switch (basis) {
-    case Basis::line2: return f(static_cast<Line2*>(nullptr));
-    case Basis::line3: return f(static_cast<Line3*>(nullptr));
-    case Basis::tri3: return f(static_cast<Tri3*>(nullptr));
-    case Basis::tri6: return f(static_cast<Tri6*>(nullptr));
-    case Basis::quad4: return f(static_cast<Quad4*>(nullptr));
-    case Basis::quad8: return f(static_cast<Quad8*>(nullptr));
-    case Basis::quad9: return f(static_cast<Quad9*>(nullptr));
-    default: return otherwise;
+  case Basis::line2:
+    return f(static_cast<Line2*>(nullptr));
+  case Basis::line3:
+    return f(static_cast<Line3*>(nullptr));
+  case Basis::tri3:
+    return f(static_cast<Tri3*>(nullptr));
+  case Basis::tri6:
+    return f(static_cast<Tri6*>(nullptr));
+  case Basis::quad4:
+    return f(static_cast<Quad4*>(nullptr));
+  case Basis::quad8:
+    return f(static_cast<Quad8*>(nullptr));
+  case Basis::quad9:
+    return f(static_cast<Quad9*>(nullptr));
+  default:
+    return otherwise;
   }
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

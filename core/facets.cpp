@@ -13,7 +13,9 @@ void Facets::xi_of(int i, int j, double (&xi)[2]) const {
 }
 
 int Facets::pieces(const Cell& c, Piece (&out)[2]) const {
-  const auto known_at = [&](int i, int j) { return known[static_cast<std::size_t>(sample(c.segment, i, j))] != 0; };
+  const auto known_at = [&](int i, int j) {
+    return known[static_cast<std::size_t>(sample(c.segment, i, j))] != 0;
+  };
   int count = 0;
   const int i = c.i, j = c.j;
   if (!surface_) {
@@ -35,7 +37,8 @@ Facets::Facets(const SurfaceChecker& c, int wanted)
   n = std::clamp(static_cast<int>(surface_ ? std::sqrt(each) : each), 2, std::max(wanted, 2));
   per_segment = !surface_ ? n : simplex_ ? std::int64_t{n} * (n + 1) / 2 : std::int64_t{n} * n;
   const auto all = static_cast<std::size_t>(segments * per_segment);
-  points.assign(all, Eigen::Vector3d::Zero()), normals.assign(all, Eigen::Vector3d::Zero()), known.assign(all, 0);
+  points.assign(all, Eigen::Vector3d::Zero()), normals.assign(all, Eigen::Vector3d::Zero()),
+      known.assign(all, 0);
   for (std::int64_t s = 0; s < segments; ++s) {
     SegmentNodes nodes;
     if (gather(c.plan, c.mesh, s, nodes) != Status::ok) continue;

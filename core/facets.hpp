@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The enriched surface as facets between samples, in a tree of boxes (Eigen's), and the conditions that compare any two
-// places of it.
+// The enriched surface as facets between samples, in a tree of boxes (Eigen's), and the conditions that
+// compare any two places of it.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace ents {
 
-// A cell of the grid of samples of a segment: a line, or a quadrangle that is cut into two triangles; the last cell of
-// each row of a triangular segment is one triangle.
+// A cell of the grid of samples of a segment: a line, or a quadrangle that is cut into two triangles; the
+// last cell of each row of a triangular segment is one triangle.
 struct Facets {
   using Tree = Eigen::KdBVH<double, 3, std::int64_t>;
 
@@ -23,7 +23,8 @@ struct Facets {
   std::vector<char> known;                      // 0: rho_e has no tangent plane there
   Tree tree;                                    // of cells
 
-  // As many samples as `wanted`, fewer where the surface has many segments: 2^18 in all, or the corners of each.
+  // As many samples as `wanted`, fewer where the surface has many segments: 2^18 in all, or the corners of
+  // each.
   Facets(const SurfaceChecker& checker, int wanted);
 
   struct Cell {
@@ -36,7 +37,8 @@ struct Facets {
   }
   // Sample (i, j) of a segment.
   std::int64_t sample(std::int64_t segment, int i, int j) const {
-    const std::int64_t before = simplex_ ? std::int64_t{j} * n - std::int64_t{j} * (j - 1) / 2 : std::int64_t{j} * n;
+    const std::int64_t before =
+        simplex_ ? std::int64_t{j} * n - std::int64_t{j} * (j - 1) / 2 : std::int64_t{j} * n;
     return segment * per_segment + before + i;
   }
   void xi_of(int i, int j, double (&xi)[2]) const;
@@ -58,7 +60,8 @@ private:
 };
 
 // Two normal projections of one slave: the smallest ball that touches the surface in two places.
-void check_two_projections(const SurfaceChecker& checker, const Facets& facets, const std::vector<bool>& smooth);
+void check_two_projections(const SurfaceChecker& checker, const Facets& facets,
+                           const std::vector<bool>& smooth);
 // Points of the surface with another one between them and the light.
 void check_occlusion(const SurfaceChecker& checker, const Facets& facets);
 // Segments that intersect each other, or themselves.

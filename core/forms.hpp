@@ -29,16 +29,16 @@ template <class B, class V> struct OnCurvatures {
 
 template <class B, class S> struct Form {
   static constexpr int D = B::dim, T = D - 1;
-  Vec<S, D> x;                     // on delta X
-  Vec<S, D> a[T];                  // on delta a_k
-  OnCurvatures<B, Vec<S, D>> a2;   // on delta a_kl, where the basis bends
+  Vec<S, D> x;                   // on delta X
+  Vec<S, D> a[T];                // on delta a_k
+  OnCurvatures<B, Vec<S, D>> a2; // on delta a_kl, where the basis bends
 };
 
 // Which parts of a form are present (known at compile time).
 inline constexpr int on_position = 1, on_tangents = 2, on_curvatures = 4;
 
 // Dofs of an element: the slave alone when the master is rigid.
-template <class B, bool Rigid> inline constexpr int dof_count = Rigid ? B::dim : B::dim * (B::nodes + 1);
+template <class B, bool Rigid> inline constexpr int dof_count = Rigid ? B::dim : B::dim*(B::nodes + 1);
 
 // out[dof] = form applied to the unit variation of that dof
 template <class B, bool Rigid, int Parts, class S>
@@ -99,7 +99,7 @@ ENTS_INLINE void form_of_slope(const Surface<B, H, S>& s, const Vec<S, B::dim>& 
     unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
       S along_n = -(s.height.h1[A] * up[k]);
       if constexpr (bent) {
-        S t = dot(c, s.n) * dot(s.dual[k], s.n1[A]);  // - c_n b^k_a
+        S t = dot(c, s.n) * dot(s.dual[k], s.n1[A]); // - c_n b^k_a
         unroll<T>([&](auto l) ENTS_LAMBDA_INLINE {
           if constexpr (B::second[symmetric_index(l, A)])
             t = t + up[l] * dot(s.dual[k], s.a2[symmetric_index(l, A)]);
@@ -135,4 +135,4 @@ ENTS_INLINE void form_of_z(const Surface<B, true, S>& s, const Vec<S, B::dim>& c
   }
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

@@ -8,6 +8,8 @@
 //   map              (bi)cubic B-spline through regular samples, see height_map.hpp
 //   profile          periodic cubic B-spline of wave_vector . s + phase, see thread.hpp
 //   sum, product     of other heights
+//   shift            another height at s - by
+//   external         two functions: an expression (expression.hpp), a function of the host
 //
 // With S = Dual<double> every derivative carries, in its `d`, its exact derivative along s.d, so that
 // h2.d holds third derivatives of h. The cubic map has piecewise constant third derivatives; on a knot
@@ -23,7 +25,19 @@
 
 namespace ents {
 
-enum class HeightKind : std::int32_t { none, constant, sine, polynomial, gaussian, map, profile, sum, product };
+enum class HeightKind : std::int32_t {
+  none,
+  constant,
+  sine,
+  polynomial,
+  gaussian,
+  map,
+  profile,
+  sum,
+  product,
+  shift,
+  external
+};
 
 // Deepest nesting of sums and products: bounds the recursion of evaluate_height.
 inline constexpr std::int32_t max_height_depth = 8;
@@ -56,7 +70,8 @@ struct MapHeight {
   double inverse_spacing[2];
   double period[2];         // in spacings; 0: clamped
   double inverse_period[2]; // 0: clamped
-  double low[2], high[2];   // range of u; beyond it a clamped map is constant, a periodic one out of the range of numbers
+  double low[2],
+      high[2]; // range of u; beyond it a clamped map is constant, a periodic one out of the range of numbers
   double first_cell[2], last_cell[2];
   double bound; // of |h|
 };
@@ -68,17 +83,56 @@ struct ProfileHeight {
   double phase;          // turns
 };
 
+struct ShiftHeight {
+  double by[2];
+};
+
+// Any other height: functions that evaluate it at many points a call. Derivatives are in the order h, h_,a,
+// h_,ab, h_,abc:
+//   one surface coordinate   h, h1, h11, h111
+//   two                      h, h1, h2, h11, h12, h22, h111, h112, h122, h222
+struct ExternalHeight {
+  static constexpr int most_points = 8, most_numbers = 10;
+  // s: [T][count]; jet: [numbers][count], derivatives up to `order`, 2 or 3. The bits of a point do not
+  // depend on the others, and those of lower derivatives do not depend on the order. NaN where the height is
+  // not defined.
+  using Jets = void (*)(const ExternalHeight&, std::int32_t order, std::int32_t count, const double* s,
+                        double* jet);
+  // Bounds [numbers] of all derivatives up to the third wherever low <= s <= high, [T]. +-no_range: no bound
+  // is known. Where the height is not defined somewhere in the box, no bound is known.
+  using Ranges = void (*)(const ExternalHeight&, const double* low, const double* high, double* least,
+                          double* most);
+  // Derivatives up to the second, at one point, of the derivative of h by values[parameter].
+  using Rates = void (*)(const ExternalHeight&, std::int32_t parameter, const double* s, double* jet);
+  static constexpr double no_range = 1e100;
+
+  Jets jets;
+  Ranges ranges;
+  Rates rates;          // null: no parameters
+  const void* data;     // what the functions need; the same for all calls
+  const double* values; // numbers that they need, parameters first: a copy of the node may point to others
+  std::int32_t value_count, parameter_count;
+  double bound; // |h| is nowhere larger; may be infinite
+};
+
 struct HeightNode {
   HeightKind kind;
-  std::int32_t child_count; // sum, product
+  std::int32_t child_count; // sum, product, shift
   std::int32_t first_child; // distance in nodes from this node to its first child; children are contiguous
+  // Numbers that a named parameter gives (height_binding.hpp): 1 + its index, 0 for a number of the model's
+  // own.
+  //   constant: value; sine: amplitude, phase; gaussian: amplitude, center; shift: by; map: 1 + the index of
+  //   its field; external: its parameters
+  std::uint8_t bound_to[4];
   union {
     double value; // constant
+    ShiftHeight shift;
     SineHeight sine;
     PolynomialHeight polynomial;
     GaussianHeight gaussian;
     MapHeight map;
     ProfileHeight profile;
+    ExternalHeight external;
   };
 };
 
@@ -105,7 +159,8 @@ template <int T, class S> ENTS_INLINE S turns_of(const SineHeight& p, const S (&
   return turns;
 }
 // h: amplitude times sine; slope: times cosine
-template <int T, class S> ENTS_INLINE HeightJet<T, S> sine_height(const SineHeight& p, const S& h, const S& slope) {
+template <int T, class S>
+ENTS_INLINE HeightJet<T, S> sine_height(const SineHeight& p, const S& h, const S& slope) {
   HeightJet<T, S> jet;
   jet.h = h;
   int k = 0;
@@ -250,7 +305,8 @@ template <class S> ENTS_INLINE HeightJet<2, S> map_height(const MapHeight& map, 
   return jet;
 }
 
-template <int T, class S> ENTS_INLINE HeightJet<T, S> profile_height(const ProfileHeight& p, const S (&s)[T]) {
+template <int T, class S>
+ENTS_INLINE HeightJet<T, S> profile_height(const ProfileHeight& p, const S (&s)[T]) {
   S turns[1] = {p.wave_vector[0] * s[0] + p.phase};
   if constexpr (T == 2) turns[0] = turns[0] + p.wave_vector[1] * s[1];
   const HeightJet<1, S> along = map_height(p.of_turns, turns);
@@ -281,6 +337,62 @@ ENTS_INLINE void multiply_height(HeightJet<T, S>& total, const HeightJet<T, S>& 
   total.h = total.h * factor.h;
 }
 
+// A scalar as the numbers that it stands for, one after the other, and back. The first returns how many.
+ENTS_INLINE int store_numbers(double x, double* to) { return *to = x, 1; }
+ENTS_INLINE void load_numbers(const double* from, double& x) { x = *from; }
+
+// The numbers of ExternalHeight up to `order`, 2 or 3.
+template <int T, class S>
+ENTS_NOINLINE void external_jets(const ExternalHeight& height, int order, const S (&s)[T], S* jet) {
+  constexpr int most = ExternalHeight::most_points;
+  const int numbers = T == 1 ? order + 1 : (order + 1) * (order + 2) / 2;
+  double at[T * 2 * most], values[ExternalHeight::most_numbers * 2 * most];
+  const int count = store_numbers(s[0], at);
+  if constexpr (T == 2) store_numbers(s[1], at + count);
+  if (count <= most) {
+    height.jets(height, order, count, at, values);
+  } else {
+    double some[T * most], of_some[ExternalHeight::most_numbers * most];
+    for (int first = 0; first < count; first += most) { // whole parts
+      for (int a = 0; a < T; ++a)
+        for (int k = 0; k < most; ++k) some[a * most + k] = at[a * count + first + k];
+      height.jets(height, order, most, some, of_some);
+      for (int i = 0; i < numbers; ++i)
+        for (int k = 0; k < most; ++k) values[i * count + first + k] = of_some[i * most + k];
+    }
+  }
+  for (int i = 0; i < numbers; ++i) load_numbers(values + i * count, jet[i]);
+}
+template <int T>
+ENTS_INLINE void external_jets(const ExternalHeight& height, int order, const double (&s)[T], double* jet) {
+  height.jets(height, order, 1, s, jet);
+}
+template <int T, class S>
+ENTS_INLINE HeightJet<T, S> external_height(const ExternalHeight& height, const S (&s)[T]) {
+  S jet[ExternalHeight::most_numbers];
+  external_jets(height, 2, s, jet);
+  HeightJet<T, S> out;
+  out.h = jet[0];
+  for (int a = 0; a < T; ++a) out.h1[a] = jet[1 + a];
+  for (int k = 0; k < T * (T + 1) / 2; ++k) out.h2[k] = jet[1 + T + k];
+  return out;
+}
+template <int T, class S>
+ENTS_INLINE HeightJet<T, Dual<S>> external_height(const ExternalHeight& height, const Dual<S> (&s)[T]) {
+  S at[T], jet[ExternalHeight::most_numbers];
+  for (int a = 0; a < T; ++a) at[a] = s[a].v;
+  external_jets(height, 3, at, jet);
+  // the derivative along s.d of the number whose own derivatives are first, first + 1
+  const auto along = [&](int first) ENTS_LAMBDA_INLINE {
+    return T == 1 ? jet[first] * s[0].d : jet[first] * s[0].d + jet[first + 1] * s[T - 1].d;
+  };
+  HeightJet<T, Dual<S>> out;
+  out.h = {jet[0], along(1)};
+  for (int a = 0; a < T; ++a) out.h1[a] = {jet[1 + a], along(1 + T + a)};
+  for (int k = 0; k < T * (T + 1) / 2; ++k) out.h2[k] = {jet[1 + T + k], along(1 + T + T * (T + 1) / 2 + k)};
+  return out;
+}
+
 // h and its derivatives at s. T: number of surface coordinates, as the tree was built for.
 template <int T, class S> HeightJet<T, S> evaluate_height(const HeightNode& node, const S (&s)[T]) {
   switch (node.kind) {
@@ -298,6 +410,8 @@ template <int T, class S> HeightJet<T, S> evaluate_height(const HeightNode& node
     return map_height(node.map, s);
   case HeightKind::profile:
     return profile_height(node.profile, s);
+  case HeightKind::external:
+    return external_height(node.external, s);
   case HeightKind::sum:
   case HeightKind::product: {
     const HeightNode* child = &node + node.first_child;
@@ -311,26 +425,35 @@ template <int T, class S> HeightJet<T, S> evaluate_height(const HeightNode& node
     }
     return total;
   }
+  case HeightKind::shift: {
+    S moved[T];
+    for (int a = 0; a < T; ++a) moved[a] = s[a] - node.shift.by[a];
+    return evaluate_height(*(&node + node.first_child), moved);
+  }
   }
   return constant_height<T, S>(0.0);
 }
 
 // The jet at s, in `d` its derivative along y. A sine's is known from the jet itself.
 template <int T, class S>
-ENTS_INLINE HeightJet<T, Dual<S>> jet_along(const HeightNode& node, const S (&s)[T], const S (&y)[T], const HeightJet<T, S>& at) {
+ENTS_INLINE HeightJet<T, Dual<S>> jet_along(const HeightNode& node, const S (&s)[T], const S (&y)[T],
+                                            const HeightJet<T, S>& at) {
   if (node.kind != HeightKind::sine) {
     Dual<S> moving[T];
     for (int a = 0; a < T; ++a) moving[a] = Dual<S>(s[a], y[a]);
     return evaluate_height(node, moving);
   }
-  const auto along = [&](const S& first, const S& last) ENTS_LAMBDA_INLINE { return T == 1 ? y[0] * first : y[0] * first + y[T - 1] * last; };
+  const auto along = [&](const S& first, const S& last) ENTS_LAMBDA_INLINE {
+    return T == 1 ? y[0] * first : y[0] * first + y[T - 1] * last;
+  };
   HeightJet<T, Dual<S>> jet;
   jet.h = {at.h, along(at.h1[0], at.h1[T - 1])};
   int k = 0;
   for (int a = 0; a < T; ++a) {
     const double wa = two_pi * node.sine.wave_vector[a];
     jet.h1[a] = {at.h1[a], along(at.h2[a], at.h2[a + T - 1])};
-    for (int b = a; b < T; ++b, ++k) jet.h2[k] = {at.h2[k], -(wa * (two_pi * node.sine.wave_vector[b])) * jet.h.d};
+    for (int b = a; b < T; ++b, ++k)
+      jet.h2[k] = {at.h2[k], -(wa * (two_pi * node.sine.wave_vector[b])) * jet.h.d};
   }
   return jet;
 }

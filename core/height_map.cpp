@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/height_map.hpp"
 
+#include <algorithm>
+
 namespace ents {
 
 namespace {
@@ -99,6 +101,33 @@ void extend_spline_coefficients(double* c, std::int64_t count, std::int64_t befo
   }
   for (std::int64_t i = -before; i < 0; ++i) c[i * stride] = c[((i % count + count) % count) * stride];
   for (std::int64_t i = count; i < count + after; ++i) c[i * stride] = c[i % count * stride];
+}
+
+std::vector<double> padded_coefficients(const HeightMap& map) {
+  const std::int64_t stride = spline_row_length(map.columns);
+  const std::int64_t rows = map.dimension == 2 ? spline_row_length(map.rows) : 1;
+  std::vector<double> table(static_cast<std::size_t>(rows * stride), 0.0);
+  double* first = table.data() + first_spline_coefficient(map.dimension, map.columns);
+  for (std::int64_t j = 0; j < map.rows; ++j)
+    std::copy_n(map.values.data() + j * map.columns, map.columns, first + j * stride);
+  return table;
+}
+
+// Rows, then the columns of all that is known of the rows.
+std::vector<double> spline_coefficients(const HeightMap& map) {
+  std::vector<double> table = padded_coefficients(map);
+  const std::int64_t stride = spline_row_length(map.columns);
+  double* first = table.data() + first_spline_coefficient(map.dimension, map.columns);
+  const auto interpolate = [&](double* line, std::int64_t samples, std::int64_t apart) {
+    solve_spline_coefficients(line, samples, apart, map.boundary);
+    extend_spline_coefficients(line, samples, spline_padding_before, spline_padding_after, apart,
+                               map.boundary);
+  };
+  for (std::int64_t j = 0; j < map.rows; ++j) interpolate(first + j * stride, map.columns, 1);
+  if (map.dimension == 2)
+    for (std::int64_t i = -spline_padding_before; i < map.columns + spline_padding_after; ++i)
+      interpolate(first + i, map.rows, stride);
+  return table;
 }
 
 } // namespace ents

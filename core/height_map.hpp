@@ -41,4 +41,20 @@ void solve_spline_coefficients(double* values, std::int64_t count, std::int64_t 
 void extend_spline_coefficients(double* c, std::int64_t count, std::int64_t before, std::int64_t after,
                                 std::int64_t stride, MapBoundary boundary);
 
+// A table of coefficients has those beside the samples, too: of the cells from three spacings before them to
+// two behind the last (clamped), or to what rounding may make of 0 and n (periodic).
+inline constexpr std::int64_t spline_padding_before = 4, spline_padding_after = 5;
+inline constexpr double spline_cells_outside = 3.0;
+constexpr std::int64_t spline_row_length(std::int64_t columns) {
+  return spline_padding_before + columns + spline_padding_after;
+}
+// Place of sample (0, 0)
+constexpr std::int64_t first_spline_coefficient(std::int32_t dimension, std::int64_t columns) {
+  return (dimension == 2 ? spline_padding_before * spline_row_length(columns) : 0) + spline_padding_before;
+}
+// The table with the map's values amid coefficients that are still to be computed (zero)
+std::vector<double> padded_coefficients(const HeightMap& map);
+// The table of the spline through the map's values
+std::vector<double> spline_coefficients(const HeightMap& map);
+
 } // namespace ents

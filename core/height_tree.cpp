@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/fingerprint.hpp"
+#include "core/height_binding.hpp"
 #include "core/height_map.hpp"
 
 namespace ents {
@@ -22,30 +23,6 @@ std::int32_t dimension_of(const std::vector<double>& vector) {
   return static_cast<std::int32_t>(vector.size());
 }
 
-// Coefficients beside the samples: of the cells from three spacings before them to two behind the last
-// (clamped), or to what rounding may make of 0 and n (periodic).
-constexpr std::int64_t padding_before = 4;
-constexpr std::int64_t padding_after = 5;
-constexpr double cells_outside = 3.0;
-
-std::int64_t row_length(std::int64_t columns) { return padding_before + columns + padding_after; }
-
-// Place of sample (0, 0) in the padded table
-std::int64_t first_coefficient(const HeightMap& map) {
-  return (map.dimension == 2 ? padding_before * row_length(map.columns) : 0) + padding_before;
-}
-
-// The map with `values` amid coefficients that are still to be computed
-HeightMap padded(const HeightMap& map) {
-  HeightMap wide = map;
-  const std::int64_t stride = row_length(map.columns);
-  wide.values.assign(index(map.dimension == 2 ? row_length(map.rows) : 1) * index(stride), 0.0);
-  double* first = wide.values.data() + first_coefficient(map);
-  for (std::int64_t j = 0; j < map.rows; ++j)
-    std::copy_n(map.values.data() + j * map.columns, map.columns, first + j * stride);
-  return wide;
-}
-
 } // namespace
 
 Height::Height(std::int32_t dimension) : dimension_(dimension), nodes_(1) {
@@ -57,7 +34,6 @@ Height Height::constant(std::int32_t dimension, double value) {
   Height height(dimension);
   height.nodes_[0].kind = HeightKind::constant;
   height.nodes_[0].value = value;
-  height.bound_ = std::fabs(value);
   return height;
 }
 
@@ -71,7 +47,6 @@ Height Height::sine(double amplitude, const std::vector<double>& wave_vector, do
   }
   height.nodes_[0].kind = HeightKind::sine;
   height.nodes_[0].sine = sine;
-  height.bound_ = std::fabs(amplitude);
   return height;
 }
 
@@ -90,13 +65,8 @@ Height Height::bivariate_polynomial(const std::vector<std::vector<double>>& coef
 
   Height height(2);
   std::vector<double> table(coefficients.size() * columns, 0.0);
-  bool varies = false;
   for (std::size_t i = 0; i < coefficients.size(); ++i)
-    for (std::size_t j = 0; j < coefficients[i].size(); ++j) {
-      table[i * columns + j] = coefficients[i][j];
-      varies = varies || ((i > 0 || j > 0) && coefficients[i][j] != 0.0);
-    }
-  height.bound_ = varies ? unbounded : std::fabs(table[0]);
+    for (std::size_t j = 0; j < coefficients[i].size(); ++j) table[i * columns + j] = coefficients[i][j];
   height.tables_.push_back(std::move(table));
   height.nodes_[0].kind = HeightKind::polynomial;
   height.nodes_[0].polynomial = {height.tables_[0].data(), static_cast<std::int32_t>(coefficients.size()),
@@ -113,7 +83,21 @@ Height Height::gaussian(double amplitude, const std::vector<double>& center, dou
   }
   height.nodes_[0].kind = HeightKind::gaussian;
   height.nodes_[0].gaussian = gaussian;
-  height.bound_ = std::fabs(amplitude);
+  return height;
+}
+
+Height Height::external(ExternalSource source) {
+  Height height(source.dimension);
+  for (std::int32_t a = 0; a < source.dimension; ++a) height.feature_length_[a] = source.feature_length[a];
+  height.continuity_ = source.continuity;
+  const auto count = static_cast<std::int32_t>(source.values.size());
+  source.values.push_back(source.stamp); // fingerprint() reads the tables
+  height.tables_.push_back(std::move(source.values));
+  height.owned_.push_back(std::move(source.data));
+  height.nodes_[0].kind = HeightKind::external;
+  height.nodes_[0].external = {
+      source.jets, source.ranges,     source.rates, height.owned_[0].get(), height.tables_[0].data(),
+      count,       source.parameters, source.bound};
   return height;
 }
 
@@ -126,18 +110,8 @@ Height Height::map(const HeightMap& map) {
   if (map.values.size() != index(map.rows) * index(map.columns))
     throw std::invalid_argument("values of a height map: rows times columns");
 
-  // Rows, then the columns of all that is known of the rows.
-  HeightMap coefficients = padded(map);
-  const std::int64_t stride = row_length(map.columns);
-  double* first = coefficients.values.data() + first_coefficient(map);
-  const auto interpolate = [&](double* line, std::int64_t samples, std::int64_t apart) {
-    solve_spline_coefficients(line, samples, apart, map.boundary);
-    extend_spline_coefficients(line, samples, padding_before, padding_after, apart, map.boundary);
-  };
-  for (std::int64_t j = 0; j < map.rows; ++j) interpolate(first + j * stride, map.columns, 1);
-  if (map.dimension == 2)
-    for (std::int64_t i = -padding_before; i < map.columns + padding_after; ++i)
-      interpolate(first + i, map.rows, stride);
+  HeightMap coefficients = map;
+  coefficients.values = spline_coefficients(map);
   return spline(std::move(coefficients));
 }
 
@@ -148,9 +122,10 @@ Height Height::profile(std::vector<double> coefficients, const std::vector<doubl
   turn.rows = 1;
   turn.columns = static_cast<std::int64_t>(coefficients.size());
   turn.values = std::move(coefficients);
-  HeightMap padded_turn = padded(turn);
-  extend_spline_coefficients(padded_turn.values.data() + padding_before, turn.columns, padding_before,
-                             padding_after, 1, turn.boundary);
+  HeightMap padded_turn = turn;
+  padded_turn.values = padded_coefficients(turn);
+  extend_spline_coefficients(padded_turn.values.data() + spline_padding_before, turn.columns,
+                             spline_padding_before, spline_padding_after, 1, turn.boundary);
   Height along = spline(std::move(padded_turn));
   ProfileHeight profile{along.nodes_[0].map, {0.0, 0.0}, phase - std::round(phase)};
   for (std::size_t a = 0; a < wave_vector.size(); ++a) {
@@ -158,7 +133,6 @@ Height Height::profile(std::vector<double> coefficients, const std::vector<doubl
     if (wave_vector[a] != 0.0)
       height.feature_length_[a] = along.feature_length_[0] / std::fabs(wave_vector[a]);
   }
-  height.bound_ = along.bound_;
   height.continuity_ = along.continuity_;
   height.tables_ = std::move(along.tables_);
   height.nodes_[0].kind = HeightKind::profile;
@@ -171,7 +145,7 @@ Height Height::spline(HeightMap map) {
   Height height(map.dimension);
   const std::int64_t count[2] = {map.columns, map.rows};
   const bool periodic = map.boundary == MapBoundary::periodic;
-  const double outside = periodic ? 1.0 : cells_outside;
+  const double outside = periodic ? 1.0 : spline_cells_outside;
   MapHeight view{};
   for (std::int32_t a = 0; a < map.dimension; ++a) {
     const double n = static_cast<double>(count[a]);
@@ -184,13 +158,12 @@ Height Height::spline(HeightMap map) {
     view.high[a] = view.last_cell[a] = n - 1.0 + outside;
     height.feature_length_[a] = spacing;
   }
-  view.row_stride = row_length(map.columns);
+  view.row_stride = spline_row_length(map.columns);
   // A B-spline is a mean of its coefficients.
-  for (const double value : map.values) height.bound_ = std::max(height.bound_, std::fabs(value));
-  view.bound = height.bound_;
+  for (const double value : map.values) view.bound = std::max(view.bound, std::fabs(value));
   height.continuity_ = 2;
   height.tables_.push_back(std::move(map.values));
-  view.coefficients = height.tables_[0].data() + first_coefficient(map);
+  view.coefficients = height.tables_[0].data() + first_spline_coefficient(map.dimension, map.columns);
   height.nodes_[0].kind = HeightKind::map;
   height.nodes_[0].map = view;
   return height;
@@ -207,6 +180,7 @@ double Height::fingerprint() const {
   };
   for (const HeightNode& node : nodes_) {
     add(static_cast<std::int32_t>(node.kind));
+    for (const std::uint8_t index : node.bound_to) add(index);
     switch (node.kind) {
     case HeightKind::none:
       break;
@@ -230,9 +204,14 @@ double Height::fingerprint() const {
       add_map(node.profile.of_turns);
       add(node.profile.wave_vector[0], node.profile.wave_vector[1], node.profile.phase);
       break;
+    case HeightKind::shift:
+      add(node.shift.by[0], node.shift.by[1]);
+      break;
     case HeightKind::sum:
     case HeightKind::product:
       add(node.child_count, node.first_child);
+      break;
+    case HeightKind::external: // its table has all of it
       break;
     }
   }
@@ -249,7 +228,6 @@ Height Height::combine(HeightKind kind, std::vector<Height> parts) {
   if (parts.empty()) throw std::invalid_argument("a sum or product has at least one part");
   Height height(parts.front().dimension_);
   const bool sum = kind == HeightKind::sum;
-  height.bound_ = sum ? 0.0 : 1.0;
   double rate[largest_dimension] = {0.0, 0.0}; // of a product: frequencies add
   std::size_t node_count = 1;
   for (const Height& part : parts) {
@@ -257,11 +235,6 @@ Height Height::combine(HeightKind kind, std::vector<Height> parts) {
       throw std::invalid_argument("parts of a height have the same number of surface coordinates");
     height.depth_ = std::max(height.depth_, part.depth_ + 1);
     height.continuity_ = std::min(height.continuity_, part.continuity_);
-    // 0 times an unbounded factor is 0
-    if (sum)
-      height.bound_ += part.bound_;
-    else
-      height.bound_ = height.bound_ == 0.0 || part.bound_ == 0.0 ? 0.0 : height.bound_ * part.bound_;
     for (std::int32_t a = 0; a < height.dimension_; ++a) {
       rate[a] += 1.0 / part.feature_length_[a];
       if (sum)
@@ -273,20 +246,55 @@ Height Height::combine(HeightKind kind, std::vector<Height> parts) {
   }
   if (height.depth_ > max_height_depth) throw std::invalid_argument("height nested too deeply");
 
-  // Children side by side, then the descendants of each. Distances within a part stay, except from its root.
   height.nodes_.reserve(node_count);
   height.nodes_[0].kind = kind;
-  height.nodes_[0].first_child = 1;
-  height.nodes_[0].child_count = static_cast<std::int32_t>(parts.size());
-  for (const Height& part : parts) height.nodes_.push_back(part.root());
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    HeightNode& child = height.nodes_[1 + p];
-    const std::size_t moved_by = height.nodes_.size() - 1; // of the part's node 1
-    if (parts[p].nodes_.size() > 1) child.first_child += static_cast<std::int32_t>(moved_by - (1 + p));
-    height.nodes_.insert(height.nodes_.end(), parts[p].nodes_.begin() + 1, parts[p].nodes_.end());
-    for (auto& table : parts[p].tables_) height.tables_.push_back(std::move(table));
-  }
+  height.append(parts);
   return height;
+}
+
+// Children side by side, then the descendants of each. Distances within a part stay, except from its root.
+void Height::append(std::vector<Height>& parts) {
+  nodes_[0].first_child = 1;
+  nodes_[0].child_count = static_cast<std::int32_t>(parts.size());
+  for (const Height& part : parts) nodes_.push_back(part.root());
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    HeightNode& child = nodes_[1 + p];
+    const std::size_t moved_by = nodes_.size() - 1; // of the part's node 1
+    if (parts[p].nodes_.size() > 1) child.first_child += static_cast<std::int32_t>(moved_by - (1 + p));
+    nodes_.insert(nodes_.end(), parts[p].nodes_.begin() + 1, parts[p].nodes_.end());
+    for (auto& table : parts[p].tables_) tables_.push_back(std::move(table));
+    for (auto& data : parts[p].owned_) owned_.push_back(std::move(data));
+  }
+}
+
+Height Height::shift(Height of, const std::vector<double>& by) {
+  if (of.depth_ >= max_height_depth) throw std::invalid_argument("height nested too deeply");
+  Height height(dimension_of(by));
+  height.depth_ = of.depth_ + 1;
+  height.continuity_ = of.continuity_;
+  std::copy_n(of.feature_length_, largest_dimension, height.feature_length_);
+  height.nodes_[0].kind = HeightKind::shift;
+  height.nodes_[0].shift = {{by[0], by.size() > 1 ? by[1] : 0.0}};
+  std::vector<Height> parts;
+  parts.push_back(std::move(of));
+  height.append(parts);
+  return height;
+}
+
+Height Height::field(HeightMap map, std::int32_t index) {
+  map.values.assign(static_cast<std::size_t>(map.rows * map.columns), 0.0);
+  Height height = Height::map(map);
+  height.nodes_[0].bound_to[0] = static_cast<std::uint8_t>(index + 1);
+  return height;
+}
+
+double Height::bound() const { return height_bound(root()); }
+
+bool Height::varies() const {
+  for (const HeightNode& node : nodes_)
+    for (const std::uint8_t index : node.bound_to)
+      if (index != 0) return true;
+  return false;
 }
 
 } // namespace ents

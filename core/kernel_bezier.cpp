@@ -3,4 +3,4 @@
 
 namespace ents::ENTS_ISA {
 const KernelSet& bezier15_kernels() { return kernels_of<Bezier15>; }
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

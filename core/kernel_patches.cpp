@@ -4,4 +4,4 @@
 namespace ents::ENTS_ISA {
 const KernelSet& catmull_rom16_kernels() { return kernels_of<CatmullRom16>; }
 const KernelSet& bspline16_kernels() { return kernels_of<BSpline16>; }
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

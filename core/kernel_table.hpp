@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled kernels of each basis: [enriched][rigid master]. Instantiated basis by basis in
+// The compiled kernels of each basis: [enriched]. Instantiated basis by basis in
 // kernel_*.cpp, because together they are the bulk of the library's compile time.
 #pragma once
 
@@ -8,7 +8,9 @@
 namespace ents {
 
 struct KernelSet {
-  ElementKernel element[2][2];
+  ElementKernel element[2];
+  FinishKernel finish[2];
+  RestKernel rest[2];
   SurfaceKernel surface[2];
   TransferKernel transfer[2];
   ProjectKernel project[2];
@@ -32,6 +34,6 @@ ENTS_KERNELS(catmull_rom16)
 ENTS_KERNELS(bspline16)
 ENTS_KERNELS(bezier15)
 #undef ENTS_KERNELS
-}  // namespace portable
+} // namespace portable
 
-}  // namespace ents
+} // namespace ents

@@ -4,4 +4,4 @@
 namespace ents::ENTS_ISA {
 const KernelSet& tri3_kernels() { return kernels_of<Tri3>; }
 const KernelSet& tri6_kernels() { return kernels_of<Tri6>; }
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

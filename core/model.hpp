@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/contact_law.hpp"
@@ -64,6 +65,21 @@ enum class TangentKind : std::int32_t {
   first_variation // d2g/du2 = 0
 };
 
+// A number that the caller gives by name (height_binding.hpp).
+struct NamedParameter {
+  std::string name;
+  double value; // where the caller gives none
+};
+
+// Numbers of a law that a named parameter gives: 1 + its index; 0: the model's own number
+struct LawBinding {
+  std::uint8_t normal = 0;   // stiffness of the penalty and the augmented laws, coefficient of the power law,
+                             // pressure of the exponential
+  std::uint8_t friction = 0; // coefficient
+  std::uint8_t wear = 0;     // coefficient
+  std::uint8_t sliding = 0;  // of wear
+};
+
 struct Model {
   Basis basis = Basis::line2;
   Height height;                           // of as many surface coordinates as the basis has parameters
@@ -72,6 +88,9 @@ struct Model {
   ProjectionKind projection = ProjectionKind::normal;
   double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
   ContactLaw law;                  // normal kind `none`: kinematics only
+  LawBinding law_binding;
+  std::vector<NamedParameter> parameters; // in the order of their names
+  std::vector<std::string> fields;
   TangentKind tangent = TangentKind::consistent;
   bool rigid_master = false;      // dofs of the slave alone
   double penetration_limit = 0.0; // [L]; 0: the size of the segment

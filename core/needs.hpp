@@ -33,7 +33,21 @@ static_assert(!is_flat<Line3> && !is_flat<CatmullRom4> && !is_flat<BSpline4> && 
               !is_flat<BSpline16> && !is_flat<Bezier15>);
 } // namespace ENTS_ISA
 
-// All but one_by_one, which is for whoever calls the kernels to say.
+// Are the elements of a call evaluated one after the other? patch: the element has several segments. Lanes:
+// evaluate_general() of general_block.hpp, and all of pair_kernel.hpp.
+inline bool is_one_by_one(const Model& model, bool patch) {
+  const ContactLaw& law = model.law;
+  const bool fast = model.projection == ProjectionKind::normal && law.force_has_slope() &&
+                    model.tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
+  return patch || (!fast && (law.multiplier_is_dof() || basis_entry(model.basis).nodes > 9));
+}
+
+// Does the force depend on the state of the begin of the increment?
+inline bool has_history(const Plan& plan) {
+  return plan.state.anchor_at >= 0 || plan.state.multiplier_at >= 0 || plan.law.wear.on;
+}
+
+// All but one_by_one.
 inline std::int32_t needs_of(const Model& model, const Plan& plan) {
   const bool enriched = plan.height != nullptr, flat = is_flat_basis(model.basis);
   const ContactLaw& law = plan.law;
@@ -43,7 +57,7 @@ inline std::int32_t needs_of(const Model& model, const Plan& plan) {
          if_so(!flat, need::curved) |
          if_so(enriched || !flat, need::iteration) | // PairProjector::closed_form, and project()
          if_so(!model.rigid_master, need::master) | if_so(law.has_friction(), need::friction) |
-         if_so(plan.state.anchor_at >= 0 || plan.state.multiplier_at >= 0, need::history) |
+         if_so(has_history(plan), need::history) |
          if_so(plan.multipliers > 0, need::multipliers);
 }
 

@@ -56,7 +56,8 @@ struct FarthestHit {
       facets.xi_of(c[0][0], c[0][1], first), facets.xi_of(c[1][0], c[1][1], second);
       facets.xi_of(c[2][0], c[2][1], last);
       for (int k = 0; k < 2; ++k)
-        xi[k] = first[k] + v * (second[k] - first[k]) + (facets.corners() == 3 ? w * (last[k] - first[k]) : 0.0);
+        xi[k] =
+            first[k] + v * (second[k] - first[k]) + (facets.corners() == 3 ? w * (last[k] - first[k]) : 0.0);
     }
     return false;
   }
@@ -82,9 +83,11 @@ void check_occlusion(const SurfaceChecker& c, const Facets& f) {
           const bool in_row = i + step >= 0 && i + step < (c.plan.simplex ? f.n - j : f.n);
           const bool in_column = surface && j + step >= 0 && j + step < (c.plan.simplex ? f.n - i : f.n);
           if (in_row)
-            spacing = std::max(spacing, (f.points[static_cast<std::size_t>(f.sample(s, i + step, j))] - f.points[k]).norm());
+            spacing = std::max(
+                spacing, (f.points[static_cast<std::size_t>(f.sample(s, i + step, j))] - f.points[k]).norm());
           if (in_column)
-            spacing = std::max(spacing, (f.points[static_cast<std::size_t>(f.sample(s, i, j + step))] - f.points[k]).norm());
+            spacing = std::max(
+                spacing, (f.points[static_cast<std::size_t>(f.sample(s, i, j + step))] - f.points[k]).norm());
         }
         FarthestHit hit{f, f.points[k], ray / distance, 1.5 * spacing,
                         emitter ? distance : std::numeric_limits<double>::infinity()};

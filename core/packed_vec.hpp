@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors of space in one register of four numbers, for the kernels that are compiled for AVX: the operations on each component are
-// those of vec.hpp in the same order, so the bits are the same.
+// Vectors of space in one register of four numbers, for the kernels that are compiled for AVX: the operations
+// on each component are those of vec.hpp in the same order, so the bits are the same.
 #pragma once
 
 namespace ents::ENTS_ISA {
@@ -30,18 +30,27 @@ template <> struct Vec<Dual<double>, 3> {
   static ENTS_INLINE Vec zero() { return Vec(Vec<double, 3>::zero(), Vec<double, 3>::zero()); }
 };
 
-ENTS_INLINE Vec<double, 3> operator+(Vec<double, 3> a, const Vec<double, 3>& b) { return Vec<double, 3>(a.v + b.v); }
-ENTS_INLINE Vec<double, 3> operator-(Vec<double, 3> a, const Vec<double, 3>& b) { return Vec<double, 3>(a.v - b.v); }
+ENTS_INLINE Vec<double, 3> operator+(Vec<double, 3> a, const Vec<double, 3>& b) {
+  return Vec<double, 3>(a.v + b.v);
+}
+ENTS_INLINE Vec<double, 3> operator-(Vec<double, 3> a, const Vec<double, 3>& b) {
+  return Vec<double, 3>(a.v - b.v);
+}
 ENTS_INLINE Vec<double, 3> operator-(Vec<double, 3> a) { return Vec<double, 3>(-a.v); }
-ENTS_INLINE Vec<double, 3> operator*(double s, Vec<double, 3> a) { return Vec<double, 3>(Vec<double, 3>::Numbers{s, s, s, s} * a.v); }
-ENTS_INLINE void add_scaled(Vec<double, 3>& a, double s, const Vec<double, 3>& b) { a.v = a.v + Vec<double, 3>::Numbers{s, s, s, s} * b.v; }
+ENTS_INLINE Vec<double, 3> operator*(double s, Vec<double, 3> a) {
+  return Vec<double, 3>(Vec<double, 3>::Numbers{s, s, s, s} * a.v);
+}
+ENTS_INLINE void add_scaled(Vec<double, 3>& a, double s, const Vec<double, 3>& b) {
+  a.v = a.v + Vec<double, 3>::Numbers{s, s, s, s} * b.v;
+}
 ENTS_INLINE double dot(const Vec<double, 3>& a, const Vec<double, 3>& b) {
   const Vec<double, 3>::Numbers p = a.v * b.v;
   return p[0] + p[1] + p[2];
 }
 ENTS_INLINE Vec<double, 3> value_of(const Vec<Dual<double>, 3>& a) { return a.v; }
 ENTS_INLINE Vec<double, 3> derivative_of(const Vec<Dual<double>, 3>& a) { return a.d; }
-ENTS_INLINE void set_dual(Vec<Dual<double>, 3>& a, const Vec<double, 3>& value, const Vec<double, 3>& derivative) {
+ENTS_INLINE void set_dual(Vec<Dual<double>, 3>& a, const Vec<double, 3>& value,
+                          const Vec<double, 3>& derivative) {
   a.v = value;
   a.d = derivative;
 }
@@ -52,7 +61,9 @@ ENTS_INLINE void store(const Vec<double, 3>& a, double* to) {
   to[2] = a.v[2];
 }
 // (a_2, a_3, a_1) and (a_3, a_1, a_2)
-ENTS_INLINE Vec<double, 3> rolled(const Vec<double, 3>& a) { return Vec<double, 3>(__builtin_shuffle(a.v, Vec<double, 3>::Integers{1, 2, 0, 3})); }
+ENTS_INLINE Vec<double, 3> rolled(const Vec<double, 3>& a) {
+  return Vec<double, 3>(__builtin_shuffle(a.v, Vec<double, 3>::Integers{1, 2, 0, 3}));
+}
 ENTS_INLINE Vec<double, 3> rolled_twice(const Vec<double, 3>& a) {
   return Vec<double, 3>(__builtin_shuffle(a.v, Vec<double, 3>::Integers{2, 0, 1, 3}));
 }
@@ -60,7 +71,8 @@ ENTS_INLINE Vec<double, 3> cross(const Vec<double, 3>& a, const Vec<double, 3>& 
   return Vec<double, 3>(rolled(a).v * rolled_twice(b).v - rolled_twice(a).v * rolled(b).v);
 }
 template <> ENTS_INLINE Vec<double, 3> vec_at<3>(const double* from) {
-  return Vec<double, 3>(__builtin_ia32_maskloadpd256(reinterpret_cast<const Vec<double, 3>::Numbers*>(from), Vec<double, 3>::Integers{-1, -1, -1, 0}));
+  return Vec<double, 3>(__builtin_ia32_maskloadpd256(reinterpret_cast<const Vec<double, 3>::Numbers*>(from),
+                                                     Vec<double, 3>::Integers{-1, -1, -1, 0}));
 }
 
 using DualVec = Vec<Dual<double>, 3>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the segment changes along a direction y in xi, at fixed nodes: Dual numbers whose derivative is that along y, written rather
-// than evaluated, for nearly all of it is known already,
+// How the segment changes along a direction y in xi, at fixed nodes: Dual numbers whose derivative is that
+// along y, written rather than evaluated, for nearly all of it is known already,
 //   (x_s - rho_e)' = - y^b rho_e,b,  rho_e,a' = y^b rho_e,ab,  n' = y^b n_,b,  h' = y^b h_,b ...
 // What is new: n_,ab, third derivatives of h and, in F_,xixi', d . rho_e,ab'.
 #pragma once
@@ -26,15 +26,20 @@ template <class B, bool H, class S> struct PairDrift {
   Surface<B, H, U> s; // plain: d and e only
   S f2[K];            // F_,xixi'
 
-  ENTS_INLINE PairDrift(const PairProjector<B, H, S>& projector, const S (&xi)[T], const S (&direction)[T]) : p(projector) {
+  ENTS_INLINE PairDrift(const PairProjector<B, H, S>& projector, const S (&xi)[T], const S (&direction)[T])
+      : p(projector) {
     for (int a = 0; a < T; ++a) y[a] = direction[a];
     if constexpr (!H) {
-      if constexpr (is_flat<B>) move_flat();
-      else move_plain(xi);
+      if constexpr (is_flat<B>)
+        move_flat();
+      else
+        move_plain(xi);
     } else {
       p.nodes.height_along(xi, y, p.s.height, s.height);
-      if constexpr (is_flat<B>) move_height();
-      else move_enriched(xi);
+      if constexpr (is_flat<B>)
+        move_height();
+      else
+        move_enriched(xi);
     }
   }
 
@@ -47,18 +52,27 @@ private:
   }
   // y^b rho_,ab
   template <int A> ENTS_INLINE V along_curvature() const {
-    if constexpr (T == 1) return y[0] * p.s.a2[0];
-    else if constexpr (!B::second[0]) return y[1 - A] * p.s.a2[1];
-    else return y[0] * p.s.a2[A] + y[1] * p.s.a2[A + 1];
+    if constexpr (T == 1)
+      return y[0] * p.s.a2[0];
+    else if constexpr (!B::second[0])
+      return y[1 - A] * p.s.a2[1];
+    else
+      return y[0] * p.s.a2[A] + y[1] * p.s.a2[A + 1];
   }
   // y^c rho_,abc
   template <int I> ENTS_INLINE V along_third(const V (&third)[T == 1 ? 1 : 4]) const {
-    if constexpr (T == 1) return y[0] * third[0];
-    else if constexpr (!B::third[I]) return y[1] * third[I + 1];
-    else if constexpr (!B::third[I + 1]) return y[0] * third[I];
-    else return y[0] * third[I] + y[1] * third[I + 1];
+    if constexpr (T == 1)
+      return y[0] * third[0];
+    else if constexpr (!B::third[I])
+      return y[1] * third[I + 1];
+    else if constexpr (!B::third[I + 1])
+      return y[0] * third[I];
+    else
+      return y[0] * third[I] + y[1] * third[I + 1];
   }
-  static ENTS_INLINE S rate_of_product(const V& a, const V& a1, const V& b, const V& b1) { return dot(a1, b) + dot(a, b1); }
+  static ENTS_INLINE S rate_of_product(const V& a, const V& a1, const V& b, const V& b1) {
+    return dot(a1, b) + dot(a, b1);
+  }
 
   ENTS_INLINE void move_flat() {
     set_dual(s.d, p.s.d, -along(p.s.a));
@@ -115,12 +129,16 @@ private:
       V rate[T == 1 ? 1 : 4]; // y^d rho_,abcd
       if constexpr (bend_changes) p.rho.third_rates(xi, y, rate);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (bend_changes && B::second[k]) set_dual(s.a2[k], p.s.a2[k], along_third<k.value>(p.s.a3));
-        else set_constant(s.a2[k], p.s.a2[k]);
+        if constexpr (bend_changes && B::second[k])
+          set_dual(s.a2[k], p.s.a2[k], along_third<k.value>(p.s.a3));
+        else
+          set_constant(s.a2[k], p.s.a2[k]);
       });
       unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k]) set_dual(s.a3[k], p.s.a3[k], rate[k]);
-        else s.a3[k] = Vec<U, D>::zero();
+        if constexpr (B::third[k])
+          set_dual(s.a3[k], p.s.a3[k], rate[k]);
+        else
+          s.a3[k] = Vec<U, D>::zero();
       });
       Rho<B, U>::area_vector(s, v);
     }
@@ -177,7 +195,8 @@ private:
       const S d_n2 = dot(d, n2[k]);
       S turned_rate = dot(n1_rate[a], m1[b]);
       if constexpr (!linear)
-        turned_rate = turned_rate + dot(at.n1[a], m1_rate[b]) + dot(n1, value_of(v.m2[k])) + dot(n, derivative_of(v.m2[k]));
+        turned_rate = turned_rate + dot(at.n1[a], m1_rate[b]) + dot(n1, value_of(v.m2[k])) +
+                      dot(n, derivative_of(v.m2[k]));
       S third = -(d_n_rate * turned[k] + d_n * turned_rate) - area_rate * d_n2;
       if constexpr (a == b) {
         third = third - 2.0 * (d_n1_rate[a] * along_n[a] + d_n1[a] * along_n_rate[a]);
@@ -188,8 +207,11 @@ private:
       if constexpr (!linear) third = third + dot(d, derivative_of(v.m2[k]));
       // d . rho_e,ab'
       S bend = h.h2[k].d * d_n + h.h2[k].v * d_n_rate + h.h.d * d_n2 + h.h.v * (q * third);
-      if constexpr (a == b) bend = bend + 2.0 * (h.h1[a].d * d_n1[a] + h.h1[a].v * d_n1_rate[a]);
-      else bend = bend + (h.h1[a].d * d_n1[b] + h.h1[a].v * d_n1_rate[b]) + (h.h1[b].d * d_n1[a] + h.h1[b].v * d_n1_rate[a]);
+      if constexpr (a == b)
+        bend = bend + 2.0 * (h.h1[a].d * d_n1[a] + h.h1[a].v * d_n1_rate[a]);
+      else
+        bend = bend + (h.h1[a].d * d_n1[b] + h.h1[a].v * d_n1_rate[b]) +
+               (h.h1[b].d * d_n1[a] + h.h1[b].v * d_n1_rate[a]);
       if constexpr (bend_changes && B::second[k]) bend = bend + dot(d, derivative_of(s.a2[k]));
       f2[k] = rate_of_product(at.e[a], e1[a], at.e[b], e1[b]) - (dot(d1, at.e2[k]) + bend);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tangent of Coulomb friction (pair_friction_forms.hpp) from numbers of dofs:
-//   K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a Y_a^T + Y_a x_a^T + x_a dt_a^T) [ + g g^T ]
+//   K = (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T) + sum_a (x_a Y_a^T + Y_a
+//   x_a^T + x_a dt_a^T) [ + g g^T ]
 #pragma once
 
 #include "core/pair_friction_forms.hpp"
@@ -14,15 +15,17 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
   static constexpr bool symmetric = H && !is_flat<B>, has_rest = symmetric; // but for that rest, x_a P_a^T
   static constexpr bool one_by_one = !turns;
-  static constexpr int products = T * (2 + (turns ? 2 : 0) + (bends ? 2 : 0) + (has_rest ? 1 : 0)); // that an entry is the sum of
-  S weights[2][M]; // s, r
+  static constexpr int products =
+      T * (2 + (turns ? 2 : 0) + (bends ? 2 : 0) + (has_rest ? 1 : 0)); // that an entry is the sum of
+  S weights[2][M];                                                      // s, r
   DofArray<S, N> x[T], Y[T];
   DofArray<S, N> P[T]; // dt_a; Y_a + dt_a if not `symmetric`
   DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
   DofArray<S, N> g;
   bool curved_law;
 
-  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction) {
+  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
+                            const PairFriction<B, H, S>& friction) {
     const auto& p = pair.projector;
     const S stiffness = pair.area * pair.per_gap;
     S inverse[K], y[T];
@@ -30,7 +33,8 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
       const Drift drift(p, pair.xi, y);
       set_weights(stiffness, drift);
-      Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
+      Forms::in_part([&]()
+                         ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
       if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(stiffness, drift); });
     });
     curved_law = set_g<Rigid>(plan, pair, g);
@@ -38,10 +42,10 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
 
   // Each lane's to one[lane]
   template <class One, int W>
-    requires(!turns)
-  ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
+  requires(!turns) ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
     hand_out_tangent(
-        *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.x; }, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.Y; },
+        *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.x; },
+        [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.Y; },
         [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.P; });
   }
 
@@ -64,7 +68,6 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent {
 private:
   using Drift = typename Forms::Drift;
   static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
-  static constexpr bool by_third = H && !Rigid && Drift::bend_changes; // do forms of second derivatives change?
 
   // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
   ENTS_INLINE void set_weights(const S& stiffness, const Drift& drift) {
@@ -80,43 +83,27 @@ private:
       }
   }
 
-  // d2: y^c N_,abc
-  static ENTS_INLINE void set_shape_rates(const S (&xi)[T], const S (&y)[T], Shape<S, T, B::nodes>& of) {
-    B::template shape<3>(xi, of);
-    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k])
-        for (int i = 0; i < B::nodes; ++i) {
-          if constexpr (T == 1) of.d2[k][i] = y[0] * of.d3[0][i];
-          else if constexpr (!B::third[k]) of.d2[k][i] = y[1] * of.d3[k + 1][i];
-          else if constexpr (!B::third[k + 1]) of.d2[k][i] = y[0] * of.d3[k][i];
-          else of.d2[k][i] = y[0] * of.d3[k][i] + y[1] * of.d3[k + 1][i];
-        }
-    });
-  }
-  // - value of the part on second derivatives, whose expansion changes by third ones
-  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Shape<S, T, B::nodes>& rates, DofArray<S, N>& from) {
-    DofArray<S, N> of;
-    expand_to_dofs<B, Rigid, on_curvatures>(value, rates, of);
-    for_each_dof(from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
-  }
-
-  ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
-                                        const S (&inverse)[K], const Drift& drift) {
+  ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
+                                        const PairFriction<B, H, S>& friction, const S (&inverse)[K],
+                                        const Drift& drift) {
     const auto& p = pair.projector;
     Form<B, Dual<S>> f[T];
     forms_of_f(drift.s, f);
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
-    const typename Forms::ChangeOfForce change(plan, pair, friction);
+    const typename Forms::ChangeOfForce change(pair, friction, false);
+    Form<B, S> limit;
+    Forms::form_of_limit(plan, pair, friction, limit);
     Shape<S, T, B::nodes> shape_rates;
-    if constexpr (by_third) set_shape_rates(pair.xi, drift.y, shape_rates);
+    if constexpr (Forms::by_third) Forms::set_shape_rates(pair.xi, drift.y, shape_rates);
     for (int a = 0; a < T; ++a) {
       Form<B, S> Yf, Pf;
-      Forms::template set_Y_and_P<!symmetric>(a, drift, pair.area * pair.per_gap, f, xf, change, Yf, Pf);
+      Forms::template set_Y_and_P<!symmetric>(a, drift, pair.area * pair.per_gap, f, xf, change, limit, Yf,
+                                              Pf);
       expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
       expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, p.N, P[a]);
-      if constexpr (by_third) subtract_third(value[a], shape_rates, Y[a]);
+      if constexpr (Forms::by_third) Forms::subtract_third(value[a], shape_rates, Y[a]);
     }
   }
 
@@ -131,15 +118,7 @@ private:
       expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
       if constexpr (bends) {
         expand_to_dofs<B, Rigid, Forms::parts_of_z>(zf, p.N, z[a]);
-        S change[B::nodes]; // y^b N_,ab
-        for (int i = 0; i < B::nodes; ++i)
-          if constexpr (T == 1) change[i] = drift.y[0] * p.N.d2[0][i];
-          else if constexpr (!B::second[0]) change[i] = drift.y[1 - a] * p.N.d2[1][i];
-          else change[i] = drift.y[0] * p.N.d2[a][i] + drift.y[1] * p.N.d2[a + 1][i];
-        DofArray<S, N> now, turned;
-        expand_to_nodes<B>(change, p.s.n, now);
-        expand_to_nodes<B>(p.N.d1[a], derivative_of(drift.s.n), turned);
-        for_each_dof(w1[a], [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
+        Forms::expand_turn_rate(a, drift, w1[a]);
       }
     }
   }

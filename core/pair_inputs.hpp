@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ordinary elements of a call begin with: positions, and where the projection starts, from the host's arrays to numbers of one element
-// or of one per lane.
+// What ordinary elements of a call begin with: positions, and where the projection starts, from the host's
+// arrays to numbers of one element or of one per lane.
 #pragma once
 
 #include "core/pair.hpp"
 
 namespace ents::ENTS_ISA {
 
-template <class T> ENTS_INLINE T* element_at(T* data, std::int64_t stride, std::int64_t e) { return data ? data + stride * e : nullptr; }
+template <class T> ENTS_INLINE T* element_at(T* data, std::int64_t stride, std::int64_t e) {
+  return data ? data + stride * e : nullptr;
+}
 
 ENTS_INLINE bool is_finite(const double* numbers, int count) {
   double zero = 0.0;
@@ -16,28 +18,46 @@ ENTS_INLINE bool is_finite(const double* numbers, int count) {
 }
 
 ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride : plan.surface_coordinates;
+  return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride
+                                   : plan.surface_coordinates;
 }
 
-// What an element starts from, as evaluate_element() has it. Null: the whole segment has to be searched, or an input is
-// wrong that would not be noticed later.
-template <class B, bool H> ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+// The nodes of one element, seen from its slave.
+template <bool H, class B>
+ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* master,
+                           const double* coordinates, PairNodes<B, double>& nodes) {
+  constexpr int D = B::dim;
+  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + D * i) - vec_at<D>(slave);
+  nodes.has_coordinates = H && coordinates;
+  if (nodes.has_coordinates)
+    for (int i = 0; i < (D - 1) * B::nodes; ++i) nodes.coordinates[i] = coordinates[i];
+  nodes.height = plan.height;
+}
+
+// What an element starts from, as evaluate_element() has it. Null: the whole segment has to be searched, or
+// an input is wrong that would not be noticed later.
+template <class B, bool H>
+ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
   if constexpr (!H)
-    if (block.surface_coordinates && !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * B::nodes)) return nullptr;
+    if (block.surface_coordinates && !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * B::nodes))
+      return nullptr;
   const double* start = element_at(block.start, block.start_stride, e);
   if (start && !is_finite(start, B::dim - 1)) return nullptr;
   if (block.state_begin) {
     const double* state = block.state_begin + e * block.state_begin_stride;
     if (state[StateLayout::tag_at] != plan.state.tag || !is_finite(state, plan.state.size)) return nullptr;
     const double history = state[StateLayout::history_at];
-    if (history == 2.0 || history == 3.0) return block.start_first && start ? start : state + StateLayout::xi_at;
+    if (history == 2.0 || history == 3.0)
+      return block.start_first && start ? start : state + StateLayout::xi_at;
     if (history != 0.0 && history != 1.0) return nullptr;
   }
   return start;
 }
 
 // The anchor in the state, and whether there is one.
-template <int T> ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, std::int64_t e, double& history) {
+template <int T>
+ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, std::int64_t e,
+                                    double& history) {
   static const double none[T] = {};
   const double* state = element_at(block.state_begin, block.state_begin_stride, e);
   history = state && state[StateLayout::history_at] >= 2.0 ? 1.0 : 0.0;
@@ -128,18 +148,23 @@ private:
     read_lanes<W>(from, state);
     const auto is = [](const S& a, double b) ENTS_LAMBDA_INLINE { return both(a >= b, a <= b); };
     const S& last = state[StateLayout::history_at];
-    const Truth<S> touched = either(is(last, 2.0), is(last, 3.0)), free = either(is(last, 0.0), is(last, 1.0));
+    const Truth<S> touched = either(is(last, 2.0), is(last, 3.0)),
+                   free = either(is(last, 0.0), is(last, 1.0));
     const bool first = block.start_first && block.start;
-    known &= bits_of(both(both(is(state[StateLayout::tag_at], plan.state.tag), are_finite(state)), either(touched, free)));
+    known &= bits_of(
+        both(both(is(state[StateLayout::tag_at], plan.state.tag), are_finite(state)), either(touched, free)));
     if (!block.start) known &= bits_of(touched);
     if (!first)
-      for (int a = 0; a < T; ++a) xi[a] = block.start ? select(touched, state[StateLayout::xi_at + a], xi[a]) : state[StateLayout::xi_at + a];
+      for (int a = 0; a < T; ++a)
+        xi[a] = block.start ? select(touched, state[StateLayout::xi_at + a], xi[a])
+                            : state[StateLayout::xi_at + a];
     if constexpr (F) {
       history = select(touched, S(1.0), S(0.0));
       for (int a = 0; a < T; ++a) anchor[a] = state[StateLayout::xi_at + T + a];
     }
   }
-  // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight ends with every page.
+  // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight
+  // ends with every page.
   static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
     const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
       if (data) prefetch<W>(data + e * stride, stride, size);

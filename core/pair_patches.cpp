@@ -6,9 +6,12 @@ namespace ents::ENTS_ISA {
 
 const PairKernelsOfBasis& pair_kernels_of_patch(Basis basis) {
   switch (basis) {
-  case Basis::catmull_rom16: return pair_kernels_of<CatmullRom16>;
-  case Basis::bspline16: return pair_kernels_of<BSpline16>;
-  default: return pair_kernels_of<Bezier15>;
+  case Basis::catmull_rom16:
+    return pair_kernels_of<CatmullRom16>;
+  case Basis::bspline16:
+    return pair_kernels_of<BSpline16>;
+  default:
+    return pair_kernels_of<Bezier15>;
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tangents that are summed in the reduced space of forms.hpp and expanded to the dofs once: first the columns, then the rows. A form has a
-// vector on each field, 0: delta X, 1 ..: delta a_k, d ..: delta a_kl where the basis bends. Faster than the sum of products of numbers of
-// dofs where those are many and the nodes few, so that what lies between the two expansions stays in the fastest cache.
+// Tangents that are summed in the reduced space of forms.hpp and expanded to the dofs once: first the
+// columns, then the rows. A form has a vector on each field, 0: delta X, 1 ..: delta a_k, d ..: delta a_kl
+// where the basis bends. Faster than the sum of products of numbers of dofs where those are many and the
+// nodes few, so that what lies between the two expansions stays in the fastest cache.
 #pragma once
 
 #include "core/pair_forms.hpp"
@@ -10,26 +11,31 @@
 namespace ents::ENTS_ISA {
 
 template <class B, bool Rigid, int Parts>
-inline constexpr int fields_of = Rigid                          ? 1
-                                 : (Parts & on_curvatures) != 0 ? B::dim + OnCurvatures<B, int>::count
-                                 : (Parts & on_tangents) != 0   ? B::dim
-                                                                : 1;
+inline constexpr int fields_of = Rigid                         ? 1
+                                 : (Parts& on_curvatures) != 0 ? B::dim + OnCurvatures<B, int>::count
+                                 : (Parts& on_tangents) != 0   ? B::dim
+                                                               : 1;
 
 template <int Field, class B, class S> ENTS_INLINE auto& on_field(Form<B, S>& f) {
   constexpr int D = B::dim;
-  if constexpr (Field == 0) return f.x;
-  else if constexpr (Field < D) return f.a[Field - 1];
-  else return f.a2.of[Field - D];
+  if constexpr (Field == 0)
+    return f.x;
+  else if constexpr (Field < D)
+    return f.a[Field - 1];
+  else
+    return f.a2.of[Field - D];
 }
 template <int Field, class B, class S> ENTS_INLINE const auto& on_field(const Form<B, S>& f) {
   return on_field<Field>(const_cast<Form<B, S>&>(f));
 }
 
-// What is on the fields, at the slave and at the nodes of the master: 1 and 0 or - N_i, N_i,k and N_i,kl of it.
+// What is on the fields, at the slave and at the nodes of the master: 1 and 0 or - N_i, N_i,k and N_i,kl of
+// it.
 template <class B> struct ReducedExpansion;
 
 template <> struct ReducedExpansion<Tri3> {
-  template <class S, class V> static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[3], V (&at)[4]) {
+  template <class S, class V>
+  static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[3], V (&at)[4]) {
     at[0] = field[0];
     at[2] = field[1] - xi[0] * field[0];
     at[3] = field[2] - xi[1] * field[0];
@@ -38,7 +44,8 @@ template <> struct ReducedExpansion<Tri3> {
 };
 template <> struct ReducedExpansion<Quad4> {
   // as factors of 1, xi_1, xi_2 and xi_1 xi_2 at the corners, over 4
-  template <class S, class V> static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[4], V (&at)[5]) {
+  template <class S, class V>
+  static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[4], V (&at)[5]) {
     const S quarter(0.25);
     const V even = S(-0.25) * field[0];
     V one = quarter * field[1], two = quarter * field[2], twist = quarter * field[3];
@@ -56,12 +63,16 @@ template <> struct ReducedExpansion<Quad4> {
 };
 
 // of the fields to the nodes
-template <class Tangent, class V, int Fields, int M> ENTS_INLINE void expand_fields(const Tangent& t, const V (&field)[Fields], V (&at)[M]) {
-  if constexpr (M == 1) at[0] = field[0];
-  else Tangent::Expansion::expand(t.xi, field, at);
+template <class Tangent, class V, int Fields, int M>
+ENTS_INLINE void expand_fields(const Tangent& t, const V (&field)[Fields], V (&at)[M]) {
+  if constexpr (M == 1)
+    at[0] = field[0];
+  else
+    Tangent::Expansion::expand(t.xi, field, at);
 }
 
-// f(a) of each natural coordinate. Code for eight elements, written once for each coordinate, would not fit into the cache of instructions.
+// f(a) of each natural coordinate. Code for eight elements, written once for each coordinate, would not fit
+// into the cache of instructions.
 template <int T, class S, class F> ENTS_INLINE void for_each_coordinate(F&& f) {
   if constexpr (std::is_same_v<S, double> || register_width < 8) {
     for (int a = 0; a < T; ++a) f(a);
@@ -72,7 +83,9 @@ template <int T, class S, class F> ENTS_INLINE void for_each_coordinate(F&& f) {
 }
 
 template <class Tangent>
-concept Reduced = requires { typename Tangent::Expansion; };
+concept Reduced = requires {
+  typename Tangent::Expansion;
+};
 
 // component c of v += x
 template <class S, int D> ENTS_INLINE void add_to_component(Vec<S, D>& v, int c, const S& x) {
@@ -88,15 +101,18 @@ ENTS_INLINE void add_to_component(Vec<double, 3>& v, int c, double x) {
 }
 #endif
 
-// K's columns of component c, from t.entries<row, column>(c): what is on field `row`, of component c of field `column`. block(m, n, v): what
-// is at node m, of node n; node 0 is the slave. between() is called now and then.
-template <Reduced Tangent, class Between, class Block> ENTS_INLINE void expand_columns(const Tangent& t, int c, Between&& between, Block&& block) {
+// K's columns of component c, from t.entries<row, column>(c): what is on field `row`, of component c of field
+// `column`. block(m, n, v): what is at node m, of node n; node 0 is the slave. between() is called now and
+// then.
+template <Reduced Tangent, class Between, class Block>
+ENTS_INLINE void expand_columns(const Tangent& t, int c, Between&& between, Block&& block) {
   constexpr int fields = Tangent::fields, M = Tangent::M;
   using V = typename Tangent::V;
   V along[M][fields];
   unroll<fields>([&](auto column) ENTS_LAMBDA_INLINE {
     V of[fields], at[M];
-    unroll<fields>([&](auto row) ENTS_LAMBDA_INLINE { of[row] = t.template entries<row.value, column.value>(c); });
+    unroll<fields>([&](auto row)
+                       ENTS_LAMBDA_INLINE { of[row] = t.template entries<row.value, column.value>(c); });
     expand_fields(t, of, at);
     for (int m = 0; m < M; ++m) along[m][column] = at[m];
     between();
@@ -109,18 +125,21 @@ template <Reduced Tangent, class Between, class Block> ENTS_INLINE void expand_c
 }
 
 // + g g^T
-template <int D, Reduced Tangent> ENTS_NOINLINE void add_curved_law(const Tangent& t, double* out, std::int64_t leading) {
+template <int D, Reduced Tangent>
+ENTS_NOINLINE void add_curved_law(const Tangent& t, double* out, std::int64_t leading) {
   for (int n = 0; n < Tangent::M; ++n)
     for (int c = 0; c < D; ++c)
       for (int m = 0; m < Tangent::M; ++m)
         for (int i = 0; i < D; ++i) out[(D * n + c) * leading + D * m + i] += t.g[n][c] * t.g[m][i];
 }
 
-template <int D, Reduced Tangent> ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
+template <int D, Reduced Tangent>
+ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
   for (int c = 0; c < D; ++c)
     expand_columns(
         t, c, []() ENTS_LAMBDA_INLINE {},
-        [&](int m, int n, const auto& v) ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + D * m); });
+        [&](int m, int n, const auto& v)
+            ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + D * m); });
   if (t.curved_law) add_curved_law<D>(t, out, leading);
 }
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
@@ -133,17 +152,18 @@ template <class To> ENTS_INLINE void hand_out_vector(const Vec<Lanes<4>, 3>& v, 
 #endif
 #if defined(ENTS_HAS_LANES)
 template <int D, Reduced Tangent, int W>
-ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading, std::uint32_t used, DeferredCopy* last) {
+ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading,
+                                 std::uint32_t used, DeferredCopy* last) {
   constexpr int N = Tangent::N, steps = D * Tangent::fields;
   using S = Lanes<W>;
   const auto between = [&]() ENTS_LAMBDA_INLINE { copy_beside(last, (W * N * N + steps - 1) / steps); };
   S entries[N * N];
   ENTS_ROLLED // as in for_each_coordinate()
-  for (int c = 0; c < D; ++c)
-    expand_columns(t, c, between, [&](int m, int n, auto& v) ENTS_LAMBDA_INLINE {
-      if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
-      store(v, entries + (D * n + c) * N + D * m);
-    });
+      for (int c = 0; c < D; ++c)
+          expand_columns(t, c, between, [&](int m, int n, auto& v) ENTS_LAMBDA_INLINE {
+            if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
+            store(v, entries + (D * n + c) * N + D * m);
+          });
   write_columns<N>(out, leading, used, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entries[i]; });
 }
 #endif

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The master nodes of an ordinary element and the segment rho through them, contracted once to a polynomial of xi: what a projection
-// evaluates again and again are its coefficients, fewer than nodes times shape functions.
+// The master nodes of an ordinary element and the segment rho through them, contracted once to a polynomial
+// of xi: what a projection evaluates again and again are its coefficients, fewer than nodes times shape
+// functions.
 //
 //   quad4                     bilinear; a_1 x a_2 is linear in xi
 //   line3, tri6, quad8, quad9 quadratic in each direction (tri6: in all)
 //   smoothed                  cubic in each direction; Bezier triangles: of degree four
 #pragma once
 
+#include "core/height_rate.hpp"
 #include "core/pair_sine.hpp"
 #include "core/polynomial.hpp"
 #include "core/surface.hpp"
@@ -20,11 +22,19 @@ template <class B, class S> struct PairNodes {
   S coordinates[(B::dim - 1) * B::nodes];
   bool has_coordinates;     // else s = xi
   const HeightNode* height; // enriched
+  // Of dual numbers, whose derivatives are those by a parameter: 1 + its index (parameter_rates.hpp)
+  std::int32_t parameter = 0;
 
   // `sine` moves there
   template <int Order>
-  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, SineAt<S>& sine, HeightJet<T, S>& h) const {
-    const auto height_at = [&](const S (&s)[T]) ENTS_LAMBDA_INLINE { return move_height<is_flat<B>>(sine, *height, s); };
+  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, SineAt<S>& sine,
+                                   HeightJet<T, S>& h) const {
+    const auto height_at = [&](const S(&s)[T]) ENTS_LAMBDA_INLINE {
+      if constexpr (std::is_same_v<S, Dual<double>>)
+        return height_with_rate(*height, parameter, s);
+      else
+        return move_height<is_flat<B>>(sine, *height, s);
+    };
     if (has_coordinates) {
       evaluate_height_by_xi<B, Order>(height_at, coordinates, xi, N, h);
     } else { // number by number: as a whole it would go through memory
@@ -35,7 +45,8 @@ template <class B, class S> struct PairNodes {
     }
   }
   // `at`, in `d` its derivative along a direction
-  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const HeightJet<T, S>& at, HeightJet<T, Dual<S>>& h) const {
+  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const HeightJet<T, S>& at,
+                                HeightJet<T, Dual<S>>& h) const {
     if (!has_coordinates) {
       h = jet_along(*height, xi, direction, at);
       return;
@@ -44,15 +55,14 @@ template <class B, class S> struct PairNodes {
     for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
     Shape<Dual<S>, T, B::nodes> N;
     B::template shape<2>(moving, N);
-    const auto height_at = [&](const Dual<S> (&s)[T]) ENTS_LAMBDA_INLINE { return ents::ENTS_ISA::evaluate_height(*height, s); };
+    const auto height_at = [&](const Dual<S>(&s)[T])
+                               ENTS_LAMBDA_INLINE { return ents::ENTS_ISA::evaluate_height(*height, s); };
     evaluate_height_by_xi<B, 2>(height_at, coordinates, moving, N, h);
   }
 };
 
 // m = normal_of_tangents(a) and its derivatives
-template <class S, int D> struct AreaVector {
-  Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>];
-};
+template <class S, int D> struct AreaVector { Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>]; };
 
 // of a segment that bends in any way
 template <class B, class S> struct BentArea {
@@ -79,7 +89,8 @@ template <class B, class S> struct BentArea {
 };
 
 // c_kj of nodes y[j][i]: of the i-th function of xi_1 and the j-th of xi_2
-template <class F, class S, int N, int M> ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M]) {
+template <class F, class S, int N, int M>
+ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M]) {
   Vec<S, 3> along[N][M];
   for (int j = 0; j < N; ++j) F::template powers<S>(y[j], along[j]);
   for (int i = 0; i < M; ++i) {
@@ -91,21 +102,20 @@ template <class F, class S, int N, int M> ENTS_INLINE void tensor_powers(const V
 }
 
 // rho - x_s and its derivatives. Every basis has
-//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the height needs it
-//   thirds            rho_,abc
-//   third_rates       how they change along y, y^d rho_,abcd
+//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the
+//   height needs it thirds            rho_,abc third_rates       how they change along y, y^d rho_,abcd
 template <class B, class S> struct Rho;
 
 template <class F, class S>
-  requires(F::degree > 1)
-struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
+requires(F::degree > 1) struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
   using B = LineBasis<F>;
   using V = Vec<S, 2>;
   V c[F::degree + 1];
   ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { F::template powers<S>(nodes.y, c); }
 
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N, Surface<B, H, S>& s) const {
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
     V d[4];
     divide_by_powers<F::degree, 3>(c, xi[0], d);
@@ -124,7 +134,8 @@ template <class B, int Degree, class S> struct RhoInSpace : BentArea<B, S> {
   Powers p;
 
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N, Surface<B, H, S>& s) const {
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
     typename Powers::template Derivatives<Order> d;
     p.differentiate(xi, d);
@@ -144,7 +155,8 @@ template <class B, int Degree, class S> struct RhoInSpace : BentArea<B, S> {
   ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
     typename Powers::template Derivatives<4> d;
     p.differentiate(xi, d);
-    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3], S(24.0) * d.of[0][4]};
+    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3],
+                         S(24.0) * d.of[0][4]};
     unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
       constexpr bool by_1 = Powers::has(4 - k.value, k), by_2 = Powers::has(3 - k.value, k + 1);
       rate[k] = by_1 ? y[0] * fourth[k] : by_2 ? y[1] * fourth[k + 1] : V::zero();
@@ -156,15 +168,17 @@ private:
   template <class D> static ENTS_INLINE void set_thirds(const D& d, V (&a3)[4]) {
     constexpr double factor[4] = {6.0, 2.0, 2.0, 6.0};
     unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Powers::has(3 - k.value, k)) a3[k] = S(factor[k]) * d.of[3 - k][k];
-      else a3[k] = V::zero();
+      if constexpr (Powers::has(3 - k.value, k))
+        a3[k] = S(factor[k]) * d.of[3 - k][k];
+      else
+        a3[k] = V::zero();
     });
   }
 };
 
 template <class F, class Numbering, class S>
-  requires(F::degree > 1)
-struct Rho<TensorBasis<F, Numbering>, S> : RhoInSpace<TensorBasis<F, Numbering>, F::degree, S> {
+requires(F::degree > 1) struct Rho<TensorBasis<F, Numbering>, S>
+    : RhoInSpace<TensorBasis<F, Numbering>, F::degree, S> {
   using B = TensorBasis<F, Numbering>;
   ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
     Vec<S, 3> y[F::count][F::count];
@@ -202,7 +216,8 @@ template <class S> struct Rho<Tri6, S> : RhoInSpace<Tri6, 2, S> {
   }
 };
 
-// With differences D_1, D_2 of neighbouring points along xi_1, xi_2: c_kj = 4! / (j! k! (4 - j - k)!) D_1^j D_2^k b
+// With differences D_1, D_2 of neighbouring points along xi_1, xi_2: c_kj = 4! / (j! k! (4 - j - k)!) D_1^j
+// D_2^k b
 template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
   ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) {
     auto& c = this->p.c;
@@ -215,7 +230,8 @@ template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
         for (int k = 4 - j; k >= order; --k) c[k][j] = c[k][j] - c[k - 1][j];
     constexpr double factorial[5] = {1.0, 1.0, 2.0, 6.0, 24.0};
     for (int k = 0; k <= 4; ++k)
-      for (int j = k == 0; j <= 4 - k; ++j) c[k][j] = S(24.0 / (factorial[j] * factorial[k] * factorial[4 - j - k])) * c[k][j];
+      for (int j = k == 0; j <= 4 - k; ++j)
+        c[k][j] = S(24.0 / (factorial[j] * factorial[k] * factorial[4 - j - k])) * c[k][j];
   }
 };
 
@@ -224,7 +240,8 @@ template <class S> struct Rho<Quad4, S> {
   Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
   ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
     const auto& y = nodes.y;
-    const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0], difference_2 = y[2] - y[3];
+    const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0],
+                    difference_2 = y[2] - y[3];
     const S quarter(0.25);
     c = quarter * (sum_1 + sum_2);
     c1 = quarter * (difference_1 + difference_2);
@@ -232,7 +249,8 @@ template <class S> struct Rho<Quad4, S> {
     c12 = quarter * (difference_2 - difference_1);
   }
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N, Surface<Quad4, H, S>& s) const {
+  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N,
+                            Surface<Quad4, H, S>& s) const {
     if (H && nodes.has_coordinates) Quad4::shape<2>(xi, N);
     s.a[0] = c1;
     s.a[1] = c2;

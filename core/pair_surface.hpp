@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The enriched segment as the Newton iteration of its projection sees it: what does not depend on xi is contracted once, and what
-// the basis does not have is not computed.
+// The enriched segment as the Newton iteration of its projection sees it: what does not depend on xi is
+// contracted once, and what the basis does not have is not computed.
 //
 //   flat (line2, tri3)   n and A are constant: the iteration knows xi, h and the distance from the plane only
 //   others               rho as a polynomial of xi (pair_rho.hpp)
@@ -27,7 +27,8 @@ template <class B, bool H, class S> ENTS_INLINE void set_dual_tangents(Surface<B
 template <class B, bool H, class S> struct PairProjector {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = false;
-  static constexpr double rounding = 1e-26; // of twice_merit, relative to the square of the distance of a node
+  static constexpr double rounding =
+      1e-26; // of twice_merit, relative to the square of the distance of a node
   const PairNodes<B, S>& nodes;
   Rho<B, S> rho;
   Shape<S, T, B::nodes> N;
@@ -91,7 +92,8 @@ template <class B, bool H, class S> struct PairProjector {
     twice_merit = dot(s.d, s.d);
   }
 
-  // The rest of the surface, for the variations; N comes when they are asked for. Returns |a|^2 or |a_1 x a_2|^2.
+  // The rest of the surface, for the variations; N comes when they are asked for. Returns |a|^2 or |a_1 x
+  // a_2|^2.
   ENTS_INLINE S finish(const S (&)[T]) {
     if constexpr (H) {
       S base[K];
@@ -109,8 +111,7 @@ template <class B, bool H, class S> struct PairProjector {
 // Flat segments. With xi_0 the projection on the plane and zeta the distance from it,
 //   F = (xi_0 - xi) A (xi_0 - xi) / 2 + (zeta - h)^2 / 2 .
 template <class B, bool H, class S>
-  requires(is_flat<B>)
-struct PairProjector<B, H, S> {
+requires(is_flat<B>) struct PairProjector<B, H, S> {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = !H;
   static constexpr double rounding = 1e-26;
@@ -192,10 +193,11 @@ struct PairProjector<B, H, S> {
   }
 };
 
-// What Newton's method needs of a quad4, without vectors. With c, c_1, c_2, c_12 of rho - x_s, D = x_s - rho, m = a_1 x a_2 and w = n . D = P / |m|,
+// What Newton's method needs of a quad4, without vectors. With c, c_1, c_2, c_12 of rho - x_s, D = x_s - rho,
+// m = a_1 x a_2 and w = n . D = P / |m|,
 //   F = (D . D - 2 h w + h^2) / 2 ,
-// D . D, m . m and P = m . D are polynomials: products of c .. c_12 are taken once. (In P all of c_12 . m but a triple product
-// vanishes.) `metric` is that of rho.
+// D . D, m . m and P = m . D are polynomials: products of c .. c_12 are taken once. (In P all of c_12 . m but
+// a triple product vanishes.) `metric` is that of rho.
 template <bool H, class S> struct QuadDescent {
   static constexpr double rounding = 1e-13; // twice_merit is a difference of squares of the distance
   const PairNodes<Quad4, S>& nodes;
@@ -207,11 +209,13 @@ template <bool H, class S> struct QuadDescent {
   ENTS_INLINE explicit QuadDescent(PairProjector<Quad4, H, S>& p) : nodes(p.nodes), sine(p.sine) {
     const auto& [c, c1, c2, c12] = p.rho;
     g00 = dot(c, c), g01 = dot(c, c1), g02 = dot(c, c2), g0x = dot(c, c12);
-    g11 = dot(c1, c1), g12 = dot(c1, c2), g1x = dot(c1, c12), g22 = dot(c2, c2), g2x = dot(c2, c12), gxx = dot(c12, c12);
+    g11 = dot(c1, c1), g12 = dot(c1, c2), g1x = dot(c1, c12), g22 = dot(c2, c2), g2x = dot(c2, c12),
+    gxx = dot(c12, c12);
     if constexpr (H) {
       const Vec<S, 3> m = cross(c1, c2), m1 = cross(c1, c12), m2 = cross(c12, c2);
       p0 = dot(c, m), p1 = dot(c, m1), p2 = dot(c, m2), px = dot(c12, m);
-      m00 = dot(m, m), m01 = dot(m, m1), m02 = dot(m, m2), m11 = dot(m1, m1), m12 = dot(m1, m2), m22 = dot(m2, m2);
+      m00 = dot(m, m), m01 = dot(m, m1), m02 = dot(m, m2), m11 = dot(m1, m1), m12 = dot(m1, m2),
+      m22 = dot(m2, m2);
     }
   }
 
@@ -221,7 +225,8 @@ template <bool H, class S> struct QuadDescent {
     metric[2] = g22 + x * (2.0 * g2x + x * gxx);
     metric[1] = (g12 + x * g1x) + (y * g2x + xy * gxx);
     const S bend = (g0x + x * g1x) + (y * g2x + xy * gxx);
-    const S towards_1 = (g01 + y * g0x) + y * (g12 + y * g2x), towards_2 = (g02 + x * g0x) + x * (g12 + x * g1x); // F_,a at xi_a = 0
+    const S towards_1 = (g01 + y * g0x) + y * (g12 + y * g2x),
+            towards_2 = (g02 + x * g0x) + x * (g12 + x * g1x); // F_,a at xi_a = 0
     const S F1 = towards_1 + x * metric[0], F2 = towards_2 + y * metric[2];
     const S at_y = g00 + y * (2.0 * g02 + y * g22); // D . D at xi_1 = 0
     twice_merit = at_y + x * (2.0 * towards_1 + x * metric[0]);
@@ -253,11 +258,7 @@ template <bool H, class S> struct QuadDescent {
 };
 
 // What Newton's method asks: the projector itself, or a shorter way to the same numbers
-template <class B, bool H, class S> struct DescentOf {
-  using type = PairProjector<B, H, S>&;
-};
-template <bool H, class S> struct DescentOf<Quad4, H, S> {
-  using type = QuadDescent<H, S>;
-};
+template <class B, bool H, class S> struct DescentOf { using type = PairProjector<B, H, S>&; };
+template <bool H, class S> struct DescentOf<Quad4, H, S> { using type = QuadDescent<H, S>; };
 
 } // namespace ents::ENTS_ISA

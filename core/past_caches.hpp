@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Copies to memory that nobody reads soon: past the caches where the processor can, so that what is overwritten need not be read first.
+// Copies to memory that nobody reads soon: past the caches where the processor can, so that what is
+// overwritten need not be read first.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,14 @@ namespace ents::ENTS_ISA {
 
 #if defined(__AVX512F__)
 inline constexpr int past_caches_width = 8;
-ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm512_stream_pd(to, _mm512_loadu_pd(from)); }
+ENTS_INLINE void store_past_caches(double* to, const double* from) {
+  _mm512_stream_pd(to, _mm512_loadu_pd(from));
+}
 #elif defined(__AVX__)
 inline constexpr int past_caches_width = 4;
-ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm256_stream_pd(to, _mm256_loadu_pd(from)); }
+ENTS_INLINE void store_past_caches(double* to, const double* from) {
+  _mm256_stream_pd(to, _mm256_loadu_pd(from));
+}
 #elif defined(__SSE2__) || defined(_M_X64)
 inline constexpr int past_caches_width = 2;
 ENTS_INLINE void store_past_caches(double* to, const double* from) { _mm_stream_pd(to, _mm_loadu_pd(from)); }
@@ -31,9 +36,13 @@ ENTS_INLINE void store_past_caches(double* to, const double* from) { *to = *from
 
 // Another thread sees what is copied after finish_past_caches() of the copying one.
 inline void copy_past_caches(const double* from, std::int64_t count, double* to) {
-  constexpr std::int64_t line = 64 / sizeof(double); // a part of a line costs more than a store through the caches
-  const auto copy = [=](std::int64_t begin, std::int64_t end) { std::memcpy(to + begin, from + begin, sizeof(double) * static_cast<std::size_t>(end - begin)); };
-  const std::int64_t before = static_cast<std::int64_t>(-reinterpret_cast<std::uintptr_t>(to) % 64 / sizeof(double));
+  constexpr std::int64_t line =
+      64 / sizeof(double); // a part of a line costs more than a store through the caches
+  const auto copy = [=](std::int64_t begin, std::int64_t end) {
+    std::memcpy(to + begin, from + begin, sizeof(double) * static_cast<std::size_t>(end - begin));
+  };
+  const std::int64_t before =
+      static_cast<std::int64_t>(-reinterpret_cast<std::uintptr_t>(to) % 64 / sizeof(double));
   const std::int64_t first = before < count ? before : count, last = first + (count - first) / line * line;
   copy(0, first);
   for (std::int64_t i = first; i < last; i += past_caches_width) store_past_caches(to + i, from + i);
@@ -41,13 +50,15 @@ inline void copy_past_caches(const double* from, std::int64_t count, double* to)
 }
 // About `count` of the numbers still to be copied: up to the end of a line.
 ENTS_NOINLINE inline void copy_some(DeferredCopy& of, std::int64_t count) {
-  const std::int64_t beyond = static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(of.to + count) % 64 / sizeof(double));
+  const std::int64_t beyond =
+      static_cast<std::int64_t>(reinterpret_cast<std::uintptr_t>(of.to + count) % 64 / sizeof(double));
   if (count > beyond) count -= beyond;
   if (count > of.count) count = of.count;
   copy_past_caches(of.from, count, of.to);
   of.from += count, of.to += count, of.count -= count;
 }
-// The memory takes few lines at a time: whoever computes hands them over in between, as many as are computed meanwhile.
+// The memory takes few lines at a time: whoever computes hands them over in between, as many as are computed
+// meanwhile.
 ENTS_INLINE void copy_beside(DeferredCopy* of, std::int64_t count) {
   if (of) copy_some(*of, count);
 }

@@ -4,6 +4,7 @@
 #include "core/fingerprint.hpp"
 #include "core/kernel_table.hpp"
 #include "core/pair_kernels.hpp"
+#include "core/parameter_kernels.hpp"
 
 namespace ents {
 
@@ -11,38 +12,51 @@ namespace {
 
 const KernelSet& kernels_of(Basis basis) {
   switch (basis) {
-    case Basis::line2: return portable::line2_kernels();
-    case Basis::line3: return portable::line3_kernels();
-    case Basis::catmull_rom4: return portable::catmull_rom4_kernels();
-    case Basis::bspline4: return portable::bspline4_kernels();
-    case Basis::tri3: return portable::tri3_kernels();
-    case Basis::tri6: return portable::tri6_kernels();
-    case Basis::quad4: return portable::quad4_kernels();
-    case Basis::quad8: return portable::quad8_kernels();
-    case Basis::quad9: return portable::quad9_kernels();
-    case Basis::catmull_rom16: return portable::catmull_rom16_kernels();
-    case Basis::bspline16: return portable::bspline16_kernels();
-    case Basis::bezier15: break;
+  case Basis::line2:
+    return portable::line2_kernels();
+  case Basis::line3:
+    return portable::line3_kernels();
+  case Basis::catmull_rom4:
+    return portable::catmull_rom4_kernels();
+  case Basis::bspline4:
+    return portable::bspline4_kernels();
+  case Basis::tri3:
+    return portable::tri3_kernels();
+  case Basis::tri6:
+    return portable::tri6_kernels();
+  case Basis::quad4:
+    return portable::quad4_kernels();
+  case Basis::quad8:
+    return portable::quad8_kernels();
+  case Basis::quad9:
+    return portable::quad9_kernels();
+  case Basis::catmull_rom16:
+    return portable::catmull_rom16_kernels();
+  case Basis::bspline16:
+    return portable::bspline16_kernels();
+  case Basis::bezier15:
+    break;
   }
   return portable::bezier15_kernels();
 }
 
-// Are there ordinary elements (pair.hpp) of this model?
-bool has_ordinary_elements(const Model& model) {
-  const ContactLaw& law = model.law;
-  return model.projection == ProjectionKind::normal &&
-         (law.normal == NormalKind::penalty || law.normal == NormalKind::power) && !(law.has_friction() && law.symmetrised);
-}
+} // namespace
 
-}  // namespace
+PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
+  const ContactLaw& law = model.law;
+  const PairKernelsOfBasis& of = kernels.of_basis(model.basis);
+  const bool fast = model.projection == ProjectionKind::normal && law.force_has_slope() &&
+                    model.tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
+  return fast ? of.of[enriched][law.has_friction()] : of.general[enriched];
+}
 
 const PairKernels& best_pair_kernels() {
 #if defined(ENTS_HAS_AVX2) || defined(ENTS_HAS_AVX512)
   __builtin_cpu_init();
 #endif
 #ifdef ENTS_HAS_AVX512
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
     return avx512::pair_kernels;
 #endif
 #ifdef ENTS_HAS_AVX2
@@ -54,7 +68,7 @@ const PairKernels& best_pair_kernels() {
 StateLayout make_state_layout(const Model& model) {
   const ContactLaw& law = model.law;
   const std::int32_t parameters = basis_entry(model.basis).parameters;
-  StateLayout s{-1, -1, -1, StateLayout::xi_at + parameters, 0.0};
+  StateLayout s{-1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
   if (law.has_friction()) {
     s.anchor_at = s.size;
     s.slip_at = s.anchor_at + parameters;
@@ -64,10 +78,15 @@ StateLayout make_state_layout(const Model& model) {
     s.multiplier_at = s.size;
     s.size += law.has_friction() ? 1 + parameters : 1;
   }
-  constexpr double ents = 1701737587.0;  // the four letters
+  if (law.wear.on) {
+    s.wear_at = s.size;
+    s.size += StateLayout::worn_anchor + parameters;
+  }
+  constexpr double ents = 1701737587.0; // the four letters
   const auto basis = static_cast<std::int32_t>(model.basis), normal = static_cast<std::int32_t>(law.normal),
              friction = static_cast<std::int32_t>(law.friction);
-  s.tag = ents * 65536.0 + (((StateLayout::version * 32 + basis) * 16 + normal) * 4 + friction);
+  s.tag = ents * 65536.0 + (((StateLayout::version * 32 + basis) * 16 + normal) * 4 + friction) +
+          (law.wear.on ? 32768.0 : 0.0);
   return s;
 }
 
@@ -83,7 +102,7 @@ double make_surface_stamp(const Model& model) {
   return print.number();
 }
 
-}  // namespace
+} // namespace
 
 namespace {
 
@@ -91,13 +110,18 @@ Plan make(const Model& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);
   const KernelSet& kernels = kernels_of(model.basis);
   Plan plan{};
-  plan.element = kernels.element[enriched][model.rigid_master];
-  if (has_ordinary_elements(model)) plan.pairs = best_pair_kernels().of_basis(model.basis).of[enriched][model.law.has_friction()];
+  plan.element = kernels.element[enriched];
+  plan.finish = kernels.finish[enriched];
+  plan.rest = kernels.rest[enriched];
+  plan.pairs = block_kernel_of(model, enriched, best_pair_kernels());
+  plan.block_results = PairBlock::results & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
   plan.project = kernels.project[enriched];
   plan.border_point = kernels.border_point[enriched];
   plan.box = kernels.box[enriched];
+  plan.by_parameter = parameter_kernels(model.basis).rates;
+  plan.coordinates = parameter_kernels(model.basis).coordinates;
   plan.height = enriched ? &model.height.root() : nullptr;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
@@ -121,10 +145,12 @@ Plan make(const Model& model, bool enriched) {
   return plan;
 }
 
-}  // namespace
+} // namespace
 
-// A height that is zero everywhere is none: the plain segment, to the last bit.
-Plan make_plan(const Model& model) { return make(model, model.height.bound() > 0.0); }
+// A height that is zero everywhere, and stays so, is none: the plain segment, to the last bit.
+Plan make_plan(const Model& model) {
+  return make(model, model.height.bound() > 0.0 || model.height.varies());
+}
 Plan make_base_plan(const Model& model) { return make(model, false); }
 
-}  // namespace ents
+} // namespace ents

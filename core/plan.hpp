@@ -69,42 +69,48 @@ enum : std::int32_t {
 struct ElementInput {
   const double* slave;
   const double* master;
-  const double* surface_coordinates;  // or null
-  const double* start;                // or null
-  const double* area;                 // or null: 1
-  const double* state_begin;          // or null
-  const double* multiplier;           // [multipliers] if the law has multiplier dofs
-  bool start_first = false;           // before the history's xi
+  const double* surface_coordinates; // or null
+  const double* start;               // or null
+  const double* area;                // or null: 1
+  const double* state_begin;         // or null
+  const double* multiplier;          // [multipliers] if the law has multiplier dofs
+  bool start_first = false;          // before the history's xi
 };
 
 struct ElementOutput {
   std::int32_t wanted;
-  double *xi, *gap, *normal_gap, *normal, *point, *gap_gradient, *gap_hessian, *xi_gradient, *xi_hessian, *energy,
-      *pressure, *residual, *tangent, *state_end;
+  double *xi, *gap, *normal_gap, *normal, *point, *gap_gradient, *gap_hessian, *xi_gradient, *xi_hessian,
+      *energy, *pressure, *residual, *tangent, *state_end;
   std::int64_t tangent_leading_dimension;
   std::int32_t *flags, *iterations;
   double *traction, *slip, *age;
 };
 
 struct SurfacePoint {
-  double *point, *normal, *height, *base_point, *base_normal;  // each or null
-  double *curvature, *base_curvature;                          // largest |kappa| of rho_e and of rho; each or null
+  double *point, *normal, *height, *base_point, *base_normal; // each or null
+  double *curvature, *base_curvature; // largest |kappa| of rho_e and of rho; each or null
 };
 
 // State block of an element: where its parts are; -1: not part of it.
-enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 };  // stick: also without friction
+enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 }; // stick: also without friction
 // Is the element what it was? One without a history is open.
-constexpr bool same_status(double before, double now) { return before == now || (before <= 1.0 && now <= 1.0); }
+constexpr bool same_status(double before, double now) {
+  return before == now || (before <= 1.0 && now <= 1.0);
+}
 struct StateLayout {
   static constexpr std::int32_t version = 2;
   static constexpr std::int32_t tag_at = 0, history_at = 1;
-  static constexpr std::int32_t age_at = 2;  // increments since the last change of status
-  static constexpr std::int32_t xi_at = 3;   // [T]
-  std::int32_t anchor_at;                    // [T], friction
-  std::int32_t slip_at;                      // accumulated slip [L], friction
-  std::int32_t multiplier_at;                // [1] or, with friction, [1 + T]: augmented Lagrangian
+  static constexpr std::int32_t age_at = 2; // increments since the last change of status
+  static constexpr std::int32_t xi_at = 3;  // [T]
+  std::int32_t anchor_at;                   // [T], friction
+  std::int32_t slip_at;                     // accumulated slip [L], friction
+  std::int32_t multiplier_at;               // [1] or, with friction, [1 + T]: augmented Lagrangian
+  std::int32_t wear_at; // [worn_slave, worn_master, pressure, anchor [T]], see below; wear
   std::int32_t size;
-  double tag;  // "ents", version, basis and kinds of law in one exactly representable number
+  double tag; // "ents", version, basis and kinds of law in one exactly representable number
+  // From wear_at on: depth that the slave surface has lost [L]; depth that the master surface has lost here
+  // and that no field has yet [L]; pressure [F/L^2] and projection at the end of the increment before
+  static constexpr std::int32_t worn_slave = 0, worn_master = 1, worn_pressure = 2, worn_anchor = 3;
 };
 StateLayout make_state_layout(const Model& model);
 // A block of this layout, with finite numbers and a known history?
@@ -116,14 +122,21 @@ inline bool is_state(const StateLayout& layout, const double* state) {
          (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
 }
 
+// The numbers that an open element without a segment keeps of the state `before` (or null): the worn depths.
+inline void keep_worn_depths(const StateLayout& layout, const double* before, double* state) {
+  if (layout.wear_at < 0 || !before) return;
+  for (const std::int32_t i : {StateLayout::worn_slave, StateLayout::worn_master})
+    state[layout.wear_at + i] = before[layout.wear_at + i];
+}
+
 // The best projection of a slave on a segment.
 struct SegmentProjection {
   double xi[2];
-  double point[3];  // rho_e
-  double gap;       // along n_e (normal), along the ray (shadow)
-  double rank;      // distance (normal), gap (shadow), plus the length by which xi lies beyond the segment's edges
-  double tie;       // ranks closer than this are equal
-  double beyond;    // the length by which xi lies beyond the segment's edges
+  double point[3]; // rho_e
+  double gap;      // along n_e (normal), along the ray (shadow)
+  double rank; // distance (normal), gap (shadow), plus the length by which xi lies beyond the segment's edges
+  double tie;  // ranks closer than this are equal
+  double beyond; // the length by which xi lies beyond the segment's edges
   bool ambiguous;
 };
 
@@ -131,8 +144,19 @@ struct SegmentProjection {
 struct BorderPoint {
   double xi[2];
   double distance;
-  bool corner;  // of a segment in space
+  bool corner; // of a segment in space
 };
+
+// A projection that has been found, and how.
+struct FoundProjection {
+  double xi[2];
+  double f2[3]; // F_,xixi there: next to a collapsed corner it is what the search has made of it
+  std::int32_t evaluations;
+  bool searched;  // the whole segment was
+  bool ambiguous; // a second point is as good
+  bool escaped;   // the iteration left the segment for good; xi: where
+};
+inline constexpr int largest_state = 24;
 
 struct Plan;
 using ElementKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&);
@@ -140,18 +164,20 @@ using SurfaceKernel = Status (*)(const Plan&, const double* master, const double
                                  const double* xi, const SurfacePoint&);
 
 using TransferKernel = Status (*)(const Plan&, const double* old_master, const double* old_coordinates,
-                                  const double* new_master, const double* new_coordinates, const double* state,
-                                  double* moved);
+                                  const double* new_master, const double* new_coordinates,
+                                  const double* state, double* moved);
 
-// A projection whose rank is smaller than `limit`: the one next to `start`; the best of the segment where start is null.
-// False: there is none.
-using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* master, const double* surface_coordinates,
-                               const double* start, double limit, SegmentProjection&);
+// A projection whose rank is smaller than `limit`: the one next to `start`; the best of the segment where
+// start is null. False: there is none.
+using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* master,
+                               const double* surface_coordinates, const double* start, double limit,
+                               SegmentProjection&);
 // False: no point of the border is closer than `limit`.
-using BorderKernel = bool (*)(const Plan&, const double* from, const double* master, const double* surface_coordinates, double limit,
-                              BorderPoint&);
+using BorderKernel = bool (*)(const Plan&, const double* from, const double* master,
+                              const double* surface_coordinates, double limit, BorderPoint&);
 // A box [d] around all of the enriched segment.
-using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low, double* high);
+using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low,
+                           double* high);
 
 // `count` numbers to be copied past the caches, some now, some later
 struct DeferredCopy {
@@ -160,52 +186,104 @@ struct DeferredCopy {
   double* to;
 };
 
-// Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in numbers; arrays that are not
-// wanted or not given are null.
+// Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in
+// numbers; arrays that are not wanted or not given are null.
 struct PairBlock {
   static constexpr std::int32_t most = 64;
-  static constexpr std::int32_t results = want::xi | want::gap | want::normal_gap | want::normal | want::point | want::energy | want::pressure |
-                                          want::residual | want::tangent | want::state | want::flags | want::iterations |
+  static constexpr std::int32_t results = want::xi | want::gap | want::normal_gap | want::normal |
+                                          want::point | want::energy | want::pressure | want::residual |
+                                          want::tangent | want::state | want::flags | want::iterations |
                                           want::traction | want::slip | want::age;
-  const double *slave, *master, *surface_coordinates, *start, *area, *state_begin;
-  std::int64_t slave_stride, master_stride, surface_coordinates_stride, start_stride, area_stride, state_begin_stride;
+  const double *slave, *master, *surface_coordinates, *start, *area, *state_begin, *multiplier;
+  std::int64_t slave_stride, master_stride, surface_coordinates_stride, start_stride, area_stride,
+      state_begin_stride, multiplier_stride;
   std::int32_t wanted; // of `results`
-  double *xi, *gap, *normal_gap, *normal, *point, *energy, *pressure, *residual, *tangent, *state_end, *traction, *slip, *age;
+  double *xi, *gap, *normal_gap, *normal, *point, *energy, *pressure, *residual, *tangent, *state_end,
+      *traction, *slip, *age;
   std::int32_t *flags, *iterations;
-  std::int64_t xi_stride, gap_stride, normal_gap_stride, normal_stride, point_stride, energy_stride, pressure_stride, residual_stride,
-      tangent_stride, state_end_stride, traction_stride, slip_stride, age_stride, flags_stride, iterations_stride;
+  std::int64_t xi_stride, gap_stride, normal_gap_stride, normal_stride, point_stride, energy_stride,
+      pressure_stride, residual_stride, tangent_stride, state_end_stride, traction_stride, slip_stride,
+      age_stride, flags_stride, iterations_stride;
   std::int64_t leading, first;
   bool start_first = false; // before the history's xi
+  const ElementInput* one =
+      nullptr; // a block of one element may want results that no block has (`rest`): gradients and Hessians
+  const ElementOutput* rest = nullptr;
   DeferredCopy* last = nullptr; // results of the block before, still to be copied; or none
 };
-// Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the others are left to the element kernel.
+// The same of one element. Its results beside those in `wanted` are the element kernel's.
+inline PairBlock block_of(const ElementInput& in, const ElementOutput& out, const double* start,
+                          std::int32_t wanted) {
+  PairBlock b{};
+  b.slave = in.slave, b.master = in.master, b.surface_coordinates = in.surface_coordinates;
+  b.start = start, b.area = in.area, b.state_begin = in.state_begin, b.multiplier = in.multiplier,
+  b.start_first = in.start_first;
+  b.wanted = wanted;
+  b.xi = out.xi, b.gap = out.gap, b.normal_gap = out.normal_gap, b.normal = out.normal, b.point = out.point;
+  b.energy = out.energy, b.pressure = out.pressure, b.residual = out.residual, b.tangent = out.tangent;
+  b.leading = out.tangent_leading_dimension;
+  b.state_end = out.state_end, b.flags = out.flags, b.iterations = out.iterations;
+  b.traction = out.traction, b.slip = out.slip, b.age = out.age;
+  return b;
+}
+// Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the
+// others are left to the element kernel.
 using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t count);
+
+// Derivatives of an element's results by a named parameter: see parameter_rates.hpp.
+struct ParameterRates {
+  double gap, energy;
+  double* residual; // [dofs] or null
+};
+using ParameterKernel = Status (*)(const Plan&, const ElementInput&, const double* xi, std::int32_t parameter,
+                                   ParameterRates&);
+// s(xi) [d - 1] of a segment, and the area (2D: length) of the segment without its height per unit of s.
+using CoordinatesKernel = Status (*)(const Plan&, const double* master, const double* surface_coordinates,
+                                     const double* xi, double* s, double& area_per_s);
+
+// All results of an element at a projection.
+using FinishKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&,
+                                const FoundProjection&);
+
+// Where a block kernel has projected an element.
+struct ProjectedElement {
+  double xi[2], sine[3],
+      area; // sine: where the height was looked up last, its value and its slope there (SineAt)
+};
+// Gradients and Hessians there. False: one of them leaves the range of numbers, and the element is left to
+// the element kernel.
+using RestKernel = bool (*)(const Plan&, const ElementInput&, const ElementOutput&, const ProjectedElement&);
 
 struct Plan {
   ElementKernel element;
-  PairKernel pairs;  // null: no element of this model is ordinary
+  FinishKernel finish;
+  RestKernel rest;
+  PairKernel pairs;           // null: this model has no block kernel
+  std::int32_t block_results; // of `pairs`, bits of `want`
   SurfaceKernel surface;
   TransferKernel transfer;
   ProjectKernel project;
   BorderKernel border_point;
   BoxKernel box;
-  const Plan* base;  // the same segments without their height; this plan itself if it has none
-  const HeightNode* height;           // null: plain
-  const double* surface_coordinates;  // the model's own, or null
-  double feature_length[2];           // of the height, in s
-  double height_bound;                // |h| <= height_bound
-  double surface_stamp;               // the same for models of the same basis, height, coordinates and border; > 0
+  ParameterKernel by_parameter;
+  CoordinatesKernel coordinates;
+  const Plan* base;         // the same segments without their height; this plan itself if it has none
+  const HeightNode* height; // null: plain
+  const double* surface_coordinates; // the model's own, or null
+  double feature_length[2];          // of the height, in s
+  double height_bound;               // |h| <= height_bound
+  double surface_stamp; // the same for models of the same basis, height, coordinates and border; > 0
   ProjectionKind projection;
   TangentKind tangent;
   double ray[3];
   ContactLaw law;
-  double penetration_limit;  // 0: the size of the segment
-  double border;             // natural coordinates by which the segment reaches beyond its edges
-  double hull_spread;        // of a segment over its nodes: see segment_box
+  double penetration_limit; // 0: the size of the segment
+  double border;            // natural coordinates by which the segment reaches beyond its edges
+  double hull_spread;       // of a segment over its nodes: see segment_box
   std::int32_t dimension, nodes, parameters;
-  bool simplex;              // xi >= 0, sum xi <= 1
-  std::int32_t multipliers;  // dofs after those of the nodes
-  std::int32_t dofs;         // with multipliers
+  bool simplex;             // xi >= 0, sum xi <= 1
+  std::int32_t multipliers; // dofs after those of the nodes
+  std::int32_t dofs;        // with multipliers
   StateLayout state;
 };
 
@@ -214,4 +292,4 @@ Plan make_plan(const Model& model);
 // The same, whatever the model's height, without one.
 Plan make_base_plan(const Model& model);
 
-}  // namespace ents
+} // namespace ents

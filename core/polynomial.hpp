@@ -6,8 +6,10 @@
 
 namespace ents::ENTS_ISA {
 
-// d[m]: the m-th derivative of p_0 + p_1 x + ... over m!, m <= Most and Degree (Horner; the divisions by x - x_0 go on).
-template <int Degree, int Most, class V, class S> ENTS_INLINE void divide_by_powers(const V* p, const S& x, V (&d)[Most + 1]) {
+// d[m]: the m-th derivative of p_0 + p_1 x + ... over m!, m <= Most and Degree (Horner; the divisions by x -
+// x_0 go on).
+template <int Degree, int Most, class V, class S>
+ENTS_INLINE void divide_by_powers(const V* p, const S& x, V (&d)[Most + 1]) {
   const auto raised = [&x](V a, const V& b) ENTS_LAMBDA_INLINE { // a + x b
     add_scaled(a, x, b);
     return a;
@@ -17,8 +19,10 @@ template <int Degree, int Most, class V, class S> ENTS_INLINE void divide_by_pow
     constexpr int done = step.value + 1, most = Most < done ? Most : done;
     unroll<most>([&](auto low) ENTS_LAMBDA_INLINE {
       constexpr int m = most - low.value;
-      if constexpr (m == done) d[m] = d[m - 1];
-      else d[m] = raised(d[m - 1], d[m]);
+      if constexpr (m == done)
+        d[m] = d[m - 1];
+      else
+        d[m] = raised(d[m - 1], d[m]);
     });
     d[0] = raised(p[Degree - done], d[0]);
   });
@@ -35,9 +39,7 @@ template <int Degree, bool Triangle, class S> struct SurfacePolynomial {
   static constexpr bool has(int m, int n) { return n <= highest(m); }
 
   // Derivatives of order m by xi_1 and n by xi_2, m + n <= Order, over m! n!
-  template <int Order> struct Derivatives {
-    V of[Order + 1][Order + 1];
-  };
+  template <int Order> struct Derivatives { V of[Order + 1][Order + 1]; };
   template <int Order> ENTS_INLINE void differentiate(const S (&xi)[2], Derivatives<Order>& d) const {
     V at[Order + 1][Degree + 1]; // at xi_1, [by xi_1]: factors of the powers of xi_2
     unroll<Degree + 1>([&](auto k) ENTS_LAMBDA_INLINE {

@@ -6,6 +6,7 @@
 // (normal) or on the distance from the ray (shadow).
 #pragma once
 
+#include "core/lanes.hpp"
 #include "core/model.hpp"
 #include "core/surface.hpp"
 
@@ -19,21 +20,21 @@ template <class B, bool H> struct Projection {
   double xi[T];
   Shape<double, T, B::nodes> N;
   Surface<B, H, double> s;
-  double metric[K];  // A_e = rho_e,a . rho_e,b   (normal)
-  double f2[K];      // F_,xixi = A_e - d . rho_e,ab (normal)
+  double metric[K]; // A_e = rho_e,a . rho_e,b   (normal)
+  double f2[K];     // F_,xixi = A_e - d . rho_e,ab (normal)
   int evaluations;
 };
 
 // What a projection needs to know of its model.
 struct Target {
   ProjectionKind kind;
-  double ray[3];            // unit ray direction e of this element (shadow)
-  double inverse_distance;  // 1 / distance of the emitter; 0 for a fixed direction
+  double ray[3];           // unit ray direction e of this element (shadow)
+  double inverse_distance; // 1 / distance of the emitter; 0 for a fixed direction
 };
 
 inline constexpr int max_evaluations = 30;
-inline constexpr double max_step = 0.5;   // natural coordinates
-inline constexpr double far_outside = 4.0;  // |xi| beyond which the iteration has left the segment for good
+inline constexpr double max_step = 0.5;    // natural coordinates
+inline constexpr double far_outside = 4.0; // |xi| beyond which the iteration has left the segment for good
 
 template <int T> ENTS_INLINE double max_norm(const double (&v)[T]) {
   double m = v[0] < 0 ? -v[0] : v[0];
@@ -65,7 +66,9 @@ template <int K> ENTS_INLINE bool is_minimum(const double (&f2)[K], const double
 }
 
 // Smallest eigenvalue of f2 with respect to the metric.
-ENTS_INLINE double smallest_eigenvalue(const double (&f2)[1], const double (&metric)[1]) { return f2[0] / metric[0]; }
+ENTS_INLINE double smallest_eigenvalue(const double (&f2)[1], const double (&metric)[1]) {
+  return f2[0] / metric[0];
+}
 ENTS_INLINE double smallest_eigenvalue(const double (&f2)[3], const double (&metric)[3]) {
   const double det = determinant(metric);
   const double half = 0.5 * (metric[2] * f2[0] - 2.0 * metric[1] * f2[1] + metric[0] * f2[2]) / det;
@@ -73,7 +76,8 @@ ENTS_INLINE double smallest_eigenvalue(const double (&f2)[3], const double (&met
   return half - (square > 0.0 ? square_root(square) : 0.0);
 }
 
-// Newton step of the normal projection; merit = F. False where rho_e has no area (a fold of the enriched surface).
+// Newton step of the normal projection; merit = F. False where rho_e has no area (a fold of the enriched
+// surface).
 template <class B, bool H>
 ENTS_INLINE bool normal_step(Projection<B, H>& p, double (&step)[B::dim - 1], double& merit) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
@@ -96,24 +100,19 @@ ENTS_INLINE bool normal_step(Projection<B, H>& p, double (&step)[B::dim - 1], do
 
 // Covectors of the frame (rho_e,1 .. rho_e,T, e): onto[a] . rho_e,b = delta_ab, onto[a] . e = 0;
 // gap . rho_e,a = 0, gap . e = 1. False if the ray lies in the tangent plane.
-ENTS_INLINE bool ray_frame(const Vec<double, 2> (&e)[1], const Vec<double, 2>& ray, Vec<double, 2> (&onto)[1],
-                           Vec<double, 2>& gap) {
-  const Vec<double, 2> m = normal_of_tangents(e);
-  const double det = dot(m, ray);
-  if (!(det * det > 1e-20 * dot(m, m))) return false;
-  onto[0] = (1.0 / det) * Vec<double, 2>{{ray[1], -ray[0]}};
-  gap = (1.0 / det) * m;
-  return true;
-}
-ENTS_INLINE bool ray_frame(const Vec<double, 3> (&e)[2], const Vec<double, 3>& ray, Vec<double, 3> (&onto)[2],
-                           Vec<double, 3>& gap) {
-  const Vec<double, 3> m = normal_of_tangents(e);
-  const double det = dot(m, ray);
-  if (!(det * det > 1e-20 * dot(m, m))) return false;
-  onto[0] = (1.0 / det) * cross(e[1], ray);
-  onto[1] = (1.0 / det) * cross(ray, e[0]);
-  gap = (1.0 / det) * m;
-  return true;
+template <class S, int D>
+ENTS_INLINE Truth<S> ray_frame(const Vec<S, D> (&e)[D - 1], const Vec<S, D>& ray, Vec<S, D> (&onto)[D - 1],
+                               Vec<S, D>& gap) {
+  const Vec<S, D> m = normal_of_tangents(e);
+  const S det = dot(m, ray), q = unchecked_inverse(det);
+  if constexpr (D == 2) {
+    onto[0] = q * Vec<S, 2>{{ray[1], -ray[0]}};
+  } else {
+    onto[0] = q * cross(e[1], ray);
+    onto[1] = q * cross(ray, e[0]);
+  }
+  gap = q * m;
+  return det * det > 1e-20 * dot(m, m);
 }
 
 template <int D> ENTS_INLINE Vec<double, D> ray_of(const Target& t) {
@@ -124,7 +123,8 @@ template <int D> ENTS_INLINE Vec<double, D> ray_of(const Target& t) {
 
 // Newton step of the shadow projection; merit = half the squared distance from the ray.
 template <class B, bool H>
-ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step)[B::dim - 1], double& merit) {
+ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step)[B::dim - 1],
+                             double& merit) {
   constexpr int D = B::dim, T = D - 1;
   const Vec<double, D> ray = ray_of<D>(t);
   Vec<double, D> onto[T], gap;
@@ -136,10 +136,12 @@ ENTS_INLINE bool shadow_step(Projection<B, H>& p, const Target& t, double (&step
   return true;
 }
 
-// Next to a corner where two nodes are one, a natural coordinate is known to rounding over the length of its tangent only: there a step
-// that moves the point by rounding of the segment's size is the last one.
-template <class B, bool H> ENTS_INLINE bool is_rounding(const Projection<B, H>& p, const double (&step)[B::dim - 1]) {
-  if constexpr (B::dim == 2) return false;
+// Next to a corner where two nodes are one, a natural coordinate is known to rounding over the length of its
+// tangent only: there a step that moves the point by rounding of the segment's size is the last one.
+template <class B, bool H>
+ENTS_INLINE bool is_rounding(const Projection<B, H>& p, const double (&step)[B::dim - 1]) {
+  if constexpr (B::dim == 2)
+    return false;
   else {
     const double first = dot(p.s.a[0], p.s.a[0]), second = dot(p.s.a[1], p.s.a[1]);
     const bool near_corner = first < 1e-4 * second || second < 1e-4 * first;
@@ -156,7 +158,7 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
   double xi[T], step[T] = {}, previous_merit = 0.0, previous_length = 0.0;
   for (int a = 0; a < T; ++a) xi[a] = p.xi[a];
   bool last = false;
-  Found obstacle = Found::not_converged;  // what the iteration met last
+  Found obstacle = Found::not_converged; // what the iteration met last
   for (p.evaluations = 1; p.evaluations <= max_evaluations; ++p.evaluations) {
     const bool first = p.evaluations == 1;
     double next[T], merit = 0.0;
@@ -195,7 +197,7 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
         for (int a = 0; a < T; ++a) step[a] *= max_step / length;
       previous_length = length;
       previous_merit = merit;
-    } else {  // back to the last good point, with half the step
+    } else { // back to the last good point, with half the step
       for (int a = 0; a < T; ++a) step[a] *= 0.5;
       previous_length = 0.0;
       if (max_norm(step) < 1e-14) return obstacle;
@@ -223,4 +225,4 @@ template <class B> ENTS_INLINE bool on_segment(const double (&xi)[B::dim - 1], d
   return beyond_segment<B>(xi) <= border;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

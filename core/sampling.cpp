@@ -14,7 +14,8 @@ struct Point {
   double xi[2], weight;
 };
 
-// Roots of the Legendre polynomial P_n by Newton's method from Chebyshev's, and Gauss's weights 2 / ((1 - x^2) P_n'^2).
+// Roots of the Legendre polynomial P_n by Newton's method from Chebyshev's, and Gauss's weights 2 / ((1 -
+// x^2) P_n'^2).
 std::vector<Point> gauss_legendre(int n) {
   std::vector<Point> points;
   for (int i = 0; i < n; ++i) {
@@ -41,7 +42,8 @@ template <class B> std::vector<Point> rule(int n) {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n - j; ++i) {
         points.push_back({{(i + 1.0 / 3.0) * part, (j + 1.0 / 3.0) * part}, 0.5 * part * part});
-        if (i + j + 1 < n) points.push_back({{(i + 2.0 / 3.0) * part, (j + 2.0 / 3.0) * part}, 0.5 * part * part});
+        if (i + j + 1 < n)
+          points.push_back({{(i + 2.0 / 3.0) * part, (j + 2.0 / 3.0) * part}, 0.5 * part * part});
       }
     return points;
   } else {
@@ -55,8 +57,8 @@ template <class B> std::vector<Point> rule(int n) {
 }
 
 template <class B>
-Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const double* positions, double thickness,
-              std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
+Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const double* positions,
+              double thickness, std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
   using namespace ENTS_ISA;
   constexpr int T = B::dim - 1, M = B::nodes;
   const std::vector<Point> points = rule<B>(n);
@@ -66,7 +68,8 @@ Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const
         double xi[T];
         for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
         Shape<double, T, M> N;
-        const double area = point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
+        const double area =
+            point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
         if (!(area > 0.0) || !(area < 1e300)) return Status::degenerate_segment;
         if (!writes) continue;
         for (int i = 0; i < M; ++i) {
@@ -78,13 +81,14 @@ Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const
   return Status::ok;
 }
 
-}  // namespace
+} // namespace
 
-Status sample_facets(Basis facet_basis, int n, std::int64_t count, const std::int64_t* connectivity, const double* positions,
-                     double thickness, std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
+Status sample_facets(Basis facet_basis, int n, std::int64_t count, const std::int64_t* connectivity,
+                     const double* positions, double thickness, std::int64_t* nodes, double* weights,
+                     double* areas, std::int64_t& facet) {
   return ENTS_ISA::with_facet(facet_basis, Status::bad_value, [&]<class B>(B*) {
     return sample<B>(n, count, connectivity, positions, thickness, nodes, weights, areas, facet);
   });
 }
 
-}  // namespace ents
+} // namespace ents

@@ -27,7 +27,7 @@
 #endif
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define ENTS_INLINE inline  // instrumented code inlined by force would take minutes to compile
+#define ENTS_INLINE inline // instrumented code inlined by force would take minutes to compile
 #define ENTS_LAMBDA_INLINE
 #define ENTS_NOINLINE
 #elif defined(__GNUC__)
@@ -47,8 +47,7 @@
 namespace ents::ENTS_ISA {
 
 // First-order dual number: v + eps d, eps^2 = 0.
-template <class S>
-struct Dual {
+template <class S> struct Dual {
   S v;
   S d;
   Dual() = default;
@@ -78,6 +77,16 @@ template <class S> ENTS_INLINE Dual<S>& operator+=(Dual<S>& a, Dual<S> b) { retu
 template <class S> ENTS_INLINE Dual<S>& operator-=(Dual<S>& a, Dual<S> b) { return a = a - b; }
 template <class S> ENTS_INLINE Dual<S>& operator*=(Dual<S>& a, Dual<S> b) { return a = a * b; }
 
+// By value
+template <class S> ENTS_INLINE auto operator<(Dual<S> a, Dual<S> b) { return a.v < b.v; }
+template <class S> ENTS_INLINE auto operator>(Dual<S> a, Dual<S> b) { return a.v > b.v; }
+template <class S> ENTS_INLINE auto operator<=(Dual<S> a, Dual<S> b) { return a.v <= b.v; }
+template <class S> ENTS_INLINE auto operator>=(Dual<S> a, Dual<S> b) { return a.v >= b.v; }
+template <class S> ENTS_INLINE auto operator<(Dual<S> a, double b) { return a.v < b; }
+template <class S> ENTS_INLINE auto operator>(Dual<S> a, double b) { return a.v > b; }
+template <class S> ENTS_INLINE auto operator<=(Dual<S> a, double b) { return a.v <= b; }
+template <class S> ENTS_INLINE auto operator>=(Dual<S> a, double b) { return a.v >= b; }
+
 #if defined(__GNUC__)
 ENTS_INLINE double absolute(double a) { return __builtin_fabs(a); }
 ENTS_INLINE double square_root(double a) { return __builtin_sqrt(a); }
@@ -90,6 +99,12 @@ template <class S> ENTS_INLINE Dual<S> square_root(Dual<S> a) {
   const S r = square_root(a.v);
   return {r, a.d / (2.0 * r)};
 }
+// Of zero: a derivative of zero, which nothing uses
+ENTS_INLINE Dual<double> square_root(Dual<double> a) {
+  const double r = square_root(a.v);
+  return {r, r > 0.0 ? a.d / (2.0 * r) : 0.0};
+}
+ENTS_INLINE Dual<double> absolute(Dual<double> a) { return a.v < 0.0 ? -a : a; }
 
 // The part of a scalar that decides branches.
 ENTS_INLINE double value_of(double a) { return a; }
@@ -102,4 +117,4 @@ template <class S> inline constexpr bool is_range = false;
 ENTS_INLINE double derivative_of(double) { return 0.0; }
 template <class S> ENTS_INLINE S derivative_of(Dual<S> a) { return a.d; }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edges that two segments share: do the enriched surfaces meet there, at which angle, and with room between them?
+// Edges that two segments share: do the enriched surfaces meet there, at which angle, and with room between
+// them?
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,16 +11,21 @@ namespace ents {
 
 Corners corners_of(Basis basis) {
   switch (basis) {
-    case Basis::line2:
-    case Basis::line3: return {2, {0, 1}, {{-1, 0}, {1, 0}}};
-    case Basis::catmull_rom4:
-    case Basis::bspline4: return {2, {1, 2}, {{-1, 0}, {1, 0}}};
-    case Basis::tri3:
-    case Basis::tri6:
-    case Basis::bezier15: return {3, {0, 1, 2}, {{0, 0}, {1, 0}, {0, 1}}};
-    case Basis::catmull_rom16:
-    case Basis::bspline16: return {4, {5, 6, 10, 9}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-    default: return {4, {0, 1, 2, 3}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  case Basis::line2:
+  case Basis::line3:
+    return {2, {0, 1}, {{-1, 0}, {1, 0}}};
+  case Basis::catmull_rom4:
+  case Basis::bspline4:
+    return {2, {1, 2}, {{-1, 0}, {1, 0}}};
+  case Basis::tri3:
+  case Basis::tri6:
+  case Basis::bezier15:
+    return {3, {0, 1, 2}, {{0, 0}, {1, 0}, {0, 1}}};
+  case Basis::catmull_rom16:
+  case Basis::bspline16:
+    return {4, {5, 6, 10, 9}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  default:
+    return {4, {0, 1, 2, 3}, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   }
 }
 
@@ -64,8 +70,8 @@ struct Side {
   double lift;   // angle by which rho_e rises over rho on its way into the segment
 };
 
-bool side_at(const SurfaceChecker& c, const Corners& corners, const SegmentNodes& nodes, const Edge& edge, double t,
-             Side& out) {
+bool side_at(const SurfaceChecker& c, const Corners& corners, const SegmentNodes& nodes, const Edge& edge,
+             double t, Side& out) {
   const double* from = corners.xi[edge.first];
   const double* to = corners.xi[edge.second];
   const double middle = c.plan.simplex ? 1.0 / 3.0 : 0.0;
@@ -79,7 +85,8 @@ bool side_at(const SurfaceChecker& c, const Corners& corners, const SegmentNodes
   const auto rho = [&](const double* xi, Vector3d& x) {
     double point[3];
     const SurfacePoint wanted = {nullptr, nullptr, nullptr, point, nullptr, nullptr, nullptr};
-    if (c.plan.surface(c.plan, nodes.positions, nodes.surface_coordinates, xi, wanted) != Status::ok) return false;
+    if (c.plan.surface(c.plan, nodes.positions, nodes.surface_coordinates, xi, wanted) != Status::ok)
+      return false;
     x = vector_of(point, c.plan.dimension);
     return true;
   };
@@ -130,7 +137,8 @@ void check_shared_edges(const SurfaceChecker& c, int samples, std::vector<bool>&
       for (int p = 0; p < points; ++p) {
         Side side[2];
         const double t = points == 1 ? 0.0 : p / (points - 1.0);
-        if (!side_at(c, corners, nodes[0], edge[0], t, side[0]) || !side_at(c, corners, nodes[1], edge[1], t, side[1]))
+        if (!side_at(c, corners, nodes[0], edge[0], t, side[0]) ||
+            !side_at(c, corners, nodes[1], edge[1], t, side[1]))
           continue;
         const Vector3d &n = side[0].at.n_e, &m = side[1].at.n_e;
         const double jump = (side[0].at.rho_e - side[1].at.rho_e).norm();
@@ -140,12 +148,16 @@ void check_shared_edges(const SurfaceChecker& c, int samples, std::vector<bool>&
           c.keep(which, worse, value, edge[0].segment, side[0].xi, edge[1].segment, side[1].xi);
           if (bad) c.mark(which, edge[0].segment), c.mark(which, edge[1].segment);
         };
-        at(condition::jump, jump > c.finding(condition::jump).value, jump, jump > c.finding(condition::jump).bound);
-        at(condition::kink, kink > c.finding(condition::kink).value, kink, kink > c.finding(condition::kink).bound);
+        at(condition::jump, jump > c.finding(condition::jump).value, jump,
+           jump > c.finding(condition::jump).bound);
+        at(condition::kink, kink > c.finding(condition::kink).value, kink,
+           kink > c.finding(condition::kink).bound);
         at(condition::wedge, wedge < c.finding(condition::wedge).value, wedge, !(wedge > 0.0));
         rough = rough || kink > smooth_kink || jump > c.finding(condition::jump).bound;
       }
-      if (rough) smooth[static_cast<std::size_t>(edge[0].low)] = smooth[static_cast<std::size_t>(edge[0].high)] = false;
+      if (rough)
+        smooth[static_cast<std::size_t>(edge[0].low)] = smooth[static_cast<std::size_t>(edge[0].high)] =
+            false;
     }
     i = end;
   }

@@ -16,21 +16,21 @@ namespace ents::ENTS_ISA {
 // At a fold, on a collapsed edge or where all nodes coincide rounding leaves tangents of about 1e-16 of the
 // segment's size and of its distance, whose normal points anywhere. The smallest that still have a normal:
 inline constexpr double degenerate_size = 1e-12;     // relative to the size of the segment
-inline constexpr double degenerate_distance = 2e-15;  // relative to its distance from the slave node
+inline constexpr double degenerate_distance = 2e-15; // relative to its distance from the slave node
 
 // One contact element's geometry. Positions are relative to the slave node: what matters (gap, tangents)
 // is then computed from differences, whatever the distance to the host's origin.
 template <class B> struct Geometry {
   static constexpr int D = B::dim, T = D - 1;
-  Vec<double, D> y[B::nodes];         // x_i - x_s
-  const double* surface_coordinates;  // [nodes][T] or null: s = xi
-  const HeightNode* height;           // null: plain segment
-  double smallest_area2;              // of the tangents, squared: below it there is no normal
+  Vec<double, D> y[B::nodes];        // x_i - x_s
+  const double* surface_coordinates; // [nodes][T] or null: s = xi
+  const HeightNode* height;          // null: plain segment
+  double smallest_area2;             // of the tangents, squared: below it there is no normal
 
   ENTS_INLINE void set(const double* slave, const double* master) {
     for (int i = 0; i < B::nodes; ++i)
       for (int k = 0; k < D; ++k) y[i][k] = master[D * i + k] - slave[k];
-    double size2 = 0.0;  // three nodes say how large a segment is
+    double size2 = 0.0; // three nodes say how large a segment is
     for (int i = 1; i < (B::nodes < 3 ? B::nodes : 3); ++i) {
       const Vec<double, D> r = y[i] - y[0];
       size2 += dot(r, r);
@@ -49,32 +49,34 @@ template <class B, bool H, class S> struct Surface {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   using V = Vec<S, D>;
 
-  V a[T], a2[K], a3[T == 1 ? 1 : 4];  // rho_,a rho_,ab rho_,abc (only where the basis has them)
-  V n;                                // unit normal of rho
-  V dual[T];                          // a^k
-  S dual_metric[K];                   // a^k . a^l
-  S area;                             // |a| or |a_1 x a_2|
-  V n1[T];                            // n_,a (H, bent basis)
-  HeightJet<T, S> height;  // by xi (H)
+  V a[T], a2[K], a3[T == 1 ? 1 : 4]; // rho_,a rho_,ab rho_,abc (only where the basis has them)
+  V n;                               // unit normal of rho
+  V dual[T];                         // a^k
+  S dual_metric[K];                  // a^k . a^l
+  S area;                            // |a| or |a_1 x a_2|
+  V n1[T];                           // n_,a (H, bent basis)
+  HeightJet<T, S> height;            // by xi (H)
 
-  V d;      // x_s - rho_e
-  V e[T];   // rho_e,a
-  V e2[K];  // rho_e,ab
+  V d;     // x_s - rho_e
+  V e[T];  // rho_e,a
+  V e2[K]; // rho_e,ab
 };
 
 // h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
 template <class B, int Order, class Height, class S, class C>
 ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, const S (&xi)[B::dim - 1],
-                                       const Shape<S, B::dim - 1, B::nodes>& N, HeightJet<B::dim - 1, S>& out) {
+                                       const Shape<S, B::dim - 1, B::nodes>& N,
+                                       HeightJet<B::dim - 1, S>& out) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
   if (!coordinates) {
     out = height(xi);
     return;
   }
-  S s[T], s1[T][T], s2[K][T];  // s, s_,a, s_,ab
+  S s[T], s1[T][T], s2[K][T]; // s, s_,a, s_,ab
   const C* c = coordinates;
   C relative[is_range<S> ? T * B::nodes : 1];
-  if constexpr (is_range<S>) {  // sum N_i = 1: of differences, or the ranges of N_i would grow with the distance from s = 0
+  if constexpr (is_range<S>) { // sum N_i = 1: of differences, or the ranges of N_i would grow with the
+                               // distance from s = 0
     for (int i = 0; i < T * B::nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
     c = relative;
   }
@@ -103,7 +105,7 @@ ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, co
   }
   if constexpr (Order > 1)
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      constexpr int a = k / 2, b = (k + 1) / 2;  // 11, 12, 22
+      constexpr int a = k / 2, b = (k + 1) / 2; // 11, 12, 22
       S v = j.h2[0] * (s1[a][0] * s1[b][0]);
       if constexpr (T == 2)
         v = v + j.h2[1] * (s1[a][0] * s1[b][1] + s1[a][1] * s1[b][0]) + j.h2[2] * (s1[a][1] * s1[b][1]);
@@ -124,8 +126,8 @@ ENTS_INLINE Vec<S, D> combine(const S (&w)[M], const Vec<double, D> (&y)[M]) {
   return v;
 }
 
-// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface is
-// complete but for it.
+// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface
+// is complete but for it.
 template <int Order, class B, bool H, class S>
 ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1],
                                   Shape<S, B::dim - 1, B::nodes>& N, Surface<B, H, S>& s) {
@@ -159,8 +161,10 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
   if constexpr (!H) {
     for (int a = 0; a < T; ++a) s.e[a] = s.a[a];
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Order > 1 && B::second[k]) s.e2[k] = s.a2[k];
-      else s.e2[k] = Vec<S, D>::zero();
+      if constexpr (Order > 1 && B::second[k])
+        s.e2[k] = s.a2[k];
+      else
+        s.e2[k] = Vec<S, D>::zero();
     });
   }
   if (!(value_of(area2) > g.smallest_area2)) return false;
@@ -173,7 +177,7 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
-    const auto height_at = [&](const S (&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
+    const auto height_at = [&](const S(&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
     evaluate_height_by_xi<B, Order>(height_at, g.surface_coordinates, xi, N, s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
@@ -229,4 +233,4 @@ ENTS_INLINE bool enriched_normal(const Surface<B, H, S>& s, Vec<S, B::dim>& norm
   return true;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

@@ -101,28 +101,35 @@ Status check_segments(const SurfaceChecker& c, const SurfaceLimits& limits, std:
   };
   refine(c, condition::fold, step, true, [&](const SegmentNodes& nodes, const double* xi) {
     double h, curvature;
-    return point(nodes, xi, {nullptr, nullptr, &h, nullptr, nullptr, nullptr, &curvature}) ? std::fabs(h) * curvature
-                                                                                          : infinity;
+    return point(nodes, xi, {nullptr, nullptr, &h, nullptr, nullptr, nullptr, &curvature})
+               ? std::fabs(h) * curvature
+               : infinity;
   });
   refine(c, condition::projection, step, false, [&](const SegmentNodes& nodes, const double* xi) {
     double curvature;
-    return point(nodes, xi, {nullptr, nullptr, nullptr, nullptr, nullptr, &curvature, nullptr}) ? 1.0 / curvature : 0.0;
+    return point(nodes, xi, {nullptr, nullptr, nullptr, nullptr, nullptr, &curvature, nullptr})
+               ? 1.0 / curvature
+               : 0.0;
   });
   if (c.plan.projection != ProjectionKind::normal)
     refine(c, condition::shadow, step, false, [&](const SegmentNodes& nodes, const double* xi) {
       double x[3], n[3];
-      return point(nodes, xi, {x, n, nullptr, nullptr, nullptr, nullptr, nullptr}) ? cosine_of_ray(c.plan, x, n)
-                                                                                   : infinity;
+      return point(nodes, xi, {x, n, nullptr, nullptr, nullptr, nullptr, nullptr})
+                 ? cosine_of_ray(c.plan, x, n)
+                 : infinity;
     });
   // what lies between the samples may be beyond a bound where no sample is
   if (const Finding& f = c.finding(condition::fold); !(f.value < f.bound)) c.mark(condition::fold, f.segment);
-  if (const Finding& f = c.finding(condition::projection); !(f.value >= f.bound)) c.mark(condition::projection, f.segment);
-  if (const Finding& f = c.finding(condition::shadow); !(f.value > f.bound)) c.mark(condition::shadow, f.segment);
+  if (const Finding& f = c.finding(condition::projection); !(f.value >= f.bound))
+    c.mark(condition::projection, f.segment);
+  if (const Finding& f = c.finding(condition::shadow); !(f.value > f.bound))
+    c.mark(condition::shadow, f.segment);
   return Status::ok;
 }
 
 void set_bounds(const SurfaceChecker& c, const SurfaceLimits& limits) {
-  const bool local = c.plan.height && !c.mesh.surface_coordinates && !c.plan.surface_coordinates && !c.smoothed();
+  const bool local =
+      c.plan.height && !c.mesh.surface_coordinates && !c.plan.surface_coordinates && !c.smoothed();
   const bool normal = c.plan.projection == ProjectionKind::normal;
   const double reach = limits.reach > 0.0 ? limits.reach : c.plan.penetration_limit;
   const auto set = [&](int which, double bound, bool judged) {
@@ -145,8 +152,8 @@ void set_bounds(const SurfaceChecker& c, const SurfaceLimits& limits) {
 
 } // namespace
 
-Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh, const SurfaceLimits& limits,
-                     SurfaceAdmissibility& result, std::int64_t& segment) {
+Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh,
+                     const SurfaceLimits& limits, SurfaceAdmissibility& result, std::int64_t& segment) {
   result = {};
   result.height_min = infinity, result.height_max = -infinity;
   result.violations.assign(static_cast<std::size_t>(mesh.segments), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is an enrichment admissible on a whole surface? The conditions of section 3 and Fig. 4 of the paper (theory, section
-// 5), each with its worst place. Measured on grids of natural coordinates; the worst place of a smooth quantity is then
-// sought between the samples.
+// Is an enrichment admissible on a whole surface? The conditions of section 3 and Fig. 4 of the paper
+// (theory, section 5), each with its worst place. Measured on grids of natural coordinates; the worst place
+// of a smooth quantity is then sought between the samples.
 #pragma once
 
 #include <vector>
@@ -35,7 +35,8 @@ struct Finding {
 
 struct SurfaceLimits {
   int samples;  // per direction and segment; 0: as fine as the height asks for
-  double reach; // [L] up to which a slave shall have one normal projection; 0: the model's penetration limit, if it has one
+  double reach; // [L] up to which a slave shall have one normal projection; 0: the model's penetration limit,
+                // if it has one
   double kink;  // [rad] tolerated between neighbours; 0: not judged
 };
 
@@ -46,8 +47,9 @@ struct SurfaceAdmissibility {
   std::vector<std::int64_t> violations; // [segments] 1 << condition
 };
 
-// Allocates: see ents_surface_check. Errors as `gather` and of a plain segment that is degenerate, at `segment`.
-Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh, const SurfaceLimits& limits,
-                     SurfaceAdmissibility& result, std::int64_t& segment);
+// Allocates: see ents_surface_check. Errors as `gather` and of a plain segment that is degenerate, at
+// `segment`.
+Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh,
+                     const SurfaceLimits& limits, SurfaceAdmissibility& result, std::int64_t& segment);
 
 } // namespace ents

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the conditions of a whole surface share: places on it, and the record of what was found. Points of the plane have
-// z = 0 here.
+// What the conditions of a whole surface share: places on it, and the record of what was found. Points of the
+// plane have z = 0 here.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,9 +36,10 @@ struct SurfaceChecker {
 
   bool smoothed() const { return basis_entry(model.basis).smoothed; }
   Finding& finding(int which) const { return result.findings[which]; }
-  // Keep the place if its value is the worst so far; a segment without a place is one where the value holds everywhere.
-  bool keep(int which, bool worse, double value, std::int64_t segment, const double* xi, std::int64_t other = -1,
-            const double* other_xi = nullptr) const {
+  // Keep the place if its value is the worst so far; a segment without a place is one where the value holds
+  // everywhere.
+  bool keep(int which, bool worse, double value, std::int64_t segment, const double* xi,
+            std::int64_t other = -1, const double* other_xi = nullptr) const {
     Finding& f = finding(which);
     if (f.segment >= 0 && !worse) return false;
     const int parameters = plan.parameters;
@@ -56,8 +57,8 @@ struct SurfaceChecker {
   }
 };
 
-// Corners of a segment: places in its connectivity and natural coordinates; 2 of a line, 3 or 4 in the order of its
-// border. For smoothed segments the nodes of the part in the middle, which is the segment.
+// Corners of a segment: places in its connectivity and natural coordinates; 2 of a line, 3 or 4 in the order
+// of its border. For smoothed segments the nodes of the part in the middle, which is the segment.
 struct Corners {
   int count;
   int node[4];

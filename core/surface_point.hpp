@@ -25,14 +25,15 @@ Status evaluate_surface_point(const Plan& plan, const double* master, const doub
       (surface_coordinates && !all_finite<T * B::nodes>(surface_coordinates)))
     return Status::non_finite;
   Geometry<B> g;
-  g.set(master, master);  // seen from the first node
+  g.set(master, master); // seen from the first node
   g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;
   double at[T];
   for (int a = 0; a < T; ++a) at[a] = xi[a];
   Projection<B, H> p;
   Vec<double, D> normal;
-  if (!evaluate_surface<2>(g, at, p.N, p.s) || !enriched_normal(p.s, normal)) return Status::degenerate_segment;
+  if (!evaluate_surface<2>(g, at, p.N, p.s) || !enriched_normal(p.s, normal))
+    return Status::degenerate_segment;
   double h = 0.0;
   if constexpr (H) h = p.s.height.h;
   double zero = 0.0 * h;
@@ -65,4 +66,4 @@ Status evaluate_surface_point(const Plan& plan, const double* master, const doub
   return Status::ok;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

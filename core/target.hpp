@@ -22,4 +22,4 @@ template <int D> ENTS_INLINE bool set_target(const Plan& plan, const double* sla
   return true;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/element.hpp"
+#include "core/search.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -26,7 +27,8 @@ ENTS_INLINE void coordinates_at(const double* c, const double (&xi)[B::dim - 1],
 
 // xi with s(xi) = wanted, by Newton's method from the middle; exact after one step for affine s.
 template <class B>
-ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::dim - 1], double (&xi)[B::dim - 1]) {
+ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::dim - 1],
+                                    double (&xi)[B::dim - 1]) {
   constexpr int T = B::dim - 1;
   domain_centre<B>(xi);
   for (int iteration = 0; iteration < max_evaluations; ++iteration) {
@@ -52,15 +54,19 @@ ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::d
 
 // Where a segment without its height is, seen from the slave.
 template <class B, bool H> ENTS_INLINE Vec<double, B::dim> base_of(const Surface<B, H, double>& s) {
-  if constexpr (H) return s.d + s.height.h * s.n;
-  else return s.d;
+  if constexpr (H)
+    return s.d + s.height.h * s.n;
+  else
+    return s.d;
 }
 
-// Is xi of the new segment the place that old_xi was on the old one? Beyond its border a segment goes on in its own way, and coordinates
-// with a seam between the segments, or the same ones on each, lead elsewhere: what counts is how far beyond the borders both are.
+// Is xi of the new segment the place that old_xi was on the old one? Beyond its border a segment goes on in
+// its own way, and coordinates with a seam between the segments, or the same ones on each, lead elsewhere:
+// what counts is how far beyond the borders both are.
 template <class B, bool H>
-ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old, const double (&old_xi)[B::dim - 1],
-                          const double (&xi)[B::dim - 1], Projection<B, H>& p) {
+ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old,
+                          const double (&old_xi)[B::dim - 1], const double (&xi)[B::dim - 1],
+                          Projection<B, H>& p) {
   if (!evaluate_surface<1>(g, xi, p.N, p.s)) return false;
   // `old` is seen from the old segment's first node, the slave of g is rho_e of it
   Vec<double, B::dim> miss = base_of(p.s);
@@ -76,9 +82,10 @@ ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old
   return dot(miss, miss) <= most * most;
 }
 
-// The closest place of the segment, or of what it goes on as beyond its border: a search of the segment, and what is near the
-// projection on the segment without its height.
-template <class B, bool H> ENTS_INLINE bool closest_place(const Plan& plan, const Geometry<B>& g, Projection<B, H>& p) {
+// The closest place of the segment, or of what it goes on as beyond its border: a search of the segment, and
+// what is near the projection on the segment without its height.
+template <class B, bool H>
+ENTS_INLINE bool closest_place(const Plan& plan, const Geometry<B>& g, Projection<B, H>& p) {
   Target t{};
   t.kind = ProjectionKind::normal;
   const bool found = search<B, H>(g, t, plan, p).found == Found::yes;
@@ -94,7 +101,8 @@ template <class B, bool H> ENTS_INLINE bool closest_place(const Plan& plan, cons
 
 template <class B, bool H>
 Status transfer_state(const Plan& plan, const double* old_master, const double* old_coordinates,
-                      const double* new_master, const double* new_coordinates, const double* state, double* moved) {
+                      const double* new_master, const double* new_coordinates, const double* state,
+                      double* moved) {
   constexpr int D = B::dim, T = D - 1;
   const StateLayout& layout = plan.state;
   if (!all_finite<D * B::nodes>(old_master) || !all_finite<D * B::nodes>(new_master) ||
@@ -105,9 +113,10 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
   double end[largest_state];
   for (int i = 0; i < layout.size; ++i) end[i] = state[i];
   const bool seen = state[StateLayout::history_at] != static_cast<double>(History::none);
-  const int points[2] = {StateLayout::xi_at, layout.anchor_at};
+  const int points[3] = {StateLayout::xi_at, layout.anchor_at,
+                         layout.wear_at < 0 ? -1 : layout.wear_at + StateLayout::worn_anchor};
   Projection<B, H> from, to;
-  for (int which = 0; seen && which < 2; ++which) {
+  for (int which = 0; seen && which < 3; ++which) {
     if (points[which] < 0) continue;
     const double* old_xi = state + points[which];
     double xi[T];
@@ -128,7 +137,7 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     }
     if (!located) {
       const bool found = closest_place(plan, g, to);
-      if (!found && which == 1) return Status::no_projection;
+      if (!found && which > 0) return Status::no_projection;
       // Where the next projection starts is no history: a slave that went far may start from the middle.
       if (!found) domain_centre<B>(to.xi);
       for (int a = 0; a < T; ++a) xi[a] = to.xi[a];
@@ -139,14 +148,18 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       g.set(new_master, new_master);
       g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
       Vec<double, D> normal;
-      if (!evaluate_surface<1>(g, xi, to.N, to.s) || !enriched_normal(from.s, normal)) return Status::degenerate_segment;
-      double metric[symmetric_size<T>], inverse[symmetric_size<T>], covariant[T], raised[T];
+      if (!evaluate_surface<1>(g, xi, to.N, to.s) || !enriched_normal(from.s, normal))
+        return Status::degenerate_segment;
+      double metric[symmetric_size<T>], inverse[symmetric_size<T>], raised[T];
       for (int k = 0; k < symmetric_size<T>; ++k) metric[k] = dot(from.s.e[k / 2], from.s.e[(k + 1) / 2]);
       const double det = determinant(metric);
       if (!(det > 0.0)) return Status::degenerate_segment;
       invert(metric, det, inverse);
-      for (int a = 0; a < T; ++a) covariant[a] = state[layout.multiplier_at + 1 + a];
-      multiply<T>(inverse, covariant, raised);
+      const double* covariant = state + layout.multiplier_at + 1;
+      for (int a = 0; a < T; ++a) {
+        raised[a] = inverse[symmetric_index(a, 0)] * covariant[0];
+        if constexpr (T == 2) raised[a] += inverse[symmetric_index(a, 1)] * covariant[1];
+      }
       Vec<double, D> traction = Vec<double, D>::zero();
       for (int a = 0; a < T; ++a) add_scaled(traction, raised[a], from.s.e[a]);
       for (int a = 0; a < T; ++a) end[layout.multiplier_at + 1 + a] = dot(traction, to.s.e[a]);
@@ -154,9 +167,9 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
   }
   double size = 0.0;
   for (int i = 0; i < layout.size; ++i) size += absolute(end[i]);
-  if (!(size < largest_result)) return Status::out_of_range;
+  if (!(size < 1e300)) return Status::out_of_range;
   for (int i = 0; i < layout.size; ++i) moved[i] = end[i];
   return Status::ok;
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

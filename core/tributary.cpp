@@ -39,7 +39,8 @@ template <class B> int quadrature(Point (&points)[9]) {
   return n;
 }
 
-template <class B> bool add_facet(const std::int64_t* nodes, const double* positions, double thickness, double* areas) {
+template <class B>
+bool add_facet(const std::int64_t* nodes, const double* positions, double thickness, double* areas) {
   using namespace ENTS_ISA;
   constexpr int D = B::dim, T = D - 1, M = B::nodes;
   Point points[9];
@@ -65,20 +66,23 @@ template <class B> bool add_facet(const std::int64_t* nodes, const double* posit
 }
 
 template <class B>
-Status add_facets(std::int64_t count, const std::int64_t* connectivity, const double* positions, double thickness,
-                  double* areas, std::int64_t& facet) {
+Status add_facets(std::int64_t count, const std::int64_t* connectivity, const double* positions,
+                  double thickness, double* areas, std::int64_t& facet) {
   for (facet = 0; facet < count; ++facet)
-    if (!add_facet<B>(connectivity + facet * B::nodes, positions, thickness, areas)) return Status::degenerate_segment;
+    if (!add_facet<B>(connectivity + facet * B::nodes, positions, thickness, areas))
+      return Status::degenerate_segment;
   return Status::ok;
 }
 
-}  // namespace
+} // namespace
 
 Status add_tributary_areas(Basis facet_basis, std::int64_t count, const std::int64_t* connectivity,
                            const double* positions, double thickness, double* areas, std::int64_t& facet) {
   using namespace ENTS_ISA;
-  const auto add = [&]<class B>(B*) { return add_facets<B>(count, connectivity, positions, thickness, areas, facet); };
+  const auto add = [&]<class B>(B*) {
+    return add_facets<B>(count, connectivity, positions, thickness, areas, facet);
+  };
   return with_facet(facet_basis, Status::bad_value, add);
 }
 
-}  // namespace ents
+} // namespace ents

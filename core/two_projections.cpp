@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// At which |gap| has a slave two normal projections? A ball that touches the surface in p has its centre at p + r n_e; as
-// long as no other point of the surface lies inside, p is the only closest one. The ball is shrunk until that is so
-// (Ma, Bae, Choi, 3D medial axis point approximation using nearest neighbors and the normal field, The Visual
-// Computer 28, 2012); where it touches the surface once more, its centre has two projections. The smallest radius is
-// the reach of the surface (Federer, Curvature measures, Trans. AMS 93, 1959), together with the radius of curvature.
+// At which |gap| has a slave two normal projections? A ball that touches the surface in p has its centre at p
+// + r n_e; as long as no other point of the surface lies inside, p is the only closest one. The ball is
+// shrunk until that is so (Ma, Bae, Choi, 3D medial axis point approximation using nearest neighbors and the
+// normal field, The Visual Computer 28, 2012); where it touches the surface once more, its centre has two
+// projections. The smallest radius is the reach of the surface (Federer, Curvature measures, Trans. AMS 93,
+// 1959), together with the radius of curvature.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -19,7 +20,8 @@ using Eigen::Vector3d;
 // Relative to the size of the surface; above what a jump may be that is no jump.
 constexpr double same_place = 1e-7;
 
-// At a kink between two segments there are always two projections: what the kink is for, and no fault of the height.
+// At a kink between two segments there are always two projections: what the kink is for, and no fault of the
+// height.
 class Kinks {
 public:
   Kinks(const SurfaceChecker& c, const std::vector<bool>& smooth)
@@ -29,7 +31,8 @@ public:
     const std::int64_t *x = nodes(a), *y = nodes(b);
     for (int i = 0; i < corners_.count; ++i)
       for (int j = 0; j < corners_.count; ++j)
-        if (x[corners_.node[i]] == y[corners_.node[j]] && !smooth_[static_cast<std::size_t>(x[corners_.node[i]])])
+        if (x[corners_.node[i]] == y[corners_.node[j]] &&
+            !smooth_[static_cast<std::size_t>(x[corners_.node[i]])])
           return true;
     return false;
   }
@@ -54,7 +57,9 @@ struct ClosestSample {
   Facets::Cell cell{};
   int at[2] = {0, 0};
 
-  bool intersectVolume(const Facets::Tree::Volume& box) const { return box.squaredExteriorDistance(centre) < distance2; }
+  bool intersectVolume(const Facets::Tree::Volume& box) const {
+    return box.squaredExteriorDistance(centre) < distance2;
+  }
   bool intersectObject(std::int64_t index) {
     const Facets::Cell where = facets.cell(index);
     Facets::Piece piece[2];
@@ -64,7 +69,9 @@ struct ClosestSample {
       for (int k = 0; k < facets.corners(); ++k) {
         const double d2 = (facets.point(where, piece[p].corner[k]) - centre).squaredNorm();
         if (!(d2 < distance2)) continue;
-        if (where.segment != own && (facets.point(where, piece[p].corner[k]) - touched).squaredNorm() < apart2) continue;
+        if (where.segment != own &&
+            (facets.point(where, piece[p].corner[k]) - touched).squaredNorm() < apart2)
+          continue;
         if (!checked && kinks.between(own, where.segment)) return false;
         checked = true;
         distance2 = d2;
@@ -76,8 +83,8 @@ struct ClosestSample {
   }
 };
 
-// Is the ball tangent to the surface at this sample, as far as the distance of the samples lets it be seen? On a free
-// border a ball may touch a point that is no projection.
+// Is the ball tangent to the surface at this sample, as far as the distance of the samples lets it be seen?
+// On a free border a ball may touch a point that is no projection.
 bool tangent(const Facets& f, const ClosestSample& q, double radius) {
   const auto k = static_cast<std::size_t>(q.found);
   const Vector3d ray = (q.centre - f.points[k]) / radius;
@@ -87,7 +94,8 @@ bool tangent(const Facets& f, const ClosestSample& q, double radius) {
   const int count = f.pieces(q.cell, piece);
   for (int p = 0; p < count; ++p)
     for (int i = 0; i < f.corners(); ++i) {
-      const auto m = static_cast<std::size_t>(f.sample(q.cell.segment, piece[p].corner[i][0], piece[p].corner[i][1]));
+      const auto m =
+          static_cast<std::size_t>(f.sample(q.cell.segment, piece[p].corner[i][0], piece[p].corner[i][1]));
       spacing = std::max(spacing, (f.points[m] - f.points[k]).norm());
       turn = std::max(turn, (f.normals[m] - f.normals[k]).norm());
     }

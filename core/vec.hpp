@@ -7,8 +7,7 @@
 
 namespace ents::ENTS_ISA {
 
-template <class S, int D>
-struct Vec {
+template <class S, int D> struct Vec {
   S c[D];
   ENTS_INLINE void set(int i, const S& x) { c[i] = x; }
   ENTS_INLINE S& operator[](int i) { return c[i]; }
@@ -36,7 +35,8 @@ template <class S, int D> ENTS_INLINE Vec<S, D> derivative_of(const Vec<Dual<S>,
   for (int i = 0; i < D; ++i) d[i] = a[i].d;
   return d;
 }
-template <class S, int D> ENTS_INLINE void set_dual(Vec<Dual<S>, D>& a, const Vec<S, D>& value, const Vec<S, D>& derivative) {
+template <class S, int D>
+ENTS_INLINE void set_dual(Vec<Dual<S>, D>& a, const Vec<S, D>& value, const Vec<S, D>& derivative) {
   for (int i = 0; i < D; ++i) a[i] = Dual<S>(value[i], derivative[i]);
 }
 template <class S, int D> ENTS_INLINE void set_constant(Vec<Dual<S>, D>& a, const Vec<S, D>& value) {
@@ -96,20 +96,25 @@ template <class S> ENTS_INLINE Vec<S, 3> normal_of_tangents(const Vec<S, 3> (&a)
 }
 
 // Symmetric matrices of the parameter space (1 x 1 or 2 x 2) are stored as 11 | 11, 12, 22.
-template <int T> inline constexpr int symmetric_size = T * (T + 1) / 2;
-ENTS_INLINE constexpr int symmetric_index(int a, int b) { return a + b; }  // T <= 2
+template <int T> inline constexpr int symmetric_size = T*(T + 1) / 2;
+ENTS_INLINE constexpr int symmetric_index(int a, int b) { return a + b; } // T <= 2
 
 template <class S> ENTS_INLINE S determinant(const S (&m)[1]) { return m[0]; }
 template <class S> ENTS_INLINE S determinant(const S (&m)[3]) { return m[0] * m[2] - m[1] * m[1]; }
 
-// inverse[] of a symmetric matrix, from the inverse of its determinant or from the determinant, which is not zero
-template <class S> ENTS_INLINE void invert_with(const S (&)[1], const S& inverse_det, S (&inverse)[1]) { inverse[0] = inverse_det; }
+// inverse[] of a symmetric matrix, from the inverse of its determinant or from the determinant, which is not
+// zero
+template <class S> ENTS_INLINE void invert_with(const S (&)[1], const S& inverse_det, S (&inverse)[1]) {
+  inverse[0] = inverse_det;
+}
 template <class S> ENTS_INLINE void invert_with(const S (&m)[3], const S& inverse_det, S (&inverse)[3]) {
   inverse[0] = m[2] * inverse_det;
   inverse[1] = -m[1] * inverse_det;
   inverse[2] = m[0] * inverse_det;
 }
-template <int K, class S> ENTS_INLINE void invert(const S (&m)[K], const S& det, S (&inverse)[K]) { invert_with(m, S(1.0 / det), inverse); }
+template <int K, class S> ENTS_INLINE void invert(const S (&m)[K], const S& det, S (&inverse)[K]) {
+  invert_with(m, S(1.0 / det), inverse);
+}
 
 // Compile-time loop: f(Index<0>{}), f(Index<1>{}), ...
 template <int I> struct Index {
@@ -123,4 +128,4 @@ template <int N, int I = 0, class F> ENTS_INLINE void unroll(F&& f) {
   }
 }
 
-}  // namespace ents::ENTS_ISA
+} // namespace ents::ENTS_ISA

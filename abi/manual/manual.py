@@ -66,7 +66,8 @@ PREDEFINED = ENTS_API=
 WARN_IF_UNDOCUMENTED = NO
 """
 CSS = """.wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }
-.rst-content .highlight-text pre, .rst-content .highlight-python pre { white-space: pre-wrap !important; }
+.rst-content .highlight-text pre, .rst-content .highlight-python pre, .rst-content .highlight-none pre,
+.rst-content .highlight-json pre { white-space: pre-wrap !important; }
 """
 LINK = re.compile(r"(!?\[)([^\]]*)\]\(([^)\s#]*)((?:#[^)\s]*)?)\)")
 

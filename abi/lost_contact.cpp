@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abi/lost_contact.hpp"
+
+#include <cmath>
+
+#include "core/behind_edge.hpp"
+
+namespace ents {
+
+namespace {
+
+// Is the slave farther from the tangent plane of the segments without their height than any height?
+bool is_above_texture(const Plan& plan, const MasterMesh& mesh, const double* slave,
+                      const NearestBorder& border) {
+  SegmentNodes nodes;
+  double point[3], normal[3], distance = 0.0;
+  if (gather(plan, mesh, border.segment, nodes) != Status::ok ||
+      plan.surface(plan, nodes.positions, nodes.surface_coordinates, border.at.xi,
+                   {nullptr, nullptr, nullptr, point, normal, nullptr, nullptr}) != Status::ok)
+    return false;
+  for (int k = 0; k < plan.dimension; ++k) distance += (slave[k] - point[k]) * normal[k];
+  return distance > plan.height_bound;
+}
+
+} // namespace
+
+Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                        std::int64_t before, const double* xi_before, const Detection& found) noexcept {
+  if (found.behind_edge) return Lost::behind_edge;
+  SegmentNodes nodes;
+  if (gather(plan, mesh, before, nodes) != Status::ok) return Lost::no;
+  const Plan& base = plan.base ? *plan.base : plan;
+  double gap = 0.0;
+  ElementInput element{};
+  element.slave = slave, element.master = nodes.positions;
+  element.surface_coordinates = nodes.surface_coordinates, element.start = xi_before;
+  const double multipliers[3] = {}; // read, but without effect on a gap
+  element.multiplier = multipliers;
+  ElementOutput result{};
+  result.wanted = want::gap, result.gap = &gap;
+  // Most have simply risen; this costs one projection. Without a law the segment has no border: the
+  // projection may lie beyond its edges.
+  if (base.element(base, element, result) == Status::ok && gap > plan.height_bound) return Lost::no;
+  // What is closest to the slave, a projection at any distance or a border, says on which side it is.
+  constexpr double anywhere = 1e100;
+  Detection far = found;
+  far.segment = -1;
+  if (detect(plan, mesh, tree, slave, anywhere, far) != Status::ok) return Lost::beside;
+  const bool projected = far.segment >= 0;
+  // Self-contact: the closest border is the slave's own node.
+  if (plan.projection != ProjectionKind::normal || found.own_node >= 0)
+    return !projected ? Lost::beside : far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
+  NearestBorder nearest{{}, -1};
+  if (!nearest_border(plan, mesh, tree, slave, projected ? std::fabs(far.at.gap) : anywhere, nearest))
+    return projected && far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
+  double crack = 0.0;
+  switch (side_of_border(plan, mesh, tree, slave, nearest, crack)) {
+  case BorderSide::ahead:
+    return Lost::no;
+  case BorderSide::behind:
+    return Lost::too_deep;
+  case BorderSide::beside_ahead:
+    if (plan.height_bound == 0.0) return Lost::no;
+    break; // above the tangent plane of the texture, which might go on above it
+  case BorderSide::beside_behind:
+    break;
+  }
+  return is_above_texture(plan, mesh, slave, nearest) ? Lost::no : Lost::beside;
+}
+
+std::int32_t explain_lost_contact(Lost lost, std::int64_t slave, std::int64_t before, double reach,
+                                  ents_report* report) noexcept {
+  const long long number = slave, segment = before;
+  if (lost == Lost::behind_edge)
+    return report_message(
+        report, ENTS_NO_PROJECTION, slave,
+        "slave %lld is behind an edge between segments, and no segment is in front of it: take a smaller "
+        "step, give the model a wider \"border\", or smooth the surface (ENTS_FLAG_BEHIND_EDGE in "
+        "detection.permitted: go on without its contact)",
+        number);
+  if (lost == Lost::too_deep)
+    return report_message(
+        report, ENTS_NO_PROJECTION, slave,
+        "slave %lld was on segment %lld and lies deeper than detection.reach (%g) now: take a smaller step, "
+        "or "
+        "give a larger reach (ENTS_FLAG_LEFT in detection.permitted: go on without its contact)",
+        number, segment, reach);
+  return report_message(
+      report, ENTS_NO_PROJECTION, slave,
+      "slave %lld was on segment %lld and lies beside all segments now, not above the surface: take a "
+      "smaller "
+      "step, or let the master reach farther (ENTS_FLAG_LEFT in detection.permitted: go on without its "
+      "contact; segment = -1 for slaves that were open)",
+      number, segment);
+}
+
+} // namespace ents
