@@ -192,9 +192,10 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   auto detection = made<ents_detection>();
   detection.slave = slave.data(), detection.reach = reach_;
   detection.segment = segment_.data(), detection.xi = xi_.data(), detection.flags = flags.data();
-  check(ents_detect(model_, &mesh_, tree_.data(), signed_size(tree_.size()), 0, signed_size(n), &detection,
-                    &report),
-        report);
+  if (check(ents_detect(model_, &mesh_, tree_.data(), signed_size(tree_.size()), 0, signed_size(n),
+                        &detection, &report),
+            report) != ENTS_OK)
+    return cut(report);
 
   std::vector<std::size_t> closed;
   std::vector<std::int64_t> segment;
@@ -217,13 +218,15 @@ Forces BorderContact::evaluate(const double* u, double* r) {
 
   std::vector<double> residual(closed.size() * dofs), tangent(closed.size() * dofs * dofs),
       end(closed.size() * size);
+  std::vector<std::int32_t> outcome(closed.size());
   auto in = made<ents_input>();
   in.slave = position.data(), in.slave_stride = 2;
   in.start = xi.data(), in.start_stride = 1;
   in.area = area.data(), in.area_stride = 1;
   in.mesh = &mesh_, in.segment = segment.data(), in.segment_stride = 1;
   auto out = made<ents_output>();
-  out.wanted = ENTS_RESIDUAL | ENTS_TANGENT;
+  out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS;
+  out.flags = outcome.data(), out.flags_stride = 1;
   out.residual = residual.data(), out.residual_stride = signed_size(dofs);
   out.tangent = tangent.data(), out.tangent_stride = signed_size(dofs * dofs);
   if (size > 0) {
@@ -254,6 +257,9 @@ Forces BorderContact::evaluate(const double* u, double* r) {
       }
     }
   }
+  // Open nodes are searched anew: they may move over another flank, or leave the master.
+  for (std::size_t e = 0; e < closed.size(); ++e)
+    if ((outcome[e] & ENTS_FLAG_CONTACT) == 0) segment_[closed[e]] = -1;
   return result;
 }
 

@@ -27,17 +27,21 @@ except ImportError:
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCAN = ROOT / "examples" / "rough_afm" / "afm_10um_256.txt"
 CENTRE, HALF, CYLINDER, CAP = (5.25, 5.25), 1.25, 20.0, 10.0  # um; surface coordinates of the scan are x and y
-COARSE, FINE, ZONE, SLAVE = 0.4, (0.1, 0.07), 0.6, 0.12  # sizes of faces; radius in which they are fine
-GAP, APPROACH, INCREMENTS, DEPTH = 0.02, 0.06, 3, 1.1           # um
+COARSE, FINE, ZONE, SLAVE = 0.4, (0.07,), 0.85, 0.12  # sizes of faces; radius in which they are fine
+GAP, APPROACH, INCREMENTS, DEPTH = 0.02, 0.04, 2, 1.1           # um
 STIFF, SOFT, POISSON, PENALTY = 2e5, 2e3, 0.3, 2e5                # MPa, MPa/um
 
 GEOMETRY = """SetFactory("OpenCASCADE");
 {body}
 Mesh.ElementOrder = 2; Mesh.SecondOrderLinear = 0; Mesh.SaveGroupsOfNodes = 1; Mesh.Algorithm3D = 1;
 Mesh.MeshSizeExtendFromBoundary = 0; Mesh.MeshSizeFromPoints = 0;
-Field[1] = Ball; Field[1].Radius = {zone}; Field[1].Thickness = {thickness}; Field[1].VIn = {fine}; Field[1].VOut = {coarse};
-Field[1].XCenter = {x}; Field[1].YCenter = {y}; Field[1].ZCenter = 0;
-Background Field = 1;
+{field}
+Field[2] = MathEval; Field[2].F = "{coarse}";
+Field[3] = Min; Field[3].FieldsList = {{1, 2}};
+Background Field = 3;
+"""
+# Small faces alone: elements grow with their depth below the surface, and faces outside of the zone.
+GRADED = """Field[1] = MathEval; Field[1].F = "{fine} + 0.4 * ({r} - Sqrt((x - {x})^2 + {along}(z {centre})^2)) + 0.25 * ({distance} - {zone} + Abs({distance} - {zone}))";
 """
 LOWER = """Box(1) = {{{x0}, {y0}, -1.2, {w}, {w}, 1.3}};
 Cylinder(2) = {{{x}, {y0} - 1, -{r}, 0, {w} + 2, 0, {r}}};
@@ -59,7 +63,9 @@ def mesh(folder, name, body, fine, coarse, zone, first):
     """Gmsh's deck, without the triangles and lines of the boundary, which ccx would take for shells and beams. Numbers begin at `first`."""
     x, y = CENTRE
     values = {"x": x, "y": y, "x0": x - HALF, "y0": y - HALF, "w": 2 * HALF, "r": CYLINDER if name == "lower" else CAP}
-    (folder / f"{name}.geo").write_text(GEOMETRY.format(body=body.format(**values), fine=fine, coarse=coarse, zone=zone, thickness=0.6, x=x, y=y))
+    field = GRADED.format(**values, fine=fine, zone=zone, centre=f"+ {CYLINDER}" if name == "lower" else f"- {CAP}", along="" if name == "lower" else f"(y - {y})^2 + ",
+                          distance=f"Sqrt((x - {x})^2 + (y - {y})^2)")
+    (folder / f"{name}.geo").write_text(GEOMETRY.format(body=body.format(**values), field=field, coarse=coarse))
     subprocess.run(["gmsh", "-3", "-v", "0", f"{name}.geo", "-format", "inp", "-o", f"{name}_gmsh.inp"], cwd=folder, check=True)
     nodes, elements, sets, target, kind = {}, [], {}, None, None
     for line in (folder / f"{name}_gmsh.inp").read_text().splitlines():

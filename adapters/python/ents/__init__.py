@@ -12,17 +12,17 @@ the host. Matrices here are ordinary ones: tangent[e, i, j] = dR_i / du_j of ele
 not so already; indices may be floating point numbers if they are whole. Calls release the interpreter's lock: threads that evaluate the same model run at the same time.
 
 Mistakes raise ents.Error with the library's own message. What a cut of the step can cure (0 < status < 100) is no exception: "status" of
-the result holds it for every element, "step_factor" and "message" say what to do.
+the result holds it for every element, "step_factor" and "message" say what to do; where there is no such result, ents.CutStep is raised.
 """
 try:
     import numpy  # noqa: F401
 except ModuleNotFoundError as error:
     raise ModuleNotFoundError("ents needs NumPy: apt-get install python3-numpy, or python3 -m pip install numpy") from error
 
-from ._arrays import Error, _new  # noqa: F401
+from ._arrays import CutStep, Error, _new  # noqa: F401
 from ._library import Library, library  # noqa: F401
 from ._model import Model  # noqa: F401
 from ._structs import *  # noqa: F401,F403
 from ._surface import Tree  # noqa: F401
 from ._system import System  # noqa: F401
-from .contact import Contact, CutStep  # noqa: F401
+from .contact import Contact  # noqa: F401

@@ -15,6 +15,14 @@ class Error(RuntimeError):
         self.status, self.element = status, element
 
 
+class CutStep(Error):
+    """The step is too large: take `step_factor` of it, from the last commit(). Nothing has changed."""
+
+    def __init__(self, status, message, element, step_factor):
+        super().__init__(status, message, element)
+        self.step_factor = step_factor
+
+
 def _new(struct, **fields):
     return struct(struct_size=ctypes.sizeof(struct), **fields)
 

@@ -4,11 +4,17 @@ import ctypes
 import ctypes.util
 import os
 import pathlib
+import traceback
 
 import numpy as np
 
 from ._arrays import Error, _array, _combination, _new
-from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Report, Status
+from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Report, Status
+
+
+HEIGHT_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32, ctypes.POINTER(ctypes.c_double),
+                                   ctypes.POINTER(ctypes.c_double))
+_heights = []  # registered functions: the library keeps their addresses
 
 
 def _installed():
@@ -54,6 +60,31 @@ class Library:
             raise Error(Status(status) if status in Status._value2member_map_ else status, report.message.decode(), report.element)
         return report
 
+    def register_height(self, name, dimension, function):
+        """Register a height function, for models with {"type": "callback", "name": name}; None: forget the name. dimension: surface
+        coordinates, 1 or 2. function(order, s): order is 2 or 3, s [dimension][count] are points; it returns h and its derivatives up to
+        the order, [numbers][count], in the order h, h_1, h_11, h_111 or h, h_1, h_2, h_11, h_12, h_22, h_111, h_112, h_122, h_222, or
+        None where it is not defined. An exception counts as not defined and is printed. The function is kept for good: models call it
+        as long as they live. Threads that evaluate such a model take turns."""
+        if function is None:
+            self.call("height_register", name.encode(), dimension, None, None)
+            return
+
+        def called(_, order, count, s, jet):
+            try:
+                numbers = function(order, np.ctypeslib.as_array(s, (dimension, count)))
+                if numbers is None:
+                    return 1
+                np.ctypeslib.as_array(jet, (order + 1 if dimension == 1 else (order + 1) * (order + 2) // 2, count))[:] = numbers
+                return 0
+            except Exception:  # noqa: B902: nothing may pass through the library
+                traceback.print_exc()
+                return 1
+
+        kept = HEIGHT_FUNCTION(called)
+        self.call("height_register", name.encode(), dimension, ctypes.cast(kept, ctypes.c_void_p), None)
+        _heights.append(kept)
+
     def tributary_areas(self, facet, connectivity, positions, thickness=1.0):
         """Areas [nodes] of the slave nodes of facets ("line2", "quad4" ...): connectivity [facets][nodes], positions [nodes][d]."""
         connectivity = _array("connectivity", connectivity, (None, None), np.int64)
@@ -62,6 +93,16 @@ class Library:
         self.call("tributary_areas", facet.encode(), len(connectivity), connectivity, len(positions), positions,
                   thickness, areas)
         return areas
+
+    def contact_area(self, facet, connectivity, positions, gap, pressure, modulus=0.0, thickness=1.0):
+        """Area in contact and peak pressure from gap and pressure [nodes] of slave facets ("line2", "tri3", "quad4"): a dict with surface, counted,
+        border_corrected, zero_line, estimate, error, peak_pressure, peak_drop. `modulus` is E / (1 - nu^2); without it there is no zero_line."""
+        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
+        positions = _array("positions", positions, (None, 2 if facet.startswith("line") else 3))
+        gap, pressure = (_array(name, array, (len(positions),)) for name, array in (("gap", gap), ("pressure", pressure)))
+        area = _new(Area)
+        self.call("contact_area", facet.encode(), len(connectivity), connectivity, len(positions), positions, thickness, gap, pressure, modulus, area)
+        return {name: getattr(area, name) for name, _ in Area._fields_[2:]}
 
     def sampling_points(self, facet, per_direction, connectivity, positions, thickness=1.0):
         """Points inside slave facets, that see a texture between the nodes: combinations of the nodes (begin [points + 1], nodes, weights), as of

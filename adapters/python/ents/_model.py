@@ -9,13 +9,40 @@ import numpy as np
 
 from . import _library
 from ._arrays import Error, _address, _array, _new
-from ._structs import INPUTS, QUANTITIES, RESULTS, Data, Input, Layout, Output, Status, Surface
+from ._structs import INPUTS, QUANTITIES, RESULTS, Data, Input, Layout, Output, Shared, Status, Surface
+from ._varying import Varying
+
+SHARED = {"area": Shared.AREA, "state_begin": Shared.STATE, "multiplier": Shared.MULTIPLIER}
 
 
-class Model:
-    """A contact model, immutable.
+def _json(model):
+    """Text of a dict in which arrays and numbers of NumPy may stand."""
+    def plain(value):
+        if isinstance(value, (np.ndarray, np.generic)):
+            return value.tolist()
+        raise TypeError(f"{value!r} is a {type(value).__name__}; a model holds texts, numbers, lists, dicts and NumPy arrays")
+    try:
+        return json.dumps(model, default=plain, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise Error(Status.BAD_VALUE, f"model: {error}") from None
 
-    source     dict or JSON text (it begins with "{"), else the name of a JSON file; abi/model.schema.json says what it may hold
+
+def _fields(height):
+    """{name: number of samples} of the fields in a height."""
+    if not isinstance(height, dict):
+        return {}
+    own = {height["name"]: int(np.prod(height["points"]))} if height.get("type") == "field" else {}
+    parts = height.get("of", [])
+    for part in parts if isinstance(parts, list) else [parts]:
+        own.update(_fields(part))
+    return own
+
+
+class Model(Varying):
+    """A contact model; only `bind` changes it.
+
+    source     dict (whose lists and numbers may be NumPy's) or JSON text (it begins with "{"), else the name of a JSON file;
+               abi/model.schema.json says what it may hold
     data       {name: array}: height maps that the text refers to by name; copied
     directory  where relative names of height maps in a text start; a file's own folder if `source` is one
     """
@@ -28,7 +55,7 @@ class Model:
         structs = (Data * len(arrays))(*(_new(Data, name=name, values=_address(values), rows=values.shape[0], columns=values.shape[1])
                                          for name, values in zip(names, arrays.values())))
         if isinstance(source, dict):
-            source = json.dumps(source)
+            source = _json(source)
         elif not (isinstance(source, str) and source.lstrip().startswith("{")) and arrays:
             directory = directory or os.path.dirname(os.path.abspath(source))
             with open(source, encoding="utf-8") as file:
@@ -42,13 +69,18 @@ class Model:
         text = source if isinstance(source, str) and source.lstrip().startswith("{") else pathlib.Path(source).read_text(encoding="utf-8")
         parsed = json.loads(text)
         self.segment, self.patch = parsed["segment"], parsed.get("patch")
+        self.parameters = {name: parsed["parameters"][name] for name in sorted(parsed.get("parameters", {}), key=str.encode)}
+        """Named parameters and their values in the text, in the library's order."""
+        self._field_points, self._has_law = _fields(parsed.get("height")), parsed.get("contact") is not None
+        self._of_text, self._bound = self._handle, ctypes.c_void_p()
         self.layout = _new(Layout)
         """Sizes: dimension, nodes, parameters, dofs, state_size, symmetric_tangent, multipliers, friction, augmentable; needs (see Need) and instruction_set."""
         self._call("model_layout", self.layout)
 
     def __del__(self):
-        if getattr(self, "_handle", None):
-            self.library.c.ents_model_destroy(ctypes.byref(self._handle), None)
+        for handle in (getattr(self, "_bound", None), getattr(self, "_of_text", None) or getattr(self, "_handle", None)):
+            if handle:
+                self.library.c.ents_model_destroy(ctypes.byref(handle), None)
 
     def _call(self, name, *arguments):
         return self.library.call(name, self._handle, *arguments)
@@ -133,6 +165,7 @@ class Model:
             given[name] = np.full(shape, value, np.float64) if number else _array(name, value, shape if shared else (n, *shape))
             setattr(block, name, given[name].ctypes.data)
             setattr(block, name + "_stride", 0 if shared else int(np.prod(shape)))
+            block.shared |= SHARED.get(name, 0) if shared else 0
         if tree is not None:
             given["segment"] = _array("segment", segment, (n,), np.int64)
             block.mesh, block.segment, block.segment_stride = ctypes.addressof(tree.mesh), given["segment"].ctypes.data, 1

@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 4
+CONTRACT_MINOR = 6
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 
@@ -47,6 +47,7 @@ class Flag(enum.IntFlag):
     SHEAR_LIMIT = 64
     AMBIGUOUS = 256
     BEHIND_EDGE = 512
+    LEFT = 1024
     CHANGED = 128
 
 
@@ -61,6 +62,16 @@ class Need(enum.IntFlag):
     HISTORY = 64
     MULTIPLIERS = 128
     ONE_BY_ONE = 256
+
+
+class Shared(enum.IntFlag):
+    """Bits of Input.shared: arrays of Model.assemble that all elements share."""
+    SLAVE = 1
+    SEGMENT = 2
+    AREA = 4
+    STATE = 8
+    MULTIPLIER = 16
+    NO_STATE = 32
 
 
 # Results of elements: bit of `wanted`, type of the numbers, shape (without sizes that are 1).
@@ -138,6 +149,10 @@ class Layout(ctypes.Structure):
         ("augmentable", ctypes.c_int32),
         ("needs", ctypes.c_int32),
         ("instruction_set", ctypes.c_char_p),
+        ("named_parameters", ctypes.c_int32),
+        ("fields", ctypes.c_int32),
+        ("worn", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
     ]
 
 
@@ -165,6 +180,7 @@ class Detection(ctypes.Structure):
         ("flags", ctypes.c_void_p),
         ("other", ctypes.c_void_p),
         ("slave_node", ctypes.c_void_p),
+        ("permitted", ctypes.c_int64),
     ]
 
 
@@ -189,6 +205,8 @@ class Input(ctypes.Structure):
         ("mesh", ctypes.c_void_p),
         ("segment", ctypes.c_void_p),
         ("segment_stride", ctypes.c_int64),
+        ("positions_begin", ctypes.c_void_p),
+        ("shared", ctypes.c_int64),
     ]
 
 
@@ -237,6 +255,33 @@ class Output(ctypes.Structure):
         ("slip_stride", ctypes.c_int64),
         ("age", ctypes.c_void_p),
         ("age_stride", ctypes.c_int64),
+    ]
+
+
+class Derivatives(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("gap", ctypes.c_void_p),
+        ("energy", ctypes.c_void_p),
+        ("residual", ctypes.c_void_p),
+        ("adjoint", ctypes.c_void_p),
+        ("product", ctypes.c_void_p),
+    ]
+
+
+class Area(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("surface", ctypes.c_double),
+        ("counted", ctypes.c_double),
+        ("border_corrected", ctypes.c_double),
+        ("zero_line", ctypes.c_double),
+        ("estimate", ctypes.c_double),
+        ("error", ctypes.c_double),
+        ("peak_pressure", ctypes.c_double),
+        ("peak_drop", ctypes.c_double),
     ]
 
 
@@ -336,6 +381,8 @@ STRUCTS = {
     "ents_detection": Detection,
     "ents_input": Input,
     "ents_output": Output,
+    "ents_derivatives": Derivatives,
+    "ents_area": Area,
     "ents_combination": Combination,
     "ents_system": System,
     "ents_surface": Surface,
@@ -348,10 +395,16 @@ FUNCTIONS = {
     "ents_status_text": (ctypes.c_char_p, (ctypes.c_int32,)),
     "ents_version": (ctypes.c_char_p, ()),
     "ents_check_contract": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_int32, ctypes.c_void_p)),
+    "ents_height_register": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_model_create": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_model_create_from_file": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_model_destroy": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p)),
     "ents_model_layout": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_model_bind": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_parameter_place": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_field_size": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_field_init": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
+    "ents_field_sample": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_tree_size": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_tree_build": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
     "ents_tree_refit": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
@@ -360,7 +413,10 @@ FUNCTIONS = {
     "ents_state_init": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
     "ents_state_augment": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
     "ents_state_transfer": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_wear_collect": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_int64, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_parameter_derivatives": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_tributary_areas": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_contact_area": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_combine": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),

@@ -4,7 +4,7 @@ import ctypes
 
 import numpy as np
 
-from ._arrays import Error, _address, _array, _new
+from ._arrays import CutStep, Error, _address, _array, _new
 from ._structs import CONDITIONS, Detection, MasterMesh, Status, SurfaceAdmissibility
 
 
@@ -33,28 +33,32 @@ class Tree:
         self.positions[:] = _array("positions", positions, self.positions.shape)
         self.model._call("tree_refit", self.mesh, self._tree, len(self._tree))
 
-    def detect(self, slave, reach, segment=None, xi=None):
+    def detect(self, slave, reach, segment=None, xi=None, permitted=0):
         """Which segment is each slave [n][d] projected on, with |gap| <= reach? segment [n], xi [n][d-1]: the answers of before, which
-        are kept where they still hold. Returns new arrays: segment (-1: none), xi, gap, flags (Flag), other (an equally good one, or -1)."""
+        are kept where they still hold. Returns new arrays: segment (-1: none), xi, gap, flags (Flag), other (an equally good one, or -1).
+        A slave that had a segment, finds none and has not risen from the surface raises CutStep, unless `permitted` has its flag (Flag.LEFT,
+        Flag.BEHIND_EDGE): look at `flags` then. Give segment -1 for slaves that were open."""
         lay = self.model.layout
         slave = _array("slave", slave, (None, lay.dimension))
         n = len(slave)
         out = {"segment": np.full(n, -1, np.int64) if segment is None else _array("segment", segment, (n,), np.int64).copy(),
                "xi": np.zeros((n, lay.dimension - 1)) if xi is None else _array("xi", xi, (n, lay.dimension - 1)).copy(),
                "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
-        self.model._call("detect", self.mesh, self._tree, len(self._tree), 0, n, _new(
-            Detection, slave=slave.ctypes.data, reach=reach, **{name: array.ctypes.data for name, array in out.items()}))
+        report = self.model._call("detect", self.mesh, self._tree, len(self._tree), 0, n, _new(
+            Detection, slave=slave.ctypes.data, reach=reach, permitted=int(permitted), **{name: array.ctypes.data for name, array in out.items()}))
+        if report.status:
+            raise CutStep(Status(report.status), report.message.decode(), report.element, report.step_factor)
         return out
 
     def state_transfer(self, state, old, new, positions=None):
         """States [n][state_size] of the begin of the increment, there on the segments `old` [n], as their slaves see them from the segments `new` [n].
-        -1 on either side: no history. positions [nodes][d]: those at the begin of the increment (default: the present ones).
+        -1 on either side: no history but what has been worn off. positions [nodes][d]: those at the begin of the increment (default: the present ones).
         Returns (status, states); status is the first that is not 0 (recoverable: cut the step)."""
         model = self.model
         state = _array("state", state, (None, model.layout.state_size))
         old, new = (_array(name, value, (len(state),), np.int64) for name, value in (("old", old), ("new", new)))
         positions = self.positions if positions is None else _array("positions", positions, self.positions.shape)
-        moved = np.where(((old >= 0) & (new >= 0))[:, None], state, model.state_init(len(state)))
+        moved = np.where(((old >= 0) & (new >= 0))[:, None], state, model.state_opened(state))
         first = 0
         for k in np.flatnonzero((old >= 0) & (new >= 0) & (old != new)):
             s = (None, None) if self.surface_coordinates is None else self.surface_coordinates[[old[k], new[k]]]

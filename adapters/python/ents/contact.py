@@ -2,21 +2,13 @@
 """Contact of two surfaces of a finite element program in Python: NumPy arrays in, a residual and a SciPy matrix out."""
 import numpy as np
 
-from ._arrays import Error, _array
+from ._arrays import CutStep, Error, _array
 from ._model import Model
 from ._structs import ENDS_STRAIGHT, Flag, Status
 from ._surface import Tree
 
 FACETS = {(2, 2): "line2", (2, 3): "line3", (3, 3): "tri3", (3, 4): "quad4", (3, 6): "tri6", (3, 8): "quad8", (3, 9): "quad9"}
 SMOOTHED = ("catmull_rom4", "bspline4", "catmull_rom16", "bspline16", "bezier15")
-
-
-class CutStep(Error):
-    """The step is too large: take `step_factor` of it, from the last commit(). Nothing has changed."""
-
-    def __init__(self, status, message, element, step_factor):
-        super().__init__(status, message, element)
-        self.step_factor = step_factor
 
 
 class Contact:
@@ -27,7 +19,7 @@ class Contact:
         contact.commit()                            # once the step has converged
 
     model      ents.Model, dict, JSON text or file name. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
-               over two-node facets, say). No multipliers as unknowns ("multiplier", "augmented_multiplier") and no "patch"
+               over two-node facets, say). No "patch"; instead of multipliers as unknowns "augmented" with augment()
     positions  [nodes][d] undeformed positions [L] of the program's nodes
     slave      [facets][2 .. 9] nodes of the facets of the slave surface, in the order of ents.h
     master     [facets][2 .. 9] nodes of the master surface; its normal points at the slave surface ("Segments" in ents.h)
@@ -52,8 +44,11 @@ class Contact:
         self._sparse = sparse
         self.model = model = model if isinstance(model, Model) else Model(model)
         d, library = model.layout.dimension, model.library
-        if model.layout.multipliers or model.patch:
-            raise Error(Status.BAD_VALUE, 'model: ents.Contact takes no "patch" and no multipliers as unknowns; "augmented" keeps them in the state')
+        if model.patch:
+            raise Error(Status.BAD_VALUE, 'model: leave out "patch": ents.Contact finds the segment of each slave point among all master facets')
+        if model.layout.multipliers:
+            raise Error(Status.BAD_VALUE, 'model: ents.Contact has no multipliers as unknowns; write the normal law "augmented", which keeps them in '
+                        'the state, and call augment() after each solve until the penetration is small enough')
         self.positions = _array("positions", positions, (None, d))
         nodes = len(self.positions)
         self.dofs = np.arange(d * nodes).reshape(nodes, d) if dofs is None else _array("dofs", dofs, (nodes, d), np.int64)
@@ -125,7 +120,7 @@ class Contact:
         points = self._slave @ now
         self.tree.move(self._master @ (now if self._own is None else self._own))
         # A closed point is followed; an open one is searched anew, for it may have moved over another flank.
-        found = self.tree.detect(points, self.reach, self.segment, self._xi)
+        found = self.tree.detect(points, self.reach, self.segment, self._xi, Flag.LEFT | Flag.BEHIND_EDGE)
         lost = np.flatnonzero(self._elements & (found["flags"] & Flag.BEHIND_EDGE != 0))
         if len(lost):
             raise CutStep(Status.NO_PROJECTION, f"slave point {lost[0]} lies behind a concave edge of the master: take a smaller step, widen "
@@ -138,6 +133,10 @@ class Contact:
                 k = int(gap.argmin())
                 raise CutStep(Status.DEEP_PENETRATION, f"slave point {gone[k]} penetrates by {-gap[k]:.6g}, more than reach = {self.reach:.6g}: take a "
                               "smaller step, or give a larger reach", int(gone[k]), min(0.5, self.reach / -gap[k]))
+        left = np.flatnonzero(self._elements & (found["flags"] & Flag.LEFT != 0))
+        if len(left):
+            raise CutStep(Status.NO_PROJECTION, f"slave point {left[0]} was in contact and lies beside all segments of the master now: take a smaller "
+                          "step, or let the master reach farther", int(left[0]), 0.5)
         segment = np.where(self._elements, found["segment"], -1)
         status, state = self.tree.state_transfer(self._state_begin, self._segment_begin, segment, self._tree_begin)
         want = "state_end gap pressure flags" + (" traction" if model.layout.friction else "")
@@ -156,7 +155,7 @@ class Contact:
         self.traction = np.zeros((count, d))
         for name in ("gap", "pressure", "flags") + (("traction",) if model.layout.friction else ()):
             getattr(self, name)[on] = result[name]
-        self.state = model.state_init(count)
+        self.state = model.state_opened(state)
         self.state[on] = result["state_end"]
         self._pending = segment, self.tree.positions.copy()
         self.segment, self._xi = np.where(self.flags & Flag.CONTACT, segment, -1), found["xi"]

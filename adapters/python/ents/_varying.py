@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Models whose numbers change: parameters, fields, wear."""
+import ctypes
+
+import numpy as np
+
+from ._arrays import Error, _address, _array, _new
+from ._structs import Data, Derivatives, Status
+
+
+class Varying:
+    """What a Model with the key "parameters", with heights of type "field" or with "wear" can do besides."""
+
+    def bind(self, fields=None, **parameters):
+        """From now on the model has these values of its parameters, those of its text for the others, and these blocks of its fields,
+        {name: array of field_init}. Bind again after a block has changed; refit trees (Tree.move) after the height has."""
+        unknown = [name for name in parameters if name not in self.parameters]
+        if unknown:
+            raise Error(Status.BAD_VALUE, f"bind: the model has no parameter {', '.join(unknown)}; it has {', '.join(self.parameters) or 'none'}")
+        values = np.array([float(parameters.get(name, default)) for name, default in self.parameters.items()])
+        blocks = {name: _array(name, block, (None,)) for name, block in (fields or {}).items()}
+        structs = (Data * len(blocks))(*(_new(Data, name=name.encode(), values=_address(block), rows=1, columns=len(block))
+                                         for name, block in blocks.items()))
+        bound = ctypes.c_void_p(self._bound.value)
+        self.library.call("model_bind", self._of_text, values, structs, len(blocks), ctypes.byref(bound))
+        self._bound = self._handle = bound
+        self._blocks = blocks  # they live as long as the library reads them
+
+    def field_init(self, name, samples=None):
+        """The block of a field: the spline through `samples`, [points_1] or [points_2][points_1], [L]; None: zero. An array to be given to bind,
+        saved, and changed by wear_collect."""
+        size = ctypes.c_int64()
+        self._call("field_size", name.encode(), ctypes.byref(size))
+        block = np.zeros(size.value)
+        values = None if samples is None else np.ascontiguousarray(samples, np.float64)
+        if values is not None and values.size != self._field_points[name]:
+            raise Error(Status.BAD_COUNT, f"samples: {values.size} numbers, the field \"{name}\" has {self._field_points[name]}")
+        self._call("field_init", name.encode(), _address(values), block, size.value)
+        return block
+
+    def field_sample(self, name, block, s):
+        """[n]: heights of a field at the surface coordinates s [n][d-1]."""
+        s, block = _array("s", s, (None, self.layout.parameters)), _array("block", block, (None,))
+        height = np.zeros(len(s))
+        self._call("field_sample", name.encode(), block, len(block), len(s), s, height)
+        return height
+
+    def state_opened(self, state):
+        """States [n][state_size] of points that are open: without history but for what has been worn off."""
+        opened, worn = self.state_init(len(state)), self.layout.worn
+        if worn >= 0:
+            opened[:, worn:worn + 2] = state[:, worn:worn + 2]
+        return opened
+
+    def wear_collect(self, name, block, state, slave, master=None, *, tree=None, segment=None, surface_coordinates=None, area=None, thickness=1.0):
+        """What the master surface has lost goes from `state` [n][state_size] into the field `name`, `block`: both change in their place. Once
+        per increment, with the states of its converged end. Other arguments as of evaluate. Returns the volume."""
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        for array, shape in ((state, (len(slave), self.layout.state_size)), (block, (len(block),))):
+            if not (isinstance(array, np.ndarray) and array.shape == shape and array.dtype == np.float64 and array.flags.c_contiguous):
+                raise Error(Status.BAD_VALUE, "wear_collect: state and block are changed in their place: give float64 arrays of state_init and field_init")
+        given, block_in = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, area=area)
+        volume = ctypes.c_double()
+        self._call("wear_collect", 0, len(slave), block_in, float(thickness), state, self.layout.state_size, name.encode(), block, len(block),
+                   ctypes.addressof(volume))
+        return volume.value
+
+    def derivatives(self, slave, master=None, *, tree=None, segment=None, surface_coordinates=None, start=None, area=None, state=None, adjoint=None):
+        """Derivatives by the parameters, in the order of `parameters`: {"gap": [n][p], "energy": [n][p], "residual": [n][p][dofs]}; with `adjoint`
+        [n][dofs] instead {"product": [p]}, the sum of adjoint . residual over all elements. Arguments as of evaluate."""
+        slave = _array("slave", slave, (None, self.layout.dimension))
+        given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area, state_begin=state)
+        n, p = len(slave), len(self.parameters)
+        has_law = self._has_law
+        if adjoint is None:
+            result = {"gap": np.zeros((n, p))}
+            if has_law:
+                result.update(energy=np.zeros((n, p)), residual=np.zeros((n, p, self.layout.dofs)))
+        else:
+            adjoint = _array("adjoint", adjoint, (n, self.layout.dofs))
+            result = {"product": np.zeros(p)}
+        self._call("parameter_derivatives", 0, n, block, _new(Derivatives, adjoint=_address(adjoint), **{name: _address(array) for name, array in result.items()}))
+        return result
