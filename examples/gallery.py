@@ -33,7 +33,8 @@ def number(value):
 
 
 def largest(steps, check):
-    """The step of the largest error: (error, quantity); None where no step has that quantity with an exact answer."""
+    """The step of the largest error: (error, quantity); None where no step has that quantity with an exact answer. Steps whose exact
+    value is below check["from"] are left out."""
     key = "relative_error" if "bound" in check else "difference"
     found = []
     for step in steps:
@@ -41,7 +42,7 @@ def largest(steps, check):
             if quantity["name"] != check["quantity"] or quantity["exact"] is None or quantity["value"] is None:
                 continue
             error = quantity["value"] - quantity["exact"] if key == "difference" else quantity[key]
-            if error is not None:
+            if error is not None and quantity["exact"] >= check.get("from", 0):
                 found.append((abs(error), quantity))
     return max(found, key=lambda pair: pair[0]) if found else None
 
@@ -63,15 +64,20 @@ def judge(scene, check, steps, seconds):
     return row + ["MISSED"], f"{scene}: {check['quantity']} differs by {text(error)}, bound {text(bound)}"
 
 
+def label(entry):
+    """Name of a scene, and of the folder of its results: that of its variant is added."""
+    return "_".join([entry["scene"], *entry.get("variant", "").split()])
+
+
 def solve(host, entry, folder):
     """Run one scene: (rows, failures, title of the scene)."""
-    name = entry["scene"]
-    file = HERE / name / "scene.json"
+    name, variant = label(entry), entry.get("variant")
+    file = HERE / entry["scene"] / "scene.json"
     if not file.is_file():
-        problem(f"\"scene\": \"{name}\": there is no {file}")
+        problem(f"\"scene\": \"{entry['scene']}\": there is no {file}")
     title = json.loads(file.read_text())["title"]
     begin = time.monotonic()
-    done = subprocess.run([host, "run", file, "--out", folder], capture_output=True, text=True, check=False)
+    done = subprocess.run([host, "run", file, "--out", folder, *(["--variant", variant] if variant else [])], capture_output=True, text=True, check=False)
     seconds = f"{time.monotonic() - begin:.1f}"
     said = (done.stderr.strip() or done.stdout.strip()).splitlines() or ["nothing was printed"]
     if "fails" in entry:
@@ -134,8 +140,8 @@ def main():
     chosen = [entry for entry in entries if not options.scene or entry["scene"] in options.scene]
     rows, failures, scenes = [], [], []
     for i, entry in enumerate(chosen):
-        print(f"[{i + 1}/{len(chosen)}] {entry['scene']} ...", flush=True)
-        folder = options.out / entry["scene"]
+        print(f"[{i + 1}/{len(chosen)}] {label(entry)} ...", flush=True)
+        folder = options.out / label(entry)
         folder.mkdir(parents=True, exist_ok=True)
         for old in folder.glob("*.png"):
             old.unlink()
@@ -145,9 +151,9 @@ def main():
         rows += new
         failures += wrong
         picture = folder / entry["picture"] if "picture" in entry else None
-        scenes.append((entry["scene"], title, picture if picture and picture.is_file() else None))
+        scenes.append((label(entry), title, picture if picture and picture.is_file() else None))
         if picture and not wrong and not picture.is_file():
-            failures.append(f"{entry['scene']}: no picture {picture.name} was drawn; is gnuplot installed?")
+            failures.append(f"{label(entry)}: no picture {picture.name} was drawn; is gnuplot installed?")
     (options.out / "gallery.md").write_text(markdown(rows))
     (options.out / "index.html").write_text(page(rows, scenes))
     for text in failures:

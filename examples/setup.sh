@@ -4,13 +4,15 @@ set -eu
 
 usage() {
   cat <<'HELP'
-usage: sh examples/setup.sh [--target NAME] [--with PACKAGE] [-DNAME=VALUE ...]
+usage: sh examples/setup.sh [--target NAME] [--with PACKAGE] [--try PACKAGE] [-DNAME=VALUE ...]
 
 Installs what is missing from Debian's packages (as root, or through sudo when it asks for no password), configures and builds the
 library, the reference host, the benchmark and the tests in build/; with --target, only that and what it needs; with --with, that
-package, too. -D... goes to CMake:
+package, too; with --try, that package, too, if it can be had. -D... goes to CMake:
   -DENTS_WERROR=ON                       warnings are errors
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
+  -DENTS_INSTRUCTION_SETS=all            kernels for every processor of this family, as in packages; default: for this processor, in
+                                         about half the time
 They stay in force in build/ until changed or until build/ is removed. Packages that are used where they are installed:
   --with libtrilinos-sacado-dev          Sacado, which ents-bench --differentiation compares with
 
@@ -18,12 +20,13 @@ exit status: 0 built; 1 the build failed; 2 a package is missing and cannot be i
 HELP
 }
 
-target=all with=
+target=all with='' try=''
 while [ $# -ge 2 ]; do
   case $1,$2 in
     *,-*) break ;;
     --target,*) target=$2 ;;
     --with,*) with="$with $2" ;;
+    --try,*) try="$try $2" ;;
     *) break ;;
   esac
   shift 2
@@ -33,7 +36,7 @@ for option; do
     -h | --help) usage; exit 0 ;;
     -D?*) ;;
     --target) echo "setup.sh: --target needs a NAME and stands before -D..." >&2; exit 2 ;;
-    --with) echo "setup.sh: --with needs a PACKAGE and stands before -D..." >&2; exit 2 ;;
+    --with | --try) echo "setup.sh: $option needs a PACKAGE and stands before -D..." >&2; exit 2 ;;
     *) echo "setup.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
   esac
 done
@@ -44,41 +47,51 @@ trap 'rm -f "$log"' EXIT
 
 # Compilers and build tools; libraries; pictures, and what the test of the Python module needs.
 packages='g++ gfortran cmake ninja-build pkg-config
-  libeigen3-dev nlohmann-json3-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
+  libeigen3-dev nlohmann-json3-dev tao-pegtl-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
   gnuplot-nox python3-numpy'$with
 
-missing() {
-  for package in $packages; do
+missing() { # PACKAGES
+  for package in $1; do
     state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
     [ "$state" = installed ] || printf '%s ' "$package"
   done
 }
 
 if command -v dpkg-query >/dev/null 2>&1; then
-  wanted=$(missing)
+  if [ "$(id -u)" -eq 0 ]; then
+    as_root='env DEBIAN_FRONTEND=noninteractive'
+  elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+    as_root='sudo -n env DEBIAN_FRONTEND=noninteractive'
+  else
+    as_root=''
+  fi
+  install() { # PACKAGES
+    # shellcheck disable=SC2086 # the lists are words
+    { $as_root apt-get -qq update && $as_root apt-get -qq install -y --no-install-recommends $1; } >"$log" 2>&1
+  }
+  wanted=$(missing "$packages")
   if [ -n "$wanted" ]; then
-    if [ "$(id -u)" -eq 0 ]; then
-      as_root='env DEBIAN_FRONTEND=noninteractive'
-    elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
-      as_root='sudo -n env DEBIAN_FRONTEND=noninteractive'
-    else
+    if [ -z "$as_root" ]; then
       echo "setup.sh: these packages are missing and this user may not install them. As root:" >&2
       echo "  apt-get install $wanted" >&2
       exit 2
     fi
     echo "== installing (this can take minutes): $wanted"
-    # shellcheck disable=SC2086 # the lists are words
-    if ! { $as_root apt-get -qq update && $as_root apt-get -qq install -y --no-install-recommends $wanted; } >"$log" 2>&1; then
+    if ! install "$wanted"; then
       cat "$log" >&2
-      echo "setup.sh: apt-get failed (above); is there a network? Still missing: $(missing)" >&2
+      echo "setup.sh: apt-get failed (above); is there a network? Still missing: $(missing "$packages")" >&2
       exit 2
     fi
   fi
+  for package in $(missing "$try"); do
+    echo "== installing, if it can be had: $package"
+    [ -n "$as_root" ] && install "$package" || echo "== not installed: $package"
+  done
 else
   echo "== no dpkg here: assuming that the equivalents of these Debian packages are installed:" $packages
 fi
 
 if [ -f build/CMakeCache.txt ]; then echo "== building in build/"; else echo "== building in build/ (the first time takes some minutes)"; fi
-[ -f build/CMakeCache.txt ] || set -- -G Ninja "$@"
+[ -f build/CMakeCache.txt ] || set -- -G Ninja -DENTS_INSTRUCTION_SETS=native "$@"
 cmake -S . -B build "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
 cmake --build build --target "$target" --parallel "$(nproc)" || exit 1

@@ -18,13 +18,13 @@ module contact
   type(ents_layout) :: sizes
   type(ents_combination), target :: smoothed ! control points of the master, from its nodes
   type(ents_master_mesh), target :: mesh
-  type(ents_system) :: system
+  type(ents_system), target :: system
   integer, allocatable :: slaves(:), masters(:)
   integer(int64) :: slave_count, state_size
-  integer(int64), allocatable, target :: segments(:, :), begin(:), of(:), rows(:), columns(:), segment(:), segment_begin(:)
+  integer(int64), allocatable, target :: segments(:, :), begin(:), of(:), rows(:), columns(:), segment(:)
   integer(int64), allocatable, target :: slave_equations(:, :), master_equations(:, :)
   real(real64), allocatable, target :: weights(:), points(:, :), coordinates(:, :), tree(:), areas(:), xi(:), slave_now(:, :)
-  real(real64), allocatable, target :: state_begin(:, :), state_in(:, :), state_end(:, :), points_begin(:, :)
+  real(real64), allocatable, target :: state_begin(:, :), state_end(:, :), points_begin(:, :)
 
 contains
 
@@ -90,11 +90,9 @@ contains
     facets = chain(size(slaves))
     call check(ents_tributary_areas(line2, size(facets, 2, int64), facets, slave_count, slave_now, 1d0, areas, report))
     call check(ents_state_init(model, slave_count, state_begin, state_size, report))
-    state_in = state_begin
     state_end = state_begin
     segment = -1
     xi = 0
-    segment_begin = segment
     points_begin = points
   end subroutine start_history
 
@@ -134,61 +132,29 @@ contains
     detection%reach = reach
     detection%segment = c_loc(segment)
     detection%xi = c_loc(xi)
-    detection%flags = c_loc(flags)
-    call check(ents_detect(model, mesh, tree, size(tree, kind=int64), 0_int64, slave_count, detection, report))
-    ok = all(iand(flags, ENTS_FLAG_BEHIND_EDGE) == 0)
-    if (ok) ok = history_moved()
-    if (.not. ok) return
-
     call ents_init(input)
-    input%slave = c_loc(slave_now)
-    input%slave_stride = 2
-    input%start = c_loc(xi)
-    input%start_stride = 1
     input%area = c_loc(areas)
     input%area_stride = 1
-    input%state_begin = c_loc(state_in)
+    input%state_begin = c_loc(state_begin)
     input%state_begin_stride = state_size
-    input%mesh = c_loc(mesh)
-    input%segment = c_loc(segment)
-    input%segment_stride = 1
+    input%positions_begin = c_loc(points_begin)
     call ents_init(output)
-    output%wanted = ENTS_STATE
+    output%wanted = ior(ENTS_STATE, ENTS_FLAGS)
     output%state_end = c_loc(state_end)
     output%state_end_stride = state_size
+    output%flags = c_loc(flags)
+    output%flags_stride = 1
     system%residual = c_loc(r)
     system%values = c_loc(k)
-    ok = ents_assemble(model, 0_int64, slave_count, input, c_loc(output), system, report) == ENTS_OK
+    ok = ents_iterate(model, mesh, tree, size(tree, kind=int64), 0_int64, slave_count, detection, input, c_loc(output), &
+      c_loc(system), report) == ENTS_OK
     call check(report%status)
+    if (.not. ok) return
+    where (iand(flags, ENTS_FLAG_CONTACT) == 0) segment = -1 ! open nodes are searched anew: they may move over another flank
   end function add_contact
-
-  ! States of the begin of the increment, as the present segments see them. False: one of them cannot.
-  logical function history_moved() result(ok)
-    real(real64) :: from(2, 4), to(2, 4), moved(state_size)
-    integer(int64) :: e, old, new
-    ok = .true.
-    do e = 1, slave_count
-      old = segment_begin(e) + 1
-      new = segment(e) + 1
-      if (old == new .and. old > 0) then
-        state_in(:, e) = state_begin(:, e)
-      else if (old > 0 .and. new > 0) then
-        from = points_begin(:, segments(:, old) + 1)
-        to = points_begin(:, segments(:, new) + 1)
-        call check(ents_state_transfer(model, from, c_loc(coordinates(1, old)), to, c_loc(coordinates(1, new)), &
-          state_begin(:, e), moved, report))
-        ok = ok .and. report%status == ENTS_OK
-        if (ok) state_in(:, e) = moved
-      else ! no history
-        call check(ents_state_init(model, 1_int64, moved, state_size, report))
-        state_in(:, e) = moved
-      end if
-    end do
-  end function history_moved
 
   ! What add_contact found last is the begin of the next increment.
   subroutine accept_contact()
-    segment_begin = segment
     state_begin = state_end
     points_begin = points
   end subroutine accept_contact

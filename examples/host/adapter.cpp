@@ -166,7 +166,8 @@ UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
   e.displacement.resize(rows);
   std::copy_n(in.multiplier, multipliers, e.displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
   std::vector<double> s;
-  if (in.surface_coordinates != nullptr) s.assign(in.surface_coordinates, in.surface_coordinates + coordinates);
+  if (in.surface_coordinates != nullptr)
+    s.assign(in.surface_coordinates, in.surface_coordinates + coordinates);
   const int number = model_number(model, route.program->coordinates ? std::vector<double>{} : s);
   e.properties = {static_cast<double>(number), *in.area, 0};
   if (route.program->coordinates) e.properties.insert(e.properties.end(), s.begin(), s.end());
@@ -207,7 +208,8 @@ double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, Elemen
 double evaluate_plainly(const ents_model* handle, ents_input in, const double* start, ElementResult& result) {
   auto out = ents_struct<ents_output>();
   out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | (result.state.empty() ? 0 : ENTS_STATE);
-  out.residual = result.residual.data(), out.tangent = result.tangent.data(), out.state_end = result.state.data();
+  out.residual = result.residual.data(), out.tangent = result.tangent.data(),
+  out.state_end = result.state.data();
   in.start = start;
   auto report = ents_struct<ents_report>();
   const int32_t status = route.evaluate(handle, 0, 1, &in, &out, &report);
@@ -215,9 +217,11 @@ double evaluate_plainly(const ents_model* handle, ents_input in, const double* s
   return status > 0 ? report.step_factor : 1;
 }
 
-/// What is left of an adapter without its program is where it starts the projection: on the segment without its height, unless
-/// the history knows better. This program starts where it has detected the node, which is quicker, and gives other last bits.
-double evaluate_directly(const ents_model* handle, const WrittenModel& model, const ents_input& in, ElementResult& result) {
+/// What is left of an adapter without its program is where it starts the projection: on the segment without
+/// its height, unless the history knows better. This program starts where it has detected the node, which is
+/// quicker, and gives other last bits.
+double evaluate_directly(const ents_model* handle, const WrittenModel& model, const ents_input& in,
+                         ElementResult& result) {
   double start[2] = {};
   bool found = false;
   if (model.base != nullptr) {
@@ -285,7 +289,8 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
     if (route.program == &direct) {
       step_factor = evaluate_directly(handle, model, in, result);
     } else {
-      if (!route.program->tangent && system->values != nullptr) evaluate_plainly(handle, in, in.start, result);
+      if (!route.program->tangent && system->values != nullptr)
+        evaluate_plainly(handle, in, in.start, result);
       step_factor = evaluate_one(model, k, in, result);
     }
     if (step_factor < 1) break;

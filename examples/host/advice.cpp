@@ -11,22 +11,17 @@ constexpr std::size_t half = 4, window = 2 * half; // iterations that are looked
 constexpr double rounding = 1e-3; // what stands above this is no rounding of a large stiffness
 constexpr double scatter = 100;   // of residuals that are rounding
 
-/// The normal law of the model, null if it has none.
-Json normal_law(const Json& model) {
-  const Json::json_pointer normal("/contact/normal");
-  return model.is_object() && model.contains(normal) ? model.at(normal) : Json();
-}
-
 /// The key of the law that makes it stiff, in brackets; empty: there is none.
 std::string stiffness_of(const Json& model) {
-  const Json law = normal_law(model);
+  const Json law = find_json(model, "/contact/normal");
   for (const char* key : {"stiffness", "coefficient"})
-    if (law.is_object() && law.contains(key)) return std::string("the contact stiffness (/contact/model/contact/normal/") + key + ")";
+    if (law.is_object() && law.contains(key))
+      return std::string("the contact stiffness (/contact/model/contact/normal/") + key + ")";
   return "";
 }
 
 bool smooth(const Json& model) {
-  const Json law = normal_law(model);
+  const Json law = find_json(model, "/contact/normal");
   return law.is_object() && (law.value("type", "") == "power" || law.value("type", "") == "exponential");
 }
 
@@ -57,13 +52,16 @@ bool stands_still(const std::vector<double>& residuals) {
 
 std::string advice_if_stuck(const IterationHistory& history, const Json& model) {
   if (history.residuals.size() < window) return "";
-  if (alternates(history)) return smooth(model) ? "" : "nodes open and close in turn: see examples/chatter (power or exponential law)";
+  if (alternates(history))
+    return smooth(model) ? ""
+                         : "nodes open and close in turn: see examples/chatter (power or exponential law)";
   if (wanders(history))
     return "slave nodes change between neighbouring segments at every iteration: take a smoothed segment "
            "(/contact/model/segment), which has no edges, or other steps";
   if (!stands_still(history.residuals)) return "";
   const std::string stiffness = stiffness_of(model);
-  return "the residual does not fall any more: " + (stiffness.empty() ? "" : "lower " + stiffness + " or ") + "raise /solver/tolerance";
+  return "the residual does not fall any more: " + (stiffness.empty() ? "" : "lower " + stiffness + " or ") +
+         "raise /solver/tolerance";
 }
 
 std::string advice_if_deep(const Json& model) {
@@ -71,7 +69,8 @@ std::string advice_if_deep(const Json& model) {
   return smaller_steps + (stiffness.empty() ? "" : ", or raise " + stiffness);
 }
 
-std::string advice_if_behind_edge(const Json& model) {
+std::string advice_if_lost(const Json& model, bool behind_edge) {
+  if (!behind_edge) return "let the master reach farther than its slave nodes slide";
   const bool has_one = model.is_object() && model.contains("border");
   return "take a smoothed segment (/contact/model/segment), which has no edges, or " +
          std::string(has_one ? "raise /contact/model/border" : "write \"border\": 0.1 into /contact/model") +

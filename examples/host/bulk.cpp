@@ -125,7 +125,8 @@ void Bulk::stress_of_group(const ElementGroup& group, const std::vector<double>&
       const auto node = static_cast<std::size_t>(element[static_cast<std::size_t>(a)]);
       weight[node] += volume;
       double* target = sum.data() + node * components;
-      const std::array<double, 6> plane{mean(0, 0), mean(1, 1), mean(2, 2), mean(0, 1), mean(1, 2), mean(0, 2)};
+      const std::array<double, 6> plane{mean(0, 0), mean(1, 1), mean(2, 2),
+                                        mean(0, 1), mean(1, 2), mean(0, 2)};
       for (std::size_t c = 0; c < components; ++c) target[c] += plane[c];
     }
   }

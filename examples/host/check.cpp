@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host check: is this enrichment admissible on this surface, and what does it need? The library judges (ents_surface_check) and
-// decides (ents_model_layout), here it is told.
+// ents-host check: is this enrichment admissible on this surface, and what does it need? The library judges
+// (ents_surface_check) and decides (ents_model_layout), here it is told.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -33,19 +33,22 @@ constexpr Condition conditions[] = {
     {ENTS_CHECK_FOLD, "fold", "rho_e does not fold over itself: max |h| kappa", "<", "",
      "the height exceeds the radius of curvature of rho; lower it, or refine the segments"},
     {ENTS_CHECK_EDGE, "edge", "height on the edges of segments: max |h|", "<=", "",
-     "a local height (s = xi) has to vanish there, or the surface jumps from segment to segment; or give surface coordinates"},
+     "a local height (s = xi) has to vanish there, or the surface jumps from segment to segment; or give "
+     "surface coordinates"},
     {ENTS_CHECK_JUMP, "jump", "neighbours meet: largest jump of rho_e at an edge", "<=", "",
      "rho_e = rho + h n jumps with n where h is not zero on the edge; smooth the surface, or let h vanish"},
     {ENTS_CHECK_KINK, "kink", "no kink: largest angle of n_e at an edge [degrees]", "<=", "",
      "the force jumps by this angle where a slave node slides over the edge; smooth the surface", degrees},
     {ENTS_CHECK_WEDGE, "wedge", "room between neighbours: smallest free angle at an edge [degrees]", ">", "",
-     "the enriched surfaces of two segments overlap beside their concave edge; lower the slope of h there", degrees},
-    {ENTS_CHECK_PROJECTION, "projection", "one normal projection: least |gap| of a slave with two", ">=", "flat",
-     "slave nodes this far away have two projections; lower h or its curvature, or the reach"},
+     "the enriched surfaces of two segments overlap beside their concave edge; lower the slope of h there",
+     degrees},
+    {ENTS_CHECK_PROJECTION, "projection", "one normal projection: least |gap| of a slave with two",
+     ">=", "flat", "slave nodes this far away have two projections; lower h or its curvature, or the reach"},
     {ENTS_CHECK_SHADOW, "shadow", "no self-shadow: min n_e . e", ">", "",
      "rays from the emitter meet the back of the surface; turn the rays, or lower the slopes of h"},
     {ENTS_CHECK_OCCLUSION, "occlusion", "all of it is lit: longest ray to a part in its light", "<=", "",
-     "another part of the surface stands between this place and the light; a slave node here is projected on that one"},
+     "another part of the surface stands between this place and the light; a slave node here is projected on "
+     "that one"},
     {ENTS_CHECK_CROSSING, "crossing", "segments do not cross: deepest place behind another", "<=", "",
      "enriched segments intersect; lower h, or smooth the surface"},
 };
@@ -88,7 +91,8 @@ public:
   }
   std::string bound_text(const Condition& c) const {
     if (!judged(c)) return "";
-    const std::string number = c.index == ENTS_CHECK_CONTINUITY ? derivatives(bound(c)) : format_number(bound(c), 3);
+    const std::string number =
+        c.index == ENTS_CHECK_CONTINUITY ? derivatives(bound(c)) : format_number(bound(c), 3);
     return std::string(c.relation) + " " + number;
   }
   std::string place(const Condition& c) const {
@@ -103,12 +107,15 @@ public:
     for (const Condition& c : conditions) {
       if (!violated(c) || result_.segment[c.index] < 0) continue;
       const double* x = result_.point[c.index];
-      places.push_back({x[0], x[1], x[2], std::string(c.what) + " is " + value_text(c) + ", bound " + bound_text(c)});
+      places.push_back(
+          {x[0], x[1], x[2], std::string(c.what) + " is " + value_text(c) + ", bound " + bound_text(c)});
     }
     return places;
   }
   Json json(const Condition& c) const {
-    const auto coordinates = [&](const double* x, std::size_t size) { return std::vector<double>(x, x + size); };
+    const auto coordinates = [&](const double* x, std::size_t size) {
+      return std::vector<double>(x, x + size);
+    };
     Json entry{{"name", c.key},
                {"condition", c.what},
                {"judged", judged(c)},
@@ -148,7 +155,9 @@ void print(const Answer& answer, std::size_t segments, bool friction) {
   for (const Condition& c : conditions) {
     if (!answer.known(c)) continue;
     table.row({c.what, answer.value_text(c), answer.bound_text(c),
-               !answer.judged(c) ? "" : answer.violated(c) ? "FAILS" : "ok",
+               !answer.judged(c)    ? ""
+               : answer.violated(c) ? "FAILS"
+                                    : "ok",
                answer.violated(c) ? format_number(answer.missing(c), 3) : "", answer.place(c)});
   }
   std::printf("%s", table.text().c_str());
@@ -157,7 +166,8 @@ void print(const Answer& answer, std::size_t segments, bool friction) {
       std::printf("not admissible: %s is %s (bound %s) at %s: %s\n", c.what, answer.value_text(c).c_str(),
                   answer.bound_text(c).c_str(), answer.place(c).c_str(), c.remark);
   if (friction && answer.tangent_jumps())
-    std::printf("note: the third derivatives of h jump between the cells of a map or thread, and with them the exact tangent of friction: "
+    std::printf("note: the third derivatives of h jump between the cells of a map or thread, and with them "
+                "the exact tangent of friction: "
                 "Newton's iteration does not suffer (examples/host/README.md)\n");
   std::size_t failing = 0;
   for (const std::int64_t bits : answer.violations()) failing += bits != 0;
@@ -173,11 +183,14 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
   const EntsLibrary library(common.library);
   const Json text = parse_json_file(options.model);
   if (text.is_object() && text.contains("parts"))
-    throw InputError(options.model.string() + ": this is a scene; check takes a model: save what stands under /contact/model as a file "
-                                              "beside it");
+    throw InputError(
+        options.model.string() +
+        ": this is a scene; check takes a model: save what stands under /contact/model as a file "
+        "beside it");
   const EntsModel model(library, options.model);
   if (text.contains("patch"))
-    throw InputError(options.model.string() + ": /patch: the segments are those of --mesh here; leave the key out");
+    throw InputError(options.model.string() +
+                     ": /patch: the segments are those of --mesh here; leave the key out");
   const std::string name = text.at("segment").get<std::string>();
   const MasterSurface surface = read_surface(options.mesh, name, model.layout());
   const OutputFolder folder(options.out);

@@ -37,7 +37,8 @@ Extent coordinates_of(const Json& text, std::size_t directions, const std::vecto
   const std::size_t m = directions == 1 ? 4 : 16; // of smoothed segments
   const auto between = [&](std::size_t node) {
     const auto middle = [](std::size_t i) { return i == 1 || i == 2; };
-    return !is_smoothed(name) || (directions == 1 ? middle(node % m) : middle(node % m % 4) && middle(node % m / 4));
+    return !is_smoothed(name) ||
+           (directions == 1 ? middle(node % m) : middle(node % m % 4) && middle(node % m / 4));
   };
   Extent extent = nothing(directions);
   if (!of_segments.empty()) {
@@ -57,7 +58,8 @@ Extent coordinates_of(const Json& text, std::size_t directions, const std::vecto
         if (between(a)) include_node(a);
     }
   } else {
-    for (std::size_t i = 0; i < directions; ++i) include(extent, i, is_triangle(name) ? 0 : -1), include(extent, i, 1);
+    for (std::size_t i = 0; i < directions; ++i)
+      include(extent, i, is_triangle(name) ? 0 : -1), include(extent, i, 1);
   }
   return extent;
 }
@@ -144,8 +146,8 @@ void find_maps(const Json& height, const std::string& where, const std::filesyst
 
 /// All but the heights.
 /// @param where  path of the model
-SurfaceExtent coverage(const Json& text, const std::string& where, const std::filesystem::path& folder, std::size_t directions,
-                       const std::vector<double>& of_segments) {
+SurfaceExtent coverage(const Json& text, const std::string& where, const std::filesystem::path& folder,
+                       std::size_t directions, const std::vector<double>& of_segments) {
   SurfaceExtent extent;
   extent.coordinates = coordinates_of(text, directions, of_segments);
   if (text.contains("height")) find_maps(text.at("height"), where + "/height", folder, extent);
@@ -156,10 +158,11 @@ std::vector<std::string> warnings(const SurfaceExtent& extent) {
   std::vector<std::string> lines;
   for (const MapExtent& map : extent.maps)
     if (map.too_small)
-      lines.push_back("warning: the map " + map.where +
-                      " covers only a part of the segments, beyond it the heights of its border go on; look at "
-                      "\"size\", \"origin\" "
-                      "and \"length_unit\" (metres in one unit of length)");
+      lines.push_back(
+          "warning: the map " + map.where +
+          " covers only a part of the segments, beyond it the heights of its border go on; look at "
+          "\"size\", \"origin\" "
+          "and \"length_unit\" (metres in one unit of length)");
   return lines;
 }
 
@@ -181,7 +184,8 @@ SurfaceExtent extent_of(const EntsModel& model, const Json& text, const std::fil
   const double each = most_points / static_cast<double>(surface.segments());
   const int n =
       static_cast<int>(surface.d == 2 ? std::clamp(each, 5., 2001.) : std::clamp(std::sqrt(each), 3., 257.));
-  const std::vector<double> xi = even_grid(model.layout().parameters, static_cast<std::size_t>(n - 1), triangles);
+  const std::vector<double> xi =
+      even_grid(model.layout().parameters, static_cast<std::size_t>(n - 1), triangles);
   extent.low = std::numeric_limits<double>::infinity(), extent.high = -extent.low;
   for (std::size_t s = 0; s < surface.segments(); ++s)
     for (const double height : sample_surface(model, surface.master(s), surface.coordinates(s), xi).height)
@@ -203,7 +207,8 @@ std::string describe(const SurfaceExtent& extent) {
 void note_small_maps(const Scene& scene, const std::vector<double>& of_segments) {
   if (!scene.contact) return;
   const auto directions = static_cast<std::size_t>(scene.dimension - 1);
-  const SurfaceExtent extent = coverage(scene.contact->model, "/contact/model", scene.file.parent_path(), directions, of_segments);
+  const SurfaceExtent extent =
+      coverage(scene.contact->model, "/contact/model", scene.file.parent_path(), directions, of_segments);
   for (const std::string& line : warnings(extent)) std::fprintf(stderr, "ents-host: %s\n", line.c_str());
 }
 

@@ -21,8 +21,8 @@ std::vector<double> natural_nodes(const std::string& segment) {
       {"quad4", {-1, -1, 1, -1, 1, 1, -1, 1}},
       {"quad8", {-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0}},
       {"quad9", {-1, -1, 1, -1, 1, 1, -1, 1, 0, -1, 1, 0, 0, 1, -1, 0, 0, 0}},
-      {"bezier15", {0, 0, 1, 0, 0, 1, .25, 0, .5, 0, .75, 0, .75, .25, .5, .5, .25, .75, 0, .75, 0, .5, 0, .25,
-                    .25, .25, .5, .25, .25, .5}}};
+      {"bezier15", {0,  0,   1,   0, 0,   1, .25, 0, .5,  0,   .75, 0,  .75, .25, .5,
+                    .5, .25, .75, 0, .75, 0, .5,  0, .25, .25, .25, .5, .25, .25, .5}}};
   const auto found = nodes.find(segment);
   if (found != nodes.end()) return found->second;
   std::vector<double> patch; // 16-node patches: 4 j + i
@@ -87,12 +87,14 @@ MasterSurface deck_surface(const std::filesystem::path& file, const ents_layout&
   for (const auto& x : deck.coordinates)
     surface.nodes.insert(surface.nodes.end(), x.begin(), x.begin() + layout.dimension);
   for (const inp::Element& element : deck.elements)
-    if (inp::dimension(element.shape) == layout.dimension - 1 && inp::node_count(element.shape) == layout.nodes)
+    if (inp::dimension(element.shape) == layout.dimension - 1 &&
+        inp::node_count(element.shape) == layout.nodes)
       surface.connectivity.insert(surface.connectivity.end(), element.nodes.begin(),
                                   element.nodes.begin() + layout.nodes);
   if (surface.connectivity.empty())
-    throw InputError(file.string() + ": no element has the " + std::to_string(layout.nodes) +
-                     " nodes of the model's segment; write smoothed and higher-order segments as a .json mesh");
+    throw InputError(
+        file.string() + ": no element has the " + std::to_string(layout.nodes) +
+        " nodes of the model's segment; write smoothed and higher-order segments as a .json mesh");
   return surface;
 }
 
@@ -124,7 +126,8 @@ std::vector<double> MasterSurface::coordinates(std::size_t segment) const {
   return {first, first + size};
 }
 
-MasterSurface read_surface(const std::filesystem::path& file, const std::string& segment, const ents_layout& layout) {
+MasterSurface read_surface(const std::filesystem::path& file, const std::string& segment,
+                           const ents_layout& layout) {
   if (file.empty()) return one_segment(segment, layout);
   if (file.extension() == ".json") return json_surface(file, layout);
   try {

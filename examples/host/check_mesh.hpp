@@ -23,11 +23,13 @@ struct MasterSurface {
   std::vector<double> coordinates(std::size_t segment) const; ///< [m][d-1] or empty
 };
 
-/// @param file     .json: {"nodes": [[x, y], ...], "segments": [[0, 1], ...]} and, if wanted, "surface_coordinates": one
-///                 entry per node; else an Abaqus/CalculiX deck whose elements are the segments; empty: one segment whose
-///                 nodes lie at their natural coordinates
+/// @param file     .json: {"nodes": [[x, y], ...], "segments": [[0, 1], ...]} and, if wanted,
+/// "surface_coordinates": one
+///                 entry per node; else an Abaqus/CalculiX deck whose elements are the segments; empty: one
+///                 segment whose nodes lie at their natural coordinates
 /// @param segment  of the model
 /// @throws InputError naming file and key or line
-MasterSurface read_surface(const std::filesystem::path& file, const std::string& segment, const ents_layout& layout);
+MasterSurface read_surface(const std::filesystem::path& file, const std::string& segment,
+                           const ents_layout& layout);
 
 } // namespace host

@@ -38,10 +38,11 @@ std::string describe_needs(const ents_layout& layout, bool law) {
   std::string text = "this scene needs: ";
   text.append(needed.empty() ? "positions alone" : needed).append("\n");
   if (!left_out.empty()) text.append("it does not need: ").append(left_out).append("\n");
-  if (!law) return text + "kernels: no contact law in the model (its key \"contact\"), so there is no element to choose one for\n";
+  if (!law)
+    return text + "kernels: no contact law in the model (its key \"contact\"), so there is no element to "
+                  "choose one for\n";
   text.append("kernels: ").append(layout.instruction_set);
-  text.append(one_by_one ? ", elements one by one (the fast kernels do not know all of this model)\n"
-                         : ", those of ordinary elements\n");
+  text.append(one_by_one ? ", elements one after the other\n" : ", several elements at once\n");
   return text;
 }
 

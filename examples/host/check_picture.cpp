@@ -35,8 +35,9 @@ std::vector<std::size_t> shown(const MasterSurface& surface, const std::vector<p
 } // namespace
 
 pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surface,
-                             const std::vector<std::int64_t>& violations, const std::vector<pictures::Place>& places,
-                             bool triangles, const std::filesystem::path& folder) {
+                             const std::vector<std::int64_t>& violations,
+                             const std::vector<pictures::Place>& places, bool triangles,
+                             const std::filesystem::path& folder) {
   const std::vector<std::size_t> segments = shown(surface, places);
   const double each = most_points / static_cast<double>(segments.size());
   pictures::Surface picture;
@@ -45,10 +46,12 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
                                    : static_cast<int>(std::clamp(std::sqrt(each), 3., 161.));
   picture.rows = surface.d == 2 ? 1 : picture.columns;
   picture.title = places.empty() ? "Enriched surface: nothing found" : "Enriched surface and where it fails";
-  picture.subtitle = std::to_string(surface.segments()) + (surface.segments() == 1 ? " segment" : " segments");
+  picture.subtitle =
+      std::to_string(surface.segments()) + (surface.segments() == 1 ? " segment" : " segments");
   if (segments.size() < surface.segments())
     picture.subtitle += ", " + std::to_string(segments.size()) + " of them drawn, around the first place";
-  const std::vector<double> xi = even_grid(model.layout().parameters, static_cast<std::size_t>(picture.columns - 1), triangles);
+  const std::vector<double> xi =
+      even_grid(model.layout().parameters, static_cast<std::size_t>(picture.columns - 1), triangles);
   for (const std::size_t s : segments) {
     const SurfaceSample sample = sample_surface(model, surface.master(s), surface.coordinates(s), xi);
     picture.enriched.insert(picture.enriched.end(), sample.point.begin(), sample.point.end());

@@ -9,12 +9,13 @@
 namespace host {
 namespace {
 
-/// What decides whether a checkpoint fits: the scene without what a user may well change before the run goes on, be it words, be
-/// it how it is solved. Steps are compared where they are known, see restart.cpp.
+/// What decides whether a checkpoint fits: the scene without what a user may well change before the run goes
+/// on, be it words, be it how it is solved. Steps are compared where they are known, see restart.cpp.
 Json physics_of(const Scene& scene) {
   Json json = scene.definition;
   for (const char* key : {"title", "units", "exact", "compare", "variants", "solver"}) json.erase(key);
   if (json.contains("steps")) json["steps"].erase("values");
+  json.erase("history"); // of later steps; the present values are in the checkpoint
   if (scene.contact)
     for (const char* key : {"tangent", "penetration_limit"}) json["contact"]["model"].erase(key);
   return json;
@@ -22,7 +23,8 @@ Json physics_of(const Scene& scene) {
 
 /// @throws InputError naming the first thing that differs
 void check_same_scene(const JsonValue& theirs, const Scene& scene) {
-  const nlohmann::json there = theirs.json(), here = physics_of(scene); // sorted: the order of keys does not matter
+  const nlohmann::json there = theirs.json(),
+                       here = physics_of(scene); // sorted: the order of keys does not matter
   const nlohmann::json changes = nlohmann::json::diff(there, here);
   if (changes.empty()) return;
   const auto text = [&](const nlohmann::json& json) {
@@ -31,9 +33,10 @@ void check_same_scene(const JsonValue& theirs, const Scene& scene) {
     const std::string value = json.at(place).dump();
     return value.size() > 60 ? value.substr(0, 60) + "..." : value;
   };
-  theirs.fail("the checkpoint is of another scene: " + changes[0].at("path").get<std::string>() + " is " + text(there) +
-              " there and " + text(here) +
-              " here; later steps, solver, exact, words, and the model's tangent and penetration_limit may change");
+  theirs.fail(
+      "the checkpoint is of another scene: " + changes[0].at("path").get<std::string>() + " is " +
+      text(there) + " there and " + text(here) +
+      " here; later steps, solver, exact, words, and the model's tangent and penetration_limit may change");
 }
 
 } // namespace
@@ -55,6 +58,9 @@ Json Simulation::checkpoint() const {
                        {"xi", history.at.xi},
                        {"pressure", history.pressure},
                        {"traction", history.traction}};
+    if (!now_.parameters.empty()) json["contact"]["parameters"] = now_.parameters;
+    if (!history.fields.empty())
+      json["contact"]["fields"] = history.fields, json["contact"]["worn_master"] = history.worn_master;
   }
   return json;
 }
@@ -67,7 +73,8 @@ void Simulation::restore(const Json& checkpoint) {
     object.at("mesh").fail("the checkpoint is of another mesh: a deck has changed");
   if (object.at("master_segments").number() != static_cast<double>(sizes().master_segments))
     object.at("master_segments")
-        .fail("the checkpoint is of another master surface, of " + object.at("master_segments").json().dump() + " segments, here are " +
+        .fail("the checkpoint is of another master surface, of " +
+              object.at("master_segments").json().dump() + " segments, here are " +
               std::to_string(sizes().master_segments) + "; see --explicit");
   at.load_factor = object.at("load_factor").number();
   at.motion = object.at("motion").number();
@@ -86,6 +93,13 @@ void Simulation::restore(const Json& checkpoint) {
     history.at.xi = contact.at("xi").numbers();
     history.pressure = contact.at("pressure").numbers();
     history.traction = contact.at("traction").numbers();
+    at.parameters = now_.parameters;
+    if (!at.parameters.empty()) at.parameters = contact.at("parameters").numbers(at.parameters.size());
+    if (contact.has("fields")) {
+      JsonObject fields(contact.at("fields"));
+      for (const std::string& name : fields.all_keys()) history.fields[name] = fields.at(name).numbers();
+      history.worn_master = contact.at("worn_master").number();
+    }
     contact.finish();
     try {
       contact_->restore(history, at);
@@ -120,6 +134,8 @@ std::string Simulation::fingerprint() const {
     hash.add_all(history.at.xi);
     hash.add_all(history.pressure);
     hash.add_all(history.traction);
+    hash.add_all(now_.parameters);
+    for (const auto& [name, block] : history.fields) hash.add_all(block);
   }
   return hash.text();
 }

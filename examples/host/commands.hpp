@@ -16,18 +16,18 @@ struct CommonOptions {
 };
 
 struct RunOptions {
-  std::filesystem::path scene, out; ///< out empty: no files
-  int explicit_divisions = 0;       ///< > 0: the master as an explicit mesh of plain segments
-  bool compare = false;             ///< the scene against explicit meshes
+  std::filesystem::path scene, out;   ///< out empty: no files
+  int explicit_divisions = 0;         ///< > 0: the master as an explicit mesh of plain segments
+  bool compare = false;               ///< the scene against explicit meshes
   std::vector<int> compare_divisions; ///< empty: the scene's own list
-  std::string adapter = "plain"; ///< of adapter_names()
+  std::string adapter = "plain";      ///< of adapter_names()
   bool pictures = true;
-  std::string variant;  ///< of the scene; empty: the scene as it is
-  bool nodes = false;   ///< fields of the slave nodes in the JSON result
-  std::string cut;      ///< "", "halves", "random"
-  std::optional<unsigned> seed; ///< of random cuts
-  bool discard = false; ///< try other increments first and throw them away
-  int last_step = 0;    ///< 0: all
+  std::string variant;           ///< of the scene; empty: the scene as it is
+  bool nodes = false;            ///< fields of the slave nodes in the JSON result
+  std::string cut;               ///< "", "halves", "random"
+  std::optional<unsigned> seed;  ///< of random cuts
+  bool discard = false;          ///< try other increments first and throw them away
+  int last_step = 0;             ///< 0: all
   std::filesystem::path restart; ///< checkpoint to continue from
 };
 int run_command(const CommonOptions& common, const RunOptions& options);
@@ -56,12 +56,13 @@ struct CheckOptions {
 int check_command(const CommonOptions& common, const CheckOptions& options);
 
 struct ChartOptions {
-  std::filesystem::path out; ///< empty: only the terminal is told
+  std::filesystem::path out;    ///< empty: only the terminal is told
   std::filesystem::path scenes; ///< the folder examples; empty: found from the program's folder
-  bool quick = false;        ///< a few points of each map, a few runs of each scene
+  bool quick = false;           ///< a few points of each map, a few runs of each scene
   bool pictures = true;
 };
-/// What an error costs, by work-precision diagrams, and where each method works, by maps over pairs of parameters.
+/// What an error costs, by work-precision diagrams, and where each method works, by maps over pairs of
+/// parameters.
 int chart_command(const CommonOptions& common, const ChartOptions& options);
 
 } // namespace host

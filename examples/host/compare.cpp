@@ -140,7 +140,8 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
     return comparison;
   }
   measure_difference(scene, enriched, other);
-  (other.row.difference <= within_fit * comparison.error ? comparison.equal_error : comparison.missed).push_back(other.row);
+  (other.row.difference <= within_fit * comparison.error ? comparison.equal_error : comparison.missed)
+      .push_back(other.row);
   return comparison;
 }
 
@@ -152,10 +153,11 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   const OutputFolder folder(options.out);
   const EntsLibrary library(common.library);
   RunObserver observer;
-  if (!common.json) observer.line = [](const std::string& line) {
-    std::printf("%s\n", line.c_str());
-    std::fflush(stdout);
-  };
+  if (!common.json)
+    observer.line = [](const std::string& line) {
+      std::printf("%s\n", line.c_str());
+      std::fflush(stdout);
+    };
   const Comparison comparison = compare(scene, library, divisions, true, observer);
 
   Table table;
@@ -166,10 +168,12 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   const Quantity* reference = main_quantity(comparison.enriched);
   if (reference != nullptr) table.column("error", reference->name, 2);
   const auto add = [&](const CompareRow& row, const std::string& label) {
-    std::vector<Table::Cell> cells{label, static_cast<std::int64_t>(row.sizes.slaves),
+    std::vector<Table::Cell> cells{label,
+                                   static_cast<std::int64_t>(row.sizes.slaves),
                                    static_cast<std::int64_t>(row.sizes.master_segments),
                                    static_cast<std::int64_t>(row.sizes.dofs + row.sizes.master_dofs),
-                                   row.wall_time, row.contact_time};
+                                   row.wall_time,
+                                   row.contact_time};
     if (row.divisions == 0)
       cells.insert(cells.end(), {Table::Cell{}, Table::Cell{}});
     else
@@ -223,11 +227,14 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   std::printf("the explicit meshes converge to the enriched segment with order %s in their segment length\n",
               format_number(comparison.order, 3).c_str());
   if (!comparison.missed.empty())
-    std::printf("a difference of %s is not reached: the fit asks for %d segments per direction, and these come within %s; "
+    std::printf("a difference of %s is not reached: the fit asks for %d segments per direction, and these "
+                "come within %s; "
                 "finer meshes in the list make a better fit\n",
-                wanted.c_str(), comparison.missed[0].divisions, format_number(comparison.missed[0].difference, 2).c_str());
+                wanted.c_str(), comparison.missed[0].divisions,
+                format_number(comparison.missed[0].difference, 2).c_str());
   else if (!comparison.unsolved.empty())
-    std::printf("the mesh that the fit asks for at a difference of %s cannot be solved, %s\n", wanted.c_str(), comparison.unsolved.c_str());
+    std::printf("the mesh that the fit asks for at a difference of %s cannot be solved, %s\n", wanted.c_str(),
+                comparison.unsolved.c_str());
   else if (comparison.equal_error.empty())
     std::printf("an explicit mesh that comes within %s of it is out of reach here\n", wanted.c_str());
   return 0;

@@ -9,10 +9,12 @@ namespace host {
 /// Where the system is.
 struct Configuration {
   std::vector<double> displacement; ///< [dofs]
-  std::vector<double> multiplier;   ///< [slaves][multipliers of a contact element], empty if the method has none
-  double motion = 0;                ///< of the rigid master along its direction [L]
-  double force = 0;                 ///< on the rigid master along its direction, this mesh's share [F]
-  double load_factor = 0;           ///< of supports and tractions
+  std::vector<double>
+      multiplier;         ///< [slaves][multipliers of a contact element], empty if the method has none
+  double motion = 0;      ///< of the rigid master along its direction [L]
+  double force = 0;       ///< on the rigid master along its direction, this mesh's share [F]
+  double load_factor = 0; ///< of supports and tractions
+  std::vector<double> parameters; ///< values of the contact model's, in alphabetical order; empty: none
 };
 
 } // namespace host

@@ -16,14 +16,16 @@ std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value)
 
 /// A stiffness of the model's contact law; 1 where the law has none.
 double stiffness_of(const Json& model, const char* law) {
-  const Json::json_pointer path("/contact/" + std::string(law) + "/stiffness");
-  return model.contains(path) && model.at(path).is_number() ? model.at(path).get<double>() : 1;
+  const Json found = find_json(model, ("/contact/" + std::string(law) + "/stiffness").c_str());
+  return found.is_number() ? found.get<double>() : 1;
 }
 
 } // namespace
 
-Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dof_map, SlavePoints points)
-    : master_(std::move(master)), mesh_(&mesh), dofs_(&dof_map), points_(std::move(points)), detector_(*master_.model) {
+Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dof_map,
+                 SlavePoints points, double thickness)
+    : master_(std::move(master)), mesh_(&mesh), dofs_(&dof_map), points_(std::move(points)),
+      thickness_(thickness), detector_(*master_.model) {
   const ents_layout& layout = master_.model->layout();
   d_ = static_cast<std::size_t>(layout.dimension);
   m_ = static_cast<std::size_t>(layout.nodes);
@@ -32,6 +34,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   state_size_ = static_cast<std::size_t>(layout.state_size);
   normal_stiffness_ = stiffness_of(spec.model, "normal");
   tangential_stiffness_ = stiffness_of(spec.model, "friction");
+  sliding_ = parameter_of(find_json(spec.model, "/contact/wear/sliding"));
   if (master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
 
   for (std::size_t i = 0; i < d_; ++i) {
@@ -43,7 +46,8 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     size_ = std::hypot(size_, high - low);
   }
   number_unknowns();
-  // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have elements behind them.
+  // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
+  // elements behind them.
   std::vector<double> nodes(m_ * d_);
   const std::vector<double> centre(parameters_, master_.triangles ? 1. / 3 : 0.);
   for (std::size_t s = 0; master_.rigid && s < master_.segments(); ++s) {
@@ -72,23 +76,43 @@ void Contact::number_unknowns() {
   point_nodes_.assign(points_.nodes.begin(), points_.nodes.end());
   for (const std::int64_t node : point_nodes_) add_node(node);
   slave_dofs_ = unknowns_.size();
-  for (std::size_t i = 0; !master_.rigid && i < master_.connectivity.size(); ++i) add_node(master_.connectivity[i]);
+  for (std::size_t i = 0; !master_.rigid && i < master_.connectivity.size(); ++i)
+    add_node(master_.connectivity[i]);
   multiplier_equations_.resize(multiplier_count());
   for (std::size_t j = 0; j < multiplier_count(); ++j) {
     multiplier_equations_[j] = stride(unknowns_.size());
     unknowns_.push_back(dofs() + j);
   }
-  for (std::size_t k = 0; k <= points_.size(); ++k) point_begin_.push_back(stride(k * points_.nodes_per_point));
+  for (std::size_t k = 0; k <= points_.size(); ++k)
+    point_begin_.push_back(stride(k * points_.nodes_per_point));
   for (const std::int64_t node : point_nodes_)
     for (std::size_t i = 0; i < d_; ++i)
       slave_equations_.push_back(dof_equations_[static_cast<std::size_t>(node) * d_ + i]);
 }
 
-double Contact::total_area() const { return std::accumulate(points_.areas.begin(), points_.areas.end(), 0.0); }
+std::size_t Contact::parameter_of(const Json& name) const {
+  const std::vector<std::string>& names = master_.model->parameters();
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void Contact::bind(const Configuration& at) {
+  if (at.parameters.empty()) return;
+  std::vector<double> values = at.parameters;
+  if (sliding_ < values.size()) values[sliding_] -= begin_.parameters[sliding_];
+  if (values == bound_) return;
+  master_.model->bind(values);
+  for (std::size_t p = 0; p < values.size(); ++p)
+    if (bound_.empty() || (p != sliding_ && values[p] != bound_[p])) surface_changed_ = true;
+  bound_ = values;
+}
+
+double Contact::total_area() const {
+  return std::accumulate(points_.areas.begin(), points_.areas.end(), 0.0);
+}
 
 bool Contact::has_history() const {
   const ents_layout& layout = master_.model->layout();
-  return layout.friction != 0 || layout.augmentable != 0;
+  return layout.friction != 0 || layout.augmentable != 0 || layout.worn >= 0;
 }
 
 double Contact::multiplier_scale(std::size_t index) const {
@@ -103,6 +127,7 @@ std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<doub
 }
 
 void Contact::place(const Configuration& at) {
+  bind(at);
   slave_positions_.resize(points_.size() * d_);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const std::array<double, 3> now = position_of(k, at.displacement);
@@ -126,19 +151,40 @@ ents_master_mesh Contact::mesh() const {
   return mesh;
 }
 
+Lost Contact::find_lost_since_begin(const ents_master_mesh& where) const {
+  std::vector<std::size_t> gone;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    if (at_.segment[k] < 0 && begin_at_.segment[k] >= 0 && accepted_.pressure[k] != 0) gone.push_back(k);
+  if (gone.empty()) return {};
+  std::vector<double> slaves;
+  Projections at;
+  for (const std::size_t k : gone) {
+    slaves.insert(slaves.end(), slave_positions_.data() + k * d_, slave_positions_.data() + (k + 1) * d_);
+    at.segment.push_back(begin_at_.segment[k]);
+    at.xi.insert(at.xi.end(), begin_at_.xi.data() + k * parameters_,
+                 begin_at_.xi.data() + (k + 1) * parameters_);
+  }
+  Lost lost = detector_.find(where, slaves, at);
+  if (lost.slave >= 0) lost.slave = static_cast<std::int64_t>(gone[static_cast<std::size_t>(lost.slave)]);
+  return lost;
+}
+
 bool Contact::choose(const Configuration& at, bool only_lost, ents_report& report) {
   const std::vector<std::int64_t> before = at_.segment;
   report.status = ENTS_OK;
   place(at);
   const ents_master_mesh where = mesh();
-  const bool moved = !master_.rigid || !detector_.is_placed();
+  const bool moved = !master_.rigid || !detector_.is_placed() || surface_changed_;
+  surface_changed_ = false;
   if (moved) detector_.move(where);
   if (moved && base_detector_) base_detector_->move(where);
   for (std::size_t k = 0; k < points_.size(); ++k)
-    if (closed_[k] == 0 || (!only_lost && !master_.covers(at_.xi.data() + k * parameters_))) at_.segment[k] = -1;
+    if (closed_[k] == 0 || (!only_lost && !master_.covers(at_.xi.data() + k * parameters_)))
+      at_.segment[k] = -1;
   if (base_detector_) {
-    // A search on a rough surface takes long, and finds points that are closer somewhere else, or two that are equally close. The one
-    // straight ahead of the node is near its projection on the segment without the height.
+    // A search on a rough surface takes long, and finds points that are closer somewhere else, or two that
+    // are equally close. The one straight ahead of the node is near its projection on the segment without the
+    // height.
     Projections straight = at_;
     base_detector_->find(where, slave_positions_, straight);
     for (std::size_t k = 0; k < points_.size(); ++k)
@@ -147,12 +193,17 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
         std::copy_n(straight.xi.data() + k * parameters_, parameters_, at_.xi.data() + k * parameters_);
       }
   }
-  behind_edge_.clear();
-  if (const std::int64_t lost = detector_.find(where, slave_positions_, at_); lost >= 0) {
-    const std::array<double, 3> position = position_of(static_cast<std::size_t>(lost), at.displacement);
+  Lost lost = detector_.find(where, slave_positions_, at_);
+  if (lost.slave < 0) lost = find_lost_since_begin(where);
+  lost_.clear();
+  lost_behind_edge_ = lost.behind_edge;
+  if (lost.slave >= 0) {
+    const std::array<double, 3> position = position_of(static_cast<std::size_t>(lost.slave), at.displacement);
     std::string text;
     for (std::size_t i = 0; i < d_; ++i) text += (i > 0 ? ", " : "") + format_number(position[i], 6);
-    behind_edge_ = "the slave node at (" + text + ") lies behind a concave edge between two segments and projects on neither";
+    lost_ = "the slave node at (" + text + ") " +
+            (lost.behind_edge ? "lies behind a concave edge between two segments and projects on neither"
+                              : "was in contact and lies beside all segments of the master now");
   }
   if (at_.segment != before) move_history(report);
   return at_.segment != pattern_segment_;
@@ -177,7 +228,8 @@ void Contact::build_tangent() {
       group.equations.push_back(static_cast<int>(multiplier_equations_[k * multipliers_ + j]));
   }
   const StencilGroup* const groups[] = {&elements, &open};
-  tangent_ = pattern_of(static_cast<int>(unknowns_.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
+  tangent_ =
+      pattern_of(static_cast<int>(unknowns_.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
   if (points_.are_nodes()) places_.assign(points_.size() * (d_ * (m_ + 1) * (m_ + 1) + 1), 0);
 }
 
@@ -189,7 +241,8 @@ ents_input Contact::input(const ents_master_mesh& where) const {
   in.start = at_.xi.data(), in.start_stride = stride(parameters_);
   in.area = points_.areas.data(), in.area_stride = 1;
   if (state_size_ > 0) in.state_begin = state_in_.data(), in.state_begin_stride = stride(state_size_);
-  if (multipliers_ > 0) in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);
+  if (multipliers_ > 0)
+    in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);
   return in;
 }
 
@@ -223,7 +276,8 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     system.places = places_.data(), system.places_size = stride(places_.size() / points_.size());
   } else {
     points.points = count();
-    points.begin = point_begin_.data(), points.nodes = point_nodes_.data(), points.weights = points_.weights.data();
+    points.begin = point_begin_.data(), points.nodes = point_nodes_.data(),
+    points.weights = points_.weights.data();
     system.slave = &points;
   }
   system.master_nodes = mesh_->node_count(), system.master_equations = dof_equations_.data();
@@ -253,7 +307,8 @@ void Contact::count_changes(const std::vector<std::int32_t>& flags) {
   status_changes_ = switches_ = moves_ = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     closed_[k] = (flags[k] & ENTS_FLAG_CONTACT) != 0;
-    const std::int64_t now = closed_[k] == 0 ? -1 : 2 * at_.segment[k] + ((flags[k] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
+    const std::int64_t now =
+        closed_[k] == 0 ? -1 : 2 * at_.segment[k] + ((flags[k] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
     status_changes_ += now != found_[k];
     switches_ += (now < 0) != (found_[k] < 0);
     moves_ += now >= 0 && found_[k] >= 0 && now / 2 != found_[k] / 2;
@@ -261,8 +316,8 @@ void Contact::count_changes(const std::vector<std::int32_t>& flags) {
   }
 }
 
-// Only the relative position of slave and master counts: moving the master is moving all slave points back, and the weights of a
-// point's nodes add to one.
+// Only the relative position of slave and master counts: moving the master is moving all slave points back,
+// and the weights of a point's nodes add to one.
 void Contact::couple(const std::vector<double>& force, RigidCoupling& coupling) const {
   coupling.force = coupling.diagonal = 0;
   std::vector<double> direction(force.size(), 0.0);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Node-to-segment contact: one element of the library per slave node, or per sampling point inside the slave faces.
+// Node-to-segment contact: one element of the library per slave node, or per sampling point inside the slave
+// faces.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,34 +20,40 @@ namespace host {
 /// What a rigid master feels: total force along its direction of motion e, and how it and the forces on the
 /// other unknowns depend on its motion.  dW/d(motion) = -sum R_s . e
 struct RigidCoupling {
-  double force = 0;               ///< -sum R_s . e [F]; > 0 presses
-  std::vector<double> column;     ///< [dofs, multipliers] dR/d(motion) = -K_s e
-  std::vector<double> row;        ///< [dofs, multipliers] d(force)/du = -e K_s
-  double diagonal = 0;            ///< d(force)/d(motion) = sum e K_s e
+  double force = 0;           ///< -sum R_s . e [F]; > 0 presses
+  std::vector<double> column; ///< [dofs, multipliers] dR/d(motion) = -K_s e
+  std::vector<double> row;    ///< [dofs, multipliers] d(force)/du = -e K_s
+  double diagonal = 0;        ///< d(force)/d(motion) = sum e K_s e
 };
 
 /// Fields on the slave nodes, in their order.
 struct ContactFields {
-  std::vector<double> gap, normal_gap, pressure; ///< [slaves]; no projection inside the segment: NaN gaps, no pressure
-  std::vector<double> normal, point;             ///< [slaves][d] n_e and rho_e at the projection
-  std::vector<char> closed;                      ///< [slaves] carries pressure
-  std::vector<double> traction;                  ///< [slaves][d] tangential, on the master
-  std::vector<double> slip, age;                 ///< [slaves] accumulated; increments since the last change of status
-  std::vector<std::int32_t> flags;               ///< [slaves] ENTS_FLAG_...; no segment: ENTS_FLAG_OUTSIDE
-  std::vector<std::int64_t> segment;             ///< [slaves] -1: none
-  std::vector<double> node_forces;               ///< [slaves][d] on the master
-  std::vector<double> force;                     ///< [d] their sum
+  std::vector<double> gap, normal_gap,
+      pressure;                      ///< [slaves]; no projection inside the segment: NaN gaps, no pressure
+  std::vector<double> normal, point; ///< [slaves][d] n_e and rho_e at the projection
+  std::vector<char> closed;          ///< [slaves] carries pressure
+  std::vector<double> traction;      ///< [slaves][d] tangential, on the master
+  std::vector<double> slip, age;     ///< [slaves] accumulated; increments since the last change of status
+  std::vector<double> worn;          ///< [slaves] depth lost by the slave surface [L]; empty: no wear
+  std::vector<std::int32_t> flags;   ///< [slaves] ENTS_FLAG_...; no segment: ENTS_FLAG_OUTSIDE
+  std::vector<std::int64_t> segment; ///< [slaves] -1: none
+  std::vector<double> node_forces;   ///< [slaves][d] on the master
+  std::vector<double> force;         ///< [d] their sum
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.
 struct ContactHistory {
   Projections at;
   std::vector<double> state, pressure, traction;
+  std::map<std::string, std::vector<double>> fields; ///< blocks of the model's fields
+  double worn_master = 0;                            ///< volume that the master has lost [L^3]
 };
 
 class Contact {
 public:
-  Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs, SlavePoints points);
+  /// @param thickness  2D: of the bodies; axisymmetric ones: 0
+  Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs, SlavePoints points,
+          double thickness);
 
   const Master& master() const { return master_; }
   const SlavePoints& slaves() const { return points_; }
@@ -59,6 +67,13 @@ public:
   /// What an increment ends with depends on more than the configuration it starts from.
   bool has_history() const;
   bool augmentable() const { return master_.model->layout().augmentable != 0; }
+  /// Does the model wear?
+  bool wears() const { return master_.model->layout().worn >= 0; }
+  /// Volumes that slave and master have lost until the last accepted increment, of this mesh [L^3].
+  double worn_slave() const;
+  double worn_master() const { return worn_master_; }
+  /// Distance slid beside the motion of the mesh until then.
+  double slid() const;
   /// Unknowns of multipliers: so many per slave node, in the order of `slaves`, after the displacements.
   std::size_t multipliers() const { return multipliers_; }
   std::size_t multiplier_count() const { return multipliers_ * points_.size(); }
@@ -68,16 +83,19 @@ public:
   /// An increment begins here, whatever was tried before.
   void begin_increment(const Configuration& begin);
 
-  /// Find the segment of every slave node. A closed node is followed, an open one is searched anew: it may have moved over another
-  /// flank of the surface. The history of a node that moved on to another segment moves with it.
+  /// Find the segment of every slave node. A closed node is followed, an open one is searched anew: it may
+  /// have moved over another flank of the surface. The history of a node that moved on to another segment
+  /// moves with it.
   /// @param only_lost  a closed node on its segment's border stays there, else it is searched, too
   /// @param report     of a history that could not be moved: its status is positive, cut the step
   /// @return the choice is not that of the last `build_tangent`: a deformable master needs it again
   bool choose(const Configuration& at, bool only_lost, ents_report& report);
 
-  /// Where the last `choose` found a slave node behind a concave edge between two segments, open although it has penetrated;
-  /// empty: nowhere.
-  const std::string& behind_edge() const { return behind_edge_; }
+  /// Where the last `choose` found a slave node whose contact is lost: behind a concave edge, open although
+  /// it has penetrated; or beside all segments, although it was in contact in the iterate before or at the
+  /// begin of the increment. Empty: nowhere.
+  const std::string& lost() const { return lost_; }
+  bool lost_behind_edge() const { return lost_behind_edge_; }
 
   /// The tangent's pattern for the present choice.
   void build_tangent();
@@ -91,15 +109,16 @@ public:
   /// @param coupling  optional, rigid master only
   /// @param squared_force  |R|^2 on the slave nodes: the size of the contact forces
   /// @return status of the library; positive: cut the step, see `report`
-  std::int32_t assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent, RigidCoupling* coupling,
-                        double& squared_force, ents_report& report);
+  std::int32_t assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent,
+                        RigidCoupling* coupling, double& squared_force, ents_report& report);
 
-  /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are close enough.
+  /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are
+  /// close enough.
   /// @return by how much forces and multipliers differ over the stiffness: penetration or elastic slip [L]
   double augment(const Configuration& at, double enough);
 
-  /// How many slave nodes the last `assemble` found in another status (open, stick, slip) or closed on another
-  /// segment than the one before it: Newton's iteration is quadratic once there are none.
+  /// How many slave nodes the last `assemble` found in another status (open, stick, slip) or closed on
+  /// another segment than the one before it: Newton's iteration is quadratic once there are none.
   int status_changes() const { return status_changes_; }
   /// Those of them that opened or closed.
   int switches() const { return switches_; }
@@ -114,7 +133,10 @@ public:
   /// Fields at the end of the last accepted increment.
   const ContactFields& accepted() const { return accepted_; }
 
-  ContactHistory history() const { return {begin_at_, state_begin_, accepted_.pressure, accepted_.traction}; }
+  ContactHistory history() const {
+    return {begin_at_,   state_begin_, accepted_.pressure, accepted_.traction, master_.model->fields(),
+            worn_master_};
+  }
   /// @throws InputError if the sizes or the state blocks are not of this model
   void restore(const ContactHistory& history, const Configuration& at);
 
@@ -122,7 +144,16 @@ private:
   std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
   std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
   void number_unknowns();
-  /// Slave and master positions; those of a rigid master stay, and the slaves move against it.
+  /// The model with the parameters of a configuration, and what has been slid since the begin of the
+  /// increment.
+  void bind(const Configuration& at);
+  /// What the master has lost goes from the states into the model's field.
+  void collect_wear();
+  /// The accepted depths, from the states.
+  void set_worn();
+  std::size_t parameter_of(const Json& name) const;
+  /// The model with the parameters of a configuration; slave and master positions; those of a rigid master
+  /// stay, and the slaves move against it.
   void place(const Configuration& at);
   ents_master_mesh mesh() const;
   ents_input input(const ents_master_mesh& mesh) const;
@@ -142,23 +173,32 @@ private:
   SlavePoints points_;
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
+  double thickness_, worn_master_ = 0;
+  std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
+  std::vector<double> bound_;   ///< parameters of the model at present
+  bool surface_changed_ = true; ///< since the detector has seen it
   Detector detector_;
-  std::unique_ptr<Detector> base_detector_; ///< on the segments without their height
-  Projections at_, begin_at_;               ///< present ones; those of the history
+  std::unique_ptr<Detector> base_detector_;   ///< on the segments without their height
+  Projections at_, begin_at_;                 ///< present ones; those of the history
   std::vector<std::int64_t> pattern_segment_; ///< for which the tangent's pattern was made
-  std::vector<double> state_begin_;          ///< [slaves][state_size]
-  Configuration begin_;                      ///< where the increment began
+  std::vector<double> state_begin_;           ///< [slaves][state_size]
+  Configuration begin_;                       ///< where the increment began
   /// [slaves] segment and status that the last `assemble` found; -1: open
   std::vector<std::int64_t> found_;
-  std::string behind_edge_;
+  /// A node that was in contact at the begin of the increment, and has no segment now: an earlier iterate may
+  /// have lost it.
+  Lost find_lost_since_begin(const ents_master_mesh& where) const;
+  std::string lost_;
+  bool lost_behind_edge_ = false;
   std::vector<char> closed_; ///< [slaves] by the last `assemble`
   int status_changes_ = 0, switches_ = 0, moves_ = 0;
   std::vector<double> slave_positions_, master_positions_, multiplier_values_;
   std::vector<double> state_in_, state_out_;
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
-  // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes, multipliers.
+  // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes,
+  // multipliers.
   std::vector<std::size_t> unknowns_;
-  std::size_t slave_dofs_ = 0; ///< so many come first
+  std::size_t slave_dofs_ = 0;              ///< so many come first
   std::vector<std::int64_t> dof_equations_; ///< [dofs of the mesh] -1: none
   std::vector<std::int64_t> slave_equations_, multiplier_equations_, point_begin_, point_nodes_, places_;
   SparseMatrix tangent_;

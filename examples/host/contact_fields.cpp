@@ -16,8 +16,8 @@ ContactFields Contact::fields(const Configuration& at) {
   fields.slip.resize(slaves), fields.age.resize(slaves), fields.flags.resize(slaves);
   fields.normal.resize(slaves * d_), fields.point.resize(slaves * d_), fields.traction.resize(slaves * d_);
   auto out = ents_struct<ents_output>();
-  out.wanted = ENTS_GAP | ENTS_NORMAL_GAP | ENTS_PRESSURE | ENTS_NORMAL | ENTS_POINT | ENTS_FLAGS | ENTS_TRACTION |
-               ENTS_SLIP | ENTS_AGE;
+  out.wanted = ENTS_GAP | ENTS_NORMAL_GAP | ENTS_PRESSURE | ENTS_NORMAL | ENTS_POINT | ENTS_FLAGS |
+               ENTS_TRACTION | ENTS_SLIP | ENTS_AGE;
   out.gap = fields.gap.data(), out.gap_stride = 1;
   out.normal_gap = fields.normal_gap.data(), out.normal_gap_stride = 1;
   out.pressure = fields.pressure.data(), out.pressure_stride = 1;
@@ -57,7 +57,8 @@ ContactFields Contact::fields(const Configuration& at) {
     if (status[k] == ENTS_OK && (fields.flags[k] & ENTS_FLAG_OUTSIDE) == 0) continue;
     if (status[k] != ENTS_OK) fields.flags[k] = ENTS_FLAG_OUTSIDE;
     fields.gap[k] = fields.normal_gap[k] = not_a_number;
-    for (std::size_t i = 0; i < d_; ++i) fields.normal[k * d_ + i] = 0, fields.point[k * d_ + i] = not_a_number;
+    for (std::size_t i = 0; i < d_; ++i)
+      fields.normal[k * d_ + i] = 0, fields.point[k * d_ + i] = not_a_number;
   }
   return fields;
 }

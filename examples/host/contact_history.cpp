@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact: what is carried from increment to increment. Every try starts from `state_begin_`, which only `accept`
-// writes: a step that is thrown away leaves nothing to undo.
+// Contact: what is carried from increment to increment. Every try starts from `state_begin_`, which only
+// `accept` writes: a step that is thrown away leaves nothing to undo.
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +10,14 @@ namespace host {
 namespace {
 
 std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
+
+bool fields_fit(const std::map<std::string, std::vector<double>>& theirs,
+                const std::map<std::string, std::vector<double>>& ours) {
+  return theirs.size() == ours.size() &&
+         std::equal(theirs.begin(), theirs.end(), ours.begin(), [](const auto& one, const auto& other) {
+           return one.first == other.first && one.second.size() == other.second.size();
+         });
+}
 
 } // namespace
 
@@ -27,8 +35,10 @@ void Contact::begin_increment(const Configuration& begin) {
 void Contact::gather(std::int64_t segment, std::vector<double>& positions) const {
   for (std::size_t a = 0; a < m_; ++a)
     for (std::size_t i = 0; i < d_; ++i) {
-      const auto at = static_cast<std::size_t>(master_.connectivity[static_cast<std::size_t>(segment) * m_ + a]) * d_ + i;
-      positions[a * d_ + i] = master_.rigid ? master_.positions[at] : mesh_->coordinates[at] + begin_.displacement[at];
+      const auto at =
+          static_cast<std::size_t>(master_.connectivity[static_cast<std::size_t>(segment) * m_ + a]) * d_ + i;
+      positions[a * d_ + i] =
+          master_.rigid ? master_.positions[at] : mesh_->coordinates[at] + begin_.displacement[at];
     }
 }
 
@@ -52,16 +62,20 @@ void Contact::move_history(ents_report& report) {
   };
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const std::int64_t before = begin_at_.segment[k], now = at_.segment[k];
-    if (before < 0 || now < 0) continue; // no history
     const double* begin = state_begin_.data() + k * state_size_;
     double* moved = state_in_.data() + k * state_size_;
+    if (before < 0 || now < 0) { // no history but what has been worn off
+      if (const std::int32_t worn = master_.model->layout().worn; worn >= 0)
+        std::copy_n(begin + worn, 2, moved + worn);
+      continue;
+    }
     if (before == now) {
       std::copy_n(begin, state_size_, moved);
       continue;
     }
     gather(before, from), gather(now, to);
-    if (check(library.state_transfer(model, from.data(), coordinates(before), to.data(), coordinates(now), begin, moved,
-                                     &one)) == ENTS_OK)
+    if (check(library.state_transfer(model, from.data(), coordinates(before), to.data(), coordinates(now),
+                                     begin, moved, &one)) == ENTS_OK)
       continue;
     std::copy_n(state_out_.data() + k * state_size_, state_size_, moved); // a valid one; the step will be cut
     if (report.status == ENTS_OK) report = one;
@@ -74,7 +88,8 @@ double Contact::augment(const Configuration& at, double enough) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     largest = std::max(largest, std::abs(now.pressure[k] - pressure_[k]) / normal_stiffness_);
     double squared = 0;
-    for (std::size_t i = 0; i < d_; ++i) squared += std::pow(now.traction[k * d_ + i] - traction_[k * d_ + i], 2);
+    for (std::size_t i = 0; i < d_; ++i)
+      squared += std::pow(now.traction[k * d_ + i] - traction_[k * d_ + i], 2);
     largest = std::max(largest, std::sqrt(squared) / tangential_stiffness_);
   }
   if (largest <= enough) return largest; // the solution belongs to the multipliers it was found with
@@ -92,14 +107,51 @@ double Contact::augment(const Configuration& at, double enough) {
 void Contact::accept(const Configuration& at) {
   accepted_ = fields(at);
   state_begin_ = state_out_;
+  set_worn();
+  collect_wear();
   begin_at_ = at_;
   begin_increment(at);
+}
+
+double Contact::worn_slave() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < accepted_.worn.size(); ++k) sum += points_.areas[k] * accepted_.worn[k];
+  return sum;
+}
+
+double Contact::slid() const {
+  const std::vector<double>& start = master_.model->defaults();
+  return sliding_ < start.size() ? begin_.parameters[sliding_] - start[sliding_] : 0;
+}
+
+void Contact::set_worn() {
+  accepted_.worn.clear();
+  for (std::size_t k = 0; wears() && k < points_.size(); ++k)
+    accepted_.worn.push_back(
+        state_begin_[k * state_size_ + static_cast<std::size_t>(master_.model->layout().worn)]);
+}
+
+void Contact::collect_wear() {
+  if (!wears() || master_.model->fields().empty()) return;
+  const EntsLibrary& library = master_.model->library();
+  auto& [name, block] = *master_.model->fields().begin();
+  const ents_master_mesh where = mesh();
+  ents_input in = input(where);
+  in.state_begin = nullptr, in.state_begin_stride = 0;
+  auto report = ents_struct<ents_report>();
+  double volume = 0;
+  const std::int32_t status = library.wear_collect(master_.model->get(), 0, count(), &in, thickness_,
+                                                   state_begin_.data(), stride(state_size_), name.c_str(),
+                                                   block.data(), stride(block.size()), &volume, &report);
+  if (status != ENTS_OK) throw JobError("wear of the master: " + describe(library, status, report));
+  worn_master_ += volume;
+  bound_.clear();
 }
 
 void Contact::restore(const ContactHistory& history, const Configuration& at) {
   if (history.at.segment.size() != begin_at_.segment.size() || history.state.size() != state_begin_.size() ||
       history.at.xi.size() != begin_at_.xi.size() || history.pressure.size() != pressure_.size() ||
-      history.traction.size() != traction_.size())
+      history.traction.size() != traction_.size() || !fields_fit(history.fields, master_.model->fields()))
     throw InputError("the contact's history is that of another scene: its sizes differ");
   for (const std::int64_t segment : history.at.segment)
     if (segment < -1 || segment >= stride(master_.segments()))
@@ -109,6 +161,10 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
     state_begin_ = taken.state;
     accepted_.pressure = taken.pressure;
     accepted_.traction = taken.traction;
+    master_.model->fields() = taken.fields;
+    worn_master_ = taken.worn_master;
+    bound_.clear();
+    set_worn();
     begin_increment(begin);
   };
   const ContactHistory kept = this->history();

@@ -39,12 +39,13 @@ void Detector::move(const ents_master_mesh& mesh) {
     tree_.resize(static_cast<std::size_t>(size));
     if (status == ENTS_OK) status = library.tree_build(model_->get(), &mesh, tree_.data(), size, &report);
   } else {
-    status = library.tree_refit(model_->get(), &mesh, tree_.data(), static_cast<std::int64_t>(tree_.size()), &report);
+    status = library.tree_refit(model_->get(), &mesh, tree_.data(), static_cast<std::int64_t>(tree_.size()),
+                                &report);
   }
   if (status != ENTS_OK) throw JobError("contact search: " + describe(library, status, report));
 }
 
-std::int64_t Detector::find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const {
+Lost Detector::find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const {
   const EntsLibrary& library = model_->library();
   const auto d = static_cast<std::size_t>(model_->layout().dimension);
   std::vector<std::int32_t> flags(at.segment.size());
@@ -54,15 +55,19 @@ std::int64_t Detector::find(const ents_master_mesh& mesh, const std::vector<doub
   detection.segment = at.segment.data();
   detection.xi = at.xi.data();
   detection.flags = flags.data();
+  detection.permitted =
+      ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE; // of an iterate; the caller looks at what is returned
   auto report = ents_struct<ents_report>();
-  const std::int32_t status = library.detect(model_->get(), &mesh, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0,
-                                             static_cast<std::int64_t>(at.segment.size()), &detection, &report);
+  const std::int32_t status =
+      library.detect(model_->get(), &mesh, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0,
+                     static_cast<std::int64_t>(at.segment.size()), &detection, &report);
   if (status != ENTS_OK) throw JobError("contact search: " + describe(library, status, report));
-  std::int64_t lost = -1;
+  Lost lost;
   for (std::size_t k = 0; k < at.segment.size(); ++k) {
     if (at.segment[k] >= 0) continue;
     std::fill_n(at.xi.begin() + static_cast<std::ptrdiff_t>(k * (d - 1)), d - 1, 0.0);
-    if ((flags[k] & ENTS_FLAG_BEHIND_EDGE) != 0 && lost < 0) lost = static_cast<std::int64_t>(k);
+    if ((flags[k] & (ENTS_FLAG_BEHIND_EDGE | ENTS_FLAG_LEFT)) == 0 || lost.slave >= 0) continue;
+    lost = {static_cast<std::int64_t>(k), (flags[k] & ENTS_FLAG_BEHIND_EDGE) != 0};
   }
   return lost;
 }

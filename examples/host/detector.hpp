@@ -15,6 +15,13 @@ struct Projections {
   std::vector<double> xi;            ///< [slaves][d-1]; 0 where there is no segment
 };
 
+/// A slave that has no segment although it has not risen from the surface.
+struct Lost {
+  std::int64_t slave = -1;  ///< -1: none
+  bool behind_edge = false; ///< between two segments: it projects on neither; else it has left all segments
+                            ///< beside a free edge
+};
+
 class Detector {
 public:
   /// @param model  has to live as long as this
@@ -26,10 +33,12 @@ public:
   void move(const ents_master_mesh& mesh);
 
   /// @param slaves  [slaves][d] positions
-  /// @param at      in: the projections of before, which are followed; segment -1: all segments are searched. out: the present ones
-  /// @return the first slave that lies behind an edge between two segments: it has penetrated, but projects on neither; -1: none
+  /// @param at      in: the projections of before, which are followed; segment -1: all segments are searched.
+  /// out: the present ones
+  /// @return the first slave that is lost: behind an edge, or one that had a segment and is beside all of
+  /// them
   /// @throws JobError with the library's message
-  std::int64_t find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const;
+  Lost find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const;
 
 private:
   const EntsModel* model_;

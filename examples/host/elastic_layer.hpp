@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary elements: a rigid surface pressed without friction on an elastic layer that is bonded to a rigid
-// base and whose sides are planes of symmetry. An answer that shares nothing with the elements, projections
-// and laws of the other scenes.
+// base, or a half-space, whose sides are planes of symmetry or repeat. An answer that shares nothing with the
+// elements, projections and laws of the other scenes.
 //   Compliance of the layer: K. L. Johnson, Contact Mechanics, 1985, section 13.2 (half-space), and R. B.
 //   Hannah, Q. J. Mech. Appl. Math. 4 (1951) 94 (bonded layer); conjugate gradients with p >= 0: I. A.
 //   Polonsky and L. M. Keer, Wear 231 (1999) 206; area: V. A. Yastrebov, G. Anciaux, J.-F. Molinari, Tribol.
@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "material.hpp"
+#include "wave_transform.hpp"
 
 namespace host {
 
@@ -25,25 +26,28 @@ struct LayerContact {
   double mean_pressure = 0, peak_pressure = 0;
   double fraction = 0;         ///< of the area in contact, corrected by the length of its border
   double fraction_counted = 0; ///< cells that carry pressure
+  Eigen::ArrayXXd gap; ///< [x][y] between the deformed surfaces; negative: the overlap that a softness allows
   int iterations = 0;
 };
 
 class ElasticLayer {
 public:
   /// @param nx, ny  cells
-  /// @param lx, ly  lengths of the sides
+  /// @param lx, ly     lengths of the sides
+  /// @param thickness  infinite: a half-space, whose mean displacement is left out
+  /// @param grid       cells: the sides are planes of symmetry; periodic
   ElasticLayer(Eigen::Index nx, Eigen::Index ny, double lx, double ly, double thickness,
-               const Material& material);
+               const Material& material, Grid grid = Grid::cells);
 
   /// Centre of a cell from the corner of the layer.
   double x(Eigen::Index i) const {
-    return (static_cast<double>(i) + 0.5) * lx_ / static_cast<double>(modes_x_.rows());
+    return (static_cast<double>(i) + 0.5) * lx_ / static_cast<double>(cells_x());
   }
   double y(Eigen::Index j) const {
-    return (static_cast<double>(j) + 0.5) * ly_ / static_cast<double>(modes_y_.rows());
+    return (static_cast<double>(j) + 0.5) * ly_ / static_cast<double>(cells_y());
   }
-  Eigen::Index cells_x() const { return modes_x_.rows(); }
-  Eigen::Index cells_y() const { return modes_y_.rows(); }
+  Eigen::Index cells_x() const { return compliance_.rows(); }
+  Eigen::Index cells_y() const { return compliance_.cols(); }
 
   /// Displacement of the surface away from the rigid body under a pressure.
   Eigen::ArrayXXd displacement(const Eigen::ArrayXXd& pressure) const;
@@ -51,12 +55,18 @@ public:
   /// Pressure >= 0 under a rigid surface, where gap + displacement >= 0, one of them zero.
   /// @param gap  [x][y] of the undeformed layer, < 0: overlap
   /// @throws JobError if the iteration does not converge
-  LayerContact press(const Eigen::ArrayXXd& gap) const;
+  /// @param softness  overlap per pressure that the contact law allows [L^3/F]; 0: hard contact
+  LayerContact press(const Eigen::ArrayXXd& gap, double softness = 0) const;
+  /// The same with a given mean pressure; `gap` up to a constant.
+  LayerContact press_with(double mean_pressure, const Eigen::ArrayXXd& gap, double softness = 0) const;
 
 private:
+  LayerContact describe(Eigen::ArrayXXd pressure, Eigen::ArrayXXd gap, int iterations) const;
+
   double lx_, ly_;
-  Eigen::MatrixXd modes_x_, modes_y_; ///< [cells][modes] orthonormal cosines
-  Eigen::ArrayXXd compliance_;        ///< [modes x][modes y]
+  bool periodic_;
+  WaveTransform transform_;
+  Eigen::ArrayXXd compliance_; ///< [modes x][modes y]
 };
 
 } // namespace host

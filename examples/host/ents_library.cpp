@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "error.hpp"
+#include "json_reader.hpp"
 
 namespace host {
 namespace {
@@ -60,6 +61,10 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(model_create_from_file, "ents_model_create_from_file");
     find(model_destroy, "ents_model_destroy");
     find(model_layout, "ents_model_layout");
+    find(model_bind, "ents_model_bind");
+    find(field_size, "ents_field_size");
+    find(field_init, "ents_field_init");
+    find(wear_collect, "ents_wear_collect");
     find(tree_size, "ents_tree_size");
     find(tree_build, "ents_tree_build");
     find(tree_refit, "ents_tree_refit");
@@ -69,6 +74,7 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(state_init, "ents_state_init");
     find(state_augment, "ents_state_augment");
     find(state_transfer, "ents_state_transfer");
+    find(contact_area, "ents_contact_area");
     find(sampling_points, "ents_sampling_points");
     find(smooth_size, "ents_smooth_size");
     find(smooth, "ents_smooth");
@@ -97,6 +103,7 @@ EntsModel::EntsModel(const EntsLibrary& library, const std::string& text, const 
                                               nullptr, 0, &model_, &report);
   if (status != ENTS_OK) throw InputError(where + ": " + describe(library, status, report));
   read_layout(where);
+  read_what_changes(text, where);
 }
 
 EntsModel::EntsModel(const EntsLibrary& library, const fs::path& file) : library_(&library) {
@@ -104,10 +111,13 @@ EntsModel::EntsModel(const EntsLibrary& library, const fs::path& file) : library
   const int32_t status = library.model_create_from_file(file.string().c_str(), &model_, &report);
   if (status != ENTS_OK) throw InputError(file.string() + ": " + describe(library, status, report));
   read_layout(file.string());
+  if (layout_.named_parameters > 0 || layout_.fields > 0)
+    read_what_changes(parse_json_file(file).dump(), file.string());
 }
 
 EntsModel::~EntsModel() {
   auto report = ents_struct<ents_report>();
+  library_->model_destroy(&bound_, &report);
   library_->model_destroy(&model_, &report);
 }
 
@@ -119,6 +129,61 @@ void EntsModel::read_layout(const std::string& where) {
   const std::string message = describe(*library_, status, report);
   library_->model_destroy(&model_, &report);
   throw JobError(where + ": " + message);
+}
+
+namespace {
+
+/// Names of the heights of type "field".
+void find_fields(const Json& json, std::vector<std::string>& names) {
+  if (json.is_object() && json.value("type", Json()) == "field" && json.contains("name"))
+    names.push_back(json.at("name").get<std::string>());
+  if (json.is_structured())
+    for (const Json& item : json) find_fields(item, names);
+}
+
+} // namespace
+
+void EntsModel::read_what_changes(const std::string& text, const std::string& where) {
+  if (layout_.named_parameters == 0 && layout_.fields == 0) return;
+  const Json json = Json::parse(text);
+  std::map<std::string, double> sorted;
+  if (json.contains("parameters"))
+    for (const auto& [name, value] : json.at("parameters").items()) sorted[name] = value.get<double>();
+  for (const auto& [name, value] : sorted) parameters_.push_back(name), defaults_.push_back(value);
+  std::vector<std::string> names;
+  if (json.contains("height")) find_fields(json.at("height"), names);
+  try {
+    auto report = ents_struct<ents_report>();
+    for (const std::string& name : names) {
+      std::int64_t size = 0;
+      std::int32_t status = library_->field_size(model_, name.c_str(), &size, &report);
+      std::vector<double>& block = fields_[name];
+      block.assign(static_cast<std::size_t>(size), 0.0);
+      if (status == ENTS_OK)
+        status = library_->field_init(model_, name.c_str(), nullptr, block.data(), size, &report);
+      if (status != ENTS_OK) throw JobError(where + ": " + describe(*library_, status, report));
+    }
+    bind(defaults_);
+  } catch (...) {
+    auto report = ents_struct<ents_report>();
+    library_->model_destroy(&model_, &report);
+    throw;
+  }
+}
+
+void EntsModel::bind(const std::vector<double>& values) {
+  std::vector<ents_data> fields;
+  for (const auto& [name, block] : fields_) {
+    auto field = ents_struct<ents_data>();
+    field.name = name.c_str();
+    field.values = block.data(), field.rows = 1, field.columns = static_cast<std::int64_t>(block.size());
+    fields.push_back(field);
+  }
+  auto report = ents_struct<ents_report>();
+  const std::int32_t status =
+      library_->model_bind(model_, values.empty() ? nullptr : values.data(), fields.data(),
+                           static_cast<std::int64_t>(fields.size()), &bound_, &report);
+  if (status != ENTS_OK) throw JobError("the model's parameters: " + describe(*library_, status, report));
 }
 
 SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& master,

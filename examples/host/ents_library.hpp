@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,10 @@ public:
   decltype(&ents_model_create_from_file) model_create_from_file = nullptr;
   decltype(&ents_model_destroy) model_destroy = nullptr;
   decltype(&ents_model_layout) model_layout = nullptr;
+  decltype(&ents_model_bind) model_bind = nullptr;
+  decltype(&ents_field_size) field_size = nullptr;
+  decltype(&ents_field_init) field_init = nullptr;
+  decltype(&ents_wear_collect) wear_collect = nullptr;
   decltype(&ents_tree_size) tree_size = nullptr;
   decltype(&ents_tree_build) tree_build = nullptr;
   decltype(&ents_tree_refit) tree_refit = nullptr;
@@ -43,6 +48,7 @@ public:
   decltype(&ents_state_init) state_init = nullptr;
   decltype(&ents_state_augment) state_augment = nullptr;
   decltype(&ents_state_transfer) state_transfer = nullptr;
+  decltype(&ents_contact_area) contact_area = nullptr;
   decltype(&ents_sampling_points) sampling_points = nullptr;
   decltype(&ents_smooth_size) smooth_size = nullptr;
   decltype(&ents_smooth) smooth = nullptr;
@@ -65,7 +71,8 @@ template <class Struct> Struct ents_struct() {
 /// "STATUS_TEXT: MESSAGE" of a failed call.
 std::string describe(const EntsLibrary& library, int32_t status, const ents_report& report);
 
-/// A model and its sizes.
+/// A model, its sizes, and what of it changes: the values of its named parameters (at first those of the
+/// text) and its fields (at first zero everywhere).
 class EntsModel {
 public:
   /// @param text       the model as JSON
@@ -81,15 +88,30 @@ public:
   EntsModel& operator=(const EntsModel&) = delete;
 
   const EntsLibrary& library() const { return *library_; }
-  const ents_model* get() const { return model_; }
+  const ents_model* get() const { return bound_ != nullptr ? bound_ : model_; }
   const ents_layout& layout() const { return layout_; }
+
+  /// Names of the parameters, in alphabetical order.
+  const std::vector<std::string>& parameters() const { return parameters_; }
+  /// Their values in the text.
+  const std::vector<double>& defaults() const { return defaults_; }
+  /// Blocks of the fields by name. Bind the model again after a change.
+  std::map<std::string, std::vector<double>>& fields() { return fields_; }
+  const std::map<std::string, std::vector<double>>& fields() const { return fields_; }
+  /// @param values  [parameters]
+  /// @throws JobError with the library's message
+  void bind(const std::vector<double>& values);
 
 private:
   void read_layout(const std::string& where);
+  void read_what_changes(const std::string& text, const std::string& where);
 
   const EntsLibrary* library_;
-  ents_model* model_ = nullptr;
+  ents_model *model_ = nullptr, *bound_ = nullptr;
   ents_layout layout_{};
+  std::vector<std::string> parameters_;
+  std::vector<double> defaults_;
+  std::map<std::string, std::vector<double>> fields_;
 };
 
 /// rho_e and its height at points of one segment.
@@ -109,12 +131,17 @@ SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& 
                              const std::vector<double>& surface_coordinates, const std::vector<double>& xi);
 
 /// Do its natural coordinates fill the unit triangle? Else [-1, 1] per direction.
-inline bool is_triangle(const std::string& segment) { return segment.starts_with("tri") || segment.starts_with("bezier"); }
+inline bool is_triangle(const std::string& segment) {
+  return segment.starts_with("tri") || segment.starts_with("bezier");
+}
 
 /// Place i of n equal steps from -1 to 1.
-inline double even_xi(std::size_t i, std::size_t n) { return 2 * static_cast<double>(i) / static_cast<double>(n) - 1; }
+inline double even_xi(std::size_t i, std::size_t n) {
+  return 2 * static_cast<double>(i) / static_cast<double>(n) - 1;
+}
 
-/// Those places in each direction of a segment, the first direction's one after the other; a triangle: the square collapsed on it.
+/// Those places in each direction of a segment, the first direction's one after the other; a triangle: the
+/// square collapsed on it.
 /// @return [(n + 1)^parameters][parameters]
 std::vector<double> even_grid(int parameters, std::size_t n, bool triangle = false);
 

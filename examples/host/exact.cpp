@@ -57,6 +57,10 @@ double double_sine_full_contact(double amplitude, double wavelength, double cont
   return std::numbers::sqrt2 * pi * contact_modulus * amplitude / wavelength;
 }
 
+double worn_groove_depth(double area, double radius) {
+  return std::cbrt(squared(0.75 * area) / (2 * radius));
+}
+
 double contact_edge(const SurfaceState& state, double limit) {
   std::vector<std::size_t> closed;
   for (std::size_t k = 0; k < state.closed.size(); ++k)
@@ -122,9 +126,16 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     // The approach is one to points far away, which only a half-space has.
     const HertzPoint reference = scene.half_space ? hertz_point(state.approach, exact.radius, modulus)
                                                   : hertz_point_under(state.force, exact.radius, modulus);
-    std::vector<Quantity> result{exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-                                 exact_quantity("contact radius", units.length, radius, reference.radius)};
-    if (scene.half_space) result.insert(result.begin(), exact_quantity("force", units.force, state.force, reference.force));
+    std::vector<Quantity> result{
+        exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
+        exact_quantity("contact radius", units.length, radius, reference.radius)};
+    if (scene.dimension == 3 && !std::isnan(state.contact_estimate)) {
+      const double all = std::accumulate(state.area.begin(), state.area.end(), 0.) * scene.symmetry_copies;
+      result.push_back(exact_quantity("contact radius, estimated", units.length,
+                                      std::sqrt(state.contact_estimate * all / pi), reference.radius));
+    }
+    if (scene.half_space)
+      result.insert(result.begin(), exact_quantity("force", units.force, state.force, reference.force));
     return result;
   }
   case Type::westergaard: {
@@ -142,12 +153,25 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const double full = double_sine_full_contact(exact.amplitude, exact.wavelength, modulus);
     std::vector<Quantity> result;
     result.push_back({"mean pressure / p*", "", state.mean_pressure / full});
-    // In full contact the problem is linear: taking off the smallest pressure everywhere leaves the state in which
-    // the last point is about to come off.
+    // In full contact the problem is linear: taking off the smallest pressure everywhere leaves the state in
+    // which the last point is about to come off.
     if (std::all_of(state.closed.begin(), state.closed.end(), [](char c) { return c != 0; })) {
       const double smallest = *std::min_element(state.pressure.begin(), state.pressure.end());
-      result.push_back(exact_quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
+      result.push_back(
+          exact_quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
     }
+    return result;
+  }
+  case Type::worn_cylinder: {
+    const double k = scene.contact->model.at("contact").at("wear").at("coefficient").get<double>();
+    const double volume = k * state.force * state.slid;
+    const double depth = worn_groove_depth(volume / setup.thickness, exact.radius);
+    const HertzLine elastic = hertz_line(state.force / setup.thickness, exact.radius, modulus);
+    if (!(volume > 0)) return {};
+    std::vector<Quantity> result{
+        exact_quantity("worn volume", cubic(units.length), state.worn_volume, volume)};
+    if (std::sqrt(2 * exact.radius * depth) > 10 * elastic.half_width)
+      result.push_back(exact_quantity("worn depth", units.length, state.worn_depth, depth));
     return result;
   }
   case Type::cattaneo:
@@ -162,7 +186,7 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     }
     return {exact_quantity("largest pressure", units.pressure, peak, exact.pressure),
             exact_quantity("smallest pressure", units.pressure,
-                     *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
+                           *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
             {"scatter of the pressure (rms)", "", std::sqrt(squares / area)}};
   }
   case Type::boundary_elements: // exact_layer.hpp

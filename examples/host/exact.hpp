@@ -3,7 +3,8 @@
 // quantities. E* = E / (1 - nu^2), in plane stress E.
 //   Hertz, line and point contact: K. L. Johnson, Contact Mechanics, 1985, sections 4.2(a), 4.2(c);
 //   Westergaard's sinusoidal surface in plane strain: ibid., section 13.2;
-//   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383.
+//   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985)
+//   383.
 #pragma once
 
 #include <limits>
@@ -19,11 +20,13 @@ class EntsLibrary;
 
 /// E* of the body that has the slave surface.
 double contact_modulus(const Scene& scene);
+double contact_modulus(const ElementSetup& setup);
 
 /// The axis of the contact, along x: the crest of the rigid master, wherever the scene puts it.
 struct ExactAxis {
   double x = 0;
-  std::string mismatch; ///< the master does not have the shape that the solution is of, and errors would mean nothing; empty: it has
+  std::string mismatch; ///< the master does not have the shape that the solution is of, and errors would mean
+                        ///< nothing; empty: it has
 };
 /// Solutions in the plane and round an axis; {} for all others, which have their axis where x = y = 0.
 ExactAxis exact_axis(const Scene& scene, const EntsLibrary& library);
@@ -36,6 +39,10 @@ struct HertzLine {
 };
 /// @param force  per length of the cylinder
 HertzLine hertz_line(double force, double radius, double contact_modulus);
+
+/// Depth of the groove of this cross-section that a rigid cylinder wears: the cylinder's own shape, of chord
+/// 2 a, a^2 = 2 R d, area 4/3 a d. Elastic shapes are forgotten once a is many times the half-width of Hertz.
+double worn_groove_depth(double area, double radius);
 
 struct HertzPoint {
   double force, radius, peak_pressure;
@@ -62,19 +69,23 @@ double double_sine_full_contact(double amplitude, double wavelength, double cont
 
 /// What is known about the slave surface of a step.
 struct SurfaceState {
-  std::vector<double> distance; ///< [slaves] from the axis of the contact, in the plane of the surface
-  std::vector<double> pressure; ///< [slaves]
-  std::vector<double> area;     ///< [slaves] tributary, this mesh's share
-  std::vector<char> closed;     ///< [slaves]
-  std::vector<double> shear;    ///< [slaves] tangential traction on the master along x; in the plane
-  std::vector<double> place;    ///< [slaves] reference x
-  std::vector<double> moved;    ///< [slaves] displacement along x
-  std::vector<char> sticks;     ///< [slaves] closed and not slipping
+  std::vector<double> distance;      ///< [slaves] from the axis of the contact, in the plane of the surface
+  std::vector<double> pressure;      ///< [slaves]
+  std::vector<double> gap;           ///< [slaves] NaN: nothing is opposite
+  std::vector<double> area;          ///< [slaves] tributary, this mesh's share
+  std::vector<char> closed;          ///< [slaves]
+  std::vector<double> shear;         ///< [slaves] tangential traction on the master along x; in the plane
+  std::vector<double> place;         ///< [slaves] reference x
+  std::vector<double> moved;         ///< [slaves] displacement along x
+  std::vector<char> sticks;          ///< [slaves] closed and not slipping
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, this mesh's share
-  std::vector<double> load;     ///< [d] dead loads, this mesh's share
-  double approach = 0;          ///< motion of the master since first touch
-  double force = 0;             ///< of all symmetric copies
+  std::vector<double> load;          ///< [d] dead loads, this mesh's share
+  double approach = 0;               ///< motion of the master since first touch
+  double force = 0;                  ///< of all symmetric copies
   double mean_pressure = 0;
+  double slid = 0, worn_volume = 0,
+         worn_depth = 0; ///< wear: distance; what all copies of the slave have lost; deepest
+  double contact_estimate = std::numeric_limits<double>::quiet_NaN(); ///< share of the area, contact_area.hpp
 };
 
 /// A computed quantity beside its exact value.
@@ -91,9 +102,9 @@ inline Quantity exact_quantity(std::string name, std::string unit, double value,
   return {std::move(name), std::move(unit), value, exact, value / exact - 1, true};
 }
 
-/// Where the pressure vanishes, more finely than the nodes lie: p^2 falls linearly to zero at the edge of a contact
-/// (Hertz, Westergaard: p ~ sqrt(a - x)). Least-squares parabola of p^2 through the outer closed nodes, the outermost
-/// left out (its tributary area is partly open), continued to zero.
+/// Where the pressure vanishes, more finely than the nodes lie: p^2 falls linearly to zero at the edge of a
+/// contact (Hertz, Westergaard: p ~ sqrt(a - x)). Least-squares parabola of p^2 through the outer closed
+/// nodes, the outermost left out (its tributary area is partly open), continued to zero.
 /// @return NaN with fewer than four closed nodes; `limit` at most (full contact)
 double contact_edge(const SurfaceState& state, double limit = std::numeric_limits<double>::infinity());
 

@@ -53,7 +53,10 @@ Crest crest_of(const Profile& profile) {
 
 double contact_modulus(const Scene& scene) {
   const PartSpec* part = scene.contact ? part_of_set(scene, scene.contact->slave) : nullptr;
-  const ElementSetup& setup = (part != nullptr ? *part : scene.parts.front()).setup;
+  return contact_modulus((part != nullptr ? *part : scene.parts.front()).setup);
+}
+
+double contact_modulus(const ElementSetup& setup) {
   return setup.formulation == Formulation::plane_stress ? setup.material.young
                                                         : setup.material.contact_modulus();
 }

@@ -8,20 +8,12 @@
 namespace host {
 namespace {
 
-/// The block of the scene, and which way its surface looks.
-struct Box {
-  std::array<double, 3> low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  double up = 1; ///< z of its surface's normal
-  double surface() const { return up > 0 ? high[2] : low[2]; }
-  double base() const { return up > 0 ? low[2] : high[2]; }
-};
-
 [[noreturn]] void refuse(const Scene& scene, const std::string& key, const std::string& text) {
   throw InputError(scene.file.string() + ": " + key + ": the exact solution \"boundary_elements\" " + text);
 }
 
-/// The sides slide along planes of symmetry, the base is held, all else is free.
-void check_supports(const Scene& scene, const Mesh& mesh, const DofMap& dofs, const Box& box) {
+/// The sides slide along planes of symmetry or are tied to each other, the base is held, all else is free.
+void check_supports(const Scene& scene, const Mesh& mesh, const DofMap& dofs, const Box& box, bool periodic) {
   for (const SupportSpec& support : scene.supports)
     for (const std::optional<double>& component : support.displacement)
       if (component && *component != 0) refuse(scene, support.where, "is for supports that stay in place");
@@ -29,16 +21,18 @@ void check_supports(const Scene& scene, const Mesh& mesh, const DofMap& dofs, co
     const auto place = mesh.node(node);
     const bool on_base = place[2] == box.base();
     for (std::size_t c = 0; c < 3; ++c) {
-      const bool on_side = c < 2 && (place[c] == box.low[c] || place[c] == box.high[c]);
+      const bool on_side = !periodic && c < 2 && (place[c] == box.low[c] || place[c] == box.high[c]);
       if ((dofs.equation(node, static_cast<int>(c)) < 0) != (on_base || on_side))
         refuse(scene, "/supports",
-               "is for a layer: x = 0 on its sides x_min and x_max, y = 0 on y_min and y_max, all components "
-               "on its base");
+               periodic
+                   ? "is for a layer with periodic sides: all components on its base are 0, and no others"
+                   : "is for a layer: x = 0 on its sides x_min and x_max, y = 0 on y_min and y_max, all "
+                     "components on its base");
     }
   }
 }
 
-Box box_of(const Scene& scene, const Mesh& mesh) {
+Box box_of(const Scene& scene) {
   if (scene.parts.size() != 1 || scene.parts[0].lines.empty()) refuse(scene, "/parts", "is for one block");
   const PartSpec& part = scene.parts[0];
   if (part.setup.material.law != Material::Law::linear_elastic)
@@ -46,16 +40,11 @@ Box box_of(const Scene& scene, const Mesh& mesh) {
   if (scene.half_space) refuse(scene, "/half_space", "is for a layer that is held at its base");
   if (!scene.tractions.empty()) refuse(scene, "/tractions", "is for contact alone");
   if (!scene.springs.empty()) refuse(scene, "/springs", "is for contact alone");
-  if (!scene.periodic.empty()) refuse(scene, "/periodic", "is for sides that are planes of symmetry");
   Box box;
+  for (std::size_t c = 0; c < 3; ++c) box.low[c] = part.lines[c].front(), box.high[c] = part.lines[c].back();
   box.up = -scene.contact->direction[2];
   if (scene.contact->slave != part.name + (box.up > 0 ? ".z_max" : ".z_min"))
     refuse(scene, scene.contact->slave_where, "is for the side of the block that the master moves to");
-  for (int node = 0; node < mesh.node_count(); ++node)
-    for (std::size_t c = 0; c < 3; ++c) {
-      box.low[c] = std::min(box.low[c], mesh.node(node)[c]);
-      box.high[c] = std::max(box.high[c], mesh.node(node)[c]);
-    }
   return box;
 }
 
@@ -90,41 +79,85 @@ Eigen::ArrayXXd gap_over(const Scene& scene, const EntsModel& model, const Box& 
   return gap;
 }
 
+/// Both pairs of sides are tied, or none is.
+bool is_periodic(const Scene& scene) {
+  if (scene.periodic.empty()) return false;
+  const std::string& name = scene.parts[0].name;
+  std::size_t found = 0;
+  for (const std::string axis : {".x", ".y"})
+    for (const PeriodicSpec& pair : scene.periodic)
+      found += (pair.first == name + axis + "_min" && pair.second == name + axis + "_max") ||
+               (pair.first == name + axis + "_max" && pair.second == name + axis + "_min");
+  if (found != 2 || scene.periodic.size() != 2)
+    refuse(scene, "/periodic", "is for sides x_min and x_max, y_min and y_max that are periodic, or none");
+  return true;
+}
+
 } // namespace
 
 ExactLayer::ExactLayer(const Scene& scene, const EntsLibrary& library, const Mesh& mesh, const DofMap& dofs)
-    : scene_(&scene) {
-  const Box box = box_of(scene, mesh);
-  check_supports(scene, mesh, dofs, box);
+    : scene_(&scene), box_(box_of(scene)), periodic_(is_periodic(scene)) {
+  if (!scene.parts[0].layer) check_supports(scene, mesh, dofs, box_, periodic_);
   const ContactSpec& contact = *scene.contact;
-  const EntsModel model(library, contact.model.dump(), scene.file.parent_path(), contact.model_where);
-  const double lx = box.high[0] - box.low[0], ly = box.high[1] - box.low[1];
-  for (const int points : {scene.exact.points, scene.exact.points / 2}) {
-    const auto cells = [&](double length) {
-      return std::max<Eigen::Index>(1, std::lround(points * length / std::max(lx, ly)));
-    };
-    ElasticLayer layer(cells(lx), cells(ly), lx, ly, box.high[2] - box.low[2], scene.parts[0].setup.material);
-    Eigen::ArrayXXd gap = gap_over(scene, model, box, layer);
-    grids_.push_back({std::move(layer), std::move(gap)});
-  }
+  model_ = std::make_unique<EntsModel>(library, contact.model.dump(), scene.file.parent_path(),
+                                       contact.model_where);
+  cells(scene.exact.points); // what is wrong with the master is said before the first step
+}
+
+const ExactLayer::Cells& ExactLayer::cells(int points) const {
+  if (const auto found = cells_.find(points); found != cells_.end()) return found->second;
+  const double lx = box_.high[0] - box_.low[0], ly = box_.high[1] - box_.low[1];
+  const auto along = [&](double length) {
+    return std::max<Eigen::Index>(1, std::lround(points * length / std::max(lx, ly)));
+  };
+  ElasticLayer layer(along(lx), along(ly), lx, ly, box_.high[2] - box_.low[2],
+                     scene_->parts[0].setup.material, periodic_ ? Grid::periodic : Grid::cells);
+  Eigen::ArrayXXd gap = gap_over(*scene_, *model_, box_, layer);
+  return cells_.emplace(points, Cells{std::move(layer), std::move(gap)}).first->second;
+}
+
+LayerContact ExactLayer::press(int points, double motion) const {
+  const Cells& grid = cells(points);
+  const double stiffness = scene_->exact.stiffness;
+  return grid.layer.press(grid.gap - motion, stiffness > 0 ? 1 / stiffness : 0);
 }
 
 std::vector<Quantity> ExactLayer::compare(double motion, const SurfaceState& state) const {
-  const LayerContact fine = grids_[0].layer.press(grids_[0].gap - motion),
-                     coarse = grids_[1].layer.press(grids_[1].gap - motion);
-  double closed = 0, area = 0;
+  constexpr int finest = 2048;
+  int points = scene_->exact.points;
+  LayerContact coarse = press(points / 2, motion), fine = press(points, motion);
+  const auto change = [&] {
+    if (!(fine.mean_pressure > 0)) return 0.;
+    return std::max(std::abs(coarse.mean_pressure / fine.mean_pressure - 1),
+                    std::abs(coarse.fraction / fine.fraction - 1));
+  };
+  while (scene_->exact.error > 0 && change() > scene_->exact.error) {
+    if (2 * points > finest)
+      throw JobError("boundary elements: pressure and area still change by " + std::to_string(change()) +
+                     " from " + std::to_string(points / 2) + " to " + std::to_string(points) +
+                     " points; give a larger /exact/error, or a smoother surface");
+    points *= 2;
+    coarse = std::move(fine);
+    fine = press(points, motion);
+  }
+  double closed = 0, area = 0, gap = 0;
   for (std::size_t k = 0; k < state.area.size(); ++k) {
     area += state.area[k];
+    gap += state.area[k] * state.gap[k];
     if (state.closed[k]) closed += state.area[k];
   }
   const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
-  const std::string& unit = scene_->units.pressure;
+  const std::string &unit = scene_->units.pressure, &length = scene_->units.length;
   return {exact_quantity("mean pressure", unit, state.mean_pressure, fine.mean_pressure),
           exact_quantity("contact fraction", "", closed / area, fine.fraction),
+          exact_quantity("contact fraction, estimated", "", state.contact_estimate, fine.fraction),
           exact_quantity("peak pressure", unit, peak, fine.peak_pressure),
+          exact_quantity("mean gap", length, gap / area, fine.gap.mean()),
           {"mean pressure, half the points", unit, coarse.mean_pressure},
           {"contact fraction, half the points", "", coarse.fraction},
-          {"peak pressure, half the points", unit, coarse.peak_pressure}};
+          {"peak pressure, half the points", unit, coarse.peak_pressure},
+          {"points of the exact solution", "", static_cast<double>(points)},
+          {"change from half the points", "", change()}};
 }
 
 } // namespace host

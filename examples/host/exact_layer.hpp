@@ -3,6 +3,10 @@
 // height over it.
 #pragma once
 
+#include <array>
+#include <map>
+#include <memory>
+
 #include "dof_map.hpp"
 #include "elastic_layer.hpp"
 #include "ents_library.hpp"
@@ -11,25 +15,40 @@
 
 namespace host {
 
+/// The block of the scene, and which way its surface looks.
+struct Box {
+  std::array<double, 3> low{}, high{};
+  double up = 1; ///< z of its surface's normal
+  double surface() const { return up > 0 ? high[2] : low[2]; }
+  double base() const { return up > 0 ? low[2] : high[2]; }
+};
+
 class ExactLayer {
 public:
   /// @throws InputError naming the key of the scene that is not a layer's
   ExactLayer(const Scene& scene, const EntsLibrary& library, const Mesh& mesh, const DofMap& dofs);
 
-  /// A step against hard contact without friction at the same motion of the master.
+  /// A step against contact without friction at the same motion of the master: hard, or with the penalty of
+  /// the key "stiffness".
   /// @param motion  of the master along its direction
-  /// @throws JobError if the iteration does not converge
+  /// @throws JobError if the iteration does not converge, or the refinement that the key "error" asks for
   std::vector<Quantity> compare(double motion, const SurfaceState& state) const;
 
 private:
   /// A grid of cells, and the gap before the master moves.
-  struct Grid {
+  struct Cells {
     ElasticLayer layer;
     Eigen::ArrayXXd gap;
   };
+  /// So many along the longer side; made when they are needed.
+  const Cells& cells(int points) const;
+  LayerContact press(int points, double motion) const;
 
   const Scene* scene_;
-  std::vector<Grid> grids_; ///< fine, and half as fine
+  std::unique_ptr<EntsModel> model_;
+  Box box_;
+  bool periodic_;
+  mutable std::map<int, Cells> cells_;
 };
 
 } // namespace host

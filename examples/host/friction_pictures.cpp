@@ -23,7 +23,9 @@ Chart partial_slip_profile(Simulation& simulation, const StepRecord& record) {
                shear = std::abs(state.contact_force[0]) / setup.thickness;
   const HertzLine hertz = hertz_line(normal, scene.exact.radius, setup.material.contact_modulus() / 2);
   const double a = hertz.half_width, c = a * std::sqrt(std::max(0., 1 - shear / (mu * normal)));
-  const auto ellipse = [](double x, double edge) { return std::sqrt(std::max(0., 1 - x * x / (edge * edge))); };
+  const auto ellipse = [](double x, double edge) {
+    return std::sqrt(std::max(0., 1 - x * x / (edge * edge)));
+  };
   Chart chart;
   chart.title = "Pressure and shear traction, last step";
   chart.subtitle = "exact: Cattaneo, Mindlin; Q / (μ P) = " + format_number(shear / (mu * normal), 3) + ", " +

@@ -22,7 +22,8 @@ inline std::array<double, 3> boussinesq(const Material& material, const std::arr
   }
   const double distance = std::sqrt(squared), nu = material.poisson;
   const double shear = 4 * std::numbers::pi * material.mu();
-  const double radial = (depth / (squared * distance) - (1 - 2 * nu) / (distance * (distance + depth))) / shear;
+  const double radial =
+      (depth / (squared * distance) - (1 - 2 * nu) / (distance * (distance + depth))) / shear;
   const double axial = (depth * depth / (squared * distance) + 2 * (1 - nu) / distance) / shear;
   std::array<double, 3> displacement{};
   for (std::size_t i = 0; i < 3; ++i)

@@ -72,9 +72,11 @@ public:
       else if (s.keyword == "HEADING")
         heading(s);
       else if (contains(mesh_changing, s.keyword))
-        error(s.place,
-              "*" + s.keyword + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT" +
-                  (contains(assembled, s.keyword) ? " (Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")" : ""));
+        error(s.place, "*" + s.keyword +
+                           " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT" +
+                           (contains(assembled, s.keyword)
+                                ? " (Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")"
+                                : ""));
       else if (!contains({"ELEMENT", "NSET", "ELSET", "SURFACE"}, s.keyword))
         deck.ignored.push_back({s.keyword, deck.files[static_cast<std::size_t>(s.place.file)], s.place.line});
     }
@@ -103,8 +105,8 @@ private:
   [[noreturn]] void no_mesh() const {
     string text = deck.files[0] + ": no mesh; expected *NODE and *ELEMENT with data lines";
     for (std::size_t i = 0; i < deck.ignored.size() && i < 4; ++i)
-      text += (i == 0 ? "; not understood and skipped: *" : ", *") + deck.ignored[i].keyword + " (" + deck.ignored[i].file + ":" +
-              std::to_string(deck.ignored[i].line) + ")";
+      text += (i == 0 ? "; not understood and skipped: *" : ", *") + deck.ignored[i].keyword + " (" +
+              deck.ignored[i].file + ":" + std::to_string(deck.ignored[i].line) + ")";
     throw Error(text + (deck.ignored.size() > 4 ? " ..." : ""));
   }
 
@@ -265,7 +267,8 @@ private:
     unique(target);
     set_total_ += target.size();
     if (set_total_ > largest_set_total)
-      error(s.place, "the sets of this deck have more than " + std::to_string(largest_set_total) + " members in all");
+      error(s.place,
+            "the sets of this deck have more than " + std::to_string(largest_set_total) + " members in all");
   }
 
   void surface(const Statement& s) {
@@ -286,7 +289,10 @@ private:
         continue;
       }
       const string label = upper(fields[1]);
-      const int face = label.starts_with('S') ? static_cast<int>(std::min<std::int64_t>(parsed<std::int64_t>(string_view(label).substr(1)).value_or(0), 1000)) : 0;
+      const int face = label.starts_with('S')
+                           ? static_cast<int>(std::min<std::int64_t>(
+                                 parsed<std::int64_t>(string_view(label).substr(1)).value_or(0), 1000))
+                           : 0;
       for (const int e : members_of(line.place, fields[0], "element", deck.element_sets, element_index_)) {
         const int faces = face_count(deck.elements[static_cast<std::size_t>(e)].shape);
         const string id = std::to_string(deck.elements[static_cast<std::size_t>(e)].id);

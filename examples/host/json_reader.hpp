@@ -17,12 +17,19 @@ namespace host {
 using Json = nlohmann::ordered_json;
 
 /// Parse a file whose outermost value is an object.
-/// @throws InputError naming it: a syntax error, a duplicate key, a device, or more than any input of this program takes (the
-/// limits stand in json_reader.cpp)
+/// @throws InputError naming it: a syntax error, a duplicate key, a device, or more than any input of this
+/// program takes (the limits stand in json_reader.cpp)
 Json parse_json_file(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.
 Json parse_json(std::string_view text, const std::string& name);
+
+/// What stands at a JSON pointer such as "/contact/wear"; null where nothing does. For values that another
+/// reader checks, and may not have checked yet.
+inline Json find_json(const Json& value, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return value.contains(place) ? value.at(place) : Json();
+}
 
 /// One JSON value together with where it was found.
 class JsonValue {

@@ -37,9 +37,11 @@ CLI::Validator positive() {
 }
 
 CLI::Validator integer(std::int64_t low, std::int64_t high) {
-  return number_check("an integer from " + std::to_string(low) + " to " + std::to_string(high), [=](double value) {
-    return value == std::floor(value) && value >= static_cast<double>(low) && value <= static_cast<double>(high);
-  });
+  return number_check("an integer from " + std::to_string(low) + " to " + std::to_string(high),
+                      [=](double value) {
+                        return value == std::floor(value) && value >= static_cast<double>(low) &&
+                               value <= static_cast<double>(high);
+                      });
 }
 
 constexpr const char* own_list = "own"; // of the scene
@@ -53,7 +55,8 @@ bool is_list(const std::string& word) {
 std::vector<std::string> arguments(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   for (std::size_t i = 0; i < words.size(); ++i)
-    if (words[i] == "--compare" && (i + 1 == words.size() || !is_list(words[i + 1]))) words[i] += std::string("=") + own_list;
+    if (words[i] == "--compare" && (i + 1 == words.size() || !is_list(words[i + 1])))
+      words[i] += std::string("=") + own_list;
   std::reverse(words.begin(), words.end());
   return words;
 }
@@ -65,7 +68,9 @@ std::vector<int> divisions_of(const std::string& list) {
     int n = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
     if (error != std::errc{} || end != word.data() + word.size() || n < 1 || n > 100000)
-      throw host::InputError("--compare: integers from 1 to 100000 with commas between them are expected, this is \"" + list + "\"");
+      throw host::InputError(
+          "--compare: integers from 1 to 100000 with commas between them are expected, this is \"" + list +
+          "\"");
     divisions.push_back(n);
   }
   return divisions;
@@ -74,7 +79,8 @@ std::vector<int> divisions_of(const std::string& list) {
 /// What stands where no argument is expected, an option first; else what is wrong with those that are.
 std::string parse_error(const CLI::App& command, const CLI::ParseError& error) {
   const std::vector<std::string> rest = command.remaining();
-  const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.starts_with('-'); });
+  const auto option =
+      std::find_if(rest.begin(), rest.end(), [](const std::string& word) { return word.starts_with('-'); });
   if (option == rest.end()) {
     if (!rest.empty()) return "unexpected argument \"" + rest.front() + "\"";
     return error.what();
@@ -92,7 +98,8 @@ constexpr const char* command_names = "run, variants, verify, check or chart, or
 int run_program(int argc, char** argv) {
   using namespace host;
   CLI::App app{"Reference finite element host of ents, enriched node-to-segment contact.\n"
-               "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n", "ents-host"};
+               "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n",
+               "ents-host"};
   app.footer("Exit codes: 0 done, 1 the job failed, 2 the command line or an input file is wrong.\n\n"
              "Examples:\n"
              "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
@@ -115,120 +122,183 @@ int run_program(int argc, char** argv) {
   run_app->add_option("scene", run.scene, "scene file; examples/host/README.md describes its keys")
       ->required()
       ->type_name("FILE");
-  run_app->add_option("--out", run.out,
-                      "folder for result.json, the VTU series (open result.pvd in ParaView), checkpoints and the pictures; no "
-                      "other run may write into it meanwhile; without it only the terminal is told")
+  run_app
+      ->add_option("--out", run.out,
+                   "folder for result.json, the VTU series (open result.pvd in ParaView), checkpoints and "
+                   "the pictures; no "
+                   "other run may write into it meanwhile; without it nothing is written but the lines on "
+                   "the terminal")
       ->type_name("DIR");
   std::string names; // install_adapter checks the name
   for (const std::string& name : adapter_names())
     if (name != "plain") names += (names.empty() ? "" : ", ") + name;
-  run_app->add_option("--adapter", run.adapter, "how the contact reaches the library: directly (plain), or through the adapter of another program: " + names)
+  run_app
+      ->add_option("--adapter", run.adapter,
+                   "how the contact reaches the library: directly (plain), or through the adapter of another "
+                   "program: " +
+                       names)
       ->type_name("NAME")
       ->capture_default_str();
-  run_app->add_option("--explicit", run.explicit_divisions,
-                      "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")
+  run_app
+      ->add_option(
+          "--explicit", run.explicit_divisions,
+          "replace the enriched segment by a mesh of N (3D: N x N) plain segments of the same geometry")
       ->check(integer(1, 100000))
       ->type_name("N");
   std::string compare_list;
-  CLI::Option* compare = run_app
-                             ->add_option("--compare", compare_list,
-                                          "solve the scene as it is and with explicit meshes of N1,N2,... segments per "
-                                          "direction [the scene's own list]; print how they converge and what they cost")
-                             ->type_name("N1,N2,...")
-                             ->excludes("--explicit");
-  run_app->add_flag_callback("--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
-  run_app->add_option("--variant", run.variant, "solve one of the scene's variants (its key \"variants\") instead");
-  run_app->add_flag("--nodes", run.nodes, "gap, pressure, traction, slip, status, segment and force of every slave node in the JSON result");
-  run_app->add_option("--cut", run.cut, "take every step in two halves, or in one to four increments of random sizes")
+  CLI::Option* compare =
+      run_app
+          ->add_option("--compare", compare_list,
+                       "solve the scene as it is and with explicit meshes of N1,N2,... segments per "
+                       "direction [the scene's own list]; print how they converge and what they cost")
+          ->type_name("N1,N2,...")
+          ->excludes("--explicit");
+  run_app->add_flag_callback(
+      "--no-pictures", [&] { run.pictures = false; }, "leave the pictures out");
+  run_app->add_option("--variant", run.variant,
+                      "solve one of the scene's variants (its key \"variants\") instead");
+  run_app->add_flag(
+      "--nodes", run.nodes,
+      "gap, pressure, traction, slip, status, segment and force of every slave node in the JSON result");
+  run_app
+      ->add_option("--cut", run.cut,
+                   "take every step in two halves, or in one to four increments of random sizes")
       ->check(CLI::IsMember({"halves", "random"}));
   run_app->add_option("--seed", run.seed, "of --cut random [1]")->check(integer(0, 4294967295));
-  run_app->add_flag("--discard", run.discard,
-                    "before the increments solve others (the whole step; with --cut random now and then some parts) and "
-                    "throw them away: the result must not change by a bit, see \"fingerprint\" in it");
+  run_app->add_flag(
+      "--discard", run.discard,
+      "before the increments solve others (the whole step; with --cut random now and then some parts) and "
+      "throw them away: the result must not change by a bit, see \"fingerprint\" in it");
   run_app->add_option("--last-step", run.last_step, "stop after this step")->check(integer(1, 1000000));
-  run_app->add_option("--restart", run.restart, "continue from the checkpoint.json that a run left in its --out folder, or from checkpoint_before.json, that of "
-                      "one step before; the same folder keeps the earlier steps in result.pvd")
+  run_app
+      ->add_option("--restart", run.restart,
+                   "continue from the checkpoint.json that a run left in its --out folder, or from "
+                   "checkpoint_before.json, that of "
+                   "one step before; the same folder keeps the earlier steps in result.pvd")
       ->check(CLI::ExistingFile);
   add_common(*run_app);
-  run_app->footer("A scene needs dimension, formulation (2D), materials, parts and steps; and supports, springs or a half_space, to hold the bodies.\n"
+  run_app->footer("A scene needs dimension, formulation (2D), materials, parts and steps; and supports, "
+                  "springs or a half_space, to hold the bodies.\n"
                   "The schema of /contact/model is abi/model.schema.json.\n\n"
-                  "Each step prints one line: approach and force of the rigid master, the relative residual of every Newton iteration, and\n"
-                  "its last two reductions. A step that fails is cut into parts; steps too small end the run with exit code 1;\n"
+                  "Each step prints one line: approach and force of the rigid master, the relative residual "
+                  "of every Newton iteration, and\n"
+                  "its last two reductions. A step that fails is cut into parts; steps too small end the run "
+                  "with exit code 1;\n"
                   "what was solved before is told and written all the same.\n\n"
-                  "Friction: slip begins where \"traction\", per area of the surface, reaches mu times the pressure. A penalty leaves a gap g\n"
-                  "at which the force on the slave node is another one: tangential over normal force is mu / (1 - kappa |g|) in slip, with\n"
-                  "the curvature kappa of the enriched surface along it (> 0 on crests); a stiffer penalty or a multiplier brings it to mu.\n\n"
-                  "A file is replaced when the new one is on the disk: a run that is killed or finds the disk full leaves the files of the\n"
+                  "Friction: slip begins where \"traction\", per area of the surface, reaches mu times the "
+                  "pressure. A penalty leaves a gap g\n"
+                  "at which the force on the slave node is another one: tangential over normal force is mu / "
+                  "(1 - kappa |g|) in slip, with\n"
+                  "the curvature kappa of the enriched surface along it (> 0 on crests); a stiffer penalty "
+                  "or a multiplier brings it to mu.\n\n"
+                  "A file is replaced when the new one is on the disk: a run that is killed or finds the "
+                  "disk full leaves the files of the\n"
                   "last whole step, of which checkpoint.json has a checksum.\n\n"
                   "Examples:\n"
-                  "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface on ONE segment\n"
-                  "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 plain segments\n"
-                  "  ents-host run examples/westergaard/scene.json --compare             how the two converge to each other\n"
+                  "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface "
+                  "on ONE segment\n"
+                  "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 "
+                  "plain segments\n"
+                  "  ents-host run examples/westergaard/scene.json --compare             how the two "
+                  "converge to each other\n"
                   "  ents-host run examples/hertz3d/scene.json --json | jq .steps[-1].exact");
 
   VariantsOptions variants;
-  CLI::App* variants_app =
-      app.add_subcommand("variants", "Solve a scene and all its variants; one table compares error, penetration, iterations, time");
-  variants_app->add_option("scene", variants.scene, "scene file with a key \"variants\"")->required()->type_name("FILE");
+  CLI::App* variants_app = app.add_subcommand(
+      "variants",
+      "Solve a scene and all its variants; one table compares error, penetration, iterations, time");
+  variants_app->add_option("scene", variants.scene, "scene file with a key \"variants\"")
+      ->required()
+      ->type_name("FILE");
   add_common(*variants_app);
-  variants_app->footer("The first row, \"as it is\", is the scene without a variant. Columns: steps solved; of the last step the relative error of each\n"
-                       "quantity of the exact solution (none without /exact), and the deepest penetration over the size of the slave surface; of all\n"
-                       "steps Newton's iterations, cuts, and the time. A variant that fails has no penetration; below the table stands why.\n\n"
-                       "Example:\n"
-                       "  ents-host variants examples/hertz2d/scene.json                      six laws of contact");
+  variants_app->footer(
+      "The first row, \"as it is\", is the scene without a variant. Columns: steps solved; of the last step "
+      "the relative error of each\n"
+      "quantity of the exact solution (none without /exact), and the deepest penetration over the size of "
+      "the slave surface; of all\n"
+      "steps Newton's iterations, cuts, and the time. A variant that fails has no penetration; below the "
+      "table stands why.\n\n"
+      "Example:\n"
+      "  ents-host variants examples/hertz2d/scene.json                      six laws of contact");
 
   VerifyOptions verify;
-  CLI::App* verify_app =
-      app.add_subcommand("verify", "Hold the library against golden vectors (100-digit references)");
+  CLI::App* verify_app = app.add_subcommand(
+      "verify", "Compare the library with golden vectors (references computed with 100 digits)");
   verify_app->add_option("files", verify.files, "golden files")->required()->check(CLI::ExistingFile);
   verify_app->add_option("--tolerance", verify.tolerance, "largest relative error that passes")
       ->check(number_check("a number >= 0", [](double value) { return value >= 0; }))
       ->capture_default_str();
   add_common(*verify_app);
-  verify_app->footer("One row per file. Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above --tolerance.\n"
-                     "Quantities: xi, normal, gap and normal gap, gradients (d_) and Hessians (d2_) with respect to the coordinates of the nodes.\n\n"
+  verify_app->footer("One row per file. Columns: worst relative error of each quantity, gaps relative to the "
+                     "segment's size; exit 1 above --tolerance.\n"
+                     "Quantities: xi, normal, gap and normal gap, gradients (d_) and Hessians (d2_) with "
+                     "respect to the coordinates of the nodes.\n\n"
                      "Example:\n"
                      "  ents-host verify tests/mechanics/golden/*.json");
 
   CheckOptions check;
-  CLI::App* check_app = app.add_subcommand(
-      "check", "Is the enrichment of a model admissible? Exit code 1 and what fails, where and by how much, if not. And what does it need?");
-  check_app->add_option("model", check.model, "model file (JSON, as ents_model_create_from_file reads it)")->required();
-  check_app->add_option("--mesh", check.mesh,
-                        "where the segments are: a .json file {\"nodes\": [[x, y], ...], \"segments\": [[0, 1], ...]} "
-                        "or an Abaqus/CalculiX deck whose elements are the segments [one segment whose nodes lie "
-                        "at their natural coordinates]");
-  check_app->add_option("--samples", check.samples, "grid points per direction of a segment [as the height asks for]")
+  CLI::App* check_app =
+      app.add_subcommand("check", "Is the enrichment of a model admissible? Exit code 1 and what fails, "
+                                  "where and by how much, if not. And what does it need?");
+  check_app->add_option("model", check.model, "model file (JSON, as ents_model_create_from_file reads it)")
+      ->required();
+  check_app->add_option(
+      "--mesh", check.mesh,
+      "where the segments are: a .json file {\"nodes\": [[x, y], ...], \"segments\": [[0, 1], ...]} "
+      "or an Abaqus/CalculiX deck whose elements are the segments [one segment whose nodes lie "
+      "at their natural coordinates]");
+  check_app
+      ->add_option("--samples", check.samples,
+                   "grid points per direction of a segment [as the height asks for]")
       ->check(integer(2, 4096));
-  check_app->add_option("--reach", check.reach,
-                        "a slave node this far from the surface shall have one normal projection [the model's \"penetration_limit\"; "
-                        "without one: for information]")
+  check_app
+      ->add_option("--reach", check.reach,
+                   "a slave node this far from the surface shall have one normal projection [the model's "
+                   "\"penetration_limit\"; "
+                   "without one: for information]")
       ->check(positive());
-  check_app->add_option("--kink", check.kink, "largest angle of the normals where segments meet, degrees [for information]")
-      ->check(number_check("an angle from 0 to 180", [](double value) { return value >= 0 && value <= 180; }));
-  check_app->add_option("--out", check.out, "folder for a picture of the enriched surface with the offending places marked");
+  check_app
+      ->add_option("--kink", check.kink,
+                   "largest angle of the normals where segments meet, degrees [for information]")
+      ->check(
+          number_check("an angle from 0 to 180", [](double value) { return value >= 0 && value <= 180; }));
+  check_app->add_option("--out", check.out,
+                        "folder for a picture of the enriched surface with the offending places marked");
   add_common(*check_app);
-  check_app->footer("\"this scene needs: ...\" is what the library computes for this model, \"it does not need: ...\" what it leaves out, and why: its own\n"
-                    "decision (ents_layout.needs), not a reading of the file; ents-bench --savings says what each is worth.\n"
-                    "Each condition prints its worst value on the whole surface, the bound, how much is missing, and where: the segment, natural\n"
-                    "coordinates on it and, for edges and pairs, the other segment. Lengths are the mesh's.\n\n"
-                    "Examples:\n"
-                    "  ents-host check model.json                                        one flat segment of size 2\n"
-                    "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
-                    "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
+  check_app->footer(
+      "\"this scene needs: ...\" lists what the library computes for this model, \"it does not need: ...\" "
+      "what it does not compute, and why.\n"
+      "Both come from ents_layout.needs, which the library fills in; ents-bench --savings measures the time "
+      "that each costs.\n"
+      "Each condition prints its worst value on the whole surface, the bound, how much is missing, and "
+      "where: the segment, natural\n"
+      "coordinates on it and, for edges and pairs, the other segment. Lengths are the mesh's.\n\n"
+      "Examples:\n"
+      "  ents-host check model.json                                        one flat segment of size 2\n"
+      "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
+      "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
 
   ChartOptions chart;
-  CLI::App* chart_app = app.add_subcommand("chart", "What does an error cost, and where does each method work? Work-precision diagrams and stability maps");
-  chart_app->add_option("--out", chart.out, "folder for chart.html (one page, no network), chart.json and the pictures")->type_name("DIR");
+  CLI::App* chart_app = app.add_subcommand(
+      "chart",
+      "What does an error cost, and where does each method work? Work-precision diagrams and stability maps");
+  chart_app
+      ->add_option("--out", chart.out,
+                   "folder for chart.html (one page, no network), chart.json and the pictures")
+      ->type_name("DIR");
   chart_app->add_flag("--quick", chart.quick, "a few runs of each scene and points of each map");
-  chart_app->add_option("--scenes", chart.scenes, "the folder examples of the sources [from the program's folder]")->type_name("DIR");
-  chart_app->add_flag_callback("--no-pictures", [&] { chart.pictures = false; }, "leave the pictures out; the page has its own");
+  chart_app
+      ->add_option("--scenes", chart.scenes, "the folder examples of the sources [from the program's folder]")
+      ->type_name("DIR");
+  chart_app->add_flag_callback(
+      "--no-pictures", [&] { chart.pictures = false; }, "leave the pictures out; the page has its own");
   add_common(*chart_app);
-  chart_app->footer("Exit code 1 if any result is wrong and nothing has said so.\n\n"
+  chart_app->footer("Exit code 1 if any result is wrong without a status or flag that says so.\n\n"
                     "Example:\n"
                     "  ents-host chart --out out/chart && xdg-open out/chart/chart.html");
 
-  for (const char* other : {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes", "--adapter"})
+  for (const char* other :
+       {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes", "--adapter"})
     compare->excludes(other); // each mesh is solved in one go, by the library itself
 
   try {
@@ -239,13 +309,15 @@ int run_program(int argc, char** argv) {
     if (!app.get_subcommands().empty()) {
       const CLI::App& command = *app.get_subcommands().front();
       const std::string name = "ents-host " + command.get_name();
-      std::fprintf(stderr, "%s: %s\n%s --help lists what there is\n", name.c_str(), parse_error(command, error).c_str(), name.c_str());
+      std::fprintf(stderr, "%s: %s\n%s --help lists what there is\n", name.c_str(),
+                   parse_error(command, error).c_str(), name.c_str());
       return 2;
     }
     if (argc < 2)
       std::fprintf(stderr, "ents-host: a command is missing; write ents-host with %s\n", command_names);
     else if (argv[1][0] == '-')
-      std::fprintf(stderr, "ents-host: \"%s\" is not an option here, options follow a command; write %s\n", argv[1], command_names);
+      std::fprintf(stderr, "ents-host: \"%s\" is not an option here, options follow a command; write %s\n",
+                   argv[1], command_names);
     else
       std::fprintf(stderr, "ents-host: \"%s\" is not a command; write %s\n", argv[1], command_names);
     return 2;
@@ -261,7 +333,8 @@ int run_program(int argc, char** argv) {
     std::fprintf(stderr, "ents-host: %s\n", error.what());
     return 2;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "ents-host: the equations are too large for the machine's memory, or for the solver's 32-bit indices; take a coarser mesh (/parts), fewer points "
+    std::fprintf(stderr, "ents-host: the equations are too large for the machine's memory, or for the "
+                         "solver's 32-bit indices; take a coarser mesh (/parts), fewer points "
                          "(/contact/sampling), or fewer segments (--explicit, --compare)\n");
     return 1;
   } catch (const std::exception& error) {

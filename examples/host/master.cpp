@@ -40,17 +40,20 @@ bool Master::covers(const double* xi) const {
 Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& mesh) {
   const ContactSpec& contact = *scene.contact;
   Master master;
-  master.model = std::make_unique<EntsModel>(library, contact.model.dump(), scene.file.parent_path(), where(scene));
+  master.model =
+      std::make_unique<EntsModel>(library, contact.model.dump(), scene.file.parent_path(), where(scene));
   if (contact.model.contains("height") && !contact.model.at("height").is_null()) {
     Json base = contact.model;
     base["height"] = nullptr;
+    for (const char* key : {"contact", "parameters"}) base.erase(key);
     master.base = std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
   }
   master.triangles = has_triangles(contact.model);
   master.rigid = !contact.rigid.empty();
   const auto d = static_cast<std::size_t>(scene.dimension);
   if (master.rigid) {
-    check_sizes(scene, *master.model, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
+    check_sizes(scene, *master.model, contact.rigid.size() / d,
+                scene.file.string() + ": /contact/master/nodes");
     master.positions = contact.rigid;
     master.connectivity.resize(contact.rigid.size() / d);
     std::iota(master.connectivity.begin(), master.connectivity.end(), 0);
@@ -61,12 +64,14 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   if (found == mesh.face_sets.end() || found->second.empty())
     throw InputError(contact.master_where + ": no faces \"" + contact.master + "\" in the mesh");
   if (const std::string segment = contact.model.value("segment", ""); is_smoothed(segment)) {
-    check_sizes(scene, *master.model, static_cast<std::size_t>(master.model->layout().nodes), contact.master_where);
+    check_sizes(scene, *master.model, static_cast<std::size_t>(master.model->layout().nodes),
+                contact.master_where);
     master.connectivity = smoothed_nodes(library, segment, found->second, contact.master_where);
   } else {
     for (const Face& face : found->second) {
       check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
-      master.connectivity.insert(master.connectivity.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+      master.connectivity.insert(master.connectivity.end(), face.nodes.begin(),
+                                 face.nodes.begin() + face.count);
     }
   }
   for (const std::int64_t node : master.connectivity)
@@ -82,12 +87,18 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   if (has_triangles(contact.model))
     throw InputError(where(scene) + "/segment: an explicit mesh is made of lines and quadrilaterals only");
   check_explicit_size(scene, divisions);
+  for (const char* key : {"parameters", "wear"})
+    if (contact.model.contains(key) ||
+        (contact.model.contains("contact") && contact.model.at("contact").contains(key)))
+      throw InputError(where(scene) + ": a model with \"" + key +
+                       "\" changes over the steps, and has no explicit mesh of plain segments");
   const EntsModel enriched(library, contact.model.dump(), scene.file.parent_path(), where(scene));
   const auto d = static_cast<std::size_t>(scene.dimension);
   check_sizes(scene, enriched, contact.rigid.size() / d, scene.file.string() + ": /contact/master/nodes");
 
   const auto n = static_cast<std::size_t>(divisions), row = n + 1;
-  SurfaceSample sample = sample_surface(enriched, contact.rigid, {}, even_grid(enriched.layout().parameters, n));
+  SurfaceSample sample =
+      sample_surface(enriched, contact.rigid, {}, even_grid(enriched.layout().parameters, n));
 
   Json model;
   model["segment"] = d == 2 ? "line2" : "quad4";
@@ -104,7 +115,8 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   master.positions = std::move(sample.point);
   for (std::size_t j = 0; j < (d == 2 ? 1 : n); ++j)
     for (std::size_t i = 0; i < n; ++i) {
-      const auto first = static_cast<std::int64_t>(j * row + i), above = first + static_cast<std::int64_t>(row);
+      const auto first = static_cast<std::int64_t>(j * row + i),
+                 above = first + static_cast<std::int64_t>(row);
       for (const std::int64_t node : {first, first + 1}) master.connectivity.push_back(node);
       if (d == 3)
         for (const std::int64_t node : {above + 1, above}) master.connectivity.push_back(node);

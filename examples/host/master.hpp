@@ -17,11 +17,11 @@ struct Master {
   std::unique_ptr<EntsModel> model; ///< the library's model of one segment
   std::unique_ptr<EntsModel> base;  ///< the same without its height, null if it has none
   bool rigid = true;
-  std::vector<std::int64_t> connectivity; ///< [segments][m] nodes: of `positions`, or of the mesh
-  std::vector<double> positions;          ///< rigid: [nodes][d], before the master moves
+  std::vector<std::int64_t> connectivity;  ///< [segments][m] nodes: of `positions`, or of the mesh
+  std::vector<double> positions;           ///< rigid: [nodes][d], before the master moves
   std::vector<double> surface_coordinates; ///< [segments][m][d-1], or empty: the model's own, else s = xi
-  std::vector<double> direction;          ///< rigid: unit vector of its motion
-  bool triangles = false;                 ///< natural coordinates: unit triangle, else [-1, 1] per direction
+  std::vector<double> direction;           ///< rigid: unit vector of its motion
+  bool triangles = false;                  ///< natural coordinates: unit triangle, else [-1, 1] per direction
 
   std::size_t segments() const {
     return connectivity.size() / static_cast<std::size_t>(model->layout().nodes);

@@ -13,9 +13,10 @@ using Matrix3 = Eigen::Matrix3d;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
 /// Linear elasticity (small strains and rotations, W = mu |sym H|^2 + lambda/2 tr(H)^2), St. Venant and
-/// Kirchhoff's material, the same of Green's strain E = (F^T F - 1)/2 (what codes call linear elastic at finite rotations), or the compressible
-/// neo-Hooke material W = mu/2 (|F|^2 - 3) - mu ln J + lambda/2 (ln J)^2, F = 1 + H, J = det F
-/// (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27).
+/// Kirchhoff's material, the same of Green's strain E = (F^T F - 1)/2 (what codes call linear elastic at
+/// finite rotations), or the compressible neo-Hooke material W = mu/2 (|F|^2 - 3) - mu ln J + lambda/2 (ln
+/// J)^2, F = 1 + H, J = det F (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd
+/// ed., eq. 6.27).
 struct Material {
   enum class Law { linear_elastic, st_venant_kirchhoff, neo_hooke };
   Law law = Law::linear_elastic;
@@ -61,7 +62,8 @@ inline bool evaluate(const Material& material, const Matrix3& gradient, bool wan
   if (material.law == Material::Law::st_venant_kirchhoff) {
     const Matrix3 strain = 0.5 * (gradient + gradient.transpose() + gradient.transpose() * gradient);
     const double trace = strain.trace();
-    const Matrix3 second = 2 * mu * strain + lambda * trace * Matrix3::Identity(); // second Piola-Kirchhoff stress
+    const Matrix3 second =
+        2 * mu * strain + lambda * trace * Matrix3::Identity(); // second Piola-Kirchhoff stress
     point.energy = mu * strain.squaredNorm() + 0.5 * lambda * trace * trace;
     point.stress = deformation * second;
     if (want_tangent) {

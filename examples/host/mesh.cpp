@@ -56,7 +56,8 @@ void add_deck(Mesh& mesh, const std::string& name, const std::filesystem::path& 
     for (const std::string& key : names) {
       std::vector<int>& nodes = mesh.node_sets[name + "." + key];
       for (const int node : inp::nodes_of(deck, key))
-        if (number[static_cast<std::size_t>(node)] >= 0) nodes.push_back(number[static_cast<std::size_t>(node)]);
+        if (number[static_cast<std::size_t>(node)] >= 0)
+          nodes.push_back(number[static_cast<std::size_t>(node)]);
       std::vector<Face> faces;
       try {
         for (const inp::Face& face : inp::faces_of(deck, key)) {

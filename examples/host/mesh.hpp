@@ -55,9 +55,9 @@ using GridLines = std::vector<double>;
 /// times as long as the one before it (geometric progression).
 void append_graded(GridLines& lines, double to, int divisions, double growth);
 
-/// Add a block on a tensor grid: quad4 or tri3 (each cell cut along one diagonal) in 2D; hex8 or tet4 (six per
-/// cell round one space diagonal: conforming) in 3D. Its sets are NAME (all nodes) and the sides NAME.x_min,
-/// NAME.x_max, NAME.y_min ... as nodes and as faces.
+/// Add a block on a tensor grid: quad4 or tri3 (each cell cut along one diagonal) in 2D; hex8 or tet4 (six
+/// per cell round one space diagonal: conforming) in 3D. Its sets are NAME (all nodes) and the sides
+/// NAME.x_min, NAME.x_max, NAME.y_min ... as nodes and as faces.
 void add_block(Mesh& mesh, const std::string& name, ElementType type, const std::vector<GridLines>& lines,
                int part);
 

@@ -25,7 +25,8 @@ inline std::size_t edits(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// The known word next to this one. Empty: more than three letters or half of them differ, that is another word.
+/// The known word next to this one. Empty: more than three letters or half of them differ, that is another
+/// word.
 inline std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string nearest;
   std::size_t least = 4;

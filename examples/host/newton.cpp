@@ -6,6 +6,7 @@
 
 #include "advice.hpp"
 #include "holding.hpp"
+#include "layer_body.hpp"
 #include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
@@ -18,7 +19,9 @@ bool Simulation::force_controlled() const {
 void Simulation::prescribe(Configuration& at) const {
   const double all_copies = at.force * scene_->symmetry_copies;
   // Nodes tied to a prescribed one have no equation either, and no value of their own.
-  const auto follow = [&](std::size_t dof) { return half_space_.empty() ? 0 : half_space_[dof] * all_copies; };
+  const auto follow = [&](std::size_t dof) {
+    return half_space_.empty() ? 0 : half_space_[dof] * all_copies;
+  };
   for (std::size_t dof = 0; dof < half_space_.size(); ++dof)
     if (dofs_->equation(dof) < 0) at.displacement[dof] = follow(dof);
   for (const Prescribed& support : prescribed_)
@@ -81,7 +84,8 @@ double Simulation::relative_residual(const Evaluation& at) const {
   const double norm = residual.norm();
   // Bodies that nothing presses or loads: the forces present are rounding, as the residual is.
   if (const double rounding = rounding_of_forces(); std::max(norm, at.force_scale) <= rounding) return 0;
-  // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they are zero.
+  // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they
+  // are zero.
   return norm == 0 ? 0 : norm / std::max(at.force_scale, std::sqrt(squared_gaps));
 }
 
@@ -91,11 +95,20 @@ void Simulation::find_contact(Configuration& at) {
   std::size_t count = 0;
   for (const double gap : fields.gap)
     if (!std::isnan(gap)) smallest = std::min(smallest, gap), sum += gap, ++count;
-  if (count == 0) throw JobError("no slave node has a projection on the master: is it in the way of the motion?");
+  if (count == 0)
+    throw JobError("no slave node has a projection on the master: is it in the way of the motion?");
   // Touch with a little more than the first node; the iteration finds the rest.
   const double spread = sum / static_cast<double>(count) - smallest;
   const double overlap = std::max(0.01 * spread, 1e-6 * std::abs(smallest));
   at.motion += std::max(0., smallest + overlap);
+  // What wears off in this increment opens a gap that the fields do not have.
+  double step = std::max(overlap, 1e-9 * contact_->size());
+  for (int doubled = 0; doubled < 100 && contact_->wears() && !touches(at); ++doubled, step *= 2) at.motion += step;
+}
+
+bool Simulation::touches(const Configuration& at) {
+  const std::vector<char> closed = contact_->fields(at).closed;
+  return std::find(closed.begin(), closed.end(), 1) != closed.end();
 }
 
 Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
@@ -120,9 +133,20 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
       return result;
     }
   }
+  if (layer_) {
+    const Stopwatch watch;
+    Eigen::VectorXd displacement(layer_->nodes());
+    for (Eigen::Index node = 0; node < displacement.size(); ++node)
+      displacement[node] = at.displacement[static_cast<std::size_t>(3 * node + 2)];
+    const Eigen::VectorXd force = layer_->force(displacement);
+    for (Eigen::Index node = 0; node < displacement.size(); ++node)
+      result.residual[static_cast<std::size_t>(3 * node + 2)] += force[node];
+    timings_.bulk += watch.seconds();
+  }
   if (!springs_.empty()) {
     for (std::size_t dof = 0; dof < springs_.size(); ++dof) {
-      result.residual[dof] += springs_[dof] * (at.displacement[dof] + (direction.empty() ? 0 : direction[dof]));
+      result.residual[dof] +=
+          springs_[dof] * (at.displacement[dof] + (direction.empty() ? 0 : direction[dof]));
       if (want_tangent) system_->add(bulk_stencils_.size(), dof, &springs_[dof]);
     }
   }
@@ -199,12 +223,13 @@ std::string Simulation::advice_if_singular(const Configuration& at) {
   if (!contact_ || !contact_->master().rigid) return "";
   const std::vector<char> closed = contact_->fields(at).closed;
   if (std::any_of(closed.begin(), closed.end(), [](char c) { return c != 0; })) return "";
-  return "no slave node is in contact with the rigid master: do its normal (order of its nodes) and its direction point to "
+  return "no slave node is in contact with the rigid master: do its normal (order of its nodes) and its "
+         "direction point to "
          "the slave surface?";
 }
 
 std::string Simulation::nothing_holds(const Configuration& begin) {
-  if (!contact_) return "";
+  if (!contact_ || layer_) return "";
   const std::string body = what_can_move(mesh_, *dofs_, springs_, *scene_);
   if (body.empty()) return "";
   contact_->begin_increment(now_);
@@ -227,6 +252,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   const Stopwatch watch;
   NewtonOutcome outcome;
   Configuration at = now_, next = now_;
+  if (!target.parameters.empty()) at.parameters = next.parameters = target.parameters;
   const bool by_force = force_controlled();
   const double share = 1. / scene_->symmetry_copies;
   next.load_factor = target.load_factor;
@@ -251,16 +277,19 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   };
 
   if (contact_) contact_->begin_increment(now_);
-  if (!choose(at, false, outcome.reason, outcome.step_factor)) return fail(outcome.reason, outcome.step_factor);
-  if (by_force && now_.force <= 0) {
+  if (!choose(at, false, outcome.reason, outcome.step_factor))
+    return fail(outcome.reason, outcome.step_factor);
+  if (by_force && (now_.force <= 0 || (contact_->wears() && !touches(at)))) {
     find_contact(at);
     begin = at;
     next.motion = at.motion;
   }
-  // First the tangent at the present configuration takes the whole jump of loads and prescribed values, or the motion
-  // of the last increment goes on: a sliding contact whose tangent sticks would drag the surfaces along ...
+  // First the tangent at the present configuration takes the whole jump of loads and prescribed values, or
+  // the motion of the last increment goes on: a sliding contact whose tangent sticks would drag the surfaces
+  // along ...
   const double size = target.load_factor - now_.load_factor;
-  for (std::size_t i = 0; extrapolate && i < next.displacement.size(); ++i) next.displacement[i] += size * rate_[i];
+  for (std::size_t i = 0; extrapolate && i < next.displacement.size(); ++i)
+    next.displacement[i] += size * rate_[i];
   prescribe(next);
   std::vector<double> jump(at.displacement.size(), 0.0);
   bool jumps = false;
@@ -271,8 +300,8 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     }
   if (!jumps) jump.clear();
   at.load_factor = next.load_factor;
-  // A guess: the factors left by the last increment serve it as well as new ones. Not where history counts: a run
-  // must end with the same bits whatever was tried in between, and factors depend on what was tried.
+  // A guess: the factors left by the last increment serve it as well as new ones. Not where history counts: a
+  // run must end with the same bits whatever was tried in between, and factors depend on what was tried.
   const bool factorize = !factors_fit_;
   factors_fit_ = false;
   Evaluation state;
@@ -296,8 +325,8 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   for (int iteration = 1; iteration <= scene_->solver.max_iterations; ++iteration) {
     // Segments are chosen anew during the first iterations; then nodes stay that project inside theirs or its
     // margin: beside a kink of a plain mesh they could otherwise change sides for ever.
-    if (outcome.augmentations.empty() && !choose(next, iteration > scene_->solver.segment_choices, outcome.reason,
-                                                 outcome.step_factor))
+    if (outcome.augmentations.empty() &&
+        !choose(next, iteration > scene_->solver.segment_choices, outcome.reason, outcome.step_factor))
       return fail(outcome.reason, outcome.step_factor);
     state = evaluate(next, {}, true);
     if (!state.ok) return fail_there(state);
@@ -318,8 +347,9 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
         const double error = contact_->augment(next, enough);
         if (error > enough) {
           if (static_cast<int>(outcome.augmentations.size()) == scene_->solver.max_augmentations)
-            return fail("no convergence of the multipliers in " + std::to_string(scene_->solver.max_augmentations) +
-                            " augmentations", 0.5);
+            return fail("no convergence of the multipliers in " +
+                            std::to_string(scene_->solver.max_augmentations) + " augmentations",
+                        0.5);
           outcome.augmentations.push_back({error, 0});
           iteration = 0;
           history = {};
@@ -327,9 +357,9 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
         }
         outcome.augmentations.push_back({error, 0});
       }
-      if (contact_ && !contact_->behind_edge().empty()) {
-        outcome.advice = advice_if_behind_edge(scene_->contact->model);
-        return fail(std::string(contact_->behind_edge()), 0.5);
+      if (contact_ && !contact_->lost().empty()) {
+        outcome.advice = advice_if_lost(scene_->contact->model, contact_->lost_behind_edge());
+        return fail(std::string(contact_->lost()), 0.5);
       }
       outcome.converged = true;
       timings_.total += watch.seconds();
@@ -347,7 +377,8 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
       factors_fit_ = !contact_ || !contact_->has_history();
       return outcome;
     }
-    if (contact_ && iteration > scene_->solver.max_iterations - looked_back && lost.empty()) lost = contact_->behind_edge();
+    if (contact_ && iteration > scene_->solver.max_iterations - looked_back && lost.empty())
+      lost = contact_->lost();
     if (!solve(state, true, 0, error_of(state), next)) {
       outcome.advice = advice_if_singular(next);
       return fail("the tangent is singular", 0.5);
@@ -356,12 +387,15 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   // The last residuals tell a flip-flop (they come back) from a divergence (they grow).
   std::string last;
   const std::vector<double>& residuals = history.residuals;
-  for (std::size_t i = residuals.size() - std::min<std::size_t>(residuals.size(), 4); i < residuals.size(); ++i)
+  for (std::size_t i = residuals.size() - std::min<std::size_t>(residuals.size(), 4); i < residuals.size();
+       ++i)
     last += " " + format_number(residuals[i], 2);
   const Json model = contact_ ? scene_->contact->model : Json();
   outcome.advice = advice_if_stuck(history, model);
-  if (!lost.empty()) outcome.advice = lost + ": " + advice_if_behind_edge(model);
-  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) + " iterations, residuals" + last, 0.5);
+  if (!lost.empty()) outcome.advice = lost + ": " + advice_if_lost(model, contact_->lost_behind_edge());
+  return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) +
+                  " iterations, residuals" + last,
+              0.5);
 }
 
 std::vector<double> Simulation::reactions() {

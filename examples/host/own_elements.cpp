@@ -50,8 +50,10 @@ std::vector<OwnElements::Dof> OwnElements::dofs_of(std::int64_t element) const {
 
 void OwnElements::add(std::int64_t element, const double* residual, const double* tangent) {
   if (system_.index_size != sizeof(int) || system_.master != nullptr)
-    throw JobError("elements of other programs are added to rows of 32-bit indices and to the master's own nodes only");
-  const auto *begin = static_cast<const int*>(system_.row_begin), *columns = static_cast<const int*>(system_.columns);
+    throw JobError(
+        "elements of other programs are added to rows of 32-bit indices and to the master's own nodes only");
+  const auto *begin = static_cast<const int*>(system_.row_begin),
+             *columns = static_cast<const int*>(system_.columns);
   const std::vector<Dof> dofs = dofs_of(element);
   for (const Dof& row : dofs) {
     if (row.equation < 0) continue;
@@ -60,8 +62,10 @@ void OwnElements::add(std::int64_t element, const double* residual, const double
       if (system_.values == nullptr || column.equation < 0) continue;
       const int *first = columns + begin[row.equation], *last = columns + begin[row.equation + 1];
       const int* at = std::lower_bound(first, last, static_cast<int>(column.equation));
-      if (at == last || *at != column.equation) throw JobError("an element has no place in the tangent's pattern");
-      system_.values[at - columns] += row.weight * column.weight * tangent[row.local + layout_.dofs * column.local];
+      if (at == last || *at != column.equation)
+        throw JobError("an element has no place in the tangent's pattern");
+      system_.values[at - columns] +=
+          row.weight * column.weight * tangent[row.local + layout_.dofs * column.local];
     }
   }
 }

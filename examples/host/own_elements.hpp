@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_assemble with residuals and tangents that somebody else computes: an adapter, or automatic differentiation.
+// ents_assemble with residuals and tangents that somebody else computes: an adapter, or automatic
+// differentiation.
 #pragma once
 
 #include <vector>
@@ -8,14 +9,18 @@
 
 namespace host {
 
-/// The equations of one call of ents_assemble, element by element. Slave points may be combinations of nodes, master nodes may not.
+/// The equations of one call of ents_assemble, element by element. Slave points may be combinations of nodes,
+/// master nodes may not.
 class OwnElements {
 public:
   OwnElements(const ents_layout& layout, const ents_input& input, const ents_system& system)
       : layout_(layout), input_(input), system_(system) {}
 
-  bool has_segment(std::int64_t element) const { return input_.segment[element * input_.segment_stride] >= 0; }
-  /// The input of this element as that of a single one, number 0, which stands alone: no mesh. Valid until the next call.
+  bool has_segment(std::int64_t element) const {
+    return input_.segment[element * input_.segment_stride] >= 0;
+  }
+  /// The input of this element as that of a single one, number 0, which stands alone: no mesh. Valid until
+  /// the next call.
   ents_input input(std::int64_t element);
   /// @param residual  [dofs]; not read if the system wants none
   /// @param tangent   [dofs][dofs] column-major; not read if the system wants none

@@ -7,8 +7,8 @@
 
 namespace host {
 
-/// Factor on a prescribed value as a function of the load factor: straight lines between points, constant beyond
-/// them. No points: the load factor itself.
+/// Factor on a prescribed value as a function of the load factor: straight lines between points, constant
+/// beyond them. No points: the load factor itself.
 struct Path {
   std::vector<std::array<double, 2>> points; ///< (load factor, factor), load factors ascending
 

@@ -9,10 +9,11 @@
 namespace host {
 
 /// In the folder of --out: that of the last step, and the one before it.
-inline constexpr const char *checkpoint_name = "checkpoint.json", *checkpoint_before_name = "checkpoint_before.json";
+inline constexpr const char *checkpoint_name = "checkpoint.json",
+                            *checkpoint_before_name = "checkpoint_before.json";
 
-/// A checkpoint file: the simulation's checkpoint, the step it was written after, the values of the steps up to there, and
-/// a checksum of all of them.
+/// A checkpoint file: the simulation's checkpoint, the step it was written after, the values of the steps up
+/// to there, and a checksum of all of them.
 std::string checkpoint_text(const Simulation& simulation, int step);
 
 /// @return the step it was written after

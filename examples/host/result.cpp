@@ -38,11 +38,18 @@ Json nodes_json(const StepRecord& record) {
     static constexpr std::array<const char*, 4> names{"open", "stick", "slip", "shear limit"};
     status.push_back(names[static_cast<std::size_t>(status_number(flags))]);
   }
-  return {{"position", column(record.positions)}, {"gap", column(fields.gap)},
-          {"normal_gap", column(fields.normal_gap)}, {"pressure", column(fields.pressure)},
-          {"traction", column(fields.traction)}, {"slip", column(fields.slip)},
-          {"age", column(fields.age)}, {"status", status}, {"segment", fields.segment},
-          {"force", column(fields.node_forces)}};
+  Json nodes{{"position", column(record.positions)},
+             {"gap", column(fields.gap)},
+             {"normal_gap", column(fields.normal_gap)},
+             {"pressure", column(fields.pressure)},
+             {"traction", column(fields.traction)},
+             {"slip", column(fields.slip)},
+             {"age", column(fields.age)},
+             {"status", status},
+             {"segment", fields.segment},
+             {"force", column(fields.node_forces)}};
+  if (!fields.worn.empty()) nodes["worn"] = column(fields.worn);
+  return nodes;
 }
 
 Json step_json(const StepRecord& record, bool nodes) {
@@ -52,6 +59,12 @@ Json step_json(const StepRecord& record, bool nodes) {
             {"force", record.force},
             {"mean_pressure", number(record.mean_pressure)},
             {"contact_fraction", record.contact_fraction},
+            {"contact_estimate",
+             {{"fraction", number(record.area.fraction)},
+              {"error", number(record.area.error)},
+              {"border_corrected", number(record.area.border_corrected)},
+              {"zero_line", number(record.area.zero_line)}}},
+            {"peak_drop", number(record.area.peak_drop)},
             {"peak_pressure", record.peak_pressure},
             {"mean_gap", number(record.mean_gap)},
             {"penetration", record.penetration},
@@ -59,6 +72,10 @@ Json step_json(const StepRecord& record, bool nodes) {
             {"iterations", record.iterations()},
             {"cuts", record.cuts},
             {"wall_time", record.wall_time}};
+  if (!record.fields.worn.empty())
+    step["wear"] = {{"slave_volume", record.worn_slave},
+                    {"master_volume", record.worn_master},
+                    {"slave_depth", record.worn_depth}};
   step["increments"] = Json::array();
   for (const IncrementRecord& increment : record.increments) {
     const Convergence rate = convergence(increment.residuals);
@@ -95,33 +112,43 @@ Json result_json(const Simulation& simulation, const std::vector<StepRecord>& re
   const Scene& scene = simulation.scene();
   const Sizes sizes = simulation.sizes();
   const Timings& timings = simulation.timings();
-  Json result{{"title", scene.title},
-              {"scene", scene.file.string()},
-              {"solver", simulation.solver_name()},
-              {"units",
-               {{"length", scene.units.length}, {"force", scene.units.force}, {"pressure", scene.units.pressure}}},
-              {"control", control_name(scene.control)},
-              {"symmetry_copies", scene.symmetry_copies},
-              {"sizes",
-               {{"nodes", sizes.nodes},
-                {"elements", sizes.elements},
-                {"dofs", sizes.dofs},
-                {"equations", sizes.equations},
-                {"contact_elements", sizes.slaves},
-                {"master_segments", sizes.master_segments},
-                {"master_dofs", sizes.master_dofs}}},
-              {"wall_time",
-               {{"setup", timings.setup},
-                {"bulk", timings.bulk},
-                {"contact", timings.contact},
-                {"solver", timings.solver},
-                {"total", timings.total}}}};
+  Json result{
+      {"title", scene.title},
+      {"scene", scene.file.string()},
+      {"solver", simulation.solver_name()},
+      {"units",
+       {{"length", scene.units.length}, {"force", scene.units.force}, {"pressure", scene.units.pressure}}},
+      {"control", control_name(scene.control)},
+      {"symmetry_copies", scene.symmetry_copies},
+      {"sizes",
+       {{"nodes", sizes.nodes},
+        {"elements", sizes.elements},
+        {"dofs", sizes.dofs},
+        {"equations", sizes.equations},
+        {"contact_elements", sizes.slaves},
+        {"master_segments", sizes.master_segments},
+        {"master_dofs", sizes.master_dofs}}},
+      {"wall_time",
+       {{"setup", timings.setup},
+        {"bulk", timings.bulk},
+        {"contact", timings.contact},
+        {"solver", timings.solver},
+        {"total", timings.total}}}};
   result["fingerprint"] = simulation.fingerprint();
-  result["failure"] = failure == nullptr ? Json() : Json{{"step", failure->step}, {"reason", failure->what()}};
+  result["failure"] =
+      failure == nullptr ? Json() : Json{{"step", failure->step}, {"reason", failure->what()}};
   result["steps"] = Json::array();
   for (const StepRecord& record : records) result["steps"].push_back(step_json(record, nodes));
   return result;
 }
+
+namespace {
+
+bool wears(const std::vector<StepRecord>& records) {
+  return !records.empty() && !records.front().fields.worn.empty();
+}
+
+} // namespace
 
 Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
   Table table;
@@ -137,7 +164,10 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
   if (pair) table.column("normal force", scene.units.force).column("tangential", scene.units.force);
   if (scene.contact) {
     table.column("peak pressure", scene.units.pressure).column("contact", "%", 3);
+    table.column("estimated", "%", 3).column("+-", "%", 2);
     table.column("mean gap", scene.units.length);
+    if (wears(records))
+      table.column("worn depth", scene.units.length).column("worn volume", cubic(scene.units.length));
   }
   table.column("iterations").column("reduction", "last but one", 2).column("reduction", "last", 2);
   for (const StepRecord& record : records) {
@@ -147,13 +177,16 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
     else
       row.emplace_back(record.value);
     if (pair) {
-      const std::vector<double>& force = record.contact_force; // the last axis is the normal one in our scenes
+      const std::vector<double>& force =
+          record.contact_force; // the last axis is the normal one in our scenes
       double squared = 0;
       for (std::size_t i = 0; i + 1 < force.size(); ++i) squared += force[i] * force[i];
       row.insert(row.end(), {-force.back(), std::sqrt(squared)});
     }
     if (scene.contact)
-      row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, record.mean_gap});
+      row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, 100 * record.area.fraction,
+                             100 * record.area.error, record.mean_gap});
+    if (wears(records)) row.insert(row.end(), {record.worn_depth, record.worn_slave + record.worn_master});
     const Convergence rate = convergence(record.increments.back().residuals);
     row.insert(row.end(), {static_cast<std::int64_t>(record.iterations()), rate.before, rate.last});
     table.row(std::move(row));
@@ -179,8 +212,9 @@ std::string exact_table(const std::vector<StepRecord>& records) {
   for (const StepRecord& record : records) {
     std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step)};
     for (const Quantity* column : columns) {
-      const auto found = std::find_if(record.exact.begin(), record.exact.end(),
-                                      [&](const Quantity& quantity) { return quantity.name == column->name; });
+      const auto found =
+          std::find_if(record.exact.begin(), record.exact.end(),
+                       [&](const Quantity& quantity) { return quantity.name == column->name; });
       const Quantity unknown{"", "", std::numeric_limits<double>::quiet_NaN()}; // shown as a dash
       const Quantity& quantity = found == record.exact.end() ? unknown : *found;
       row.emplace_back(quantity.value);

@@ -31,13 +31,15 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records);
 /// Exact quantities of every step; empty text if the scene has none.
 std::string exact_table(const std::vector<StepRecord>& records);
 
-/// What writes the parts of one step for the VTU series: "bulk", "slave" and "surface" (the enriched master), then their list. Each may fail
-/// on its own, as Series::add; the arguments have to live as long.
-std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation, const StepRecord& record);
+/// What writes the parts of one step for the VTU series: "bulk", "slave" and "surface" (the enriched master),
+/// then their list. Each may fail on its own, as Series::add; the arguments have to live as long.
+std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation,
+                                                 const StepRecord& record);
 
 /// The pictures that draw_pictures and draw_comparison may leave, each as NAME.dat, .gp, .svg and .png.
-inline constexpr std::array picture_names{"residuals", "force", "traction", "pressure", "westergaard",
-                                          "contact_fraction", "mean_gap", "pressure_map", "compare"};
+inline constexpr std::array picture_names{"residuals", "force",        "traction",
+                                          "pressure",  "westergaard",  "contact_fraction",
+                                          "mean_gap",  "pressure_map", "compare"};
 
 /// @return one line per problem (gnuplot missing, ...)
 std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,

@@ -29,6 +29,15 @@ vtu::Grid bulk_grid(const Simulation& simulation) {
   }
   grid.point_data.push_back(
       {with_unit("displacement", units.length), mesh.dimension, simulation.now().displacement});
+  if (mesh.groups.empty()) { // a layer: its surface, and no stress below it
+    vtu::Cells cells;
+    cells.type = vtu::Cell::quad;
+    cells.nodes_per_cell = 4;
+    for (const Face& face : mesh.face_sets.at(simulation.scene().parts.front().name + ".z_max"))
+      cells.connectivity.insert(cells.connectivity.end(), face.nodes.begin(), face.nodes.end());
+    grid.cells.push_back(std::move(cells));
+    return grid;
+  }
   grid.point_data.push_back({with_unit("stress", units.pressure), mesh.dimension == 3 ? 6 : 4,
                              simulation.bulk().nodal_stress(simulation.now().displacement)});
   return grid;
@@ -45,6 +54,8 @@ vtu::Grid slave_grid(Simulation& simulation, const StepRecord& record) {
   grid.point_data.push_back({with_unit("traction", units.pressure), d, record.fields.traction});
   grid.point_data.push_back({with_unit("slip", units.length), 1, record.fields.slip});
   grid.point_data.push_back({"age", 1, record.fields.age});
+  if (!record.fields.worn.empty())
+    grid.point_data.push_back({with_unit("worn depth", units.length), 1, record.fields.worn});
   grid.point_data.push_back({"segment", 1, {record.fields.segment.begin(), record.fields.segment.end()}});
   std::vector<double> status; // 0 open, 1 stick, 2 slip, 3 slip at the shear limit
   for (const std::int32_t flags : record.fields.flags) status.push_back(status_number(flags));
@@ -61,7 +72,8 @@ vtu::Grid surface_grid(Simulation& simulation) {
   std::vector<double> positions = master.positions;
   for (std::size_t i = 0; i < positions.size(); ++i)
     positions[i] += simulation.now().motion * master.direction[i % static_cast<std::size_t>(d)];
-  const SurfaceSample sample = sample_surface(*master.model, positions, {}, even_grid(d - 1, static_cast<std::size_t>(n1 - 1)));
+  const SurfaceSample sample =
+      sample_surface(*master.model, positions, {}, even_grid(d - 1, static_cast<std::size_t>(n1 - 1)));
   vtu::Grid grid = vtu::sampled_surface(d, n1, n2, sample.point);
   grid.point_data.push_back({with_unit("height", scene.units.length), 1, sample.height});
   grid.point_data.push_back({"normal", d, sample.normal});
@@ -84,8 +96,9 @@ vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
       cells.connectivity.push_back(static_cast<std::int64_t>(s * corners + a));
       for (std::size_t i = 0; i < d; ++i) {
         const std::size_t dof = static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i;
-        grid.points.push_back(master.rigid ? master.positions[dof] + simulation.now().motion * master.direction[i]
-                                           : mesh.coordinates[dof] + simulation.now().displacement[dof]);
+        grid.points.push_back(master.rigid
+                                  ? master.positions[dof] + simulation.now().motion * master.direction[i]
+                                  : mesh.coordinates[dof] + simulation.now().displacement[dof]);
       }
     }
   grid.cells.push_back(std::move(cells));
@@ -94,7 +107,8 @@ vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
 
 } // namespace
 
-std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation, const StepRecord& record) {
+std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation,
+                                                 const StepRecord& record) {
   const auto part = [&](const char* name, auto grid) {
     return [&series, &record, name, grid] { series.add(record.step, record.value, name, grid()); };
   };
@@ -104,7 +118,7 @@ std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation
     parts.push_back(part("surface", [&] {
       const Master& master = simulation.contact()->master();
       return master.rigid && master.segments() == 1 && !master.triangles ? surface_grid(simulation)
-                                                                       : segments_grid(simulation, master);
+                                                                         : segments_grid(simulation, master);
     }));
   }
   parts.push_back([&series] { series.write_list(); });

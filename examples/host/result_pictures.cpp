@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
@@ -89,32 +90,70 @@ Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
   return chart;
 }
 
-/// Nodal pressures of the last step along the slave surface of a body in the plane: over x or y, along which it extends farther.
-Chart pressure_along_surface(Simulation& simulation, const StepRecord& record) {
+/// Numbers of the slave nodes along the surface of a body in the plane: over x or y, along which it extends
+/// farther.
+/// @param of  curves and their names
+Chart along_surface(Simulation& simulation,
+                    const std::vector<std::pair<std::string, std::vector<double>>>& of) {
   const Scene& scene = simulation.scene();
   const SlavePoints& slaves = simulation.contact()->slaves();
   std::vector<std::array<double, 3>> places(slaves.size());
   for (std::size_t k = 0; k < slaves.size(); ++k)
     for (std::size_t c = 0; c < 2; ++c) places[k][c] = slaves.place(k, simulation.mesh())[c];
   const auto extent = [&](std::size_t c) {
-    const auto [low, high] = std::minmax_element(places.begin(), places.end(), [&](auto& a, auto& b) { return a[c] < b[c]; });
+    const auto [low, high] =
+        std::minmax_element(places.begin(), places.end(), [&](auto& a, auto& b) { return a[c] < b[c]; });
     return (*high)[c] - (*low)[c];
   };
   const std::size_t axis = extent(1) > extent(0) ? 1 : 0;
   std::vector<std::size_t> order(places.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return places[a][axis] < places[b][axis]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return places[a][axis] < places[b][axis]; });
   Chart chart;
-  chart.title = "Contact pressure, last step";
   chart.subtitle = scene.title + "; " + mesh_note(simulation);
   chart.x = {axis == 0 ? "x of the slave nodes" : "y of the slave nodes", scene.units.length};
-  chart.y = {"pressure", scene.units.pressure, false, 0};
-  Curve curve{"", {}, {}, Style::line};
-  for (const std::size_t k : order) {
-    curve.x.push_back(places[k][axis]);
-    curve.y.push_back(record.fields.pressure[k]);
+  for (const auto& [name, values] : of) {
+    Curve curve{name, {}, {}, Style::line};
+    for (const std::size_t k : order) {
+      curve.x.push_back(places[k][axis]);
+      curve.y.push_back(values[k]);
+    }
+    chart.curves.push_back(std::move(curve));
   }
-  chart.curves = {curve};
+  return chart;
+}
+
+Chart pressure_along_surface(Simulation& simulation, const StepRecord& record) {
+  Chart chart = along_surface(simulation, {{"", record.fields.pressure}});
+  chart.title = "Contact pressure, last step";
+  chart.y = {"pressure", simulation.scene().units.pressure, false, 0};
+  return chart;
+}
+
+/// What the slave has lost, at five steps of the run.
+Chart worn_profile(Simulation& simulation, const std::vector<StepRecord>& records) {
+  std::vector<std::pair<std::string, std::vector<double>>> profiles;
+  const std::size_t last = records.size() - 1;
+  for (std::size_t i = 0; i <= 4; ++i) {
+    const StepRecord& record = records[i * last / 4];
+    std::vector<double> profile;
+    for (const double depth : record.fields.worn) profile.push_back(-depth);
+    const std::string name = "step " + std::to_string(record.step);
+    if (profiles.empty() || profiles.back().first != name) profiles.emplace_back(name, std::move(profile));
+  }
+  Chart chart = along_surface(simulation, profiles);
+  double low = std::numeric_limits<double>::infinity(),
+         high = -low; // where something has been worn off, and beside it
+  const Curve& end = chart.curves.back();
+  for (std::size_t i = 0; i < end.x.size(); ++i)
+    if (end.y[i] != 0) low = std::min(low, end.x[i]), high = std::max(high, end.x[i]);
+  if (high > low) {
+    chart.x.min = std::max(low - 0.3 * (high - low), end.x.front());
+    chart.x.max = std::min(high + 0.3 * (high - low), end.x.back());
+  }
+  chart.title = "Worn profile of the slave surface";
+  chart.y = {"worn off", simulation.scene().units.length};
   return chart;
 }
 
@@ -177,7 +216,14 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
     curve.y.push_back(gap ? record.mean_gap : 100 * record.contact_fraction);
   }
   chart.curves = {curve};
-  if (gap || simulation.exact_layer() == nullptr) return chart;
+  if (gap) return chart;
+  Curve estimate{"computed, corrected between the nodes", curve.x, {}, Style::line};
+  for (const StepRecord& record : records) estimate.y.push_back(100 * record.area.fraction);
+  if (std::isfinite(estimate.y.front())) {
+    chart.curves[0].label = "computed (slave nodes)";
+    chart.curves.push_back(estimate);
+  }
+  if (simulation.exact_layer() == nullptr) return chart;
   chart.curves[0].label = "computed (slave nodes)";
   Curve exact{"boundary elements, hard contact", {}, {}, Style::exact};
   for (const StepRecord& record : records)
@@ -189,21 +235,27 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
   return chart;
 }
 
-/// Heights of the surface of ONE rigid segment that lie over a rectangle, measured along the motion of the master; without values
-/// unless the surface's points form a grid along x and y there (a flat quad4 parallel to the axes).
+/// Heights of the surface of ONE rigid segment that lie over a rectangle, measured along the motion of the
+/// master; without values unless the surface's points form a grid along x and y there (a flat quad4 parallel
+/// to the axes).
 pictures::Map height_map(const Simulation& simulation, const Contact& contact, pictures::Maps& frame) {
   pictures::Map map;
   const Master& master = contact.master();
-  if (!master.rigid || master.segments() != 1 || master.triangles || simulation.mesh().dimension != 3) return map;
+  if (!master.rigid || master.segments() != 1 || master.triangles || simulation.mesh().dimension != 3)
+    return map;
   const SurfaceSample sample = sample_surface(*master.model, master.positions, {}, even_grid(2, 512));
   // xi_1 may run along either axis: the points' own coordinates sort them.
-  const auto grid_line = [&](double position) { return std::llround(position / (1e-6 * (frame.x_max - frame.x_min))); };
+  const auto grid_line = [&](double position) {
+    return std::llround(position / (1e-6 * (frame.x_max - frame.x_min)));
+  };
   std::map<std::pair<long long, long long>, double> heights; // by y, then x
   std::map<long long, int> columns, rows;
   for (std::size_t k = 0; k < sample.height.size(); ++k) {
     const double x = sample.point[3 * k], y = sample.point[3 * k + 1];
     const double margin = 1e-6 * (frame.x_max - frame.x_min);
-    if (x < frame.x_min - margin || x > frame.x_max + margin || y < frame.y_min - margin || y > frame.y_max + margin) continue;
+    if (x < frame.x_min - margin || x > frame.x_max + margin || y < frame.y_min - margin ||
+        y > frame.y_max + margin)
+      continue;
     heights[{grid_line(y), grid_line(x)}] = sample.height[k];
     ++columns[grid_line(x)], ++rows[grid_line(y)];
   }
@@ -231,8 +283,7 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   }
   if (columns.size() * rows.size() != slaves.size() || columns.size() < 3 || rows.size() < 3) return maps;
   const auto regular = [](std::map<double, int>& axis) {
-    const double step =
-        (axis.rbegin()->first - axis.begin()->first) / static_cast<double>(axis.size() - 1);
+    const double step = (axis.rbegin()->first - axis.begin()->first) / static_cast<double>(axis.size() - 1);
     int index = 0;
     bool even = true;
     for (auto& [position, number] : axis) {
@@ -257,7 +308,8 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pressure.values.assign(slaves.size(), 0.0);
   for (std::size_t k = 0; k < slaves.size(); ++k) {
     const auto position = slaves.place(k, simulation.mesh());
-    const auto at = static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
+    const auto at =
+        static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
     pressure.values[at] = record.fields.pressure[k];
   }
   pictures::Map height = height_map(simulation, *simulation.contact(), maps);
@@ -287,7 +339,8 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
   if (simulation.contact() == nullptr) return problems;
   const ExactSpec::Type type = simulation.scene().exact.type;
   const bool along_line = type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine &&
-                          type != ExactSpec::Type::boundary_elements; // the exact pressure
+                          type != ExactSpec::Type::boundary_elements &&
+                          type != ExactSpec::Type::worn_cylinder; // the exact pressure
   if (simulation.scene().control == Control::load_factor && records.size() > 1)
     note(draw(force_history(simulation.scene(), records), folder, "force"));
   if (type == ExactSpec::Type::slope) return problems;
@@ -295,10 +348,12 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
     note(draw(partial_slip_profile(simulation, records.back()), folder, "traction"));
     return problems;
   }
-  if (type == ExactSpec::Type::none && simulation.scene().dimension == 2)
+  if (simulation.scene().dimension == 2 && !records.back().fields.worn.empty())
+    note(draw(worn_profile(simulation, records), folder, "worn"));
+  if ((type == ExactSpec::Type::none || type == ExactSpec::Type::worn_cylinder) &&
+      simulation.scene().dimension == 2)
     note(draw(pressure_along_surface(simulation, records.back()), folder, "pressure"));
-  if (along_line)
-    note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
+  if (along_line) note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
   if (type == ExactSpec::Type::westergaard)
     note(draw(westergaard_curve(simulation, records), folder, "westergaard"));
   if (type == ExactSpec::Type::hertz_point) note(draw(force_curve(simulation, records), folder, "force"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -60,7 +61,9 @@ public:
   }
 
 private:
-  static double fraction(std::mt19937& random) { return 0.05 + 0.9 * static_cast<double>(random()) / 4294967296.; }
+  static double fraction(std::mt19937& random) {
+    return 0.05 + 0.9 * static_cast<double>(random()) / 4294967296.;
+  }
 
   StepPlan plan_;
   std::mt19937 random_, discards_;
@@ -123,10 +126,67 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
     record.positions.insert(record.positions.end(), position.begin(), position.begin() + scene.dimension);
   }
   record.contact_fraction = closed / simulation.contact_area();
+  record.area = estimate_area(simulation, record.fields);
   record.mean_gap = gap / gap_area;
+  record.worn_slave = contact->worn_slave() * scene.symmetry_copies;
+  record.worn_master = contact->worn_master() * scene.symmetry_copies;
+  for (const double depth : record.fields.worn) record.worn_depth = std::max(record.worn_depth, depth);
   const SurfaceState state = surface_state(simulation, record);
   const ExactLayer* layer = simulation.exact_layer();
-  record.exact = layer != nullptr ? layer->compare(simulation.now().motion, state) : compare_with_exact(scene, state);
+  record.exact =
+      layer != nullptr ? layer->compare(simulation.now().motion, state) : compare_with_exact(scene, state);
+}
+
+/// Value of a parameter before the first step.
+double start_of(const Simulation& simulation, const std::string& name) {
+  const EntsModel& model = *simulation.contact()->master().model;
+  const auto& names = model.parameters();
+  return model
+      .defaults()[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+}
+
+/// The values of the model's parameters, a part of a step done.
+std::vector<double> parameters_at(const Simulation& simulation, int step, double part) {
+  if (simulation.contact() == nullptr) return {};
+  const EntsModel& model = *simulation.contact()->master().model;
+  std::vector<double> values = model.defaults();
+  for (const HistorySpec& history : simulation.scene().history)
+    for (std::size_t p = 0; p < values.size(); ++p) {
+      if (model.parameters()[p] != history.name) continue;
+      const auto index = static_cast<std::size_t>(step - 1);
+      const double from = index == 0 ? values[p] : history.values[index - 1], to = history.values[index];
+      values[p] = part >= 1 - 1e-12 ? to : from + (to - from) * part;
+    }
+  return values;
+}
+
+/// Explicit wear alternates from node to node where a step slides farther than 4 dx / (pi k E*): the mode of
+/// the shortest wave has the compliance 2 dx / (pi E*), and is worn by k over it. Empty: it does not, as far
+/// as is known before.
+std::string warning_of_explicit_wear(const Simulation& simulation, int step) {
+  const Scene& scene = simulation.scene();
+  if (simulation.contact() == nullptr) return "";
+  const Json& model = scene.contact->model;
+  const Json coefficient = find_json(model, "/contact/wear/coefficient"),
+             sliding = find_json(model, "/contact/wear/sliding");
+  if (find_json(model, "/contact/wear/scheme") != "explicit" || !coefficient.is_number()) return "";
+  double slid = 0;
+  const auto index = static_cast<std::size_t>(step - 1);
+  for (const HistorySpec& history : scene.history)
+    if (sliding == history.name)
+      slid = history.values[index] -
+             (index == 0 ? start_of(simulation, history.name) : history.values[index - 1]);
+  // A quarter of the nodes have less: those on the border of the surface have half or a quarter of a full
+  // area.
+  std::vector<double> areas = simulation.contact()->areas();
+  std::sort(areas.begin(), areas.end());
+  const double area = areas[areas.size() / 4];
+  const double dx = scene.dimension == 2 ? area / scene.parts.front().setup.thickness : std::sqrt(area);
+  const double limit = 4 * dx / (std::numbers::pi * coefficient.get<double>() * contact_modulus(scene));
+  if (!(slid > limit)) return "";
+  return "step " + std::to_string(step) + " slides " + format_number(slid, 3) +
+         " and explicit wear is stable up to " + format_number(limit, 3) +
+         " here (4 dx / (pi k E*)); take \"scheme\": \"implicit\", or more steps";
 }
 
 } // namespace
@@ -150,10 +210,12 @@ bool quadratic(const std::vector<double>& residuals, double constant, double flo
 }
 
 int StepRecord::iterations() const {
-  return std::accumulate(increments.begin(), increments.end(), 0, [](int sum, const IncrementRecord& increment) {
-    for (const Augmentation& augmentation : increment.augmentations) sum += augmentation.iterations;
-    return sum + static_cast<int>(increment.residuals.size());
-  });
+  return std::accumulate(increments.begin(), increments.end(), 0,
+                         [](int sum, const IncrementRecord& increment) {
+                           for (const Augmentation& augmentation : increment.augmentations)
+                             sum += augmentation.iterations;
+                           return sum + static_cast<int>(increment.residuals.size());
+                         });
 }
 
 SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
@@ -162,8 +224,9 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   SurfaceState state;
   for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
     const auto position = contact.slaves().place(k, simulation.mesh());
-    state.distance.push_back(d == 2 ? distance_from(simulation.exact_axis(), simulation.scene().exact, position[0])
-                                    : std::hypot(position[0], position[1]));
+    state.distance.push_back(
+        d == 2 ? distance_from(simulation.exact_axis(), simulation.scene().exact, position[0])
+               : std::hypot(position[0], position[1]));
   }
   state.load.assign(d, 0.0);
   const std::vector<double> loads = simulation.loads(simulation.now().load_factor);
@@ -176,11 +239,15 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   }
   state.contact_force = record.fields.force;
   state.pressure = record.fields.pressure;
+  state.gap = record.fields.gap;
   state.area = contact.areas();
   state.closed = record.fields.closed;
   state.approach = record.approach;
   state.force = record.force;
   state.mean_pressure = record.mean_pressure;
+  state.slid = contact.slid();
+  state.worn_volume = record.worn_slave, state.worn_depth = record.worn_depth;
+  state.contact_estimate = record.area.fraction;
   return state;
 }
 
@@ -201,11 +268,14 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     const auto value_at = [&](double part) { return part >= 1 - 1e-12 ? to : from + (to - from) * part; };
     const auto target_at = [&](double part) {
       const double value = value_at(part);
-      if (scene.control == Control::load_factor) return Target{value, value};
-      return Target{value, last != 0 ? value / last : 1};
+      std::vector<double> parameters = parameters_at(simulation, step, part);
+      if (scene.control == Control::load_factor) return Target{value, value, std::move(parameters)};
+      return Target{value, last != 0 ? value / last : 1, std::move(parameters)};
     };
     parts.next_step();
     if (step < plan.first) continue; // drawn all the same: a run continued is the run itself
+    if (const std::string warning = warning_of_explicit_wear(simulation, step); !warning.empty())
+      say("warning: " + warning);
     const Stopwatch watch;
     StepRecord record;
     record.step = step;
@@ -219,21 +289,23 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
         if (done == 0 && part < 1 && begin.is_null()) begin = simulation.checkpoint();
         const NewtonOutcome outcome = simulation.advance(target_at(part));
         if (outcome.converged) {
-          record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
+          record.increments.push_back(
+              {value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
           done = part >= 1 - 1e-12 ? 1 : part;
           size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
           continue;
         }
         if (outcome.step_factor == 0)
-          throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason + "; " + outcome.advice);
+          throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason +
+                         "; " + outcome.advice);
         record.cuts.push_back(outcome.reason);
         size *= outcome.step_factor;
-        say("step " + std::to_string(record.step) + ": " + outcome.reason + "; cut to " + format_number(size, 3) +
-            " of the step");
+        say("step " + std::to_string(record.step) + ": " + outcome.reason + "; cut to " +
+            format_number(size, 3) + " of the step");
         if (size < scene.solver.min_step)
           throw JobError("step " + std::to_string(record.step) + " cannot be solved: " + outcome.reason +
-                         " even in parts of " + format_number(size / outcome.step_factor, 3) +
-                         "; " + (outcome.advice.empty() ? smaller_steps : outcome.advice));
+                         " even in parts of " + format_number(size / outcome.step_factor, 3) + "; " +
+                         (outcome.advice.empty() ? smaller_steps : outcome.advice));
       }
     };
     try {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_area.hpp"
 #include "error.hpp"
 #include "exact.hpp"
 #include "simulation.hpp"
@@ -14,9 +15,9 @@ namespace host {
 
 /// Residuals of one converged increment (a whole step unless it was cut).
 struct IncrementRecord {
-  double value = 0;              ///< of the control at its end
-  std::vector<double> residuals; ///< relative, after each Newton iteration
-  std::vector<int> status_changes; ///< slave nodes that opened or closed, at each iteration
+  double value = 0;                        ///< of the control at its end
+  std::vector<double> residuals;           ///< relative, after each Newton iteration
+  std::vector<int> status_changes;         ///< slave nodes that opened or closed, at each iteration
   std::vector<Augmentation> augmentations; ///< Uzawa
 };
 
@@ -40,7 +41,10 @@ struct StepRecord {
   double force = 0;              ///< on the rigid master, all symmetric copies
   double mean_pressure = 0;      ///< force / slave area
   double contact_fraction = 0;   ///< area of closed nodes / slave area
+  AreaEstimate area;             ///< the same without the error of counting nodes
   double peak_pressure = 0, mean_gap = 0;
+  double worn_slave = 0, worn_master = 0,
+         worn_depth = 0;             ///< volumes, all symmetric copies; deepest slave [L]
   double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
   std::vector<Quantity> exact;
@@ -57,7 +61,8 @@ struct RunObserver {
   std::function<void(const Simulation&, const StepRecord&)> step_done;
 };
 
-/// How the steps are taken, and what is tried and thrown away on the way: the results must not change by a bit.
+/// How the steps are taken, and what is tried and thrown away on the way: the results must not change by a
+/// bit.
 struct StepPlan {
   enum class Cut {
     none,   ///< each step in one increment
@@ -65,10 +70,11 @@ struct StepPlan {
     random, ///< each in one to four of random sizes
   };
   Cut cut = Cut::none;
-  unsigned seed = 1;    ///< of the random sizes, and of what is thrown away
-  bool discard = false; ///< try the whole step (random: now and then, one to three other parts) before each increment
-  int first = 1;        ///< continue a run here: earlier steps are those of a checkpoint
-  int last = 0;         ///< 0: the scene's last
+  unsigned seed = 1; ///< of the random sizes, and of what is thrown away
+  bool discard =
+      false; ///< try the whole step (random: now and then, one to three other parts) before each increment
+  int first = 1; ///< continue a run here: earlier steps are those of a checkpoint
+  int last = 0;  ///< 0: the scene's last
 };
 
 /// A step that cannot be cut any further, or has no way to begin. What was solved before it is kept, and the

@@ -18,13 +18,15 @@ std::string headline(const Simulation& simulation) {
   std::string text = simulation.scene().title + ": " + std::to_string(sizes.elements) + " elements, " +
                      std::to_string(sizes.equations) + " equations, " + simulation.solver_name();
   if (sizes.slaves > 0)
-    text += "; " + std::to_string(sizes.slaves) + " contact elements on " + std::to_string(sizes.master_segments) +
+    text += "; " + std::to_string(sizes.slaves) + " contact elements on " +
+            std::to_string(sizes.master_segments) +
             (sizes.master_segments == 1 ? " master segment" : " master segments");
   return text;
 }
 
 /// Table, exact quantities and time; what failed, if something did.
-void print_report(const Simulation& simulation, const std::vector<StepRecord>& records, const StepFailure* failure) {
+void print_report(const Simulation& simulation, const std::vector<StepRecord>& records,
+                  const StepFailure* failure) {
   const Scene& scene = simulation.scene();
   if (!records.empty()) std::printf("\n%s", result_table(scene, records).text().c_str());
   if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
@@ -42,17 +44,19 @@ void print_report(const Simulation& simulation, const std::vector<StepRecord>& r
 void note_ignored(const RunOptions& options, const Scene& scene) {
   const std::size_t steps = scene.steps.size();
   if (options.last_step > static_cast<int>(steps))
-    std::fprintf(stderr, "ents-host: --last-step %d: the scene has %zu %s; the run ends with its last\n", options.last_step, steps,
-                 steps == 1 ? "step" : "steps");
+    std::fprintf(stderr, "ents-host: --last-step %d: the scene has %zu %s; the run ends with its last\n",
+                 options.last_step, steps, steps == 1 ? "step" : "steps");
   if (options.seed && options.cut != "random")
-    std::fprintf(stderr, "ents-host: --seed %u has no effect: only --cut random draws numbers\n", *options.seed);
+    std::fprintf(stderr, "ents-host: --seed %u has no effect: only --cut random draws numbers\n",
+                 *options.seed);
 }
 
 /// A run that converged because nothing touched.
 void note_without_contact(const Scene& scene, const std::vector<StepRecord>& records) {
   const auto touched = [](const StepRecord& record) { return record.contact_fraction > 0; };
   if (!scene.contact || records.empty() || std::any_of(records.begin(), records.end(), touched)) return;
-  std::fprintf(stderr, "ents-host: no slave node was in contact at the end of a step: do the master's normal (order of its nodes) and "
+  std::fprintf(stderr, "ents-host: no slave node was in contact at the end of a step: do the master's normal "
+                       "(order of its nodes) and "
                        "the motion bring the surfaces together?\n");
 }
 
@@ -67,7 +71,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   Simulation simulation(scene, library.get(), options.explicit_divisions);
 
   StepPlan plan;
-  plan.cut = options.cut == "halves" ? StepPlan::Cut::halves
+  plan.cut = options.cut == "halves"   ? StepPlan::Cut::halves
              : options.cut == "random" ? StepPlan::Cut::random
                                        : StepPlan::Cut::none;
   plan.seed = options.seed.value_or(plan.seed);
@@ -80,7 +84,8 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   note_ignored(options, scene);
   // Before the run, for in its result such a map looks like a master that faces away.
   if (const std::string& mismatch = simulation.exact_axis().mismatch; !mismatch.empty())
-    std::fprintf(stderr, "ents-host: warning: %s; errors against the exact solution mean nothing\n", mismatch.c_str());
+    std::fprintf(stderr, "ents-host: warning: %s; errors against the exact solution mean nothing\n",
+                 mismatch.c_str());
   if (scene.contact) note_small_maps(scene, simulation.contact()->master().surface_coordinates);
   RunFiles files(options.out, options.restart, plan.first);
 

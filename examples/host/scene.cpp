@@ -56,6 +56,42 @@ Formulation read_formulation(JsonObject& scene, int dimension) {
                                   : Formulation::axisymmetric;
 }
 
+/// A layer has equal cells on its surface, none below, and a compliance in closed form.
+void check_layer(JsonObject& part, const PartSpec& read) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const GridLines& line = read.lines[axis];
+    const double cell = (line.back() - line.front()) / static_cast<double>(line.size() - 1);
+    for (std::size_t i = 1; i < line.size(); ++i)
+      if (std::abs(line[i] - line[i - 1] - cell) > 1e-9 * cell)
+        part.at(axis == 0 ? "x" : "y").fail("a layer has equal cells: give one piece, without \"growth\"");
+    if (line.size() < 3) part.at(axis == 0 ? "x" : "y").fail("a layer has two cells or more along x and y");
+  }
+  if (read.lines[2].size() != 2)
+    part.at("z").fail(
+        "a layer has nodes on its surface alone: give one piece with \"divisions\": 1, its thickness");
+  if (read.setup.material.law != Material::Law::linear_elastic)
+    part.at("material").fail("a layer is linear_elastic");
+}
+
+/// Nothing else fits beside a layer: its supports are its own, and it knows no forces along its surface.
+void check_scene_of_layer(const Scene& scene) {
+  const auto fail = [&](const std::string& key, const std::string& text) {
+    throw InputError(scene.file.string() + ": " + key + ": with \"element\": \"layer\" " + text);
+  };
+  if (scene.parts.size() > 1) fail("/parts", "there is one part; take hex8 for several");
+  if (!scene.supports.empty())
+    fail("/supports",
+         "there are none; leave the key out: the base is held and the sides are planes of symmetry");
+  if (!scene.periodic.empty()) fail("/periodic", "sides are planes of symmetry; take hex8");
+  if (!scene.springs.empty()) fail("/springs", "there are none; take hex8");
+  if (!scene.tractions.empty()) fail("/tractions", "there are none; take hex8");
+  if (scene.half_space) fail("/half_space", "the base is held; take a thick layer, or hex8");
+  if (!scene.contact || scene.contact->rigid.empty() || std::abs(scene.contact->direction[2] + 1) > 1e-12)
+    fail("/contact/master", "there is a rigid master that moves down: \"direction\": [0, 0, -1]");
+  if (scene.contact->model.contains(Json::json_pointer("/contact/friction")))
+    fail("/contact/model/contact/friction", "there is no friction: its nodes move along z alone");
+}
+
 PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& materials,
                    const ElementSetup& common) {
   JsonObject object(value);
@@ -78,12 +114,15 @@ PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& 
                                                           {"hex8", ElementType::hex8}};
     const bool plane = scene.dimension == 2;
     const JsonValue element = object.at("element");
-    part.type = types.at(element.word(plane ? std::vector<std::string>{"tri3", "quad4"}
-                                            : std::vector<std::string>{"tet4", "hex8"}));
+    const std::string word = element.word(plane ? std::vector<std::string>{"tri3", "quad4"}
+                                                : std::vector<std::string>{"tet4", "hex8", "layer"});
+    part.layer = word == "layer";
+    if (!part.layer) part.type = types.at(word);
     part.lines = {read_axis(object.at("x")), read_axis(object.at("y"))};
     if (!plane) part.lines.push_back(read_axis(object.at("z")));
     if (common.formulation == Formulation::axisymmetric && part.lines[0].front() < 0)
       object.at("x").fail("x is the radius of an axisymmetric body and starts at 0 or above");
+    if (part.layer) check_layer(object, part);
   }
   object.finish();
   return part;
@@ -142,7 +181,8 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (object.has("areas")) {
     const JsonValue areas = object.at("areas");
     contact.equal_areas = areas.word({"tributary", "equal"}) == "equal";
-    if (contact.equal_areas && contact.sampling > 0) areas.fail("sampling points have areas of their own; leave it out");
+    if (contact.equal_areas && contact.sampling > 0)
+      areas.fail("sampling points have areas of their own; leave it out");
   }
   JsonObject master(object.at("master"));
   if (master.has("faces")) {
@@ -156,7 +196,8 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
         contact.surface_axes.push_back(axis == "x" ? 0 : axis == "y" ? 1 : 2);
       }
       if (static_cast<int>(contact.surface_axes.size()) != dimension - 1)
-        axes.fail("one reference coordinate per surface coordinate is expected: " + std::to_string(dimension - 1));
+        axes.fail("one reference coordinate per surface coordinate is expected: " +
+                  std::to_string(dimension - 1));
     }
   } else {
     contact.rigid = read_nodes(master.at("nodes"), dimension);
@@ -180,6 +221,61 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   return contact;
 }
 
+/// One number per step; {"to": 3, "count": 40}: equal steps from the value before.
+/// @param start  the value before the first step
+std::vector<double> read_step_values(const JsonValue& values, double start) {
+  std::vector<double> steps;
+  for (const JsonValue& item : values.items()) {
+    if (!item.is_object()) {
+      steps.push_back(item.number());
+      continue;
+    }
+    JsonObject range(item);
+    const double from = steps.empty() ? start : steps.back(), to = range.at("to").number();
+    const int most = 1000000 - static_cast<int>(steps.size()); // of the run
+    const int count = range.at("count").integer(1, std::max(most, 1));
+    range.finish();
+    for (int i = 1; i < count; ++i) steps.push_back(from + (to - from) * i / count);
+    steps.push_back(to);
+  }
+  return steps;
+}
+
+/// The key "history". Wear beside the motion of the mesh has to be one of them: a step that is cut would
+/// slide twice as far.
+void read_history(JsonObject& scene_object, Scene& scene) {
+  const Json model = scene.contact ? scene.contact->model : Json();
+  const Json parameters = find_json(model, "/parameters");
+  const Json sliding = find_json(model, "/contact/wear/sliding");
+  bool slides = false;
+  if (scene_object.has("history")) {
+    JsonObject object(scene_object.at("history"));
+    for (const std::string& name : object.all_keys()) {
+      const JsonValue values = object.at(name);
+      if (!parameters.is_object() || !parameters.contains(name) || !parameters.at(name).is_number())
+        values.fail("no parameter \"" + name + "\" of the contact's model; write {\"parameters\": {\"" +
+                    name + "\": VALUE BEFORE THE FIRST STEP}} into /contact/model");
+      const double start = parameters.at(name).get<double>();
+      scene.history.push_back({name, read_step_values(values, start)});
+      const std::vector<double>& read = scene.history.back().values;
+      if (read.size() != scene.steps.size())
+        values.fail("a value at the end of each step is expected: there are " +
+                    std::to_string(scene.steps.size()) + " steps and " + std::to_string(read.size()) +
+                    " values");
+      if (sliding != name) continue;
+      slides = true;
+      for (std::size_t i = 0; i < read.size(); ++i)
+        if (read[i] < (i == 0 ? start : read[i - 1]))
+          values.fail("the distance slid until the end of each step is expected, which never falls");
+    }
+  }
+  if (!sliding.is_null() && !slides)
+    throw InputError(
+        scene.contact->model_where +
+        "/contact/wear/sliding: in a scene this is the name of a parameter, whose /history is the "
+        "distance slid until the end of each step; an increment gets its share, also when a step is cut");
+}
+
 void read_steps(const JsonValue& value, Scene& scene) {
   static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
                                                        {"approach", Control::approach},
@@ -187,24 +283,11 @@ void read_steps(const JsonValue& value, Scene& scene) {
                                                        {"mean_pressure", Control::mean_pressure}};
   JsonObject object(value);
   const JsonValue control = object.at("control");
-  scene.control =
-      controls.at(control.word({"load_factor", "approach", "force", "mean_pressure"}));
+  scene.control = controls.at(control.word({"load_factor", "approach", "force", "mean_pressure"}));
   if (scene.control != Control::load_factor && (!scene.contact || scene.contact->rigid.empty()))
     control.fail("only a rigid master can be moved; use load_factor");
   const JsonValue values = object.at("values");
-  for (const JsonValue& item : values.items()) {
-    if (!item.is_object()) {
-      scene.steps.push_back(item.number());
-      continue;
-    }
-    JsonObject range(item); // {"to": 3, "count": 40}: equal steps from the value before
-    const double from = scene.steps.empty() ? 0 : scene.steps.back(), to = range.at("to").number();
-    const int most = 1000000 - static_cast<int>(scene.steps.size()); // of the run
-    const int count = range.at("count").integer(1, std::max(most, 1));
-    range.finish();
-    for (int i = 1; i < count; ++i) scene.steps.push_back(from + (to - from) * i / count);
-    scene.steps.push_back(to);
-  }
+  scene.steps = read_step_values(values, 0);
   if (scene.steps.empty()) values.fail("at least one step is expected");
   if (scene.control == Control::force || scene.control == Control::mean_pressure)
     for (const double step : scene.steps)
@@ -266,6 +349,7 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
   if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
   scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
   read_steps(object.at("steps"), scene);
+  read_history(object, scene);
   if (object.has("half_space")) {
     const JsonValue value = object.at("half_space");
     if (scene.dimension != 3 || (scene.control != Control::force && scene.control != Control::mean_pressure))
@@ -282,6 +366,7 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
     half_space.finish();
     scene.half_space = spec;
   }
+  if (scene.parts.front().layer || scene.parts.back().layer) check_scene_of_layer(scene);
   if (object.has("exact")) scene.exact = read_exact(object.at("exact"), scene);
   if (object.has("units")) {
     JsonObject units(object.at("units"));
@@ -293,10 +378,12 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
     JsonObject solver(object.at("solver"));
     scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
     if (!(scene.solver.tolerance < 1))
-      solver.at("tolerance").fail("a number < 1 is expected: the residual relative to the forces present, 1e-10 say");
+      solver.at("tolerance")
+          .fail("a number < 1 is expected: the residual relative to the forces present, 1e-10 say");
     scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
     scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
-    scene.solver.segment_choices = solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
+    scene.solver.segment_choices =
+        solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
     scene.solver.extrapolate = solver.boolean_or("extrapolate", scene.solver.extrapolate);
     if (scene.solver.extrapolate && scene.control != Control::load_factor)
       solver.at("extrapolate").fail("only with steps that control the load factor");
@@ -332,7 +419,8 @@ Scene read_scene(const std::filesystem::path& file, const std::string& variant) 
   bool found = variant.empty();
   std::string names;
   const std::vector<Variant> variants = wanted.variants;
-  for (const Variant& candidate : variants) { // all are read: a mistake in one shall not wait until it is asked for
+  for (const Variant& candidate :
+       variants) { // all are read: a mistake in one shall not wait until it is asked for
     Json changed = json;
     changed.merge_patch(candidate.patch);
     Scene scene = read(changed, file, candidate.name);
@@ -341,8 +429,8 @@ Scene read_scene(const std::filesystem::path& file, const std::string& variant) 
     names += (names.empty() ? "" : ", ") + candidate.name;
   }
   if (!found)
-    throw InputError(file.string() + ": no variant \"" + variant + "\" in /variants; there are: " +
-                     (names.empty() ? "none" : names));
+    throw InputError(file.string() + ": no variant \"" + variant +
+                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
   return wanted;
 }
 

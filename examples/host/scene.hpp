@@ -20,6 +20,7 @@ struct PartSpec {
   ElementSetup setup;
   ElementType type = ElementType::quad4; ///< block
   std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
+  bool layer = false;                    ///< block: its surface alone has nodes, layer_body.hpp
   std::filesystem::path deck;
   std::string deck_where; ///< file and path, for messages
   std::string element_set;
@@ -62,12 +63,12 @@ struct PeriodicSpec {
 struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
-  bool equal_areas = false;       ///< every slave node gets the same area, as if it had no neighbours to share with
-  std::vector<double> rigid;      ///< rigid master: [m][d], nodes of its one segment; empty: deformable
+  bool equal_areas = false; ///< every slave node gets the same area, as if it had no neighbours to share with
+  std::vector<double> rigid;        ///< rigid master: [m][d], nodes of its one segment; empty: deformable
   std::string master, master_where; ///< deformable master: faces, each one segment
-  std::vector<int> surface_axes;  ///< deformable master: surface coordinates are these reference coordinates
-  std::vector<double> direction;  ///< rigid master: unit vector of its motion
-  Json model;                     ///< passed on to the library
+  std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
+  std::vector<double> direction; ///< rigid master: unit vector of its motion
+  Json model;                    ///< passed on to the library
   std::string model_where;
 };
 
@@ -79,17 +80,36 @@ enum class Control {
   mean_pressure, ///< the same divided by the slave surface's area [F/L^2]
 };
 
+/// A named parameter of the contact model that changes over the steps.
+struct HistorySpec {
+  std::string name;
+  std::vector<double> values; ///< [steps] at the end of each; within a step on a straight line
+};
+
 /// Which exact solution the result is held against.
 struct ExactSpec {
-  enum class Type { none, hertz_line, hertz_point, westergaard, double_sine, cattaneo, slope, uniform_pressure, boundary_elements };
+  enum class Type {
+    none,
+    hertz_line,
+    hertz_point,
+    westergaard,
+    double_sine,
+    cattaneo,
+    slope,
+    uniform_pressure,
+    boundary_elements,
+    worn_cylinder
+  };
   Type type = Type::none;
-  std::string where;                    ///< file and path, for messages
-  double radius = 0;                    ///< hertz_line, hertz_point, cattaneo [L]
-  double coefficient = 0;               ///< cattaneo, slope: friction
-  double distance = 0;                  ///< cattaneo: of the points that displacements are measured against [L]
+  std::string where;      ///< file and path, for messages
+  double radius = 0;      ///< hertz_line, hertz_point, cattaneo, worn_cylinder [L]
+  double coefficient = 0; ///< cattaneo, slope: friction
+  double distance = 0;    ///< cattaneo: of the points that displacements are measured against [L]
   double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
   double pressure = 0;                  ///< uniform_pressure [F/L^2]
   int points = 128;                     ///< boundary_elements: along the longer side of the layer
+  double error = 0;     ///< boundary_elements: refine until the estimated error is as small; 0: do not
+  double stiffness = 0; ///< boundary_elements: of a penalty [F/L^3]; 0: hard contact
 };
 
 /// Words for tables and pictures; the numbers are never converted.
@@ -97,13 +117,17 @@ struct UnitNames {
   std::string length, force, pressure;
 };
 
+/// Of a volume.
+inline std::string cubic(const std::string& length) { return length.empty() ? "" : length + "^3"; }
+
 struct SolverSpec {
   double tolerance = 1e-10; ///< residual norm relative to the forces present
   int max_iterations = 25;
-  double min_step = 1e-3; ///< smallest part of a step before the run gives up
+  double min_step = 1e-3;   ///< smallest part of a step before the run gives up
   bool extrapolate = false; ///< first guess: the motion of the last increment goes on
-  int segment_choices = 4; ///< Newton iterations that may choose segments anew
-  double gap_tolerance = 1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
+  int segment_choices = 4;  ///< Newton iterations that may choose segments anew
+  double gap_tolerance =
+      1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
   int max_augmentations = 100;
 };
 
@@ -133,6 +157,7 @@ struct Scene {
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
   Control control = Control::load_factor;
   std::vector<double> steps;
+  std::vector<HistorySpec> history;
   ExactSpec exact;
   UnitNames units;
   SolverSpec solver;

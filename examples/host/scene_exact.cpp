@@ -18,7 +18,8 @@ const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
                                         {"cattaneo", Type::cattaneo},
                                         {"slope", Type::slope},
                                         {"uniform_pressure", Type::uniform_pressure},
-                                        {"boundary_elements", Type::boundary_elements}};
+                                        {"boundary_elements", Type::boundary_elements},
+                                        {"worn_cylinder", Type::worn_cylinder}};
 
 bool is_rigid(const Scene& scene) { return !scene.contact->rigid.empty(); }
 
@@ -28,7 +29,8 @@ void check_formulation(Type type, const JsonValue& word, const Scene& scene) {
   if (type == Type::uniform_pressure) return;
   const bool axisymmetric =
       scene.dimension == 2 && scene.parts.front().setup.formulation == Formulation::axisymmetric;
-  const bool point = type == Type::hertz_point, space = type == Type::double_sine || type == Type::boundary_elements;
+  const bool point = type == Type::hertz_point,
+             space = type == Type::double_sine || type == Type::boundary_elements;
   if (point   ? scene.dimension == 3 || axisymmetric
       : space ? scene.dimension == 3
               : scene.dimension == 2 && !axisymmetric)
@@ -62,6 +64,15 @@ void check_bodies(const ExactSpec& exact, const JsonValue& value, const Scene& s
     throw InputError(scene.file.string() +
                      ": /contact/master/direction: the exact solution is for a motion along " +
                      (scene.dimension == 2 ? "y" : "z"));
+  if (exact.type == Type::worn_cylinder) {
+    const Json& model = scene.contact->model;
+    const Json slave = find_json(model, "/contact/wear/slave");
+    if (!find_json(model, "/contact/wear/coefficient").is_number() || !(slave.is_null() || slave == 1))
+      throw InputError(scene.contact->model_where +
+                       "/contact/wear: \"worn_cylinder\" is for a slave that loses all of the wear, with a "
+                       "coefficient that is a number");
+    return;
+  }
   if (exact.type != Type::slope) return;
   const auto d = static_cast<std::size_t>(scene.dimension);
   for (std::size_t a = d; a < scene.contact->rigid.size(); a += d)
@@ -90,7 +101,8 @@ ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
   for (const auto& [word, type] : types) words.push_back(word);
   const JsonValue word = object.at("type");
   exact.type = types.at(word.word(words));
-  if (exact.type == Type::hertz_line || exact.type == Type::hertz_point) {
+  if (exact.type == Type::hertz_line || exact.type == Type::hertz_point ||
+      exact.type == Type::worn_cylinder) {
     exact.radius = object.at("radius").positive();
   } else if (exact.type == Type::cattaneo) {
     exact.radius = object.at("radius").positive();
@@ -102,6 +114,8 @@ ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
     exact.pressure = object.at("pressure").positive();
   } else if (exact.type == Type::boundary_elements) {
     exact.points = object.integer_or("points", 8, 1024, exact.points);
+    if (object.has("error")) exact.error = object.at("error").positive();
+    if (object.has("stiffness")) exact.stiffness = object.at("stiffness").positive();
   } else {
     exact.amplitude = object.at("amplitude").positive();
     exact.wavelength = object.at("wavelength").positive();

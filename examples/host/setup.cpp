@@ -7,6 +7,7 @@
 #include <set>
 
 #include "half_space.hpp"
+#include "layer_body.hpp"
 #include "mesh_size.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
@@ -70,9 +71,13 @@ std::vector<std::pair<int, int>> opposite_nodes(const Mesh& mesh, const Periodic
   return pairs;
 }
 
+/// Of the displacements along a layer, which are zero.
+const Path layer_path;
+
 } // namespace
 
-Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divisions, const MasterMaker& maker)
+Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divisions,
+                       const MasterMaker& maker)
     : scene_(&scene) {
   const Stopwatch watch;
   build_mesh();
@@ -81,11 +86,22 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
   // Multipliers make a symmetric system indefinite: nothing for Cholesky.
   const bool symmetric = !contact_ || (contact_->symmetric_tangent() && contact_->multipliers() == 0);
   system_ = std::make_unique<SparseSystem>(equations(), symmetric);
-  solver_ = LinearSolver::create(symmetric);
+  if (layer_ && !contact_->symmetric_tangent())
+    throw InputError(
+        scene_->contact->model_where +
+        ": with \"element\": \"layer\" the tangent has to be symmetric; project along the normal, or take "
+        "the element hex8");
+  if (layer_ && contact_->multipliers() > 0 && !contact_->slaves().are_nodes())
+    throw InputError(
+        scene_->contact->model_where +
+        ": with \"element\": \"layer\" multipliers are those of nodes; leave \"sampling\" out, or take "
+        "the normal law penalty or augmented");
+  solver_ = layer_ ? std::make_unique<LayerSolver>(layer_) : LinearSolver::create(symmetric);
   bulk_stencils_ = bulk_->stencils(*dofs_);
   now_.displacement.assign(static_cast<std::size_t>(dofs_->dofs()), 0.0);
   if (contact_) {
     now_.multiplier.assign(contact_->multiplier_count(), 0.0);
+    now_.parameters = contact_->master().model->defaults();
     contact_->begin_increment(now_);
     auto report = ents_struct<ents_report>();
     contact_->choose(now_, false, report);
@@ -101,17 +117,20 @@ void Simulation::build_mesh() {
   std::vector<ElementSetup> setups;
   for (const PartSpec& part : scene_->parts) {
     const int index = static_cast<int>(setups.size());
-    if (part.lines.empty())
-      try {
+    if (part.lines.empty()) try {
         add_deck(mesh_, part.name, part.deck, part.element_set, index);
       } catch (const InputError& error) { // names the deck, and not who asked for it
         throw InputError(part.deck_where + ": " + error.what());
       }
+    else if (part.layer)
+      add_layer(mesh_, part.name, part.lines);
     else
       add_block(mesh_, part.name, part.type, part.lines, index);
     setups.push_back(part.setup);
   }
   bulk_ = std::make_unique<Bulk>(mesh_, setups);
+  if (scene_->parts.front().layer)
+    layer_ = std::make_shared<LayerBody>(scene_->parts.front().lines, setups.front().material);
 }
 
 void Simulation::build_equations() {
@@ -125,7 +144,8 @@ void Simulation::build_equations() {
       for (std::size_t i = 0; i < d; ++i)
         if (support.displacement[i]) {
           dofs_->prescribe(node, static_cast<int>(i));
-          prescribed_.push_back({static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
+          prescribed_.push_back(
+              {static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
         }
   if (scene_->half_space) {
     half_space_.assign(total, 0.0);
@@ -141,15 +161,16 @@ void Simulation::build_equations() {
         }
       }
   }
-  const auto add_by_area = [&](const std::string& name, const std::string& where, const std::vector<double>& value,
-                               std::vector<double>& sum) {
+  const auto add_by_area = [&](const std::string& name, const std::string& where,
+                               const std::vector<double>& value, std::vector<double>& sum) {
     const std::vector<Face>& faces = find_faces(mesh_, name, where + "/faces");
     const std::vector<int> nodes = nodes_of(faces);
     const ElementSetup& setup = scene_->parts.front().setup;
-    const auto areas = tributary_areas(mesh_, faces, nodes, setup.thickness,
-                                       setup.formulation == Formulation::axisymmetric);
+    const auto areas =
+        tributary_areas(mesh_, faces, nodes, setup.thickness, setup.formulation == Formulation::axisymmetric);
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (std::size_t i = 0; i < d; ++i) sum[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * value[i];
+      for (std::size_t i = 0; i < d; ++i)
+        sum[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * value[i];
   };
   for (const TractionSpec& traction : scene_->tractions) {
     loads_.push_back({std::vector<double>(total, 0.0), &traction.path});
@@ -159,16 +180,24 @@ void Simulation::build_equations() {
     springs_.resize(total, 0.0);
     add_by_area(spring.faces, spring.where, spring.stiffness, springs_);
   }
+  for (int node = 0; layer_ && node < mesh_.node_count(); ++node)
+    for (const int c : {0, 1}) {
+      dofs_->prescribe(node, c);
+      prescribed_.push_back(
+          {static_cast<std::size_t>(node) * d + static_cast<std::size_t>(c), 0, &layer_path});
+    }
   if (prescribed_.empty() && half_space_.empty() && springs_.empty())
-    throw InputError(scene_->file.string() + ": /supports: nothing holds the bodies, which can move as they like; "
-                                             "give supports, springs or a half_space");
+    throw InputError(scene_->file.string() +
+                     ": /supports: nothing holds the bodies, which can move as they like; "
+                     "give supports, springs or a half_space");
   dofs_->number();
   if (dofs_->size() == 0) throw InputError(scene_->file.string() + ": /supports leave nothing to solve for");
 }
 
 void Simulation::build_contact(const EntsLibrary* library, int divisions, const MasterMaker& maker) {
   if (!scene_->contact) {
-    if (divisions > 0) throw InputError(scene_->file.string() + ": a scene without contact has no explicit mesh");
+    if (divisions > 0)
+      throw InputError(scene_->file.string() + ": a scene without contact has no explicit mesh");
     return;
   }
   if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
@@ -183,10 +212,11 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,
                                scene_->contact->equal_areas};
   const int sampling = scene_->contact->sampling;
-  SlavePoints points = sampling > 0
-                           ? sampling_points(*library, mesh_, slaves, sampling, geometry, scene_->contact->slave_where)
-                           : slave_nodes(mesh_, *dofs_, slaves, geometry);
-  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, std::move(points));
+  SlavePoints points = sampling > 0 ? sampling_points(*library, mesh_, slaves, sampling, geometry,
+                                                      scene_->contact->slave_where)
+                                    : slave_nodes(mesh_, *dofs_, slaves, geometry);
+  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, std::move(points),
+                                       geometry.axisymmetric ? 0 : geometry.thickness);
 }
 
 void Simulation::build_pattern() {
@@ -221,8 +251,9 @@ Sizes Simulation::sizes() const {
     const Master& master = contact_->master();
     sizes.slaves = contact_->slaves().size();
     sizes.master_segments = master.segments();
-    sizes.master_dofs = std::set<std::int64_t>(master.connectivity.begin(), master.connectivity.end()).size() *
-                        static_cast<std::size_t>(mesh_.dimension);
+    sizes.master_dofs =
+        std::set<std::int64_t>(master.connectivity.begin(), master.connectivity.end()).size() *
+        static_cast<std::size_t>(mesh_.dimension);
   }
   return sizes;
 }

@@ -41,9 +41,7 @@ constexpr LocalFaces faces(ElementType type) {
   case ElementType::hex8:
     break;
   }
-  return {6,
-          4,
-          {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
+  return {6, 4, {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
 }
 
 /// One quadrature point: weight, N [nodes], dN/dxi [nodes][dimension].
@@ -55,14 +53,8 @@ template <int Nodes, int Dim> struct ShapePoint {
 
 namespace detail {
 
-constexpr std::array<std::array<double, 3>, 8> corners{{{-1, -1, -1},
-                                                        {1, -1, -1},
-                                                        {1, 1, -1},
-                                                        {-1, 1, -1},
-                                                        {-1, -1, 1},
-                                                        {1, -1, 1},
-                                                        {1, 1, 1},
-                                                        {-1, 1, 1}}};
+constexpr std::array<std::array<double, 3>, 8> corners{
+    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
 
 /// Multilinear functions on [-1, 1]^Dim at xi.
 template <int Nodes, int Dim>

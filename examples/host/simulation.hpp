@@ -17,13 +17,16 @@
 
 namespace host {
 
+class LayerBody;
+
 /// Wall time by activity [s].
 struct Timings {
-  double setup = 0;    ///< mesh, equations, pattern, symbolic factorisation
-  double bulk = 0;     ///< assembly of the bulk elements
-  double contact = 0;  ///< search and contact elements
-  double contact_cpu = 0; ///< the same as time of the processor: what other programs do meanwhile does not count
-  double solver = 0;   ///< numerical factorisation and solution
+  double setup = 0;   ///< mesh, equations, pattern, symbolic factorisation
+  double bulk = 0;    ///< assembly of the bulk elements
+  double contact = 0; ///< search and contact elements
+  double contact_cpu =
+      0;             ///< the same as time of the processor: what other programs do meanwhile does not count
+  double solver = 0; ///< numerical factorisation and solution
   double total = 0;
 };
 
@@ -38,6 +41,7 @@ struct Sizes {
 struct Target {
   double value = 0; ///< of the scene's control
   double load_factor = 0;
+  std::vector<double> parameters = {}; ///< of the contact model, see Configuration
 };
 
 /// Uzawa: one solution with given multipliers.
@@ -48,12 +52,13 @@ struct Augmentation {
 
 struct NewtonOutcome {
   bool converged = false;
-  std::vector<double> residuals; ///< relative to the forces present, after each iteration; Uzawa: before the first change
+  std::vector<double>
+      residuals; ///< relative to the forces present, after each iteration; Uzawa: before the first change
   std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
   std::vector<Augmentation> augmentations;
-  std::string reason;            ///< why it failed
-  std::string advice;            ///< what to look at, if smaller steps will not help
-  double step_factor = 0.5;      ///< suggested for the next try; 0: a smaller step does not help
+  std::string reason;       ///< why it failed
+  std::string advice;       ///< what to look at, if smaller steps will not help
+  double step_factor = 0.5; ///< suggested for the next try; 0: a smaller step does not help
 };
 
 class Simulation {
@@ -62,12 +67,15 @@ public:
   /// @param divisions of the explicit mesh that replaces the enriched segment; 0: the scene as it is
   /// @param maker     of the master instead, if not empty
   /// @throws InputError, JobError
-  Simulation(const Scene& scene, const EntsLibrary* library, int divisions = 0, const MasterMaker& maker = {});
+  Simulation(const Scene& scene, const EntsLibrary* library, int divisions = 0,
+             const MasterMaker& maker = {});
 
   const Scene& scene() const { return *scene_; }
   const Mesh& mesh() const { return mesh_; }
   const Bulk& bulk() const { return *bulk_; }
+  const DofMap& dofs() const { return *dofs_; }
   Contact* contact() { return contact_.get(); }
+  const Contact* contact() const { return contact_.get(); }
   /// Of the scene's exact solution.
   const ExactAxis& exact_axis() const { return exact_axis_; }
   /// Boundary elements, if they are the scene's exact solution and the master is the scene's own; else null.
@@ -119,30 +127,38 @@ private:
     const auto dofs = static_cast<std::size_t>(dofs_->dofs());
     return unknown < dofs ? dofs_->equation(unknown) : dofs_->size() + static_cast<int>(unknown - dofs);
   }
-  int equations() const { return dofs_->size() + (contact_ ? static_cast<int>(contact_->multiplier_count()) : 0); }
+  int equations() const {
+    return dofs_->size() + (contact_ ? static_cast<int>(contact_->multiplier_count()) : 0);
+  }
   /// Segments for the configuration, and the pattern that goes with them. False: see `reason`, cut the step.
   bool choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor);
   double relative_residual(const Evaluation& at) const;
-  /// What rounding makes of the forces of bodies without stress: a strain of some epsilon times the stiffness of all nodes [F].
+  /// What rounding makes of the forces of bodies without stress: a strain of some epsilon times the stiffness
+  /// of all nodes [F].
   double rounding_of_forces() const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
-  /// A body that only contact can hold, and nothing touches: no step of any size can be solved. Empty: that is not it.
+  /// A body that only contact can hold, and nothing touches: no step of any size can be solved. Empty: that
+  /// is not it.
   /// @param begin  where the iteration began
   std::string nothing_holds(const Configuration& begin);
   /// Most tangents are singular because there is no contact to hold the master. Empty: that is not it.
   std::string advice_if_singular(const Configuration& at);
   /// Move the master until it touches: Newton's iteration for a given force needs a contact to start from.
   void find_contact(Configuration& at);
+  /// Does any slave node carry pressure?
+  bool touches(const Configuration& at);
   bool force_controlled() const;
   /// @param factorize  false: the factors at hand will do
-  bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error, Configuration& next);
+  bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
+             Configuration& next);
 
   const Scene* scene_;
   Mesh mesh_;
   std::unique_ptr<DofMap> dofs_;
   std::unique_ptr<Bulk> bulk_;
+  std::shared_ptr<const LayerBody> layer_; ///< null: the bodies have elements
   std::unique_ptr<Contact> contact_;
   ExactAxis exact_axis_;
   std::shared_ptr<const ExactLayer> exact_layer_;
@@ -165,7 +181,8 @@ private:
   std::vector<Load> loads_;
   std::vector<double> springs_; ///< [dofs] stiffness against the ground, or empty
   Configuration now_;
-  std::vector<double> rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
+  std::vector<double>
+      rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
   Timings timings_;
 };
 

@@ -8,11 +8,13 @@
 
 namespace host {
 
-std::array<double, 3> SlavePoints::combine(std::size_t point, const std::vector<double>& field, std::size_t d) const {
+std::array<double, 3> SlavePoints::combine(std::size_t point, const std::vector<double>& field,
+                                           std::size_t d) const {
   std::array<double, 3> sum{};
   for (std::size_t a = 0; a < nodes_per_point; ++a) {
     const std::size_t at = point * nodes_per_point + a;
-    for (std::size_t i = 0; i < d; ++i) sum[i] += weights[at] * field[static_cast<std::size_t>(nodes[at]) * d + i];
+    for (std::size_t i = 0; i < d; ++i)
+      sum[i] += weights[at] * field[static_cast<std::size_t>(nodes[at]) * d + i];
   }
   return sum;
 }
@@ -24,7 +26,8 @@ std::array<double, 3> SlavePoints::place(std::size_t point, const Mesh& mesh) co
 SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,
                         const SlaveGeometry& geometry) {
   const std::vector<int> nodes = nodes_of(faces);
-  const std::vector<double> areas = tributary_areas(mesh, faces, nodes, geometry.thickness, geometry.axisymmetric);
+  const std::vector<double> areas =
+      tributary_areas(mesh, faces, nodes, geometry.thickness, geometry.axisymmetric);
   std::map<int, double> merged; // tied nodes are one node: it carries the areas of all
   for (std::size_t i = 0; i < nodes.size(); ++i) merged[dofs.representative(nodes[i])] += areas[i];
   SlavePoints points;
@@ -40,8 +43,8 @@ SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<
   return points;
 }
 
-SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces, int per_direction,
-                            const SlaveGeometry& geometry, const std::string& where) {
+SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces,
+                            int per_direction, const SlaveGeometry& geometry, const std::string& where) {
   const auto count = static_cast<std::size_t>(faces.front().count);
   std::vector<std::int64_t> connectivity;
   for (const Face& face : faces) {

@@ -35,11 +35,12 @@ struct SlaveGeometry {
 };
 
 /// The nodes of the faces with their tributary areas; tied nodes are one.
-SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces, const SlaveGeometry& geometry);
+SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,
+                        const SlaveGeometry& geometry);
 
 /// `per_direction` points per direction inside every face, from the library.
 /// @throws InputError if the faces are not all of one kind
-SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces, int per_direction,
-                            const SlaveGeometry& geometry, const std::string& where);
+SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces,
+                            int per_direction, const SlaveGeometry& geometry, const std::string& where);
 
 } // namespace host

@@ -12,7 +12,7 @@ bool is_smoothed(const std::string& segment) {
 }
 
 std::vector<std::int64_t> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
-                                const std::vector<Face>& faces, const std::string& where) {
+                                         const std::vector<Face>& faces, const std::string& where) {
   const bool line = segment.ends_with("4");
   const int corners = line ? 2 : 4;
   const char* facet = line ? "line2" : "quad4";

@@ -21,6 +21,6 @@ bool is_smoothed(const std::string& segment);
 /// @param where  for messages: faces that do not fit, or a mesh that is not regular
 /// @return [faces][4 or 16]
 std::vector<std::int64_t> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
-                                const std::vector<Face>& faces, const std::string& where);
+                                         const std::vector<Face>& faces, const std::string& where);
 
 } // namespace host

@@ -19,8 +19,9 @@ namespace {
 
 using Matrix = SparseSystem::Matrix;
 
-/// CHOLMOD opens OpenMP regions of its own, whose threads wait for each other longer than they work on the matrices of these scenes
-/// (westergaard: half the wall time without them). This program does not link with OpenMP; whoever brought it along is asked.
+/// CHOLMOD opens OpenMP regions of its own, whose threads wait for each other longer than they work on the
+/// matrices of these scenes (westergaard: half the wall time without them). This program does not link with
+/// OpenMP; whoever brought it along is asked.
 void keep_to_this_thread() {
   if (void* function = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))
     reinterpret_cast<void (*)(int)>(function)(0);
@@ -40,18 +41,21 @@ public:
   bool factorize(const Matrix& matrix) override {
     lu_.factorize(matrix);
 #ifdef ENTS_HOST_UMFPACK
-    if (lu_.umfpackFactorizeReturncode() == UMFPACK_ERROR_out_of_memory) throw std::bad_alloc(); // not a singular matrix
+    if (lu_.umfpackFactorizeReturncode() == UMFPACK_ERROR_out_of_memory)
+      throw std::bad_alloc(); // not a singular matrix
 #endif
     return lu_.info() == Eigen::Success;
   }
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override { return lu_.solve(right_hand_sides); }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override {
+    return lu_.solve(right_hand_sides);
+  }
 
 private:
   Decomposition lu_;
 };
 
-/// Cholesky of the lower triangle. A tangent that is symmetric and not positive definite (beyond a bifurcation,
-/// or on the way there during Newton's iteration) goes to LU.
+/// Cholesky of the lower triangle. A tangent that is symmetric and not positive definite (beyond a
+/// bifurcation, or on the way there during Newton's iteration) goes to LU.
 class SymmetricSolver final : public LinearSolver {
 public:
 #ifdef ENTS_HOST_CHOLMOD
@@ -78,7 +82,8 @@ public:
     return general_.factorize(full_);
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override {
-    return use_general_ ? general_.solve(right_hand_sides) : Eigen::MatrixXd(cholesky_.solve(right_hand_sides));
+    return use_general_ ? general_.solve(right_hand_sides)
+                        : Eigen::MatrixXd(cholesky_.solve(right_hand_sides));
   }
 
 private:

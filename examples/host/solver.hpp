@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Direct solvers: Cholesky for a symmetric tangent, LU otherwise. SuiteSparse's supernodal CHOLMOD and UMFPACK
-// if this program was built with them, Eigen's own else.
+// Direct solvers: Cholesky for a symmetric tangent, LU otherwise. SuiteSparse's supernodal CHOLMOD and
+// UMFPACK if this program was built with them, Eigen's own else.
 #pragma once
 
 #include <memory>

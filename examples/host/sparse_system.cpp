@@ -19,11 +19,13 @@ struct Touching {
     std::vector<int> next(start.begin(), start.end() - 1);
     for (std::size_t i = 0; i < equations.size(); ++i)
       if (const int equation = equations[i]; equation >= 0)
-        element[static_cast<std::size_t>(next[static_cast<std::size_t>(equation)]++)] = static_cast<int>(i / dofs);
+        element[static_cast<std::size_t>(next[static_cast<std::size_t>(equation)]++)] =
+            static_cast<int>(i / dofs);
   }
 
   std::span<const int> of(std::size_t equation) const {
-    const auto first = static_cast<std::size_t>(start[equation]), last = static_cast<std::size_t>(start[equation + 1]);
+    const auto first = static_cast<std::size_t>(start[equation]),
+               last = static_cast<std::size_t>(start[equation + 1]);
     return std::span(element).subspan(first, last - first);
   }
 };
@@ -36,7 +38,8 @@ std::span<const int> columns(const SparseMatrix& matrix, std::size_t row) {
 
 } // namespace
 
-SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups, const MatrixPart& part) {
+SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups,
+                        const MatrixPart& part) {
   const auto n = static_cast<std::size_t>(size);
   std::vector<Touching> touching;
   for (const StencilGroup* group : groups)
@@ -88,9 +91,9 @@ void SparseSystem::build(std::span<const StencilGroup* const> groups, const Matr
       for (std::size_t b = 0; b < dofs; ++b)
         for (std::size_t a = symmetric_ ? b : 0; a < dofs; ++a) {
           if (a != b && equations[a] >= 0 && equations[a] == equations[b]) slots.doubled[e] = 1;
-          slots.at.push_back(symmetric_ ? slot(std::max(equations[a], equations[b]),
-                                               std::min(equations[a], equations[b]))
-                                        : slot(equations[a], equations[b]));
+          slots.at.push_back(
+              symmetric_ ? slot(std::max(equations[a], equations[b]), std::min(equations[a], equations[b]))
+                         : slot(equations[a], equations[b]));
         }
     }
   }
@@ -117,7 +120,8 @@ void SparseSystem::add(std::size_t group, std::size_t element, const double* tan
     for (std::size_t a = symmetric_ ? b : 0; a < dofs; ++a, ++at)
       if (*at >= 0) values[*at] += tangent[b * dofs + a];
   if (!symmetric_ || slots.doubled[element] == 0) return;
-  // Two dofs of this element share an equation: both off-diagonal entries fall on the diagonal, one is missing.
+  // Two dofs of this element share an equation: both off-diagonal entries fall on the diagonal, one is
+  // missing.
   at = slots.at.data() + element * entries;
   for (std::size_t b = 0; b < dofs; ++b)
     for (std::size_t a = b; a < dofs; ++a, ++at)

@@ -26,10 +26,11 @@ struct MatrixPart {
   std::vector<int> equations; ///< of each unknown; -1: none
 };
 
-/// Zero entries wherever a group or the part has one, and on the diagonal. Symmetric in its pattern, so that the
-/// compressed columns are compressed rows, too.
+/// Zero entries wherever a group or the part has one, and on the diagonal. Symmetric in its pattern, so that
+/// the compressed columns are compressed rows, too.
 /// @param lower  only the lower triangle is stored
-SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups, const MatrixPart& part = {});
+SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups,
+                        const MatrixPart& part = {});
 
 class SparseSystem {
 public:
@@ -43,9 +44,7 @@ public:
 
   bool symmetric() const { return symmetric_; }
   const Matrix& matrix() const { return matrix_; }
-  std::span<double> values() {
-    return {matrix_.valuePtr(), static_cast<std::size_t>(matrix_.nonZeros())};
-  }
+  std::span<double> values() { return {matrix_.valuePtr(), static_cast<std::size_t>(matrix_.nonZeros())}; }
   void set_zero() {
     for (double& value : values()) value = 0;
   }
@@ -66,7 +65,7 @@ private:
   struct Slots {
     int dofs = 0;
     std::vector<std::int32_t> at; ///< [elements][entries]; -1: no row or no column
-    std::vector<char> doubled; ///< elements in which two dofs share an equation (symmetric storage only)
+    std::vector<char> doubled;    ///< elements in which two dofs share an equation (symmetric storage only)
   };
   std::vector<Slots> slots_;
   std::vector<std::int32_t> part_slots_; ///< of each entry

@@ -77,10 +77,9 @@ void add_block(Mesh& mesh, const std::string& name, ElementType type, const std:
   for (int k = 0; k < std::max(1, points[2] - 1); ++k)
     for (int j = 0; j + 1 < points[1]; ++j)
       for (int i = 0; i + 1 < points[0]; ++i) {
-        const std::array<int, 8> c{index(i, j, k),         index(i + 1, j, k),
-                                   index(i + 1, j + 1, k), index(i, j + 1, k),
-                                   index(i, j, k + 1),     index(i + 1, j, k + 1),
-                                   index(i + 1, j + 1, k + 1), index(i, j + 1, k + 1)};
+        const std::array<int, 8> c{
+            index(i, j, k),     index(i + 1, j, k),     index(i + 1, j + 1, k),     index(i, j + 1, k),
+            index(i, j, k + 1), index(i + 1, j, k + 1), index(i + 1, j + 1, k + 1), index(i, j + 1, k + 1)};
         switch (type) {
         case ElementType::quad4:
           add({c[0], c[1], c[2], c[3]});
@@ -103,7 +102,8 @@ void add_block(Mesh& mesh, const std::string& name, ElementType type, const std:
         }
       }
 
-  static constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+  static constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min",
+                                                         "y_max", "z_min", "z_max"};
   std::vector<char> on_side(static_cast<std::size_t>(mesh.node_count()));
   for (std::size_t s = 0; s < 2 * d; ++s) {
     std::fill(on_side.begin(), on_side.end(), char{0});

@@ -44,9 +44,12 @@ VariantRow solve_variant(const Scene& scene, const std::string& name, const Ents
 
 int variants_command(const CommonOptions& common, const VariantsOptions& options) {
   const Scene scene = read_scene(options.scene);
-  if (!scene.contact) throw InputError(options.scene.string() + ": variants are compared by their contact; here is none");
+  if (!scene.contact)
+    throw InputError(options.scene.string() + ": variants are compared by their contact; here is none");
   if (scene.variants.empty())
-    throw InputError(options.scene.string() + ": the scene has no key \"variants\", so there is nothing to compare; solve it with ents-host run");
+    throw InputError(
+        options.scene.string() +
+        ": the scene has no key \"variants\", so there is nothing to compare; solve it with ents-host run");
   const EntsLibrary library(common.library);
   std::vector<VariantRow> rows{solve_variant(scene, "as it is", library)};
   for (const Variant& variant : scene.variants)
@@ -67,7 +70,8 @@ int variants_command(const CommonOptions& common, const VariantsOptions& options
       for (const Quantity& mine : row.exact)
         if (mine.name == quantity.name) error = mine.error;
       cells.emplace_back(100 * error);
-      exact.push_back({{"name", quantity.name}, {"relative_error", std::isfinite(error) ? Json(error) : Json()}});
+      exact.push_back(
+          {{"name", quantity.name}, {"relative_error", std::isfinite(error) ? Json(error) : Json()}});
     }
     if (row.failure.empty())
       cells.insert(cells.end(), {row.penetration, static_cast<std::int64_t>(row.iterations),
@@ -76,8 +80,13 @@ int variants_command(const CommonOptions& common, const VariantsOptions& options
       cells.insert(cells.end(), {std::monostate{}, static_cast<std::int64_t>(row.iterations),
                                  static_cast<std::int64_t>(row.cuts), std::monostate{}});
     table.row(std::move(cells));
-    json.push_back({{"variant", row.name}, {"steps", row.steps}, {"exact", exact}, {"penetration", row.penetration},
-                    {"iterations", row.iterations}, {"cuts", row.cuts}, {"wall_time", row.wall_time},
+    json.push_back({{"variant", row.name},
+                    {"steps", row.steps},
+                    {"exact", exact},
+                    {"penetration", row.penetration},
+                    {"iterations", row.iterations},
+                    {"cuts", row.cuts},
+                    {"wall_time", row.wall_time},
                     {"failure", row.failure}});
   }
   if (common.json) {

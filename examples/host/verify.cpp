@@ -43,7 +43,8 @@ double segment_size(const std::vector<double>& master, std::size_t d) {
   for (std::size_t a = 0; a < master.size(); a += d)
     for (std::size_t b = a + d; b < master.size(); b += d) {
       double sum = 0;
-      for (std::size_t i = 0; i < d; ++i) sum += (master[a + i] - master[b + i]) * (master[a + i] - master[b + i]);
+      for (std::size_t i = 0; i < d; ++i)
+        sum += (master[a + i] - master[b + i]) * (master[a + i] - master[b + i]);
       squared = std::max(squared, sum);
     }
   return std::sqrt(squared);
@@ -92,14 +93,16 @@ Worst verify_case(const EntsLibrary& library, const JsonValue& value, const std:
   worst.name = object.string_or("name", value.where());
   Json model;
   for (const char* key : {"segment", "height", "projection"}) model[key] = object.at(key).json();
-  if (object.has("surface_coordinates")) model["surface_coordinates"] = object.at("surface_coordinates").json();
+  if (object.has("surface_coordinates"))
+    model["surface_coordinates"] = object.at("surface_coordinates").json();
   const EntsModel ents(library, model.dump(), folder, value.where());
   const auto d = static_cast<std::size_t>(ents.layout().dimension);
   const std::vector<double> slave = object.at("slave").numbers(d), start = object.at("start").numbers(d - 1);
   const JsonValue nodes = object.at("master");
   const std::vector<double> master = flatten(nodes);
   if (master.size() != static_cast<std::size_t>(ents.layout().nodes) * d)
-    nodes.fail(std::to_string(ents.layout().nodes) + " nodes of " + std::to_string(d) + " coordinates are expected");
+    nodes.fail(std::to_string(ents.layout().nodes) + " nodes of " + std::to_string(d) +
+               " coordinates are expected");
 
   std::int32_t status = ENTS_OK;
   auto report = ents_struct<ents_report>();
@@ -174,13 +177,10 @@ int verify_command(const CommonOptions& common, const VerifyOptions& options) {
   if (cases == 0) throw InputError("the files hold no cases");
   const bool passed = worst.error <= options.tolerance;
   if (common.json) {
-    const Json result{{"cases", cases},
-                      {"worst_relative_error", worst.error},
-                      {"quantity", worst.quantity},
-                      {"case", worst.name},
-                      {"tolerance", options.tolerance},
-                      {"passed", passed},
-                      {"files", files}};
+    const Json result{
+        {"cases", cases},     {"worst_relative_error", worst.error}, {"quantity", worst.quantity},
+        {"case", worst.name}, {"tolerance", options.tolerance},      {"passed", passed},
+        {"files", files}};
     std::printf("%s\n", result.dump(2).c_str());
   } else {
     std::printf("%s", table.text().c_str());

@@ -120,14 +120,15 @@ void differentiate(const double* slave, const double* master, double area, const
 }
 
 std::int32_t assemble_automatically(const ents_model* model, std::int64_t first, std::int64_t count,
-                                    const ents_input* input, const ents_output* output, const ents_system* system,
-                                    ents_report* report) {
+                                    const ents_input* input, const ents_output* output,
+                                    const ents_system* system, ents_report* report) {
   if (system->values == nullptr) return element.assemble(model, first, count, input, output, system, report);
   ents_system no_forces = *system;
   no_forces.residual = no_forces.values = nullptr;
   ents_output rest = *output;
   std::vector<double> xi(2 * static_cast<std::size_t>(first + count)), pressure(xi.size());
-  rest.wanted |= ENTS_XI | ENTS_PRESSURE; // something of the law has to be asked for, or nothing would be in contact
+  rest.wanted |=
+      ENTS_XI | ENTS_PRESSURE; // something of the law has to be asked for, or nothing would be in contact
   rest.xi = xi.data(), rest.xi_stride = 2;
   rest.pressure = pressure.data(), rest.pressure_stride = 1;
   const std::int32_t status = element.assemble(model, first, count, input, &rest, &no_forces, report);
@@ -177,7 +178,9 @@ Element element_of(const Scene& scene) {
 AutomaticTangent::AutomaticTangent(const EntsLibrary& library, const Scene& scene)
     : library_(library.path()) {
   element = element_of(scene);
-  element.layout = EntsModel(library, scene.contact->model.dump(), scene.file.parent_path(), scene.contact->model_where).layout();
+  element.layout =
+      EntsModel(library, scene.contact->model.dump(), scene.file.parent_path(), scene.contact->model_where)
+          .layout();
   element.assemble = std::exchange(library_.assemble, assemble_automatically);
 }
 AutomaticTangent::~AutomaticTangent() { element = {}; }

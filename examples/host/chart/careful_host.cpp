@@ -247,7 +247,8 @@ private:
     std::int32_t flags = 0;
     auto detection = ents_struct<ents_detection>();
     detection.slave = next.x.data();
-    detection.reach = 10; // the whole row
+    detection.reach = 10;                                         // the whole row
+    detection.permitted = ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE; // looked at below
     detection.segment = &next.segment, detection.xi = next.xi, detection.gap = &gap, detection.flags = &flags;
     require(library_.detect(model_->get(), &mesh_, tree_.data(), static_cast<std::int64_t>(tree_.size()), 0,
                             1, &detection, &report_));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json, chart.html and the pictures.
+// ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json,
+// chart.html and the pictures.
 #include <cstdio>
 
 #include "chart/chart_page.hpp"
@@ -89,16 +90,20 @@ std::filesystem::path scenes_folder(const std::filesystem::path& given) {
   std::vector<std::filesystem::path> tried{given};
   if (given.empty()) tried = {program.parent_path() / ".." / ".." / "examples", "examples"};
   for (const std::filesystem::path& folder : tried)
-    if (std::filesystem::exists(folder / "westergaard" / "scene.json", error)) return folder.lexically_normal();
-  throw InputError(given.empty() ? "the scenes (examples/westergaard and others) are not found; say with --scenes DIR where they are"
-                                 : "--scenes: " + given.string() + " has no westergaard/scene.json; the folder examples is meant");
+    if (std::filesystem::exists(folder / "westergaard" / "scene.json", error))
+      return folder.lexically_normal();
+  throw InputError(
+      given.empty()
+          ? "the scenes (examples/westergaard and others) are not found; say with --scenes DIR where they are"
+          : "--scenes: " + given.string() + " has no westergaard/scene.json; the folder examples is meant");
 }
 
 std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& options) {
   std::vector<Work> works;
   const auto progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   for (const Problem& problem : work_problems(scenes_folder(options.scenes), options.quick))
-    works.push_back(measure(problem, library, options.quick ? 1 : 3, options.quick ? [](const std::string&) {} : progress));
+    works.push_back(measure(problem, library, options.quick ? 1 : 3,
+                            options.quick ? [](const std::string&) {} : progress));
   return works;
 }
 
@@ -126,7 +131,8 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
       .column("diverged")
       .column("silently wrong")
       .column("unjudged");
-  Json json{{"version", library.version()}, {"work_precision", work_json(works)}, {"stability", Json::array()}};
+  Json json{
+      {"version", library.version()}, {"work_precision", work_json(works)}, {"stability", Json::array()}};
   std::string stability = introduction + legend();
   std::int64_t wrong = 0;
   for (Map& map : maps) {
@@ -161,7 +167,8 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
                      {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}},
                     library.version()));
     write_text(options.out / "work_precision.svg",
-               work_picture({named(works, "wavy3d"), named(works, "elastic_master")}, {Price::segments, Price::time}));
+               work_picture({named(works, "wavy3d"), named(works, "elastic_master")},
+                            {Price::segments, Price::time}));
     if (options.pictures)
       for (const Map& map : maps)
         if (const pictures::Outcome outcome = draw(map, options.out); !outcome.problem.empty()) {

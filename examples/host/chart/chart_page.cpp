@@ -33,7 +33,8 @@ std::string panel_svg(const Map& map, const Panel& panel) {
   const auto px = [](int value) { return std::to_string(value); };
   // Names of axes may be longer than a map of few points.
   const auto half = [](const std::string& text) { return 7 * static_cast<int>(text.size()) / 2; };
-  const int x_half = half(map.x.label), y_half = half(map.y.label), x_middle = left + width / 2, y_middle = top + height / 2;
+  const int x_half = half(map.x.label), y_half = half(map.y.label), x_middle = left + width / 2,
+            y_middle = top + height / 2;
   const int x0 = std::min(0, x_middle - x_half), x1 = std::max(left + width + 6, x_middle + x_half);
   const int y0 = std::min(0, y_middle - y_half), y1 = std::max(top + height + bottom, y_middle + y_half);
   std::string svg = "<svg viewBox=\"" + px(x0) + " " + px(y0) + " " + px(x1 - x0) + " " + px(y1 - y0) +

@@ -19,7 +19,8 @@ struct Place {
 };
 
 /// Are n segments in each direction nowhere farther than `distance` from the points?
-bool follow(const SurfaceSample& segments, std::size_t n, const SurfaceSample& points, std::size_t fine, std::size_t d, double distance) {
+bool follow(const SurfaceSample& segments, std::size_t n, const SurfaceSample& points, std::size_t fine,
+            std::size_t d, double distance) {
   for (std::size_t j = 0; j <= (d == 2 ? 0 : fine); ++j) {
     const Place y(j, fine, n);
     for (std::size_t i = 0; i <= fine; ++i) {
@@ -30,7 +31,8 @@ bool follow(const SurfaceSample& segments, std::size_t n, const SurfaceSample& p
           const double* left = segments.point.data() + (row * (n + 1) + x.segment) * d + c;
           return (1 - x.along) * left[0] + x.along * left[d];
         };
-        const double there = d == 2 ? between(0) : (1 - y.along) * between(y.segment) + y.along * between(y.segment + 1);
+        const double there =
+            d == 2 ? between(0) : (1 - y.along) * between(y.segment) + y.along * between(y.segment + 1);
         apart += std::pow(there - points.point[(j * (fine + 1) + i) * d + c], 2);
       }
       if (apart > distance * distance) return false;
@@ -46,7 +48,9 @@ std::size_t segments_that_follow(const EntsLibrary& library, const Scene& scene,
   if (contact.rigid.empty()) return 0;
   const EntsModel model(library, contact.model.dump(), scene.file.parent_path(), contact.model_where);
   const auto d = static_cast<std::size_t>(scene.dimension);
-  const auto sample = [&](std::size_t n) { return sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, n)); };
+  const auto sample = [&](std::size_t n) {
+    return sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, n));
+  };
   const std::size_t fine = d == 2 ? 8 * most : most;
   const SurfaceSample points = sample(fine);
   const auto [lowest, highest] = std::minmax_element(points.height.begin(), points.height.end());

@@ -7,10 +7,12 @@
 
 namespace host::chart {
 
-/// Plain segments through points of a rigid enriched segment that are nowhere farther from it than `share` of its amplitude (half of
-/// its height's range), at equal xi; as many in each direction, one less in each is too few.
+/// Plain segments through points of a rigid enriched segment that are nowhere farther from it than `share` of
+/// its amplitude (half of its height's range), at equal xi; as many in each direction, one less in each is
+/// too few.
 /// @param share  positive
-/// @return their number; 0: the master is not rigid or has no height, or 1024 in each direction are not enough
+/// @return their number; 0: the master is not rigid or has no height, or 1024 in each direction are not
+/// enough
 std::size_t segments_that_follow(const EntsLibrary& library, const Scene& scene, double share);
 
 } // namespace host::chart

@@ -67,7 +67,8 @@ std::string family_name(const std::vector<const Work*>& works, Family family) {
     }
   if (most == 0) return "";
   if (family != Family::enriched || most == 1) return word(family);
-  return "enriched, " + (least == most ? "" : std::to_string(least) + "-") + std::to_string(most) + " segments";
+  return "enriched, " + (least == most ? "" : std::to_string(least) + "-") + std::to_string(most) +
+         " segments";
 }
 
 std::string name_of(const Problem& problem, const WorkRun& run) {

@@ -24,8 +24,8 @@ const WorkRun* cheapest(const std::vector<WorkRun>& runs, double error,
                         const std::function<double(const WorkRun&)>& price,
                         const std::function<bool(const WorkRun&)>& among);
 
-/// What a legend calls the charted runs of a family: "enriched, one segment", or "enriched, 1-4 segments" where some
-/// have more. Empty: there are none.
+/// What a legend calls the charted runs of a family: "enriched, one segment", or "enriched, 1-4 segments"
+/// where some have more. Empty: there are none.
 std::string family_name(const std::vector<const Work*>& works, Family family);
 
 /// "enriched, one segment, 64 slave nodes"

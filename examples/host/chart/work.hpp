@@ -31,8 +31,8 @@ inline constexpr const char* automatic_tangent = "automatic";
 /// One way to solve a problem.
 struct Way {
   Family family = Family::enriched;
-  int divisions = 1;     ///< segments of the master per direction
-  std::size_t level = 0; ///< of the slave mesh, see Problem::levels
+  int divisions = 1;                  ///< segments of the master per direction
+  std::size_t level = 0;              ///< of the slave mesh, see Problem::levels
   std::string tangent = "consistent"; ///< of the library, or automatic_tangent
 
   bool operator==(const Way&) const = default;
@@ -98,7 +98,8 @@ struct WorkRun {
 struct Work {
   Problem problem;
   std::vector<WorkRun> runs; ///< in the order of problem.ways
-  std::size_t following = 0; ///< plain segments that follow the surface itself to equal_error of its amplitude; 0: not known
+  std::size_t following =
+      0; ///< plain segments that follow the surface itself to equal_error of its amplitude; 0: not known
 };
 
 /// The error at which enriched and explicit segments are compared.

@@ -36,7 +36,8 @@ PointGrid sample_grid(const EntsLibrary& library, const Scene& scene, int divisi
   grid.components = grid.d + (base ? 1 : 0);
   const std::size_t rows = grid.d == 2 ? 1 : grid.row();
   grid.values.resize(rows * grid.row() * grid.components);
-  const SurfaceSample sample = sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, grid.n));
+  const SurfaceSample sample =
+      sample_surface(model, contact.rigid, {}, even_grid(model.layout().parameters, grid.n));
   const std::vector<double>& points = base ? sample.base_point : sample.point;
   for (std::size_t j = 0; j <= (grid.d == 2 ? 0 : grid.n); ++j)
     for (std::size_t i = 0; i <= grid.n; ++i) {

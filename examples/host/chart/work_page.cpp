@@ -146,7 +146,8 @@ std::string legend_of(const Work& work) {
 Json run_json(const Problem& problem, const WorkRun& run) {
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   const bool several = run.way.family == Family::enriched && run.way.divisions > 1;
-  Json json{{"way", several ? "enriched, " + std::to_string(run.way.divisions) + " segments" : word(run.way.family)},
+  Json json{{"way",
+             several ? "enriched, " + std::to_string(run.way.divisions) + " segments" : word(run.way.family)},
             {"divisions", run.way.divisions},
             {"slave_mesh", problem.levels[run.way.level].name},
             {"tangent", run.way.tangent}};

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double pressure_of_cylinder(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+double pressure_of_cylinder(const Scene& scene, const StepRecord& record,
+                            const std::array<double, 3>& place) {
   const HertzLine hertz = hertz_line(record.force, scene.exact.radius, contact_modulus(scene));
   return hertz_pressure(hertz.peak_pressure, hertz.half_width, place[0]);
 }
@@ -27,7 +28,8 @@ double pressure_of_wave(const Scene& scene, const StepRecord& record, const std:
 }
 
 /// Known in full contact only.
-double pressure_of_two_waves(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+double pressure_of_two_waves(const Scene& scene, const StepRecord& record,
+                             const std::array<double, 3>& place) {
   const double wave = 2 * pi / scene.exact.wavelength;
   const double full =
       double_sine_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
@@ -112,10 +114,12 @@ void elastic_master(Json& scene, const Way& way) {
   scene.erase("compare");
 }
 
-double pressure_of_two_bodies(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+double pressure_of_two_bodies(const Scene& scene, const StepRecord& record,
+                              const std::array<double, 3>& place) {
   (void)scene;
   const double one = 1000 / (1 - 0.3 * 0.3), modulus = one / (1 + 1 / stiffness_ratio);
-  return westergaard_pressure(westergaard_full_contact(0.0005, 1, modulus), record.mean_pressure, place[0], 1);
+  return westergaard_pressure(westergaard_full_contact(0.0005, 1, modulus), record.mean_pressure, place[0],
+                              1);
 }
 
 const char* const pieces_x = "/parts/0/x/pieces/0/divisions";

@@ -78,6 +78,7 @@ Sentences on_the_way(const EntsModel& model, const Example& example) {
   auto detection = ents_struct<ents_detection>();
   detection.slave = example.slave.data();
   detection.reach = 10;
+  detection.permitted = ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE;
   detection.segment = &segment, detection.xi = &xi, detection.flags = &flags;
   require(library.detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, &report));
   Sentences out;

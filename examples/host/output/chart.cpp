@@ -256,8 +256,10 @@ Outcome draw(const Chart& chart, const std::filesystem::path& directory, const s
 
   std::string computed, exact; // the exact line lies on top: dense markers do not hide it
   std::size_t block = 0, entries = 0, letters = 0, colored = 0;
-  const auto colors = static_cast<std::size_t>(std::count_if(
-      chart.curves.begin(), chart.curves.end(), [](auto& c) { return !is_reference(c.style) && c.style != Style::wrong_line; }));
+  const auto colors =
+      static_cast<std::size_t>(std::count_if(chart.curves.begin(), chart.curves.end(), [](auto& c) {
+        return !is_reference(c.style) && c.style != Style::wrong_line;
+      }));
   for (const Curve& curve : chart.curves) {
     std::string label = curve.label;
     if (curve.fit_order && !std::isnan(fitted_order(curve)))

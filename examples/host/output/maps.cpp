@@ -101,8 +101,9 @@ std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const
     const std::string ends = map.blank_zero
                                  ? "peak " + shown(range.highest)
                                  : "values from " + shown(range.lowest) + " to " + shown(range.highest);
-    out += "set label " + gnuplot::text(format_number(100 * map.clip, 3) + " % lie within the colours; " + ends) +
-           " at " + page.x(frame.left + frame.width + bar_width) + ", " + page.y(12) +
+    out += "set label " +
+           gnuplot::text(format_number(100 * map.clip, 3) + " % lie within the colours; " + ends) + " at " +
+           page.x(frame.left + frame.width + bar_width) + ", " + page.y(12) +
            " right font ',10.5' textcolor rgb '" + gnuplot::faint + "'\n";
   }
   const std::string column =

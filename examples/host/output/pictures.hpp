@@ -29,15 +29,15 @@ struct Axis {
 };
 
 enum class Style {
-  exact,  ///< solid dark line: the reference
+  exact,        ///< solid dark line: the reference
   exact_dashed, ///< dashed dark line: another one
-  line,   ///< coloured line
-  points, ///< coloured markers: a computed result
-  both,   ///< markers joined by a thin line
-  dashed, ///< thin dashed line: a bound or a second reference
-  area,   ///< line with a light fill down to the axis
-  wrong,  ///< large red marker: an offence
-  wrong_line, ///< thick red line: the same
+  line,         ///< coloured line
+  points,       ///< coloured markers: a computed result
+  both,         ///< markers joined by a thin line
+  dashed,       ///< thin dashed line: a bound or a second reference
+  area,         ///< line with a light fill down to the axis
+  wrong,        ///< large red marker: an offence
+  wrong_line,   ///< thick red line: the same
 };
 
 struct Curve {

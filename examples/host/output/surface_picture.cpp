@@ -61,7 +61,8 @@ Outcome draw_section(const Surface& surface, const std::filesystem::path& direct
   if (!surface.base.empty()) chart.curves.push_back(line("segment ρ", surface.base, Style::dashed, -1));
   for (const auto& [label, style, which] : {std::tuple{"enriched surface ρₑ = ρ + h n", Style::exact, 0},
                                             {"segments that fail", Style::wrong_line, 1}})
-    if (Curve curve = line(label, surface.enriched, style, which); !curve.x.empty()) chart.curves.push_back(curve);
+    if (Curve curve = line(label, surface.enriched, style, which); !curve.x.empty())
+      chart.curves.push_back(curve);
   for (const Place& place : surface.places) {
     Curve mark;
     mark.label = place.label, mark.style = place.wrong ? Style::wrong : Style::points;
@@ -121,10 +122,12 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   const double drop = 250 * std::clamp(relief * z_scale / plan - 0.15, 0.0, 1.0);
   job.height = 600 + static_cast<int>(list + drop);
   job.data = "# x y z h of the enriched surface, one block per segment\n";
-  const auto rows = static_cast<std::size_t>(surface.rows), columns = static_cast<std::size_t>(surface.columns);
+  const auto rows = static_cast<std::size_t>(surface.rows),
+             columns = static_cast<std::size_t>(surface.columns);
   const std::size_t segments = surface.height.size() / (rows * columns);
   const int most = std::max(3, static_cast<int>(72 / std::sqrt(static_cast<double>(segments))));
-  const std::vector<std::size_t> j_drawn = thinned(surface.rows, most), i_drawn = thinned(surface.columns, most);
+  const std::vector<std::size_t> j_drawn = thinned(surface.rows, most),
+                                 i_drawn = thinned(surface.columns, most);
   const auto line_of = [&](std::size_t s, std::size_t j, std::size_t i) {
     const std::size_t sample = (s * rows + j) * columns + i;
     std::string out;
@@ -135,7 +138,8 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   const auto fails = [&](std::size_t s) { return is_wrong(surface, s); };
   std::vector<std::size_t> order(segments);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto right = static_cast<std::size_t>(std::stable_partition(order.begin(), order.end(), std::not_fn(fails)) - order.begin());
+  const auto right = static_cast<std::size_t>(
+      std::stable_partition(order.begin(), order.end(), std::not_fn(fails)) - order.begin());
   const std::size_t plain = right == 0 ? segments : right;
   for (const std::size_t s : order) {
     for (const std::size_t j : j_drawn) {
@@ -150,8 +154,7 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   std::string subtitle = surface.subtitle;
   const auto join = [&](const std::string& more) { subtitle += (subtitle.empty() ? "" : "; ") + more; };
   if (right < segments && segments > 1) join(right == 0 ? "all of them fail" : "those in red fail");
-  if (z_scale > 1)
-    join("heights drawn " + std::to_string(static_cast<int>(z_scale)) + " times");
+  if (z_scale > 1) join("heights drawn " + std::to_string(static_cast<int>(z_scale)) + " times");
   const double pixels = job.height, foot = (list + drop + 30) / pixels;
   job.script = "reset\nset minussign\nunset key\nset border 15 linewidth 0.8 linecolor rgb '#999999'\n"
                "set tics scale 0.5 textcolor rgb '#444444'\nunset ztics\nset view 50,30\nset view equal "
@@ -186,8 +189,8 @@ Outcome draw_shaded(const Surface& surface, const std::filesystem::path& directo
   job.script += "splot data index 0:" + std::to_string(plain - 1) + " using " + place + ":($4*" +
                 number(std::pow(10.0, -height_power)) + ") with pm3d";
   if (plain < segments)
-    job.script += ", data index " + std::to_string(plain) + ":" + std::to_string(segments - 1) + " using " + place +
-                  " with pm3d fillcolor rgb '" + gnuplot::wrong + "'";
+    job.script += ", data index " + std::to_string(plain) + ":" + std::to_string(segments - 1) + " using " +
+                  place + " with pm3d fillcolor rgb '" + gnuplot::wrong + "'";
   job.script += "\n";
   return gnuplot::render(job, directory, name);
 }

@@ -71,8 +71,8 @@ public:
   /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
   void add(int step, double time, std::string_view part, const Grid& grid);
 
-  /// Replace the .pvd file by one that lists what was added up to now: after every step, so that a run that was stopped
-  /// can be looked at and gone on with.
+  /// Replace the .pvd file by one that lists what was added up to now: after every step, so that a run that
+  /// was stopped can be looked at and gone on with.
   void write_list() const;
 
   /// A run that goes on: what the .pvd file there is says of earlier steps stays in it.
