@@ -5,10 +5,11 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() {
   cat <<'HELP'
-usage: sh tests/run.sh [-DNAME=VALUE ...]
+usage: sh tests/run.sh [--hosts] [-DNAME=VALUE ...]
 
 Installs what is missing, builds in build/ (see sh examples/setup.sh --help for both, and for the options) and runs every test.
-Afterwards some of them, by name:
+With --hosts it installs the finite element programs that Debian has, too, if they can be had (about 450 MB): GetFEM, dolfinx, FreeFEM.
+Their tests are skipped where they are not installed. Afterwards some of them, by name:
   ctest --test-dir build -R clients --output-on-failure
 
 The last line names the tests that were skipped, with the reason, and the programs that are emulated.
@@ -17,16 +18,23 @@ exit status: 0 all tests passed; 1 a test or the build failed; 2 a package is mi
 HELP
 }
 
+hosts=''
+if [ "${1-}" = --hosts ]; then
+  hosts='--try python3-getfem++ --try python3-dolfinx-real --try freefem++ --try libfreefem++-dev'
+  shift
+fi
 for option; do
   case $option in
     -h | --help) usage; exit 0 ;;
     -D?*) ;;
+    --hosts) echo "run.sh: --hosts stands before -D..." >&2; exit 2 ;;
     *) echo "run.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
   esac
 done
 
 # A browser opens the page of charts; ents.Contact makes SciPy's matrices; the wheel is installed into a venv; ents-deck reads ccx's own tests.
-sh "$root/examples/setup.sh" --with chromium --with python3-scipy --with python3-venv --with calculix-ccx-test "$@"
+# shellcheck disable=SC2086 # words
+sh "$root/examples/setup.sh" $hosts --with chromium --with python3-scipy --with python3-venv --with calculix-ccx-test "$@"
 echo "== testing"
 temporary=$root/build/Testing/Temporary
 status=0

@@ -75,7 +75,8 @@ public:
     ents_tree_refit(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), &report_);
     for (const int64_t before : {-1, 0}) {
       segment_ = before;
-      ents_detect(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1, &detection_, &report_);
+      ents_detect(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1, &detection_,
+                  &report_);
     }
     iterate();
     ents_status_text(-7);
@@ -89,7 +90,8 @@ public:
   const Done& done() const { return done_; }
 
 private:
-  // The host's nodes: the slave, then those of the master; each of its points is one of them. All is coupled with all.
+  // The host's nodes: the slave, then those of the master; each of its points is one of them. All is coupled
+  // with all.
   void prepare_system() {
     const int64_t d = model_.layout.dimension, m = model_.layout.nodes, dofs = d * (1 + m);
     rows_ = dofs + model_.layout.multipliers;
@@ -122,7 +124,8 @@ private:
     by_nodes_.master_nodes = m, by_nodes_.master_equations = equations_.data() + d;
     by_nodes_.places = places_.data(), by_nodes_.places_size = static_cast<int64_t>(places_.size());
     found_input_ = input_[0];
-    found_input_.slave = found_input_.master = found_input_.surface_coordinates = found_input_.start = nullptr;
+    found_input_.slave = found_input_.master = found_input_.surface_coordinates = found_input_.start =
+        nullptr;
     found_input_.state_begin = begin_.data(), found_input_.state_begin_stride = model_.layout.state_size;
     found_output_.struct_size = sizeof found_output_;
     found_output_.wanted = ENTS_STATE;
@@ -133,25 +136,30 @@ private:
     const ents_model* model = model_.get();
     const int64_t m = model_.layout.nodes, size = model_.layout.state_size;
     ents_input input = found_input_;
-    input.slave = elements_[0][slave].data(), input.mesh = &mesh_, input.segment = &segment_, input.segment_stride = 1;
-    done_.combined += ents_combine(&control_points_, model_.layout.dimension, 1 + m, positions_.data(), points_.data(), &report_) == ENTS_OK;
+    input.slave = elements_[0][slave].data(), input.mesh = &mesh_, input.segment = &segment_,
+    input.segment_stride = 1;
+    done_.combined += ents_combine(&control_points_, model_.layout.dimension, 1 + m, positions_.data(),
+                                   points_.data(), &report_) == ENTS_OK;
     for (ents_system* system : {&by_points_, &by_nodes_, &by_nodes_}) { // finds places, then uses them
       done_.assembled += ents_assemble(model, 0, 1, &input, &found_output_, system, &report_) == ENTS_OK;
-      done_.iterated += ents_iterate(model, &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1, &detection_, &found_input_,
-                                     &found_output_, system, &report_) == ENTS_OK;
+      done_.iterated += ents_iterate(model, &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1,
+                                     &detection_, &found_input_, &found_output_, system, &report_) == ENTS_OK;
     }
     by_nodes_.rows = 1; // too few for the equations
     ents_assemble(model, 0, 1, &input, &found_output_, &by_nodes_, &report_);
     by_nodes_.rows = rows_;
-    done_.augmented += ents_state_augment(model, 1, begin_.data(), size, end_.data(), size, &report_) == ENTS_OK;
+    done_.augmented +=
+        ents_state_augment(model, 1, begin_.data(), size, end_.data(), size, &report_) == ENTS_OK;
     const double* nodes = elements_[0][master].data();
-    done_.transferred += ents_state_transfer(model, nodes, nullptr, nodes, nullptr, end_.data(), moved_.data(), &report_) == ENTS_OK;
+    done_.transferred += ents_state_transfer(model, nodes, nullptr, nodes, nullptr, end_.data(),
+                                             moved_.data(), &report_) == ENTS_OK;
   }
 
   Model model_;
   Results results_;
   std::vector<Element> elements_;
-  std::vector<double> state_, begin_, end_, moved_, xi_, tree_, positions_, points_, weights_, residual_, values_;
+  std::vector<double> state_, begin_, end_, moved_, xi_, tree_, positions_, points_, weights_, residual_,
+      values_;
   std::vector<int64_t> connectivity_, numbers_, equations_, row_begin_, columns_, places_;
   int64_t segment_ = -1, rows_ = 0;
   int32_t found_ = 0;
@@ -180,7 +188,8 @@ TEST(AllocationFree, NoHeapAndNoLocksInAnyEvaluation) {
     ASSERT_EQ(memory_allocations(), 0) << text(kind);
     ASSERT_EQ(memory_locks(), 0) << text(kind);
     ++kinds;
-    all.combined += work.done().combined, all.assembled += work.done().assembled, all.iterated += work.done().iterated;
+    all.combined += work.done().combined, all.assembled += work.done().assembled,
+        all.iterated += work.done().iterated;
     all.augmented += work.done().augmented, all.transferred += work.done().transferred;
   }
   // All but what a law refuses: to iterate with friction, to augment what has no multipliers

@@ -323,7 +323,8 @@ TEST_F(Arguments, StatesDoNotOverlap) {
       input = in, output = out;
     }
     output.state_end = states.data() + size;
-    EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK) << report.message;
+    EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &input, &output, &report), ENTS_OK)
+        << report.message;
     reset();
   }
 }
@@ -332,7 +333,8 @@ TEST_F(Arguments, StatesDoNotOverlap) {
 TEST_F(Arguments, StatesMayLieBetweenEachOther) {
   constexpr int64_t count = 5;
   const int64_t size = model.layout.state_size, most = std::max<int64_t>(3 * size, 32);
-  std::vector<double> states(static_cast<std::size_t>(most * (count + 1))), ends(static_cast<std::size_t>(count * size));
+  std::vector<double> states(static_cast<std::size_t>(most * (count + 1))),
+      ends(static_cast<std::size_t>(count * size));
   for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = 0; // five times the same element
   output.status = nullptr;
   for (const int32_t wanted : {int32_t{ENTS_STATE}, ENTS_STATE | ENTS_GAP_GRADIENT})
@@ -340,20 +342,25 @@ TEST_F(Arguments, StatesMayLieBetweenEachOther) {
       for (int64_t apart = 0; apart < stride; ++apart)
         for (const bool end_first : {false, true})
           for (const int64_t first : {int64_t{0}, int64_t{2}}) {
-            double *begin = states.data() + (end_first ? apart : 0), *end = states.data() + (end_first ? 0 : apart);
+            double *begin = states.data() + (end_first ? apart : 0),
+                   *end = states.data() + (end_first ? 0 : apart);
             call::state_init(model.get(), count, begin, stride, nullptr);
             std::vector<double> gradient(static_cast<std::size_t>(count * model.layout.dofs));
             output.wanted = wanted;
             output.gap_gradient = gradient.data(), output.gap_gradient_stride = model.layout.dofs;
             input.state_begin = begin, input.state_begin_stride = stride;
             output.state_end = ends.data(), output.state_end_stride = size;
-            ASSERT_EQ(call::evaluate(model.get(), first, count - first, &input, &output, &report), ENTS_OK) << report.message;
+            ASSERT_EQ(call::evaluate(model.get(), first, count - first, &input, &output, &report), ENTS_OK)
+                << report.message;
             output.state_end = end, output.state_end_stride = stride;
-            const int32_t status = call::evaluate(model.get(), first, count - first, &input, &output, &report);
+            const int32_t status =
+                call::evaluate(model.get(), first, count - first, &input, &output, &report);
             const bool disjoint = apart >= size && apart + size <= stride;
-            ASSERT_EQ(status, disjoint ? ENTS_OK : ENTS_BAD_VALUE) << "stride " << stride << ", " << apart << " apart";
+            ASSERT_EQ(status, disjoint ? ENTS_OK : ENTS_BAD_VALUE)
+                << "stride " << stride << ", " << apart << " apart";
             for (int64_t e = first; disjoint && e < count; ++e)
-              for (int64_t i = 0; i < size; ++i) ASSERT_EQ(end[e * stride + i], ends[static_cast<std::size_t>(e * size + i)]);
+              for (int64_t i = 0; i < size; ++i)
+                ASSERT_EQ(end[e * stride + i], ends[static_cast<std::size_t>(e * size + i)]);
           }
   reset();
 }
@@ -363,11 +370,14 @@ TEST_F(Arguments, SlaveSurfaces) {
   const double crossing[] = {0.1, 0.0, 1.0, 0.0, -0.9, 1.0};
   const int64_t line[] = {0, 1, 1, 2};
   double areas[3] = {7, 7, 7};
-  EXPECT_EQ(call::tributary_areas("line2", int64_t{2}, line, int64_t{3}, crossing, 0.0, areas, &report), ENTS_DEGENERATE_SEGMENT);
+  EXPECT_EQ(call::tributary_areas("line2", int64_t{2}, line, int64_t{3}, crossing, 0.0, areas, &report),
+            ENTS_DEGENERATE_SEGMENT);
   for (const double a : areas) EXPECT_EQ(a, 7.0);
   int64_t begin[5] = {7, 7, 7, 7, 7}, nodes[8] = {7, 7, 7, 7, 7, 7, 7, 7};
   double weights[8] = {7, 7, 7, 7, 7, 7, 7, 7}, of_points[4] = {7, 7, 7, 7};
-  EXPECT_EQ(ents_sampling_points("line2", 2, 2, line, 3, crossing, 0.0, begin, nodes, weights, of_points, &report), ENTS_DEGENERATE_SEGMENT);
+  EXPECT_EQ(
+      ents_sampling_points("line2", 2, 2, line, 3, crossing, 0.0, begin, nodes, weights, of_points, &report),
+      ENTS_DEGENERATE_SEGMENT);
   for (const double w : weights) EXPECT_EQ(w, 7.0);
   for (const double a : of_points) EXPECT_EQ(a, 7.0);
   ents_combination combination{};
@@ -380,13 +390,17 @@ TEST_F(Arguments, SlaveSurfaces) {
   EXPECT_NE(std::string(report.message).find("begin[0] is 1"), std::string::npos) << report.message;
 }
 
-// Quadratic facets are shared out by squares of areas, which leave the range of numbers long before the areas do.
+// Quadratic facets are shared out by squares of areas, which leave the range of numbers long before the areas
+// do.
 TEST_F(Arguments, AreasOfAnySize) {
   const int64_t connectivity[] = {0, 1, 2};
   for (const double size : {1.0, 1e-82, 1e-140, 1e78, 1e140}) {
     const double line[] = {0, 0, 2 * size, 0, size, 0};
     double areas[3] = {};
-    ASSERT_EQ(call::tributary_areas("line3", int64_t{1}, connectivity, int64_t{3}, line, size, areas, &report), ENTS_OK) << report.message;
+    ASSERT_EQ(
+        call::tributary_areas("line3", int64_t{1}, connectivity, int64_t{3}, line, size, areas, &report),
+        ENTS_OK)
+        << report.message;
     EXPECT_NEAR((areas[0] + areas[1] + areas[2]) / size / size, 2.0, 1e-14) << size;
     EXPECT_NEAR(areas[2] / areas[0], 4.0, 1e-13) << size;
   }
@@ -396,23 +410,33 @@ TEST_F(Arguments, AreasOfAnySize) {
 TEST_F(Arguments, ThicknessIsOfThePlaneOnly) {
   const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   const int64_t connectivity[] = {0, 1, 2, 3};
-  for (const double thickness : {0.0, 3.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double thickness :
+       {0.0, 3.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     double areas[4] = {7, 7, 7, 7};
-    EXPECT_EQ(call::tributary_areas("quad4", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_OK) << report.message;
+    EXPECT_EQ(call::tributary_areas("quad4", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas,
+                                    &report),
+              ENTS_OK)
+        << report.message;
     for (const double a : areas) EXPECT_DOUBLE_EQ(a, 0.25);
     int64_t begin[2], nodes[4];
     double weights[4], area = 0.0;
-    EXPECT_EQ(ents_sampling_points("quad4", 1, 1, connectivity, 4, square, thickness, begin, nodes, weights, &area, &report), ENTS_OK) << report.message;
+    EXPECT_EQ(ents_sampling_points("quad4", 1, 1, connectivity, 4, square, thickness, begin, nodes, weights,
+                                   &area, &report),
+              ENTS_OK)
+        << report.message;
     EXPECT_DOUBLE_EQ(area, 1.0);
     if (thickness >= 0.0 && std::isfinite(thickness)) continue;
-    EXPECT_EQ(call::tributary_areas("line2", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas, &report), ENTS_BAD_VALUE);
+    EXPECT_EQ(call::tributary_areas("line2", int64_t{1}, connectivity, int64_t{4}, square, thickness, areas,
+                                    &report),
+              ENTS_BAD_VALUE);
     EXPECT_NE(std::string(report.message).find("thickness"), std::string::npos) << report.message;
   }
 }
 
 // One struct for many segments: what is asked for stays asked for.
 TEST_F(Arguments, TheCheckOfASegmentSaysWhatItSamples) {
-  const Model line(R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [30], "phase": 0.3}})");
+  const Model line(
+      R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [30], "phase": 0.3}})");
   const double nodes[] = {-1, 0, 1, 0}, smooth[] = {0, 0.01}, waves[] = {0, 5};
   ents_admissibility few{}, many{}, nine{};
   few.struct_size = many.struct_size = nine.struct_size = sizeof few;

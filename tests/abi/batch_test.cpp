@@ -198,7 +198,8 @@ TEST(Batch, XiMayTakeThePlaceOfTheStart) {
           std::vector<double> slaves, start;
           for (std::size_t e = 0; e < size; ++e) {
             slaves.insert(slaves.end(), {random(-0.9, 0.9), random(-0.9, 0.9), random(-0.08, 0.02)});
-            for (std::size_t a = 0; a < 2 + padding; ++a) start.push_back(a < 2 ? slaves[3 * e + a] + random(-0.1, 0.1) : -7.0);
+            for (std::size_t a = 0; a < 2 + padding; ++a)
+              start.push_back(a < 2 ? slaves[3 * e + a] + random(-0.1, 0.1) : -7.0);
           }
           slaves[3 * (size / 2)] = 50.0; // one that takes another way
           const std::vector<int64_t> segment(size, 0);
@@ -208,10 +209,14 @@ TEST(Batch, XiMayTakeThePlaceOfTheStart) {
             ents_input in{};
             in.struct_size = sizeof in;
             in.slave = slaves.data(), in.slave_stride = 3;
-            in.start = k == 0 ? start.data() : in_place.data(), in.start_stride = static_cast<int64_t>(2 + padding);
-            if (in_mesh) in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1;
-            else in.master = nodes.data();
-            residual[k].assign(size * n, -7.0), gradient[k] = residual[k], iterations[k].assign(size, -7), status[k] = iterations[k];
+            in.start = k == 0 ? start.data() : in_place.data(),
+            in.start_stride = static_cast<int64_t>(2 + padding);
+            if (in_mesh)
+              in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1;
+            else
+              in.master = nodes.data();
+            residual[k].assign(size * n, -7.0), gradient[k] = residual[k], iterations[k].assign(size, -7),
+                                                status[k] = iterations[k];
             ents_output out{};
             out.struct_size = sizeof out;
             out.wanted = wanted | ENTS_XI | ENTS_ITERATIONS;
@@ -221,16 +226,21 @@ TEST(Batch, XiMayTakeThePlaceOfTheStart) {
             out.iterations = iterations[k].data(), out.iterations_stride = 1;
             out.status = status[k].data(), out.status_stride = 1;
             ents_report report = new_report();
-            ASSERT_GE(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report), ENTS_OK) << report.message;
+            ASSERT_GE(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report),
+                      ENTS_OK)
+                << report.message;
             if (k == 0 || size == 1) continue;
             out.xi = in_place.data() + 1; // in the place of others' starts
-            EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report), ENTS_BAD_VALUE);
-            EXPECT_NE(std::string(report.message).find("output.xi overlaps input.start"), std::string::npos) << report.message;
+            EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(size), &in, &out, &report),
+                      ENTS_BAD_VALUE);
+            EXPECT_NE(std::string(report.message).find("output.xi overlaps input.start"), std::string::npos)
+                << report.message;
           }
           for (std::size_t e = 0; e < size; ++e)
             for (std::size_t a = 0; a < 2; ++a) {
               const std::size_t at = e * (2 + padding) + a;
-              ASSERT_EQ(in_place[at], status[0][e] == ENTS_OK ? apart[at] : start[at]) << size << " " << wanted << " " << e;
+              ASSERT_EQ(in_place[at], status[0][e] == ENTS_OK ? apart[at] : start[at])
+                  << size << " " << wanted << " " << e;
             }
           EXPECT_TRUE(same_bits(residual[0], residual[1])) << size << " " << wanted;
           EXPECT_TRUE(same_bits(gradient[0], gradient[1])) << size << " " << wanted;

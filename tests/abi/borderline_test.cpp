@@ -220,25 +220,28 @@ TEST(Borderline, DeepPenetrationIsRecoverable) {
         const char* gap = std::strstr(report.message, "gap = ");
         ASSERT_NE(gap, nullptr) << report.message;
         if (p == "normal") {
-          EXPECT_NEAR(std::strtod(gap + 6, nullptr), -0.055 * pose.size, 1e-6 * pose.size); // six digits are shown
+          EXPECT_NEAR(std::strtod(gap + 6, nullptr), -0.055 * pose.size,
+                      1e-6 * pose.size); // six digits are shown
         }
         EXPECT_EQ(status_at(own, 0.5), ENTS_OK);
         // flat segments are at most 2 sqrt 2 large; a ray that is not vertical ends beside the segment
         if (p == "normal") {
           EXPECT_EQ(status_at(own, 3.0), ENTS_DEEP_PENETRATION);
-          EXPECT_NE(std::strstr(report.message, "deeper than the segment is long"), nullptr) << report.message;
+          EXPECT_NE(std::strstr(report.message, "deeper than the segment is long"), nullptr)
+              << report.message;
           EXPECT_EQ(status_at(own, -3.0), ENTS_OK) << "open by the same distance";
         }
       }
 }
 
-// The energy of an open element with a multiplier dof is the potential of its row, beside the segment as well as above it. It is a
-// parabola: the central difference is exact.
+// The energy of an open element with a multiplier dof is the potential of its row, beside the segment as well
+// as above it. It is a parabola: the central difference is exact.
 TEST(Borderline, MultipliersOfOpenElementsHaveAPotential) {
   for (const char* law : {"augmented_multiplier", "multiplier"})
     for (const double x : {0.1, 1.7})
       for (const double lambda : {-3.0, -1.5}) {
-        const Model model(std::string(R"({"segment": "line2", "contact": {"normal": {"type": ")") + law + R"(", "stiffness": 100}}})");
+        const Model model(std::string(R"({"segment": "line2", "contact": {"normal": {"type": ")") + law +
+                          R"(", "stiffness": 100}}})");
         Results results(model.layout);
         Element e;
         e[master] = {-1, 0, 1, 0}, e[slave] = {x, 0.01};

@@ -11,7 +11,8 @@ using namespace test;
 
 // Evaluations of the surface by one iteration from a start value: at most 30, and one count beyond.
 constexpr int per_iteration = 31;
-// A search ends at the box or iteration with which it has spent 10000; before it the start value's own iteration.
+// A search ends at the box or iteration with which it has spent 10000; before it the start value's own
+// iteration.
 constexpr int most = per_iteration + 10000 + 1 + per_iteration;
 
 std::string fine_texture(const Basis& b) {

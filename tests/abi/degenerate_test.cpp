@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Degenerate and borderline geometry: each case has one verdict, at three sizes and three rotations.
 //
-// Elsewhere: friction without slip or pressure, what is searched or outside (borderline_test.cpp), numbers of a law
-// (bad_input_test.cpp), node numbers and surfaces without segments (mesh_test.cpp), many segments
+// Elsewhere: friction without slip or pressure, what is searched or outside (borderline_test.cpp), numbers of
+// a law (bad_input_test.cpp), node numbers and surfaces without segments (mesh_test.cpp), many segments
 // (tests/mechanics/detection_test.cpp).
 #include <gtest/gtest.h>
 
@@ -100,7 +100,8 @@ TEST(Degenerate, CollapsedEdgeHasNoNormal) { // a quad4 used as a triangle, the 
         e = posed(e, pose, 3);
         const int32_t status = test::evaluate(model, e, want_all, results);
         if (h == std::string("none") && p == "normal") // the plain triangle's own tip
-          EXPECT_TRUE(status == ENTS_OK && std::fabs(results.gap()) < 1e-9 * pose.size) << status << ", gap " << results.gap();
+          EXPECT_TRUE(status == ENTS_OK && std::fabs(results.gap()) < 1e-9 * pose.size)
+              << status << ", gap " << results.gap();
         else
           EXPECT_TRUE(status > 0) << status << ", gap " << results.gap();
         // and a little inside, where there is a normal, all is well

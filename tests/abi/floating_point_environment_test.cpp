@@ -118,23 +118,29 @@ TEST(FloatingPointEnvironment, IsKeptByTenThousandEvaluationsAndTheirErrors) {
 // A slave over one quad4 as a host sees it: a tree, equations of nodes, an iteration.
 struct Surface {
   Surface(const Model& its_model, std::vector<double> slave_position, std::vector<double> nodes)
-      : model(its_model), slave(std::move(slave_position)), positions(std::move(nodes)), state(size(model.layout.state_size)),
-        end(state.size()), residual(15), values(15 * 15), points(positions.size()) {
+      : model(its_model), slave(std::move(slave_position)), positions(std::move(nodes)),
+        state(size(model.layout.state_size)), end(state.size()), residual(15), values(15 * 15),
+        points(positions.size()) {
     mesh.struct_size = sizeof mesh;
     mesh.segments = 1, mesh.nodes = 4, mesh.connectivity = connectivity, mesh.positions = positions.data();
     detection.struct_size = sizeof detection;
-    detection.slave = slave.data(), detection.reach = 1.0, detection.segment = &segment, detection.xi = xi, detection.flags = &found;
+    detection.slave = slave.data(), detection.reach = 1.0, detection.segment = &segment, detection.xi = xi,
+    detection.flags = &found;
     ents_state_init(model.get(), 1, state.data(), model.layout.state_size, nullptr);
     output.struct_size = sizeof output;
-    output.wanted = ENTS_STATE, output.state_end = end.data(), output.state_end_stride = model.layout.state_size;
+    output.wanted = ENTS_STATE, output.state_end = end.data(),
+    output.state_end_stride = model.layout.state_size;
     combination.struct_size = sizeof combination;
-    combination.points = 4, combination.begin = numbers, combination.nodes = numbers, combination.weights = weights;
+    combination.points = 4, combination.begin = numbers, combination.nodes = numbers,
+    combination.weights = weights;
     for (std::int64_t i = 0; i < 16; ++i) row_begin[i] = 15 * i;
     for (std::int64_t i = 0; i < 15 * 15; ++i) columns.push_back(i % 15);
     for (std::int64_t i = 0; i < 15; ++i) equations[i] = i;
     system.struct_size = sizeof system;
-    system.index_size = 8, system.slave_nodes = 1, system.slave_equations = equations, system.master = &combination;
-    system.master_nodes = 4, system.master_equations = equations + 3, system.rows = 15, system.residual = residual.data();
+    system.index_size = 8, system.slave_nodes = 1, system.slave_equations = equations,
+    system.master = &combination;
+    system.master_nodes = 4, system.master_equations = equations + 3, system.rows = 15,
+    system.residual = residual.data();
     system.row_begin = row_begin, system.columns = columns.data(), system.values = values.data();
   }
   static std::size_t size(std::int64_t n) { return static_cast<std::size_t>(n); }
@@ -183,24 +189,31 @@ TEST(FloatingPointEnvironment, IsKeptByFunctionsOfWholeSurfaces) {
       EXPECT_KEPT(setting, [&] { status = ents_tree_build(m, &s.mesh, tree, size, nullptr); });
       EXPECT_EQ(status == ENTS_OK, std::isfinite(scale)) << status;
       EXPECT_KEPT(setting, [&] { ents_tree_refit(m, &s.mesh, tree, size, nullptr); });
-      EXPECT_KEPT(setting, [&] { status = ents_detect(m, &s.mesh, tree, size, 0, 1, &s.detection, nullptr); });
+      EXPECT_KEPT(setting,
+                  [&] { status = ents_detect(m, &s.mesh, tree, size, 0, 1, &s.detection, nullptr); });
       EXPECT_TRUE(scale != 1.0 || (status == ENTS_OK && s.segment == 0)) << status;
       const ents_input of_mesh = s.input(false), of_detection = s.input(true);
       EXPECT_KEPT(setting, [&] { status = ents_assemble(m, 0, 1, &of_mesh, &s.output, &s.system, nullptr); });
       EXPECT_TRUE(scale != 1.0 || status == ENTS_OK) << status;
       EXPECT_KEPT(setting, [&] {
-        status = ents_iterate(m, &s.mesh, tree, size, 0, 1, &s.detection, &of_detection, &s.output, &s.system, nullptr);
+        status = ents_iterate(m, &s.mesh, tree, size, 0, 1, &s.detection, &of_detection, &s.output, &s.system,
+                              nullptr);
       });
       EXPECT_TRUE(scale != 1.0 || status == ENTS_OK) << status;
       const std::int64_t block = model.layout.state_size;
-      EXPECT_KEPT(setting, [&] { status = ents_state_augment(m, 1, s.state.data(), block, s.end.data(), block, nullptr); });
+      EXPECT_KEPT(setting, [&] {
+        status = ents_state_augment(m, 1, s.state.data(), block, s.end.data(), block, nullptr);
+      });
       EXPECT_TRUE(scale != 1.0 || status == ENTS_OK) << status;
-      EXPECT_KEPT(setting, [&] { status = ents_combine(&s.combination, 3, 4, nodes.data(), s.points.data(), nullptr); });
+      EXPECT_KEPT(setting, [&] {
+        status = ents_combine(&s.combination, 3, 4, nodes.data(), s.points.data(), nullptr);
+      });
       EXPECT_TRUE(scale != 1.0 || status == ENTS_OK) << status;
       std::int64_t begin[5], of_points[16];
       double shares[16], areas[4];
       EXPECT_KEPT(setting, [&] {
-        status = ents_sampling_points("quad4", 2, 1, facet, 4, nodes.data(), 1.0, begin, of_points, shares, areas, nullptr);
+        status = ents_sampling_points("quad4", 2, 1, facet, 4, nodes.data(), 1.0, begin, of_points, shares,
+                                      areas, nullptr);
       });
       EXPECT_TRUE(scale != 1.0 || status == ENTS_OK) << status;
       ents_surface_admissibility result{};
@@ -219,14 +232,16 @@ TEST(FloatingPointEnvironment, IsKeptByFunctionsWithoutAModel) {
     for (const std::int64_t* connectivity : {facet, twice}) {
       std::int64_t points = 0, terms = 0;
       EXPECT_KEPT(setting, [&] {
-        status = ents_smooth_size("quad4", "bspline16", ENTS_ENDS_STRAIGHT, 1, connectivity, 4, &points, &terms, &report);
+        status = ents_smooth_size("quad4", "bspline16", ENTS_ENDS_STRAIGHT, 1, connectivity, 4, &points,
+                                  &terms, &report);
       });
       EXPECT_EQ(status, connectivity == facet ? ENTS_OK : ENTS_BAD_VALUE) << report.message;
-      std::vector<std::int64_t> of_segment(16), begin(static_cast<std::size_t>(points + 1)), nodes(static_cast<std::size_t>(terms));
+      std::vector<std::int64_t> of_segment(16), begin(static_cast<std::size_t>(points + 1)),
+          nodes(static_cast<std::size_t>(terms));
       std::vector<double> weights(nodes.size());
       EXPECT_KEPT(setting, [&] {
-        status = ents_smooth("quad4", "bspline16", ENTS_ENDS_STRAIGHT, 1, connectivity, 4, points, terms, of_segment.data(), begin.data(),
-                             nodes.data(), weights.data(), &report);
+        status = ents_smooth("quad4", "bspline16", ENTS_ENDS_STRAIGHT, 1, connectivity, 4, points, terms,
+                             of_segment.data(), begin.data(), nodes.data(), weights.data(), &report);
       });
       EXPECT_EQ(status == ENTS_OK, connectivity == facet) << report.message;
     }
@@ -429,13 +444,15 @@ TEST(FloatingPointEnvironment, SignallingNaNsInATreeDoNotTrap) {
   detection.struct_size = sizeof detection;
   detection.slave = slave, detection.reach = 1.0, detection.segment = &segment, detection.xi = &xi;
   int32_t status = 0;
-  EXPECT_KEPT(traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
+  EXPECT_KEPT(
+      traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
   EXPECT_EQ(status, ENTS_BAD_STATE);
   EXPECT_KEPT(traps, [&] { status = ents_tree_refit(model.get(), &mesh, tree.data(), size, nullptr); });
   EXPECT_EQ(status, ENTS_BAD_STATE);
   EXPECT_KEPT(traps, [&] { status = ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr); });
   EXPECT_EQ(status, ENTS_OK);
-  EXPECT_KEPT(traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
+  EXPECT_KEPT(
+      traps, [&] { status = ents_detect(model.get(), &mesh, tree.data(), size, 0, 1, &detection, nullptr); });
   EXPECT_EQ(status, ENTS_OK);
   EXPECT_EQ(segment, 0);
 }

@@ -19,11 +19,13 @@ using namespace test;
 std::string model_text(const std::string& law, const std::string& more = "") {
   return R"({"segment": "line2", "contact": {"normal": )" + law + "}" + more + "}";
 }
-const std::string penalty = R"({"type": "penalty", "stiffness": 100})", multiplier = R"({"type": "augmented_multiplier", "stiffness": 100})";
+const std::string penalty = R"({"type": "penalty", "stiffness": 100})",
+                  multiplier = R"({"type": "augmented_multiplier", "stiffness": 100})";
 
 // Slaves above two segments along x, each 2 long.
 struct Iteration {
-  explicit Iteration(const std::string& text, std::vector<double> where) : model(text), slave(std::move(where)) {
+  explicit Iteration(const std::string& text, std::vector<double> where)
+      : model(text), slave(std::move(where)) {
     mesh.struct_size = sizeof mesh;
     mesh.segments = 2, mesh.nodes = 3, mesh.connectivity = connectivity, mesh.positions = positions;
     int64_t size = 0;
@@ -34,7 +36,8 @@ struct Iteration {
     segment.assign(count, -1), xi.assign(count, 0.0), found.assign(count, 0), equations.resize(2 * count);
     for (std::size_t i = 0; i < equations.size(); ++i) equations[i] = 6 + static_cast<int64_t>(i);
     detection.struct_size = sizeof detection;
-    detection.slave = slave.data(), detection.reach = 0.5, detection.segment = segment.data(), detection.xi = xi.data();
+    detection.slave = slave.data(), detection.reach = 0.5, detection.segment = segment.data(),
+    detection.xi = xi.data();
     detection.flags = found.data();
     input.struct_size = sizeof input, output.struct_size = sizeof output, system.struct_size = sizeof system;
     system.index_size = 8, system.slave_nodes = static_cast<int64_t>(count), system.master_nodes = 3;
@@ -45,14 +48,15 @@ struct Iteration {
   }
   int64_t count() const { return static_cast<int64_t>(segment.size()); }
   int32_t iterate(const ents_system* into) {
-    return ents_iterate(model.get(), &mesh, tree.data(), static_cast<int64_t>(tree.size()), 0, count(), &detection, &input, &output, into,
-                        &report);
+    return ents_iterate(model.get(), &mesh, tree.data(), static_cast<int64_t>(tree.size()), 0, count(),
+                        &detection, &input, &output, into, &report);
   }
   // The segments and starts are those of `segment` and `xi`.
   int32_t assemble() {
     ents_input in = input;
     in.slave = slave.data(), in.slave_stride = 2;
-    in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1, in.start = xi.data(), in.start_stride = 1;
+    in.mesh = &mesh, in.segment = segment.data(), in.segment_stride = 1, in.start = xi.data(),
+    in.start_stride = 1;
     return ents_assemble(model.get(), 0, count(), &in, &output, &system, &report);
   }
 
@@ -77,18 +81,22 @@ TEST(Iterate, MultiplierEquationsBeyondTheRowsAreRefused) {
   it.input.multiplier = &lambda;
   it.system.multiplier_equations = &equation;
   EXPECT_EQ(it.iterate(&it.system), ENTS_BAD_VALUE);
-  EXPECT_NE(std::strstr(it.report.message, "multiplier_equations of element 0 is 9; there are 8 rows"), nullptr) << it.report.message;
+  EXPECT_NE(std::strstr(it.report.message, "multiplier_equations of element 0 is 9; there are 8 rows"),
+            nullptr)
+      << it.report.message;
   for (const double r : it.residual) EXPECT_EQ(r, 0.0);
   equation = -1; // prescribed
   EXPECT_EQ(it.iterate(&it.system), ENTS_OK);
 }
 
-// A texture under a slave that crosses the border of two segments: its xi on the old one says nothing about the new one.
+// A texture under a slave that crosses the border of two segments: its xi on the old one says nothing about
+// the new one.
 TEST(Iterate, StartsFromWhatItFinds) {
   for (const char* law : {"penalty", "augmented"}) {
-    Iteration it(model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})",
-                            R"(, "height": {"type": "sine", "amplitude": 0.01875, "wave_vector": [8], "phase": 1.9})"),
-                 {2.04649, -0.02464});
+    Iteration it(
+        model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})",
+                   R"(, "height": {"type": "sine", "amplitude": 0.01875, "wave_vector": [8], "phase": 1.9})"),
+        {2.04649, -0.02464});
     std::vector<double> begin(static_cast<std::size_t>(it.model.layout.state_size)), end = begin;
     ASSERT_EQ(ents_state_init(it.model.get(), 1, begin.data(), it.model.layout.state_size, nullptr), ENTS_OK);
     double gap = 0.0, detected = 0.0;
@@ -133,7 +141,8 @@ TEST(Iterate, TellsTheFirstOfTheRefused) {
   std::vector<double> energy(3);
   std::vector<int32_t> status(3, -9);
   it.output.wanted = ENTS_ENERGY;
-  it.output.energy = energy.data(), it.output.energy_stride = 1, it.output.status = status.data(), it.output.status_stride = 1;
+  it.output.energy = energy.data(), it.output.energy_stride = 1, it.output.status = status.data(),
+  it.output.status_stride = 1;
   EXPECT_EQ(it.iterate(nullptr), ENTS_DEEP_PENETRATION);
   EXPECT_EQ(it.report.status, ENTS_DEEP_PENETRATION);
   EXPECT_EQ(it.report.element, 0);
@@ -153,16 +162,18 @@ TEST(Iterate, RefusesBeforeItWrites) {
   };
   double gap = 0.0;
   const auto want_gap = [&gap](Iteration& it) { it.output.wanted = ENTS_GAP, it.output.gap = &gap; };
-  const std::string rough = R"(, "friction": {"type": "rough", "stiffness": 10}}})", segment = R"({"segment": "line2", )";
+  const std::string rough = R"(, "friction": {"type": "rough", "stiffness": 10}}})",
+                    segment = R"({"segment": "line2", )";
   {
     Iteration it(segment + R"("contact": {"normal": )" + penalty + rough, {0.5, -0.01});
     want_gap(it);
     const std::vector<double> state(static_cast<std::size_t>(it.model.layout.state_size));
     it.input.state_begin = state.data();
-    refused(it, ENTS_BAD_VALUE, "input.state_begin with friction");
+    refused(it, ENTS_NULL_ARGUMENT, "input.positions_begin is null");
   }
   {
-    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + penalty + "}}", {0.5, -0.01});
+    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + penalty + "}}",
+                 {0.5, -0.01});
     want_gap(it);
     refused(it, ENTS_BAD_VALUE, "patches");
   }
@@ -196,20 +207,25 @@ TEST(Iterate, RefusesBeforeItWrites) {
   EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
 }
 
-// They are the caller's to have: an older one's detection ends before them, and nothing is read beyond it. A slave that is lost is told all the same.
+// They are the caller's to have: an older one's detection ends before them, and nothing is read beyond it. A
+// slave that is lost is told all the same.
 TEST(Iterate, FlagsOfTheDetectionAreOptional) {
   for (const bool older : {false, true}) {
     Iteration it(model_text(penalty), {0.5, -0.01, 2.0, -0.2});
     it.positions[1] = it.positions[5] = 0.5; // a groove
-    ASSERT_EQ(ents_tree_refit(it.model.get(), &it.mesh, it.tree.data(), static_cast<int64_t>(it.tree.size()), nullptr), ENTS_OK);
+    ASSERT_EQ(ents_tree_refit(it.model.get(), &it.mesh, it.tree.data(), static_cast<int64_t>(it.tree.size()),
+                              nullptr),
+              ENTS_OK);
     it.slave[1] = 0.5 * 0.75 - 0.01;
     std::vector<double> gap(2, -7.0);
     it.output.wanted = ENTS_GAP, it.output.gap = gap.data(), it.output.gap_stride = 1;
     EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
     EXPECT_EQ(it.found[1], ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
     it.found.assign(2, -7);
-    if (older) it.detection.struct_size = offsetof(ents_detection, flags);
-    else it.detection.flags = nullptr;
+    if (older)
+      it.detection.struct_size = offsetof(ents_detection, flags);
+    else
+      it.detection.flags = nullptr;
     EXPECT_EQ(it.iterate(nullptr), ENTS_NO_PROJECTION);
     EXPECT_EQ(it.report.element, 1);
     EXPECT_NE(std::strstr(it.report.message, "slave 1 is behind an edge"), nullptr) << it.report.message;
@@ -241,37 +257,46 @@ TEST(Assemble, AreasOfOpenElementsAreChecked) {
       std::vector<double> where;
       for (std::size_t i = 0; i < count; ++i) where.insert(where.end(), {0.5, 0.3});
       Iteration it(model_text(penalty, height), where);
-      for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      for (const double bad :
+           {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         std::vector<double> area(count, 1.0);
         it.input.area = area.data(), it.input.area_stride = 1;
         EXPECT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;
         area[0] = bad;
-        EXPECT_EQ(it.iterate(&it.system), bad < 0.0 && std::isfinite(bad) ? ENTS_BAD_VALUE : ENTS_NON_FINITE) << bad;
+        EXPECT_EQ(it.iterate(&it.system), bad < 0.0 && std::isfinite(bad) ? ENTS_BAD_VALUE : ENTS_NON_FINITE)
+            << bad;
         EXPECT_NE(std::strstr(it.report.message, "input.area"), nullptr) << it.report.message;
       }
     }
   }
 }
 
-// What a slave without a segment gives does not depend on who asks: ents_evaluate, far beside a segment; ents_iterate alone, or into a system.
+// What a slave without a segment gives does not depend on who asks: ents_evaluate, far beside a segment;
+// ents_iterate alone, or into a system.
 TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
   const std::string coulomb = R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 70})";
   for (const bool friction : {false, true})
     for (const double area : {0.7, 0.0}) {
-      Iteration it(R"({"segment": "line2", "contact": {"normal": )" + multiplier + (friction ? coulomb : "") + "}}", {50.0, 50.0});
-      const auto n = static_cast<std::size_t>(it.model.layout.dofs), m = static_cast<std::size_t>(it.model.layout.multipliers);
+      Iteration it(R"({"segment": "line2", "contact": {"normal": )" + multiplier + (friction ? coulomb : "") +
+                       "}}",
+                   {50.0, 50.0});
+      const auto n = static_cast<std::size_t>(it.model.layout.dofs),
+                 m = static_cast<std::size_t>(it.model.layout.multipliers);
       ASSERT_EQ(m, friction ? 2u : 1u);
       const double lambda[] = {3.1, -0.9};
       const std::size_t leading = n + 2;
       std::vector<double> alone_r(n, -7.0), alone_k(leading * n, -7.0), r = alone_r, k = alone_k;
       double alone_energy = -7.0, energy = -7.0;
       it.input.multiplier = lambda, it.input.area = &area;
+      it.input.shared = ENTS_SHARED_NO_STATE; // of friction: its history begins here
       it.output.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_ENERGY;
       it.output.tangent_leading_dimension = static_cast<int64_t>(leading);
-      it.output.residual = alone_r.data(), it.output.tangent = alone_k.data(), it.output.energy = &alone_energy;
+      it.output.residual = alone_r.data(), it.output.tangent = alone_k.data(),
+      it.output.energy = &alone_energy;
       ents_input beside = it.input;
       beside.slave = it.slave.data(), beside.master = it.positions;
-      ASSERT_EQ(ents_evaluate(it.model.get(), 0, 1, &beside, &it.output, &it.report), ENTS_OK) << it.report.message;
+      ASSERT_EQ(ents_evaluate(it.model.get(), 0, 1, &beside, &it.output, &it.report), ENTS_OK)
+          << it.report.message;
       EXPECT_DOUBLE_EQ(alone_r[6], -(area > 0.0 ? area : 1.0) / 100 * 3.1);
       it.output.residual = r.data(), it.output.tangent = k.data(), it.output.energy = &energy;
       ASSERT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
@@ -280,7 +305,8 @@ TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
       EXPECT_EQ(k, alone_k);
       EXPECT_EQ(energy, alone_energy);
       // the same in the host's equations
-      const int64_t equation[] = {8, 9}, row_begin[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 4}, columns[] = {8, 9, 8, 9};
+      const int64_t equation[] = {8, 9}, row_begin[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 4},
+                    columns[] = {8, 9, 8, 9};
       double values[4] = {};
       it.system.multiplier_equations = equation, it.system.rows = 10;
       it.system.row_begin = row_begin, it.system.columns = columns, it.system.values = values;
@@ -294,16 +320,18 @@ TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
     }
 }
 
-// What an element without a segment has by way of inputs is looked at as those of all others; but for its start, which nobody has set.
+// What an element without a segment has by way of inputs is looked at as those of all others; but for its
+// start, which nobody has set.
 TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const struct {
     const char* input;
     double value;
     int32_t status;
-  } mistakes[] = {{"slave", inf, ENTS_NON_FINITE},       {"area", nan, ENTS_NON_FINITE},        {"area", inf, ENTS_NON_FINITE},
-                  {"area", -3.0, ENTS_BAD_VALUE},        {"multiplier", nan, ENTS_NON_FINITE},  {"multiplier", 1e200, ENTS_OUT_OF_RANGE},
-                  {"state_begin", 0.0, ENTS_BAD_STATE},  {"state_begin", nan, ENTS_BAD_STATE}};
+  } mistakes[] = {{"slave", inf, ENTS_NON_FINITE},      {"area", nan, ENTS_NON_FINITE},
+                  {"area", inf, ENTS_NON_FINITE},       {"area", -3.0, ENTS_BAD_VALUE},
+                  {"multiplier", nan, ENTS_NON_FINITE}, {"multiplier", 1e200, ENTS_OUT_OF_RANGE},
+                  {"state_begin", 0.0, ENTS_BAD_STATE}, {"state_begin", nan, ENTS_BAD_STATE}};
   for (const bool has_multiplier : {false, true}) {
     Iteration it(model_text(has_multiplier ? multiplier : penalty), {50.0, 50.0, 50.0, 50.0});
     const std::size_t size = static_cast<std::size_t>(it.model.layout.state_size);
@@ -321,7 +349,10 @@ TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
     for (const auto& mistake : mistakes) {
       const std::string name = mistake.input;
       if (name == "multiplier" && !has_multiplier) continue;
-      double& wrong = name == "slave" ? it.slave[2] : name == "area" ? area[1] : name == "multiplier" ? lambda[1] : state[size];
+      double& wrong = name == "slave"        ? it.slave[2]
+                      : name == "area"       ? area[1]
+                      : name == "multiplier" ? lambda[1]
+                                             : state[size];
       const double right = wrong;
       wrong = mistake.value;
       std::fill(it.residual.begin(), it.residual.end(), 0.0);
@@ -345,10 +376,12 @@ TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
 TEST(Assemble, SlavesWithoutAreaHoldTheirMultiplier) {
   for (const char* law : {"augmented_multiplier", "multiplier"})
     for (const double gap : {-0.01, 0.01}) {
-      Iteration it(model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})"), {0.5, gap, 50.0, 50.0});
+      Iteration it(model_text(std::string(R"({"type": ")") + law + R"(", "stiffness": 100})"),
+                   {0.5, gap, 50.0, 50.0});
       const double lambda[] = {3.0, 3.0}, area[] = {0.0, 0.0};
       const int64_t equation[] = {10, 11};
-      it.input.multiplier = lambda, it.input.multiplier_stride = 1, it.input.area = area, it.input.area_stride = 1;
+      it.input.multiplier = lambda, it.input.multiplier_stride = 1, it.input.area = area,
+      it.input.area_stride = 1;
       it.system.multiplier_equations = equation;
       it.system.rows = 12;
       ASSERT_EQ(it.iterate(&it.system), ENTS_OK) << it.report.message;

@@ -214,8 +214,14 @@ TEST_F(MeshMistakes, InAnElement) {
 // Whatever the numbers: a status, and what is written is finite.
 TEST(MeshNumbers, AnyEndInAStatus) {
   Random random(82);
-  const double special[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
-                            1e308, -1e155, 1e-155, 5e-324, -0.0, 0.0};
+  const double special[] = {std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(),
+                            1e308,
+                            -1e155,
+                            1e-155,
+                            5e-324,
+                            -0.0,
+                            0.0};
   int64_t calls = 0, found = 0, refused = 0;
   for (const ModelKind& kind : all_kinds()) {
     if (!is_taken(random)) continue;
@@ -238,7 +244,8 @@ TEST(MeshNumbers, AnyEndInAStatus) {
       double xi[2] = {0.0, 0.0}, gap = 0.0;
       ents_detection io{};
       io.struct_size = sizeof io;
-      io.slave = node.data(), io.reach = std::pow(10.0, random(-3.0, 3.0)), io.segment = &segment, io.xi = xi, io.gap = &gap;
+      io.slave = node.data(), io.reach = std::pow(10.0, random(-3.0, 3.0)), io.segment = &segment, io.xi = xi,
+      io.gap = &gap;
       int32_t status = call::tree_build(model.get(), &m.mesh, tree.data(), size, nullptr);
       if (status == ENTS_OK)
         status = call::detect(model.get(), &m.mesh, tree.data(), size, int64_t{0}, int64_t{1}, &io, nullptr);
@@ -269,7 +276,8 @@ TEST(MeshNumbers, AnEmitterOnTheSlave) {
   ents_detection io{};
   io.struct_size = sizeof io;
   io.slave = slave, io.reach = 2, io.segment = &segment, io.xi = &xi;
-  EXPECT_EQ(call::detect(model.get(), &mesh, tree.data(), size, int64_t{0}, int64_t{1}, &io, nullptr), ENTS_OK);
+  EXPECT_EQ(call::detect(model.get(), &mesh, tree.data(), size, int64_t{0}, int64_t{1}, &io, nullptr),
+            ENTS_OK);
   EXPECT_EQ(segment, -1);
 }
 

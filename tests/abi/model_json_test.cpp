@@ -202,7 +202,8 @@ TEST(ModelJson, HeightsIn3DFollowTheirDefinition) {
 TEST(ModelJson, ThreadIsThatOfIso68) {
   const std::string iso = R"("pitch": 1.5, "flank_angles": [30, 30], "crest": 0.1875, "root": 0.375)";
   const double bound = 16 * eps, H = 1.5 * std::sqrt(0.75); // s is of order 6, flanks have slopes of 1.7
-  const Model grooves = read_model(with_height("line2", R"({"type": "thread", )" + iso + R"(, "offset": 0.25})"));
+  const Model grooves =
+      read_model(with_height("line2", R"({"type": "thread", )" + iso + R"(, "offset": 0.25})"));
   for (const double ridge : {-1.25, 0.25, 6.25}) {
     EXPECT_NEAR(height_1(grooves, ridge), 0.375 * H, bound);
     EXPECT_NEAR(height_1(grooves, ridge + 0.75), -0.25 * H, bound);
@@ -485,14 +486,15 @@ TEST(ModelJson, MistakesNameThePathAndTheWayOut) {
        "/height/coefficients/1: has 0 entries", ""},
       {R"({"segment":"line2","height":{"type":"sum","of":[{"type":"constant","value":1},{"type":"gaussian","amplitude":1,"center":[0],"width":0}]}})",
        ENTS_BAD_VALUE, "/height/of/1/width: is 0.0; write a number from 1e-100", ""},
-      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30],"crest":0,"root":0}})", ENTS_BAD_VALUE,
-       "/height/flank_angles: has 1 entry; write an array of 2 numbers", "the flank that rises"},
-      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,0],"crest":0,"root":0}})", ENTS_BAD_VALUE,
-       "/height/flank_angles/1: is 0.0; write degrees from 0.1 to 89", ""},
-      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0.6,"root":0.4}})", ENTS_BAD_VALUE,
-       "/height: \"crest\" and \"root\" leave nothing of \"pitch\"", ""},
-      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":1.5}})", ENTS_BAD_VALUE,
-       "/height/root: is 1.5; write a length from 0 to the pitch", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30],"crest":0,"root":0}})",
+       ENTS_BAD_VALUE, "/height/flank_angles: has 1 entry; write an array of 2 numbers",
+       "the flank that rises"},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,0],"crest":0,"root":0}})",
+       ENTS_BAD_VALUE, "/height/flank_angles/1: is 0.0; write degrees from 0.1 to 89", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0.6,"root":0.4}})",
+       ENTS_BAD_VALUE, "/height: \"crest\" and \"root\" leave nothing of \"pitch\"", ""},
+      {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":1.5}})",
+       ENTS_BAD_VALUE, "/height/root: is 1.5; write a length from 0 to the pitch", ""},
       {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"rounding":0.3}})",
        ENTS_BAD_VALUE, "/height/rounding: is 0.3; write a length from pitch / 2048 to pitch / 4", ""},
       {R"({"segment":"line2","height":{"type":"thread","pitch":1,"flank_angles":[30,30],"crest":0,"root":0,"hand":"left"}})",

@@ -93,7 +93,8 @@ class Folder {
 public:
   Folder()
       : path_(std::filesystem::temp_directory_path() /
-              (std::string("ents_out_of_memory_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+              (std::string("ents_out_of_memory_") +
+               testing::UnitTest::GetInstance()->current_test_info()->name())) {
     std::filesystem::create_directories(path_);
   }
   ~Folder() { std::filesystem::remove_all(path_); }
@@ -162,9 +163,11 @@ TEST(OutOfMemory, SurfaceCheck) {
   mesh.struct_size = sizeof mesh;
   mesh.segments = 2, mesh.nodes = 3;
   mesh.connectivity = connectivity, mesh.positions = positions;
-  for (const char* projection : {R"({"type": "normal"})", R"({"type": "shadow_direction", "direction": [1, 1]})"}) {
-    const Model model(std::string(R"({"segment": "line2", "height": {"type": "constant", "value": 0.1}, "projection": )") +
-                      projection + "}");
+  for (const char* projection :
+       {R"({"type": "normal"})", R"({"type": "shadow_direction", "direction": [1, 1]})"}) {
+    const Model model(
+        std::string(R"({"segment": "line2", "height": {"type": "constant", "value": 0.1}, "projection": )") +
+        projection + "}");
     const auto check = [&](ents_report* report) {
       ents_surface_admissibility result{};
       result.struct_size = sizeof result;

@@ -84,10 +84,12 @@ private:
         for (const auto& [key, property] : rule.items())
           good = good && (!value.is_object() || !value.contains(key) || accepts(property, value.at(key)));
       } else if (keyword == "additionalProperties") {
-        if (rule != false) throw std::logic_error("additionalProperties is false or absent");
+        if (rule != false && !rule.is_object())
+          throw std::logic_error("additionalProperties is false, absent, or a schema");
         if (value.is_object())
-          for (const auto& [key, unused] : value.items())
-            good = good && schema.at("properties").contains(key);
+          for (const auto& [key, child] : value.items())
+            good =
+                good && (schema.at("properties").contains(key) || (rule.is_object() && accepts(rule, child)));
       } else {
         throw std::logic_error("keyword " + keyword + " is not known to the test's validator");
       }

@@ -205,7 +205,8 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
             (line ? list({any(), any(), any()}) : list({pair, pair})) + "}",
         R"({"type": "map", "boundary": "clamped", "size": )" + pair + R"(, "values": )" +
             (line ? list({any(), any()}) : list({pair, pair})) + "}",
-        R"({"type": "thread", "flank_angles": [0.5, 60], "crest": 0, "root": 0, "pitch": )" + any() + R"(, "offset": )" + any() + "}",
+        R"({"type": "thread", "flank_angles": [0.5, 60], "crest": 0, "root": 0, "pitch": )" + any() +
+            R"(, "offset": )" + any() + "}",
     };
     const std::string projections[] = {R"({"type": "normal"})",
                                        R"({"type": "shadow_point", "emitter": )" + triple + "}",

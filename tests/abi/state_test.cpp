@@ -146,21 +146,25 @@ TEST_F(State, RestartGivesTheSameBits) {
   }
 }
 
-// A slave crosses a groove, open and in small steps: what it is over now is what its start says, or the search of the whole segment,
-// and not where it was last seen.
+// A slave crosses a groove, open and in small steps: what it is over now is what its start says, or the
+// search of the whole segment, and not where it was last seen.
 TEST_F(State, OpenDoesNotHoldTheProjection) {
   for (const bool friction : {false, true}) {
-    const std::string law = friction ? R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 50})" : "";
+    const std::string law =
+        friction ? R"(, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 50})" : "";
     const Model model(R"({"segment": "line2", "height": {"type": "polynomial", "coefficients": [0, 0, 3]},
-                          "contact": {"normal": {"type": "penalty", "stiffness": 100})" + law + "}}");
+                          "contact": {"normal": {"type": "penalty", "stiffness": 100})" +
+                      law + "}}");
     const std::vector<double> nodes = {-1, 0, 1, 0};
     for (const bool started : {false, true})
       for (const bool many : {false, true}) { // one call for eight of them takes other kernels
         const int64_t count = many ? 8 : 1, size = model.layout.state_size;
-        std::vector<double> begin(static_cast<std::size_t>(count * size)), end(begin), gap(static_cast<std::size_t>(count));
+        std::vector<double> begin(static_cast<std::size_t>(count * size)), end(begin),
+            gap(static_cast<std::size_t>(count));
         ents_report report = new_report();
         ASSERT_EQ(call::state_init(model.get(), count, begin.data(), size, &report), ENTS_OK);
-        for (const double x : {-0.55, -0.2, 0.2, 0.6, 0.72, 0.74}) { // the right flank is at x = 0.707 where y = 1.5
+        for (const double x :
+             {-0.55, -0.2, 0.2, 0.6, 0.72, 0.74}) { // the right flank is at x = 0.707 where y = 1.5
           const double slave[2] = {x, 1.5}, start = x > 0 ? 0.7 : -0.7;
           ents_input in{};
           in.struct_size = sizeof in;
@@ -170,8 +174,10 @@ TEST_F(State, OpenDoesNotHoldTheProjection) {
           out.struct_size = sizeof out;
           out.wanted = ENTS_GAP | ENTS_STATE;
           out.gap = gap.data(), out.gap_stride = 1, out.state_end = end.data(), out.state_end_stride = size;
-          ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, count, &in, &out, &report), ENTS_OK) << report.message;
-          for (const double g : gap) EXPECT_EQ(g < 0, x > 0.707) << x << " " << g << " " << friction << started << many;
+          ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, count, &in, &out, &report), ENTS_OK)
+              << report.message;
+          for (const double g : gap)
+            EXPECT_EQ(g<0, x> 0.707) << x << " " << g << " " << friction << started << many;
           begin = end;
         }
       }
@@ -195,13 +201,16 @@ TEST_F(State, TransferAndAugmentRefuseForeignBlocks) {
   EXPECT_EQ(call::state_augment(model.get(), 1, state.data(), stride, good.data(), stride, &report),
             ENTS_BAD_STATE);
   for (const double v : state) EXPECT_EQ(v, 0.0);
-  const Model augmented(R"({"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 100}}})");
+  const Model augmented(
+      R"({"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 100}}})");
   const auto length = int64_t{augmented.layout.state_size};
   std::vector<double> begin(static_cast<std::size_t>(length)), end;
   call::state_init(augmented.get(), int64_t{1}, begin.data(), length, nullptr);
   end = begin;
   end.back() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(call::state_augment(augmented.get(), int64_t{1}, begin.data(), length, end.data(), length, &report), ENTS_BAD_STATE);
+  EXPECT_EQ(
+      call::state_augment(augmented.get(), int64_t{1}, begin.data(), length, end.data(), length, &report),
+      ENTS_BAD_STATE);
   EXPECT_EQ(begin.back(), 0.0);
 }
 
@@ -229,7 +238,8 @@ TEST_F(State, OpenIsOpenWherever) {
 
 // A patch keeps the kernel's state and its segment.
 TEST_F(State, PatchesRefuseWhatIsNotFinite) {
-  const Model model(R"({"segment": "line2", "patch": [[0, 1], [1, 2]], "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  const Model model(
+      R"({"segment": "line2", "patch": [[0, 1], [1, 2]], "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
   Element e;
   e[master] = {0, 0, 1, 0, 2, 0}, e[slave] = {0.5, -0.01};
   e[state_begin].resize(static_cast<std::size_t>(model.layout.state_size));
@@ -238,7 +248,8 @@ TEST_F(State, PatchesRefuseWhatIsNotFinite) {
   EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_OK);
   e[state_begin] = results.of(ENTS_STATE);
   EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_OK);
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     e[state_begin][3] = bad;
     EXPECT_EQ(test::evaluate(model, e, want_element, results), ENTS_BAD_STATE);
   }

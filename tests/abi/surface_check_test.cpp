@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_surface_check at the door: mistakes have names, what is not asked for is not written, the same bits twice, also for
-// a host that traps. What the numbers mean is tested in tests/mechanics.
+// ents_surface_check at the door: mistakes have names, what is not asked for is not written, the same bits
+// twice, also for a host that traps. What the numbers mean is tested in tests/mechanics.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -51,7 +51,8 @@ TEST_F(SurfaceCheck, Answers) {
   int64_t violations[3] = {-1, -1, 77};
   result_.violations = violations;
   ASSERT_EQ(check(), ENTS_OK) << report_.message;
-  const int64_t torn = (1 << ENTS_CHECK_JUMP) | (1 << ENTS_CHECK_EDGE) | (1 << ENTS_CHECK_CROSSING); // a concave corner
+  const int64_t torn =
+      (1 << ENTS_CHECK_JUMP) | (1 << ENTS_CHECK_EDGE) | (1 << ENTS_CHECK_CROSSING); // a concave corner
   EXPECT_EQ(result_.violated, torn);
   EXPECT_EQ(violations[0], torn);
   EXPECT_EQ(violations[1], torn);

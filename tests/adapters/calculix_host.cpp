@@ -53,8 +53,7 @@ CalculixHost::CalculixHost(const Elements& elements, const std::string& element_
   const int unsymmetric =
       uel_ ? ents_ccx_uel_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data())
            : ents_ccx_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data(), &nprop);
-  if ((unsymmetric == 0) != elements.symmetric)
-    throw std::runtime_error("the solver does not fit the model");
+  if ((unsymmetric == 0) != elements.symmetric) throw std::runtime_error("the solver does not fit the model");
 }
 
 Answer CalculixHost::evaluate(int element, const std::vector<double>& displacement) {

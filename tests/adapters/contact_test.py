@@ -126,6 +126,21 @@ class History(unittest.TestCase):
             self.assertGreater(len(seen), 20)
             np.testing.assert_allclose(many, one, rtol=0, atol=1e-9 * np.abs(one).max())
 
+    def test_open_points_keep_what_has_been_worn_off(self):
+        wear = {**PENALTY, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, 0.0], [0.8, 0.0]], [[0, 1]],
+                               [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
+        for y in (-0.01, 0.1, 5.0, 0.1, -0.02):  # closed, open, nowhere, open, closed
+            before = contact.state[:, contact.model.layout.worn].copy()
+            contact.update(np.tile([0.0, y], 2))
+            contact.commit()
+            worn = contact.state[:, contact.model.layout.worn]
+            if y > 0:
+                np.testing.assert_array_equal(worn, before)
+                self.assertGreater(worn.min(), 0)
+            else:  # p = k (y + worn) / (1 + k 5e-3), worn off: 5e-3 p
+                np.testing.assert_allclose(worn, before + 5e-3 * 800 * (-y - before) / (1 + 4), rtol=1e-12)
+
     def test_update_without_commit_leaves_no_trace(self):
         x, slave, master = strips(np.random.default_rng(3))
         fresh, used = (ents.Contact(CASES["friction"][1], x, slave, master, surface_coordinates="x", reach=0.3) for _ in range(2))
@@ -200,6 +215,31 @@ class History(unittest.TestCase):
         contact.update(np.array([0, 0.4, 0, 0.5]))  # it may open
         self.assertEqual(contact.pressure.max(), 0)
 
+    def test_a_point_that_leaves_the_master_is_not_open(self):
+        text = {"segment": "line2", "master": "rigid", "contact": PENALTY}
+        x = np.array([[0.2, -0.01], [0.8, -0.01]])
+        contact = ents.Contact(text, x, [[0, 1]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
+        before, _ = contact.update(np.zeros(4))
+        contact.commit()
+        for _ in range(2):  # it is said each time
+            with self.assertRaises(ents.CutStep) as caught:
+                contact.update(np.array([0.5, 0, 0.5, 0]))
+            self.assertEqual((caught.exception.status, caught.exception.element), (ents.Status.NO_PROJECTION, 1))
+            self.assertIn("beside all segments", str(caught.exception))
+        np.testing.assert_array_equal(contact.update(np.zeros(4))[0], before)
+        contact.update(np.array([0, 0, 0, 0.2]))
+        contact.update(np.array([0, 0, 0.5, 0]))  # open in between: it may leave
+        self.assertEqual(contact.pressure[1], 0)
+        # The same without a Contact: an exception, unless the caller looks at the flags.
+        tree, slave = contact.tree, x + [0.5, 0]
+        arguments = {"segment": [0, 0], "xi": [[0.0], [0.9]]}
+        with self.assertRaises(ents.CutStep) as caught:
+            tree.detect(slave, 0.1, **arguments)
+        self.assertEqual(caught.exception.element, 1)
+        found = tree.detect(slave, 0.1, **arguments, permitted=ents.Flag.LEFT)
+        self.assertEqual(found["segment"].tolist(), [0, -1])
+        self.assertEqual(found["flags"][1] & ents.Flag.LEFT, ents.Flag.LEFT)
+
 
 class Forces(unittest.TestCase):
     def test_pressure_times_area(self):
@@ -243,6 +283,9 @@ class Mistakes(unittest.TestCase):
                 ("node 99 does not exist", lambda: ents.Contact(text, x, [[0, 99]], master)),
                 ("node -1 does not exist", lambda: ents.Contact(text, x, [[0, -1]], master)),
                 ("wanted are 1 of x, y", lambda: ents.Contact(text, x, slave, master, surface_coordinates="z")),
+                ('leave out "patch"', lambda: ents.Contact({**text, "patch": [[0, 1], [1, 2]]}, x, slave, master)),
+                ('write the normal law "augmented"', lambda: ents.Contact(
+                    {"segment": "line2", "contact": {"normal": {"type": "augmented_multiplier", "stiffness": 1}}}, x, slave, master)),
                 ("multipliers as unknowns", lambda: ents.Contact({"segment": "line2", "contact": {"normal": {"type": "multiplier", "stiffness": 1}}}, x, slave, master)),
                 ("it moves with u", lambda: free.move(x)),
                 ("update(u) comes first", lambda: free.commit()),

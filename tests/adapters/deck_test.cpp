@@ -2,95 +2,13 @@
 // ents-deck's reading and writing: faces, placements, limits, what is refused, and lines that stay as they
 // are.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 #include <random>
-#include <sstream>
 
-#include <gtest/gtest.h>
-
-#include "convert.hpp"
+#include "deck_text.hpp"
 #include "write.hpp"
 
 namespace ents_deck {
 namespace {
-
-using std::string;
-
-Mesh mesh_of(const string& text) { return read_mesh(read_source_text(text, "deck.inp", ".")); }
-
-string error_of(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing is wrong";
-}
-
-void write(const std::filesystem::path& file, const string& text) {
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A block of nx ny nz C3D8 between two corners; numbers of nodes and elements start at `first`.
-string block(int first, const Point& low, const Point& high, int nx, int ny, int nz, const string& set) {
-  std::ostringstream out;
-  out.precision(17);
-  const auto number = [&](int i, int j, int k) { return first + i + (nx + 1) * (j + (ny + 1) * k); };
-  out << "*NODE, NSET=N" << set << "\n";
-  for (int k = 0; k <= nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i)
-        out << number(i, j, k) << ", " << low[0] + (high[0] - low[0]) * i / nx << ", "
-            << low[1] + (high[1] - low[1]) * j / ny << ", " << low[2] + (high[2] - low[2]) * k / nz << "\n";
-  out << "*ELEMENT, TYPE=C3D8, ELSET=" << set << "\n";
-  int e = first;
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i)
-        out << e++ << ", " << number(i, j, k) << ", " << number(i + 1, j, k) << ", "
-            << number(i + 1, j + 1, k) << ", " << number(i, j + 1, k) << ", " << number(i, j, k + 1) << ", "
-            << number(i + 1, j, k + 1) << ", " << number(i + 1, j + 1, k + 1) << ", "
-            << number(i, j + 1, k + 1) << "\n";
-  return out.str();
-}
-
-const string surfaces = "*ELSET, ELSET=ETOP, GENERATE\n101, 104\n*SURFACE, NAME=SLAVE\nETOP, S1\n*SURFACE, "
-                        "NAME=MASTER\nLOW, S2\n";
-const string law = "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e6\n";
-const string pair_of_surfaces = "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n";
-const string material = "*MATERIAL, NAME=M\n*ELASTIC\n1000., .3\n*SOLID SECTION, ELSET=LOW, "
-                        "MATERIAL=M\n*SOLID SECTION, ELSET=HIGH, MATERIAL=M\n";
-const string step =
-    "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nNHIGH, 1, 1, 0.05\n*NODE PRINT, NSET=NLOW\nU\n*END STEP\n";
-
-/// Two blocks on each other, 4 x 4 faces below, 2 x 2 above.
-string two_blocks() {
-  return block(1, {0, 0, 0}, {3, 3, 1}, 4, 4, 1, "LOW") +
-         block(101, {0.5, 0.5, 1}, {2.5, 2.5, 2}, 2, 2, 1, "HIGH") + surfaces;
-}
-
-string deck(const string& changed = "", const string& by = "") {
-  string text = two_blocks() + material + law + pair_of_surfaces + step;
-  if (!changed.empty()) {
-    EXPECT_NE(text.find(changed), string::npos) << changed;
-    text.replace(text.find(changed), changed.size(), by);
-  }
-  return text;
-}
-
-Job converted(const string& text, Options options = {}) {
-  write("job/deck.inp", text);
-  options.deck = "job/deck.inp";
-  return convert(options);
-}
 
 // ---- faces ----
 
@@ -200,6 +118,14 @@ TEST(DeckFaces, ASetOfNodesOrOfBoundaryElementsIsASideToo) {
   const Side marked = side_of(mesh, "MARKED", {0, 1});
   ASSERT_EQ(marked.faces.size(), 1u);
   EXPECT_LT(face_normal(mesh, marked.faces[0])[2], 0) << "out of the body, however the marker turns";
+}
+
+// Whole elements of a surface stand for their free faces, and nodes for the free faces between them: what
+// lies between two elements is none of them.
+TEST(DeckFaces, BetweenTwoElementsAreNone) {
+  const Mesh mesh = mesh_of(block(1, {0, 0, 0}, {2, 2, 2}, 2, 2, 2, "E") + "*SURFACE, NAME=ALL\nE\n");
+  EXPECT_EQ(side_of(mesh, "ALL", {0, 1}).faces.size(), 24u);
+  EXPECT_EQ(side_of(mesh, "NE", {0, 1}).faces.size(), 24u);
 }
 
 // ---- instances ----
@@ -365,6 +291,36 @@ TEST(DeckWrites, EveryOtherLineByteForByte) {
     // Comments between the keyword before *STEP and *STEP come before the elements.
     EXPECT_EQ(kept, wanted) << "round " << round;
   }
+}
+
+// With --pair only some of the deck's pairs become elements: the others stay, and so does the output that
+// they have.
+TEST(DeckWrites, PairsThatAreNotWantedStay) {
+  const string text = deck("SLAVE, MASTER\n", "SLAVE, MASTER\nMASTER, OTHER\n");
+  const string print = "*CONTACT PRINT\nCDIS\n";
+  string with = text;
+  with.insert(with.find("*END STEP"), print);
+  with.insert(with.find("*SURFACE INTERACTION"), "*SURFACE, NAME=OTHER\nETOP, S2\n");
+  Options options;
+  options.pairs = {{"slave", "Master"}};
+  const Job job = converted(with, options);
+  EXPECT_EQ(job.contacts.size(), 1u);
+  options.deck = "job/deck.inp";
+  std::filesystem::remove_all("some");
+  write_job(job, options, "some");
+  const string written = content("some/deck.inp");
+  EXPECT_NE(written.find("\nMASTER, OTHER\n"), string::npos);
+  EXPECT_NE(written.find(print), string::npos);
+  EXPECT_EQ(written.find("\nSLAVE, MASTER\n"), string::npos);
+  // Of a deck whose pairs all become elements the output goes.
+  string one = deck();
+  one.insert(one.find("*END STEP"), print);
+  std::filesystem::remove_all("one");
+  write_job(converted(one), options, "one");
+  EXPECT_EQ(content("one/deck.inp").find("\n" + print), string::npos);
+  options.pairs = {{"MASTER", "SLAVE"}};
+  const string error = error_of([&] { converted(deck(), options); });
+  EXPECT_NE(error.find("in the deck 'SLAVE' is the slave; write --pair SLAVE,MASTER"), string::npos) << error;
 }
 
 TEST(DeckWrites, IncludedFilesAsTheyAre) {

@@ -64,6 +64,24 @@ TEST_F(Valley, ACutReturnsToTheBeginOfTheIncrement) {
   }
 }
 
+// Beyond the end of the right flank, below it as it would go on: no force, but not without a word. Above it
+// the node is open.
+TEST_F(Valley, ANodeThatLeavesTheMasterInContactAsksForACut) {
+  for (const bool above : {false, true}) {
+    ASSERT_GT(std::abs(at(0.1, 0.05).force[0]), 1);
+    contact_.accept();
+    const Answer left = at(1.3, above ? 1.5 : 1.2);
+    EXPECT_EQ(left.force[0], 0);
+    EXPECT_EQ(left.forces.step_factor < 1, !above);
+    EXPECT_EQ(left.forces.message.find("beside all segments") != std::string::npos, !above)
+        << left.forces.message;
+  }
+  // An open one leaves it as it likes.
+  EXPECT_EQ(at(0.5, 0.6).force[0], 0);
+  contact_.accept();
+  EXPECT_EQ(at(1.3, 1.2).forces.step_factor, 1);
+}
+
 TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
   at(0.12, 0.06);
   contact_.accept();

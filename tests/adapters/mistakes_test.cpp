@@ -172,7 +172,8 @@ TEST_P(Mistakes, OptionsThatMeanNothingAreRefused) {
       expect("option", option(value), property + std::to_string(value), "here 1");
     }
   }
-  expect("a slave point without weights", option(8), area.substr(0, area.size() - 1) + "4", "number of the slave's nodes");
+  expect("a slave point without weights", option(8), area.substr(0, area.size() - 1) + "4",
+         "number of the slave's nodes");
 }
 
 TEST_P(Mistakes, AnAreaOfNothingIsRefusedWhereThereIsNoTable) {

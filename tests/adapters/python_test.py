@@ -13,6 +13,7 @@ import sys
 import tempfile
 import threading
 import unittest
+from fractions import Fraction
 
 sys.dont_write_bytecode = True
 try:
@@ -64,6 +65,7 @@ class Header(unittest.TestCase):
         mine.update(("ENTS_" + name, value.value) for name, value in ents.Status.__members__.items())
         mine.update(("ENTS_NEEDS_" + name, value.value) for name, value in ents.Need.__members__.items())
         mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
+        mine.update(("ENTS_SHARED_" + name, value.value) for name, value in ents.Shared.__members__.items())
         mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
         mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
         mine.update(("ENTS_CHECK_" + name.upper(), place) for place, name in enumerate(ents.CONDITIONS))
@@ -147,6 +149,60 @@ class Numbers(unittest.TestCase):
         # s = -0.5, 0, 0.5 of a period of 2 that begins at s = 0: the samples are met, the spline goes through them to rounding.
         np.testing.assert_allclose(at["height"], [-0.1, 0, 0.1], atol=1e-15)
         np.testing.assert_allclose(at["point"], [[-0.5, -0.1], [0, 0], [0.5, 0.1]], atol=1e-15)
+
+    def test_height_functions(self):
+        k = np.pi * np.array([1, 0.5])
+
+        def wave(order, s):
+            f = [0.05 * np.sin(k @ s), 0.05 * np.cos(k @ s)]
+            f += [-f[0], -f[1]]
+            return [f[i] * k[0] ** (i - j) * k[1] ** j for i in range(order + 1) for j in range(i + 1)]
+
+        library = ents.library()
+        library.register_height("python wave", 2, wave)
+        library.register_height("python undefined", 2, lambda order, s: None)
+        sine = ents.Model(FIRST)
+        bounds = {"bound": 0.05, "slope": 0.16, "curvature": 0.5}
+        model = ents.Model({**FIRST, "height": {"type": "callback", "name": "python wave", **bounds}})
+        slave = np.array([[x, y, -0.02] for x in (-0.4, 0.3) for y in np.linspace(-0.6, 0.6, 5)])
+        expected, result = (m.evaluate(slave, QUAD, want="gap residual tangent") for m in (sine, model))
+        for name in ("gap", "residual", "tangent"):
+            np.testing.assert_allclose(result[name], expected[name], rtol=1e-9, atol=1e-12)
+        undefined = ents.Model({**FIRST, "height": {"type": "callback", "name": "python undefined", **bounds}})
+        self.assertTrue((undefined.evaluate(slave, QUAD, want="gap residual")["status"] > 0).all())
+        library.register_height("python wave", 2, None)
+        with self.assertRaisesRegex(ents.Error, 'no height function called "python wave" of 2 surface coordinates'):
+            ents.Model({**FIRST, "height": {"type": "callback", "name": "python wave"}})
+
+    def test_numbers_that_change(self):
+        wave = {"type": "sine", "amplitude": "top", "wave_vector": [0.5]}
+        model = ents.Model({"segment": "line2", "parameters": {"top": 0.05, "eps": 100},
+                            "height": {"type": "sum", "of": [wave, {"type": "field", "name": "worn", "points": [8], "boundary": "periodic", "size": [2]}]},
+                            "contact": {"normal": {"type": "penalty", "stiffness": "eps"}, "wear": {"coefficient": 0.05, "slave": 0.25}}})
+        self.assertEqual(list(model.parameters), ["eps", "top"])
+        line = [[-1, 0], [1, 0]]
+        with self.assertRaisesRegex(ents.Error, 'has a field, "worn", without memory'):
+            model.evaluate([[0.3, 0]], line, "gap")
+        block = model.field_init("worn")
+        gaps = []
+        for top in (0.05 - 1e-4, 0.05, 0.05 + 1e-4):
+            model.bind({"worn": block}, top=top)
+            gaps.append(model.evaluate([[0.3, 0]], line, "gap", start=[0.3])["gap"][0])
+        model.bind({"worn": block})
+        rates = model.derivatives([[0.3, 0]], line, start=[0.3])
+        self.assertEqual(rates["residual"].shape, (1, 2, 6))
+        self.assertAlmostEqual(rates["gap"][0, 1], (gaps[2] - gaps[0]) / 2e-4, 6)
+        state = model.evaluate([[0.3, 0]], line, "state_end", start=[0.3], state=model.state_init(1))["state_end"]
+        state = model.evaluate([[0.5, 0]], line, "state_end", start=[0.5], state=state)["state_end"]
+        lost = state[0, model.layout.worn + 1]
+        self.assertGreater(lost, 0.0)
+        self.assertAlmostEqual(lost, 3 * state[0, model.layout.worn], 15)
+        self.assertAlmostEqual(model.wear_collect("worn", block, state, [[0.5, 0]], line, area=2.0), 2 * lost, 15)
+        self.assertEqual(state[0, model.layout.worn + 1], 0.0)
+        heights = model.field_sample("worn", block, np.linspace(0, 2, 65)[:-1, None])
+        self.assertAlmostEqual(heights.mean() * 2, -2 * lost, 12)
+        with self.assertRaisesRegex(ents.Error, "no parameter mu; it has eps, top"):
+            model.bind({"worn": block}, mu=1)
 
     def test_one_number_for_all_entries(self):
         """Of 500 elements, the last ones of which would read far behind one number that is taken for an array of them."""
@@ -408,6 +464,14 @@ class Surfaces(unittest.TestCase):
         tree = ents.Tree(ents.Model({"segment": "bspline4"}), segments, points)
         np.testing.assert_allclose(tree.detect([[1.25, 0.1]], 1)["xi"], [[-0.5]], atol=1e-14)
 
+    def test_contact_area(self):
+        area = ents.library().contact_area("line2", [[0, 1], [1, 2]], [[0, 0], [1, 0], [3, 0]], [0, 0, 0.1], [2, 1, 0], modulus=5, thickness=2)
+        self.assertEqual((area["surface"], area["counted"], area["peak_pressure"]), (6, 4, 2))
+        self.assertTrue(2 < area["zero_line"] < 6)
+        self.assertEqual(area["estimate"], area["zero_line"])
+        with self.assertRaisesRegex(ents.Error, "'facet' must be line2, tri3 or quad4"):
+            ents.library().contact_area("quad9", [[0]], [[0, 0, 0]], [0], [0])
+
     def test_tributary_areas(self):
         areas = ents.library().tributary_areas("line2", [[0, 1], [1, 2]], [[0, 0], [1, 0], [3, 0]], thickness=2)
         np.testing.assert_allclose(areas, [1, 3, 2], rtol=1e-15)
@@ -438,6 +502,22 @@ class Errors(unittest.TestCase):
         self.assertEqual(caught.exception.status, status)
         for word in words:
             self.assertIn(word, str(caught.exception))
+
+    def test_numpy_inside_a_model(self):
+        """Arrays and numbers of NumPy are those of lists; what JSON cannot say is refused with what a model may hold."""
+        heights = np.random.default_rng(3).normal(size=(5, 6)) * 0.02
+        with_arrays = lambda values, number: ents.Model({
+            "segment": "quad4", "height": {"type": "map", "values": values, "size": number([2.0, 1.5]), "boundary": "periodic"},
+            "contact": {"normal": {"type": "penalty", "stiffness": number(1000.0)}}})
+        results = [model.evaluate([[-0.4, 0.3, -0.1]], QUAD, "gap residual tangent") for model in (
+            with_arrays(heights.tolist(), lambda x: x), with_arrays(heights, np.asarray), with_arrays(list(heights), np.float64),
+            with_arrays(np.asfortranarray(heights), lambda x: np.asarray(x, np.float32)))]
+        for name in ("gap", "residual", "tangent"):
+            for other in results[1:]:
+                np.testing.assert_array_equal(results[0][name], other[name])
+        heights[1, 2] = np.nan
+        self.caught(ents.Status.BAD_VALUE, ["model", "not JSON compliant"], lambda: with_arrays(heights, np.asarray))
+        self.caught(ents.Status.BAD_VALUE, ["model", "is a Fraction", "NumPy arrays"], lambda: with_arrays([[0, 1], [1, 0]], lambda x: Fraction(1)))
 
     def test_mistakes(self):
         model = ents.Model(FIRST)

@@ -20,13 +20,19 @@ struct SceneKind {
   int last_step;     ///< of the coarse one; 0: all
 };
 constexpr SceneKind kinds[] = {
-    {"hertz2d", "hertz2d", 0.5, 0},         {"hertz3d", "hertz3d", 0.5, 2},
-    {"westergaard", "westergaard", 0.5, 4}, {"wavy3d", "wavy3d", 0.5, 0},
-    {"rough_afm", "rough_afm", 0.2, 3},     {"cattaneo_mindlin", "cattaneo_mindlin", 0.5, 0},
-    {"ironing", "ironing", 1, 12},          {"slope", "slope", 1, 0},
-    {"chatter", "chatter", 1, 0},           {"patch_test", "patch_test", 1, 0},
+    {"hertz2d", "hertz2d", 0.5, 0},
+    {"hertz3d", "hertz3d", 0.5, 2},
+    {"westergaard", "westergaard", 0.5, 4},
+    {"wavy3d", "wavy3d", 0.5, 0},
+    {"rough_afm", "rough_afm", 0.2, 3},
+    {"cattaneo_mindlin", "cattaneo_mindlin", 0.5, 0},
+    {"ironing", "ironing", 1, 12},
+    {"slope", "slope", 1, 0},
+    {"chatter", "chatter", 1, 0},
+    {"patch_test", "patch_test", 1, 0},
     {"thread", "thread", 1, 0},
-    {"wavy3d_friction", "wavy3d", 0.5, 3},  {"cattaneo_soft", "cattaneo_mindlin", 0.5, 0},
+    {"wavy3d_friction", "wavy3d", 0.5, 3},
+    {"cattaneo_soft", "cattaneo_mindlin", 0.5, 0},
 };
 
 Json read(const fs::path& file) {
@@ -67,7 +73,8 @@ std::vector<std::string> scene_adapters() {
 }
 
 std::string write_scene(const std::string& name, Mesh mesh, const fs::path& folder, bool symmetrised) {
-  const auto found = std::find_if(std::begin(kinds), std::end(kinds), [&](const SceneKind& k) { return k.name == name; });
+  const auto found =
+      std::find_if(std::begin(kinds), std::end(kinds), [&](const SceneKind& k) { return k.name == name; });
   if (found == std::end(kinds)) {
     std::string names;
     for (const SceneKind& k : kinds) names += (names.empty() ? "" : ", ") + std::string(k.name);
@@ -86,6 +93,7 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
     scene["supports"] = Json::array({{{"nodes", "block.z_min"}, {"x", 0.002}, {"y", 0.001}, {"z", 0}}});
     scene["symmetry_copies"] = 1;
     scene.erase("exact");
+    scene.erase("variants"); // without friction
   }
   // Its bodies touch in one node with a gap of 0, whose last bit would decide whether this one is in contact.
   if (std::string(kind.folder) == "cattaneo_mindlin") scene["parts"][1]["y"]["from"] = 1e-9;

@@ -10,7 +10,8 @@
 
 namespace adapters {
 
-/// The scenes of examples/ that end (chatter: its variant that does) but texture, and one in 3D with friction.
+/// The scenes of examples/ that end (chatter: its variant that does) but texture, and one in 3D with
+/// friction.
 std::vector<std::string> scene_names();
 
 enum class Mesh { coarse, shipped }; ///< coarse: half the divisions or less, fewer steps where there are many

@@ -12,8 +12,10 @@ namespace {
 
 void print_help(std::FILE* to) {
   std::fprintf(to, "adapters_scenes_table [SCENE ...]\n\n"
-                   "Every scene as it is shipped, or those named, through every adapter: a table in Markdown on stdout. 0: the bits of the\n"
-                   "library called directly; else by how much motion and forces differ. All scenes take half an hour.\n\nScenes:");
+                   "Every scene as it is shipped, or those named, through every adapter: a table in Markdown "
+                   "on stdout. 0: the bits of the\n"
+                   "library called directly; else by how much motion and forces differ. All scenes take half "
+                   "an hour.\n\nScenes:");
   for (const std::string& name : adapters::scene_names()) std::fprintf(to, " %s", name.c_str());
   std::fprintf(to, "\n");
 }

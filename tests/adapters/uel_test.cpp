@@ -151,8 +151,8 @@ TEST_F(Uel, MooseAsksWithNumbersOfItsOwn) {
     EXPECT_TRUE(same(c->svars, reference.svars, reference.svars.size())) << c->lflags[2];
 }
 
-// MOOSE passes the displacements of the last step, Abaqus those of now: with the other's option forces are those of
-// another place, and nothing else would tell.
+// MOOSE passes the displacements of the last step, Abaqus those of now: with the other's option forces are
+// those of another place, and nothing else would tell.
 TEST_F(Uel, AnOptionOfAnotherProgramStopsTheJob) {
   UelCall abaqus = request(1);
   abaqus.props.resize(3);

@@ -39,11 +39,14 @@ struct Problem {
     }
     for (std::int64_t i = 0; i < 3 * count; ++i) slave_equations.push_back(i);
     for (std::int64_t i = 0; i < 3 * mesh.nodes(); ++i) master_equations.push_back(3 * count + i);
-    std::vector<std::set<std::int64_t>> neighbours(static_cast<std::size_t>(count + mesh.nodes())); // nodes by node
+    std::vector<std::set<std::int64_t>> neighbours(
+        static_cast<std::size_t>(count + mesh.nodes())); // nodes by node
     for (std::int64_t e = 0; e < count; ++e) {
       std::int64_t nodes[5] = {e};
-      for (int i = 0; i < 4; ++i) nodes[i + 1] = count + mesh.connectivity[static_cast<std::size_t>(4 * e + i)];
-      for (const std::int64_t a : nodes) neighbours[static_cast<std::size_t>(a)].insert(std::begin(nodes), std::end(nodes));
+      for (int i = 0; i < 4; ++i)
+        nodes[i + 1] = count + mesh.connectivity[static_cast<std::size_t>(4 * e + i)];
+      for (const std::int64_t a : nodes)
+        neighbours[static_cast<std::size_t>(a)].insert(std::begin(nodes), std::end(nodes));
     }
     for (const auto& of_node : neighbours)
       for (int c = 0; c < 3; ++c) {
@@ -73,15 +76,20 @@ template <class Run> double median_nanoseconds(const Problem& p, Run&& run) {
 } // namespace
 
 void run_assembly(std::ostream& out) {
-  out << "ents_assemble, residual and tangent of quad4 elements into compressed rows (32-bit indices), a slave node per segment\n"
-         "ns per element: first call, later calls, evaluation alone (64 elements per call), the difference; additions: of nothing to the\n"
-         "entries of the matrix that an element has, at the places known from the first call: what no scatter is faster than; thread CPU time\n";
+  out << "ents_assemble, residual and tangent of quad4 elements into compressed rows (32-bit indices), a "
+         "slave node per segment\n"
+         "ns per element: first call, later calls, evaluation alone (64 elements per call), the difference; "
+         "additions: of nothing to the\n"
+         "entries of the matrix that an element has, at the places known from the first call: what no "
+         "scatter is faster than; thread CPU time\n";
   for (const bool enriched : {false, true}) {
-    nlohmann::json text{{"segment", "quad4"}, {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1.0}}}}}};
+    nlohmann::json text{{"segment", "quad4"},
+                        {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1.0}}}}}};
     if (enriched) text["height"] = {{"type", "sine"}, {"amplitude", 0.03}, {"wave_vector", {0.5, 0.5}}};
     const Model model(text.dump());
     out << "\n" << std::left << std::setw(12) << (enriched ? "enriched" : "plain") << std::right;
-    for (const char* name : {"first", "later", "evaluation", "scatter", "additions"}) out << std::setw(12) << name;
+    for (const char* name : {"first", "later", "evaluation", "scatter", "additions"})
+      out << std::setw(12) << name;
     out << "\n" << std::fixed << std::setprecision(0);
     std::vector<double> sizes, later_seconds;
     for (const int side : {10, 32, 100, 316, 1000}) {
@@ -99,12 +107,14 @@ void run_assembly(std::ostream& out) {
       system.master_nodes = p.mesh.nodes(), system.master_equations = p.master_equations.data();
       system.rows = static_cast<std::int64_t>(p.residual.size());
       system.residual = p.residual.data();
-      system.row_begin = p.row_begin.data(), system.columns = p.columns.data(), system.values = p.values.data();
+      system.row_begin = p.row_begin.data(), system.columns = p.columns.data(),
+      system.values = p.values.data();
       system.places = p.places.data(), system.places_size = 76;
       ents_report report{};
       report.struct_size = sizeof report;
       const auto assemble = [&] {
-        if (ents_assemble(model.handle(), 0, p.count, &in, nullptr, &system, &report) != ENTS_OK) throw std::runtime_error(report.message);
+        if (ents_assemble(model.handle(), 0, p.count, &in, nullptr, &system, &report) != ENTS_OK)
+          throw std::runtime_error(report.message);
       };
       double residual[64 * 15], tangent[64 * 225];
       ents_output results{};
@@ -116,24 +126,28 @@ void run_assembly(std::ostream& out) {
         ents_input some = in;
         for (std::int64_t e = 0; e < p.count; e += 64) {
           some.slave = in.slave + 3 * e, some.start = in.start + 2 * e, some.segment = in.segment + e;
-          if (ents_evaluate(model.handle(), 0, std::min<std::int64_t>(64, p.count - e), &some, &results, &report) != ENTS_OK)
+          if (ents_evaluate(model.handle(), 0, std::min<std::int64_t>(64, p.count - e), &some, &results,
+                            &report) != ENTS_OK)
             throw std::runtime_error(report.message);
         }
       };
       const auto add = [&] { // 75 pieces of rows, three entries each
         for (std::int64_t e = 0; e < p.count; ++e)
-          for (const std::int64_t *place = &p.places[static_cast<std::size_t>(76 * e + 1)], *end = place + 75; place < end; ++place)
+          for (const std::int64_t *place = &p.places[static_cast<std::size_t>(76 * e + 1)], *end = place + 75;
+               place < end; ++place)
             for (int c = 0; c < 3; ++c) p.values[static_cast<std::size_t>(*place - 1 + c)] += 0.0;
         asm volatile("" : : "r"(p.values.data()) : "memory");
       };
-      const double first = nanoseconds(p, assemble), later = median_nanoseconds(p, assemble), alone = median_nanoseconds(p, evaluate),
-                   additions = median_nanoseconds(p, add);
-      out << std::left << std::setw(12) << p.count << std::right << std::setw(12) << first << std::setw(12) << later << std::setw(12) << alone
-          << std::setw(12) << later - alone << std::setw(12) << additions << std::endl;
+      const double first = nanoseconds(p, assemble), later = median_nanoseconds(p, assemble),
+                   alone = median_nanoseconds(p, evaluate), additions = median_nanoseconds(p, add);
+      out << std::left << std::setw(12) << p.count << std::right << std::setw(12) << first << std::setw(12)
+          << later << std::setw(12) << alone << std::setw(12) << later - alone << std::setw(12) << additions
+          << std::endl;
       sizes.push_back(static_cast<double>(p.count));
       later_seconds.push_back(later * sizes.back());
     }
-    out << "slope of later calls over the number of elements: " << std::setprecision(2) << slope(sizes, later_seconds) << "\n";
+    out << "slope of later calls over the number of elements: " << std::setprecision(2)
+        << slope(sizes, later_seconds) << "\n";
   }
 }
 

@@ -5,8 +5,8 @@
 
 namespace bench {
 
-// ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments with a slave node over each: all, evaluation alone, and the rest; first call
-// (places are looked for) and later ones.
+// ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments with a slave node over each: all, evaluation
+// alone, and the rest; first call (places are looked for) and later ones.
 void run_assembly(std::ostream& out);
 
 } // namespace bench

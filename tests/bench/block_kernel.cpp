@@ -11,7 +11,8 @@ BlockKernel::BlockKernel(const Job& job, ents::PairKernel pairs)
   const ents_output& out = job.output();
   block_.slave = in.slave, block_.slave_stride = in.slave_stride;
   block_.master = in.master, block_.master_stride = in.master_stride;
-  block_.surface_coordinates = in.surface_coordinates, block_.surface_coordinates_stride = in.surface_coordinates_stride;
+  block_.surface_coordinates = in.surface_coordinates,
+  block_.surface_coordinates_stride = in.surface_coordinates_stride;
   block_.start = in.start, block_.start_stride = in.start_stride;
   block_.area = in.area, block_.area_stride = in.area_stride;
   block_.state_begin = in.state_begin, block_.state_begin_stride = in.state_begin_stride;
@@ -26,7 +27,8 @@ BlockKernel::BlockKernel(const Job& job, ents::PairKernel pairs)
 
 void BlockKernel::run(std::int32_t some) {
   for (block_.first = 0; block_.first < count_; block_.first += some)
-    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some)) throw std::runtime_error("an element is not ordinary");
+    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some))
+      throw std::runtime_error("an element is not ordinary");
 }
 
 void BlockKernel::run_in_turn(std::int32_t some) {
@@ -35,7 +37,8 @@ void BlockKernel::run_in_turn(std::int32_t some) {
   std::int64_t wait = 0;
   for (std::int64_t first = 0; first < count_; first += some) {
     block_.first = first + wait;
-    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some)) throw std::runtime_error("an element is not ordinary");
+    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some))
+      throw std::runtime_error("an element is not ordinary");
     wait = std::bit_cast<std::int64_t>(last_[(first + some - 1) * last_stride_]) & nothing;
   }
 }

@@ -56,7 +56,9 @@ public:
   int dofs() const { return model_.dofs(); }
   double stiffness() const { return scene_.stiffness; }
   const nlohmann::json& height() const { return scene_.height; }
-  std::vector<double> projections() const { return model_.evaluate(elements_, ENTS_XI).xi; } // [elements][d-1]
+  std::vector<double> projections() const {
+    return model_.evaluate(elements_, ENTS_XI).xi;
+  } // [elements][d-1]
   bool frictional() const { return !states_.empty(); }
   // With friction: natural coordinates [d-1] of the point where element e stuck
   const double* anchor(std::size_t e) const {

@@ -21,8 +21,8 @@
 
 namespace ents::differentiation {
 
-// The number of derivatives, rounded up to whole registers: this makes Eigen's numbers twice as fast for 15 dofs and does
-// not change the time of Sacado's.
+// The number of derivatives, rounded up to whole registers: this makes Eigen's numbers twice as fast for 15
+// dofs and does not change the time of Sacado's.
 constexpr int padded(int dofs) { return (dofs + 3) / 4 * 4; }
 
 // Numbers: make(value, dof), a number with derivative 1 along dof; value(x); derivative(x, dof);

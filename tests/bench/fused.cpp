@@ -1,5 +1,5 @@
-// The kernels once more for this machine, as they are not built: with multiplications and additions fused where the compiler can, which is what
-// equal bits on every machine cost; and without any computation.
+// The kernels once more for this machine, as they are not built: with multiplications and additions fused
+// where the compiler can, which is what equal bits on every machine cost; and without any computation.
 #if defined(ENTS_BENCH_FUSED)
 #define ENTS_ISA fused
 #include "core/pair_table.hpp"
@@ -13,7 +13,8 @@ namespace bench {
 namespace {
 
 // Inputs into lanes, and as many numbers as a residual has out of them.
-template <class B, bool H, bool F> std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block, std::int32_t count) {
+template <class B, bool H, bool F>
+std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block, std::int32_t count) {
   using namespace ents::fused;
   std::uint64_t done = 0;
 #if defined(ENTS_HAS_LANES)

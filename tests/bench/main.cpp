@@ -34,7 +34,8 @@ Times contact elements through the C ABI, one thread. Every case has a name BASI
   BASIS    line2 line3 catmull_rom4 bspline4 tri3 tri6 quad4 quad8 quad9 catmull_rom16 bspline16 bezier15
   VARIANT  plain (no height), enriched (a sine), plain_coulomb, enriched_coulomb (R and RK; some elements stick, some slip); for
            line2, quad4 and quad9 also constant, map, coordinates (a sine of surface coordinates), rigid (master),
-           first_variation, small_gap (tangents; all with the sine)
+           first_variation, small_gap (tangents; all with the sine), expression, callback (the sine, written
+           down, and as a function of the host)
   LEVEL    gap; R residual; RK residual and tangent; kinematics1 xi, gap and first variations; kinematics2 and second ones
   CALL     single: 16 different elements in turn, one per call; batch: 64 per call; stream: 100000 per call (quad9: 25000), through main
            memory; line2, tri3, quad4, quad9
@@ -115,11 +116,12 @@ int main(int argc, char** argv) {
       print_help();
       return 0;
     }
-    const std::pair<std::string, void (*)(std::ostream&, std::int64_t)> growing[] = {{"--detection", bench::run_detection},
-                                                                                     {"--streaming", bench::run_streaming}};
+    const std::pair<std::string, void (*)(std::ostream&, std::int64_t)> growing[] = {
+        {"--detection", bench::run_detection}, {"--streaming", bench::run_streaming}};
     for (const auto& [flag, run] : growing) {
       if (argument != flag && argument.rfind(flag + "=", 0) != 0) continue;
-      const std::int64_t most = argument == flag ? 1000000 : std::atoll(argument.substr(flag.size() + 1).c_str());
+      const std::int64_t most =
+          argument == flag ? 1000000 : std::atoll(argument.substr(flag.size() + 1).c_str());
       if (most < 1000) {
         std::cerr << argument << ": at least 1000 are needed\n";
         return 2;
@@ -145,8 +147,10 @@ int main(int argc, char** argv) {
       bench::run_savings(std::cout);
       return 0;
     }
-    if (argument == "--summary") summary = true;
-    else arguments.push_back(argument);
+    if (argument == "--summary")
+      summary = true;
+    else
+      arguments.push_back(argument);
   }
   if (summary && !given(argc, argv, "--benchmark_filter"))
     arguments.push_back(std::string("--benchmark_filter=") + summary_cases);

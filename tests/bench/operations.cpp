@@ -36,20 +36,28 @@ template <class Tangent> void count_entry(const Tangent& tangent, int i, int j, 
   constexpr int D = Tangent::D;
   Counted k = 0.0;
   if (i % D == j % D) {
-    if constexpr (std::extent_v<decltype(tangent.weights)> == 1) k = tangent.weights[0][i / D] * tangent.weights[0][j / D];
-    else k = tangent.weights[0][i / D] * tangent.weights[1][j / D] + tangent.weights[1][i / D] * tangent.weights[0][j / D];
+    if constexpr (std::extent_v<decltype(tangent.weights)> == 1)
+      k = tangent.weights[0][i / D] * tangent.weights[0][j / D];
+    else
+      k = tangent.weights[0][i / D] * tangent.weights[1][j / D] +
+          tangent.weights[1][i / D] * tangent.weights[0][j / D];
   }
   const auto row = [i](const auto& array) { return array[i]; };
-  if (!rest) tangent.template add_products<Counted>(k, row, j);
-  else tangent.template add_rest<Counted>(k, row, j);
+  if (!rest)
+    tangent.template add_products<Counted>(k, row, j);
+  else
+    tangent.template add_rest<Counted>(k, row, j);
 }
 
 // What is symmetric is computed once.
-template <class Tangent, class... Pieces> void count_tangent(const ents::Plan& plan, const Pieces&... pieces) {
+template <class Tangent, class... Pieces>
+void count_tangent(const ents::Plan& plan, const Pieces&... pieces) {
   Tangent tangent;
   tangent.evaluate(plan, pieces...);
   if constexpr (Reduced<Tangent>) {
-    for (int c = 0; c < Tangent::D; ++c) expand_columns(tangent, c, [] {}, [](int, int, const auto&) {});
+    for (int c = 0; c < Tangent::D; ++c)
+      expand_columns(
+          tangent, c, [] {}, [](int, int, const auto&) {});
   } else {
     for (int j = 0; j < Tangent::N; ++j) {
       for (int i = Tangent::symmetric ? j : 0; i < Tangent::N; ++i) count_entry(tangent, i, j, false);
@@ -92,8 +100,8 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   if (!pair.ordinary || !pair.contact) return std::nan("");
   Counted residual[N];
   if (friction) {
-    rub.evaluate(plan, pair, anchor, Counted(1.0));
-    friction_residual<false>(pair, rub, residual);
+    rub.evaluate(plan.law, pair, anchor, Counted(1.0), -(pair.area * pair.per_gap * pair.gap));
+    friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
     if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
   } else {
     pair.template residual<false>(residual);

@@ -20,7 +20,8 @@ namespace {
 // CalculiX finds the projection by refining a grid down to 1e-8 of natural coordinates; lengths and
 // curvatures are of order 1 here.
 constexpr double tolerance = 1e-6;
-// Its friction neglects what is of the order of (gap + slip) curvature: (0.06 + 0.05) times 0.08 / 0.75^2, doubled.
+// Its friction neglects what is of the order of (gap + slip) curvature: (0.06 + 0.05) times 0.08 / 0.75^2,
+// doubled.
 constexpr double tolerance_with_friction = 3e-2;
 
 // The elements of a job as CalculiX's springs. Slip: from the point of the state's anchor to the projection.
@@ -117,14 +118,15 @@ bool print_calculix(std::ostream& out) {
       return 1e9 * seconds[k] / static_cast<double>(job.elements().count);
     };
     const double theirs = each(0, plain);
-    print_peer_row(out, friction ? "plain, Coulomb" : "plain, frictionless", each(1, plain), each(2, plain_64), theirs);
-    print_peer_row(out, friction ? "enriched, Coulomb" : "enriched, frictionless", each(3, enriched), each(4, enriched_64),
-                   theirs);
+    print_peer_row(out, friction ? "plain, Coulomb" : "plain, frictionless", each(1, plain),
+                   each(2, plain_64), theirs);
+    print_peer_row(out, friction ? "enriched, Coulomb" : "enriched, frictionless", each(3, enriched),
+                   each(4, enriched_64), theirs);
   }
   out << "\n" << agreement;
   if (!same)
-    out << std::scientific << "that is more than " << tolerance << " or, with friction, " << tolerance_with_friction
-        << ": not the same contact\n";
+    out << std::scientific << "that is more than " << tolerance << " or, with friction, "
+        << tolerance_with_friction << ": not the same contact\n";
   return same;
 }
 

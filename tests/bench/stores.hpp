@@ -17,7 +17,8 @@ inline void store_all(double* memory, std::size_t count, double value) {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 // In whole lines
-__attribute__((target("avx512f"))) inline void store_lines_past_caches(double* memory, std::size_t count, double value) {
+__attribute__((target("avx512f"))) inline void store_lines_past_caches(double* memory, std::size_t count,
+                                                                       double value) {
   const __m512d all = _mm512_set1_pd(value);
   for (std::size_t i = 0; i + 8 <= count; i += 8) _mm512_stream_pd(memory + i, all);
   std::fill_n(memory + count / 8 * 8, count % 8, value);
@@ -25,7 +26,8 @@ __attribute__((target("avx512f"))) inline void store_lines_past_caches(double* m
 }
 #endif
 
-// Past the caches, in the widest registers the processor has. `memory` begins with a cache line, `count` is even.
+// Past the caches, in the widest registers the processor has. `memory` begins with a cache line, `count` is
+// even.
 inline void store_past_caches(double* memory, std::size_t count, double value) {
 #if defined(__x86_64__) && defined(__GNUC__)
   if (__builtin_cpu_supports("avx512f")) return store_lines_past_caches(memory, count, value);

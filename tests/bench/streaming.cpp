@@ -81,7 +81,9 @@ public:
   }
 
 private:
-  std::size_t entries() const { return static_cast<std::size_t>(count_ * (residual_stride_ + tangent_stride_)); } // even: n (n + 1) is
+  std::size_t entries() const {
+    return static_cast<std::size_t>(count_ * (residual_stride_ + tangent_stride_));
+  } // even: n (n + 1) is
   std::vector<double> repeated(const std::vector<double>& few, std::int64_t different) const {
     const std::size_t entries = few.size() / static_cast<std::size_t>(different);
     std::vector<double> many(static_cast<std::size_t>(count_) * entries);
@@ -114,7 +116,8 @@ void run_streaming(std::ostream& out, std::int64_t most) {
   out << "residual and tangent in array calls, frictionless; ns per element (thread CPU time, medians of "
       << rounds
       << " in turns)\n"
-         "memory: one call for all, results one behind the other; plain, past: their bytes alone, stored to the same "
+         "memory: one call for all, results one behind the other; plain, past: their bytes alone, stored to "
+         "the same "
          "memory through the caches and past them; % stores: what the faster of the two would take\n"
          "reused: calls of "
       << per_call
@@ -123,8 +126,9 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       << most << "\n\n"
       << std::setw(71) << "memory" << std::setw(26) << "reused"
       << "\n"
-      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "plain" << std::setw(7) << "past" << std::setw(9) << "ns"
-      << std::setw(10) << "% stores" << std::setw(8) << "slope" << std::setw(8) << "copied"
+      << std::setw(31) << "n" << std::setw(7) << "bytes" << std::setw(7) << "plain" << std::setw(7) << "past"
+      << std::setw(9) << "ns" << std::setw(10) << "% stores" << std::setw(8) << "slope" << std::setw(8)
+      << "copied"
       << "  ";
   std::vector<std::int64_t> sizes;
   for (std::int64_t n = 100; n <= most; n *= 10) {
@@ -164,9 +168,9 @@ void run_streaming(std::ostream& out, std::int64_t most) {
     out << std::left << std::setw(22)
         << kind.basis + (kind.enriched ? " enriched" : " plain") + (kind.padding ? ", padded" : "")
         << std::right << std::fixed << std::setprecision(0) << std::setw(9) << counts.back() << std::setw(7)
-        << elements.bytes() << std::setw(7) << plain << std::setw(7) << past << std::setw(9) << memory << std::setw(10)
-        << 100.0 * std::min(plain, past) / memory << std::setprecision(2) << std::setw(8) << slope(counts, streamed)
-        << std::setprecision(0) << std::setw(8)
+        << elements.bytes() << std::setw(7) << plain << std::setw(7) << past << std::setw(9) << memory
+        << std::setw(10) << 100.0 * std::min(plain, past) / memory << std::setprecision(2) << std::setw(8)
+        << slope(counts, streamed) << std::setprecision(0) << std::setw(8)
         << 1e9 * seconds.back() / static_cast<double>(elements.count()) << std::setprecision(1) << "  ";
     for (std::size_t i = 0; i < sizes.size(); ++i) out << std::setw(8) << 1e9 * reused[i] / counts[i];
     out << std::setprecision(2) << std::setw(8) << slope(counts, reused) << std::endl;

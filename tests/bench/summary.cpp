@@ -25,22 +25,27 @@ namespace {
 const char* const calls[] = {"single", "batch"};
 const char* const variants[] = {"plain", "enriched"};
 
-void print_ratio(std::ostream& out, const Medians& medians, const std::string& above, const std::string& below) {
+void print_ratio(std::ostream& out, const Medians& medians, const std::string& above,
+                 const std::string& below) {
   const double a = medians.of(above), b = medians.of(below);
-  if (a > 0.0 && b > 0.0) out << std::setw(9) << a / b;
-  else out << std::setw(9) << "-";
+  if (a > 0.0 && b > 0.0)
+    out << std::setw(9) << a / b;
+  else
+    out << std::setw(9) << "-";
 }
 
 } // namespace
 
 void print_summary(std::ostream& out, const Medians& medians) {
-  out << "ns per element (thread CPU time, median); C: with Coulomb friction\n" << std::setw(14) << std::left << "" << std::right;
+  out << "ns per element (thread CPU time, median); C: with Coulomb friction\n"
+      << std::setw(14) << std::left << "" << std::right;
   for (const char* call : calls) out << std::setw(54) << call;
   out << "\n" << std::setw(14) << "";
   for (int call = 0; call < 2; ++call)
     for (const char* variant : variants) out << std::setw(27) << variant;
   out << "\n" << std::setw(14) << std::left << "basis" << std::right;
-  for (int column = 0; column < 4; ++column) out << std::setw(9) << "R" << std::setw(9) << "R+K" << std::setw(9) << "R+K C";
+  for (int column = 0; column < 4; ++column)
+    out << std::setw(9) << "R" << std::setw(9) << "R+K" << std::setw(9) << "R+K C";
   out << "\n" << std::fixed << std::setprecision(1);
   for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
@@ -48,22 +53,29 @@ void print_summary(std::ostream& out, const Medians& medians) {
       for (const char* variant : variants)
         for (const char* level : {"/R/", "/RK/", "_coulomb/RK/"}) {
           const double value = medians.of(basis + "/" + variant + level + call);
-          if (value < 0.0) out << std::setw(9) << "-";
-          else out << std::setw(9) << value;
+          if (value < 0.0)
+            out << std::setw(9) << "-";
+          else
+            out << std::setw(9) << value;
         }
     out << "\n";
   }
   out << "\nratios of R+K\n" << std::setw(14) << std::left << "basis" << std::right;
-  for (const char* name : {"enriched / plain", "Coulomb / none, enriched", "batch / single, enriched"}) out << std::setw(27) << name;
+  for (const char* name : {"enriched / plain", "Coulomb / none, enriched", "batch / single, enriched"})
+    out << std::setw(27) << name;
   out << "\n" << std::setw(14) << "";
   for (int i = 0; i < 2; ++i) out << std::setw(18) << "single" << std::setw(9) << "batch";
-  out << std::setw(18) << "none" << std::setw(9) << "Coulomb" << "\n" << std::setprecision(2);
+  out << std::setw(18) << "none" << std::setw(9) << "Coulomb"
+      << "\n"
+      << std::setprecision(2);
   for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
     out << std::setw(9) << "";
-    for (const char* call : calls) print_ratio(out, medians, basis + "/enriched/RK/" + call, basis + "/plain/RK/" + call);
+    for (const char* call : calls)
+      print_ratio(out, medians, basis + "/enriched/RK/" + call, basis + "/plain/RK/" + call);
     out << std::setw(9) << "";
-    for (const char* call : calls) print_ratio(out, medians, basis + "/enriched_coulomb/RK/" + call, basis + "/enriched/RK/" + call);
+    for (const char* call : calls)
+      print_ratio(out, medians, basis + "/enriched_coulomb/RK/" + call, basis + "/enriched/RK/" + call);
     out << std::setw(9) << "";
     for (const char* variant : {"/enriched", "/enriched_coulomb"})
       print_ratio(out, medians, basis + variant + "/RK/batch", basis + variant + "/RK/single");

@@ -1,5 +1,6 @@
-// Three slave nodes against one quad4 segment that carries a sine: as one batch, then one by one. client.c and client.f90 do the
-// same; all three print the same text. 17 significant digits name a double: same text, same bits.
+// Three slave nodes against one quad4 segment that carries a sine: as one batch, then one by one. client.c
+// and client.f90 do the same; all three print the same text. 17 significant digits name a double: same text,
+// same bits.
 #include "ents.h"
 
 #include <array>
@@ -35,8 +36,8 @@ struct Result {
 
 void check(std::int32_t status, const ents_report& report) {
   if (status == ENTS_OK) return;
-  throw std::runtime_error(std::string(ents_status_text(status)) + " (element " + std::to_string(report.element) +
-                           "): " + report.message);
+  throw std::runtime_error(std::string(ents_status_text(status)) + " (element " +
+                           std::to_string(report.element) + "): " + report.message);
 }
 
 struct Destroy {

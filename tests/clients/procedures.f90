@@ -1,7 +1,32 @@
 ! Every procedure of the Fortran module is called once and does what its C twin promises: arguments arrive in the right order and
 ! the right way (by value, by reference), results come back. Geometry: a flat unit quad4 in z = 0 with a constant height of 1/4, where
 ! every expected number is exact in binary.
+module heights
+  use, intrinsic :: iso_c_binding
+  implicit none
+
+contains
+
+  ! h = factor s_1 s_2; s(count, 2), jet(count, numbers)
+  function product_of_coordinates(user_data, order, count, s, jet) result(status) bind(c)
+    type(c_ptr), value :: user_data
+    integer(c_int32_t), value :: order, count
+    real(c_double), intent(in) :: s(count, 2)
+    real(c_double), intent(out) :: jet(count, *)
+    integer(c_int32_t) :: status
+    real(c_double), pointer :: factor
+    call c_f_pointer(user_data, factor)
+    jet(:, 1:merge(6, 10, order == 2)) = 0
+    jet(:, 1) = factor * s(:, 1) * s(:, 2)
+    jet(:, 2) = factor * s(:, 2)
+    jet(:, 3) = factor * s(:, 1)
+    jet(:, 5) = factor
+    status = 0
+  end function product_of_coordinates
+end module heights
+
 program procedures
+  use heights, only: product_of_coordinates
   use, intrinsic :: iso_c_binding
   use, intrinsic :: iso_fortran_env, only: error_unit
   use ents
@@ -44,6 +69,7 @@ program procedures
   call expect(ents_model_destroy(model, report) == ENTS_OK .and. .not. c_associated(model), "model_destroy clears the handle")
 
   call check_data()
+  call check_height_function()
 
   open (unit=unit, file=path, action="write", status="replace")
   write (unit, '(a)') model_text
@@ -65,6 +91,28 @@ contains
     write (error_unit, '(2a)') "failed: ", what
     stop 1
   end subroutine expect
+
+  subroutine check_height_function()
+    character(*), parameter :: text = '{"segment": "quad4", "height": {"type": "callback", "name": "product", "bound": 1.0,' // &
+      ' "slope": 1.0, "curvature": 1.0}}'
+    real(c_double), target :: factor = 0.5d0, point(3, 1), xi(2, 1) = reshape([0.5d0, -0.25d0], [2, 1])
+    type(ents_surface) :: surface
+    call expect(ents_height_register("product" // c_null_char, 2_c_int32_t, c_funloc(product_of_coordinates), c_loc(factor), &
+      report) == ENTS_OK, "height_register: " // ents_string(report%message))
+    call expect(ents_model_create(text, len(text, c_int64_t), c_null_ptr, c_null_ptr, 0_c_int64_t, model, report) == ENTS_OK, &
+      "a model with a height function: " // ents_string(report%message))
+    call ents_init(surface)
+    surface%master = c_loc(master)
+    surface%xi = c_loc(xi)
+    surface%point = c_loc(point)
+    call expect(ents_surface_evaluate(model, 1_c_int64_t, surface, report) == ENTS_OK, "surface_evaluate of a height function")
+    call expect(all(same(point(:, 1), [0.5d0, -0.25d0, -0.0625d0])), "the height function's point")
+    call expect(ents_model_destroy(model, report) == ENTS_OK, "model_destroy")
+    call expect(ents_height_register("product" // c_null_char, 2_c_int32_t, c_null_funptr, c_null_ptr, report) == ENTS_OK, &
+      "height_register forgets")
+    call expect(ents_model_create(text, len(text, c_int64_t), c_null_ptr, c_null_ptr, 0_c_int64_t, model, report) == &
+      ENTS_BAD_VALUE, "a model whose height function is forgotten")
+  end subroutine check_height_function
 
   ! Exact equality of two numbers, said without the comparison that compilers warn of.
   elemental function same(a, b)
@@ -166,10 +214,16 @@ contains
       [0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 2d0, 0d0, 0d0, 0d0, 1d0, 0d0, 1d0, 1d0, 0d0, 2d0, 1d0, 0d0], [3, 6])
     integer(c_int64_t) :: connectivity(4, 2) = reshape([0_c_int64_t, 1_c_int64_t, 4_c_int64_t, 3_c_int64_t, &
       1_c_int64_t, 2_c_int64_t, 5_c_int64_t, 4_c_int64_t], [4, 2])
-    real(c_double) :: areas(6)
+    real(c_double) :: areas(6), gap(6) = [0d0, 0d0, 1d0, 0d0, 0d0, 1d0], pressure(6) = [2d0, 1d0, 0d0, 2d0, 1d0, 0d0]
+    type(ents_area) :: area
     call expect(ents_tributary_areas("quad4" // c_null_char, 2_c_int64_t, connectivity, 6_c_int64_t, positions, 0d0, areas, &
       report) == ENTS_OK, "tributary_areas: " // ents_string(report%message))
     call expect(all(abs(areas - [0.25d0, 0.5d0, 0.25d0, 0.25d0, 0.5d0, 0.25d0]) < 1d-15), "areas")
+    call ents_init(area)
+    call expect(ents_contact_area("quad4" // c_null_char, 2_c_int64_t, connectivity, 6_c_int64_t, positions, 0d0, gap, pressure, &
+      1d0, area, report) == ENTS_OK, "contact_area: " // ents_string(report%message))
+    call expect(abs(area%counted - 1.5d0) < 1d-15 .and. area%zero_line > 1d0 .and. area%zero_line < 2d0, "contact area")
+    call expect(abs(area%peak_pressure - 2d0) < 1d-15, "peak pressure")
   end subroutine check_areas
 
   subroutine check_surface()

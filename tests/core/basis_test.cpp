@@ -23,7 +23,8 @@ template <class B> struct BasisTest : testing::Test {
   static constexpr bool smoothed = std::is_same_v<B, CatmullRom4> || std::is_same_v<B, BSpline4> ||
                                    std::is_same_v<B, CatmullRom16> || std::is_same_v<B, BSpline16>;
   static constexpr bool bezier = std::is_same_v<B, Bezier15>;
-  static constexpr bool interpolating = !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16> && !bezier;
+  static constexpr bool interpolating =
+      !std::is_same_v<B, BSpline4> && !std::is_same_v<B, BSpline16> && !bezier;
 
   // The points lie up to z = -1.9 for triangles: quartics of up to 150 there
   static constexpr double rounded = bezier ? 20.0 * rounding : rounding;
@@ -61,21 +62,27 @@ template <class B> struct BasisTest : testing::Test {
 
   // Natural coordinates of node i; of the smoothed bases: its place in the grid of nodes
   static std::array<double, 2> node(int i) {
-    if constexpr (std::is_same_v<B, Line2>) return {2.0 * i - 1.0, 0.0};
-    else if constexpr (std::is_same_v<B, Line3>) return {i == 0 ? -1.0 : (i == 1 ? 1.0 : 0.0), 0.0};
-    else if constexpr (bezier) return {Bezier15::power[i][1] / 4.0, Bezier15::power[i][2] / 4.0};
-    else if constexpr (smoothed) return {2.0 * (i % 4) - 3.0, T == 2 ? 2.0 * (i / 4) - 3.0 : 0.0};
+    if constexpr (std::is_same_v<B, Line2>)
+      return {2.0 * i - 1.0, 0.0};
+    else if constexpr (std::is_same_v<B, Line3>)
+      return {i == 0 ? -1.0 : (i == 1 ? 1.0 : 0.0), 0.0};
+    else if constexpr (bezier)
+      return {Bezier15::power[i][1] / 4.0, Bezier15::power[i][2] / 4.0};
+    else if constexpr (smoothed)
+      return {2.0 * (i % 4) - 3.0, T == 2 ? 2.0 * (i / 4) - 3.0 : 0.0};
     else if constexpr (B::simplex) {
       constexpr double p[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
       return {p[i][0], p[i][1]};
     } else {
-      constexpr double p[9][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}};
+      constexpr double p[9][2] = {{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
+                                  {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
       return {p[i][0], p[i][1]};
     }
   }
 };
 
-using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9, CatmullRom16, BSpline16, Bezier15>;
+using Bases = testing::Types<Line2, Line3, CatmullRom4, BSpline4, Tri3, Tri6, Quad4, Quad8, Quad9,
+                             CatmullRom16, BSpline16, Bezier15>;
 TYPED_TEST_SUITE(BasisTest, Bases);
 
 TYPED_TEST(BasisTest, SumsToOne) {
@@ -95,9 +102,11 @@ TYPED_TEST(BasisTest, SumsToOne) {
   }
 }
 
-// x = sum N_i x_i for the coordinates themselves; the product of quadratics where the basis is complete to that degree
+// x = sum N_i x_i for the coordinates themselves; the product of quadratics where the basis is complete to
+// that degree
 TYPED_TEST(BasisTest, ReproducesPolynomials) {
-  constexpr bool linear = std::is_same_v<TypeParam, Line2> || std::is_same_v<TypeParam, Tri3> || std::is_same_v<TypeParam, Quad4>;
+  constexpr bool linear =
+      std::is_same_v<TypeParam, Line2> || std::is_same_v<TypeParam, Tri3> || std::is_same_v<TypeParam, Quad4>;
   for (const auto& xi : this->points()) {
     const auto s = this->template shape<0>(xi);
     const double x = xi[0], y = this->T == 2 ? xi[static_cast<std::size_t>(this->T - 1)] : 0.0;
@@ -157,11 +166,13 @@ TYPED_TEST(BasisTest, IsOneAtItsOwnNodeAndZeroAtTheOthers) {
     std::array<double, TestFixture::T> xi{};
     for (std::size_t a = 0; a < xi.size(); ++a) xi[a] = p[a];
     const auto s = this->template shape<0>(xi);
-    for (int i = 0; i < TypeParam::nodes; ++i) EXPECT_NEAR(s.n[i], i == j ? 1.0 : 0.0, rounding) << i << " at node " << j;
+    for (int i = 0; i < TypeParam::nodes; ++i)
+      EXPECT_NEAR(s.n[i], i == j ? 1.0 : 0.0, rounding) << i << " at node " << j;
   }
 }
 
-// Every derivative is the derivative of the one before, by dual numbers; and `second`, `third` tell which vanish identically.
+// Every derivative is the derivative of the one before, by dual numbers; and `second`, `third` tell which
+// vanish identically.
 TYPED_TEST(BasisTest, DerivativesFollowFromEachOther) {
   using B = TypeParam;
   constexpr int parameters = TestFixture::T;
@@ -201,8 +212,8 @@ TYPED_TEST(BasisTest, DerivativesFollowFromEachOther) {
 // Asking for less gives the same bits.
 TYPED_TEST(BasisTest, LowerOrdersAreTheSameNumbers) {
   for (const auto& xi : this->points()) {
-    const auto s0 = this->template shape<0>(xi), s1 = this->template shape<1>(xi), s2 = this->template shape<2>(xi),
-               s3 = this->template shape<3>(xi);
+    const auto s0 = this->template shape<0>(xi), s1 = this->template shape<1>(xi),
+               s2 = this->template shape<2>(xi), s3 = this->template shape<3>(xi);
     for (int i = 0; i < TypeParam::nodes; ++i) {
       EXPECT_EQ(s0.n[i], s3.n[i]);
       EXPECT_EQ(s1.n[i], s3.n[i]);
@@ -227,8 +238,10 @@ template <class B> void meets_its_neighbour(int continuity) {
   B::template shape<2>(begin, right);
   for (int i = 0; i < 5; ++i) { // weight of node i of the five
     const double l[3] = {i < 4 ? left.n[i] : 0.0, i < 4 ? left.d1[0][i] : 0.0, i < 4 ? left.d2[0][i] : 0.0};
-    const double r[3] = {i > 0 ? right.n[i - 1] : 0.0, i > 0 ? right.d1[0][i - 1] : 0.0, i > 0 ? right.d2[0][i - 1] : 0.0};
-    for (int order = 0; order <= continuity; ++order) EXPECT_NEAR(l[order], r[order], rounding) << "order " << order << ", node " << i;
+    const double r[3] = {i > 0 ? right.n[i - 1] : 0.0, i > 0 ? right.d1[0][i - 1] : 0.0,
+                         i > 0 ? right.d2[0][i - 1] : 0.0};
+    for (int order = 0; order <= continuity; ++order)
+      EXPECT_NEAR(l[order], r[order], rounding) << "order " << order << ", node " << i;
   }
 }
 

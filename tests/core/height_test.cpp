@@ -233,12 +233,16 @@ template <int T> void expect_dual_parts(const std::vector<Case>& cases) {
     }
 }
 
-// Spacings of 1/2 and samples of order 1: second derivatives of a map reach 9 * 4 / (1/2)^2 = 144, those of the profile 4 / (0.3)^2.
+// Spacings of 1/2 and samples of order 1: second derivatives of a map reach 9 * 4 / (1/2)^2 = 144, those of
+// the profile 4 / (0.3)^2.
 std::vector<Case> with_maps(std::vector<Case> cases, std::int32_t dimension) {
   Random random(9);
   std::vector<double> coefficients;
   for (int i = 0; i < 7; ++i) coefficients.push_back(random(-1.0, 1.0));
-  cases.push_back({"profile", Height::profile(coefficients, dimension == 1 ? std::vector{0.4} : std::vector{-0.3, 0.4}, 0.7), {}});
+  cases.push_back(
+      {"profile",
+       Height::profile(coefficients, dimension == 1 ? std::vector{0.4} : std::vector{-0.3, 0.4}, 0.7),
+       {}});
   for (const MapBoundary boundary : {MapBoundary::periodic, MapBoundary::clamped})
     cases.push_back({"map", Height::map(random_map(dimension, boundary, random)), {}});
   return cases;
@@ -323,7 +327,8 @@ TEST(Height, NaNIsNeverHidden) {
     }
 }
 
-// Straight lines through the corners, but for the rounding on either side of these; inside of the corners; the pitch line.
+// Straight lines through the corners, but for the rounding on either side of these; inside of the corners;
+// the pitch line.
 TEST(Thread, IsStraightBetweenItsRoundedCorners) {
   Random random(6);
   for (int i = 0; i < 200; ++i) {
@@ -337,11 +342,13 @@ TEST(Thread, IsStraightBetweenItsRoundedCorners) {
     const std::vector<double> coefficients = thread_coefficients(p);
     const Height height = Height::profile(coefficients, {1.0 / p.pitch}, 0.0);
 
-    const double slopes = std::tan(p.rising) + std::tan(p.falling), depth = (p.pitch - p.crest - p.root) / slopes;
+    const double slopes = std::tan(p.rising) + std::tan(p.falling),
+                 depth = (p.pitch - p.crest - p.root) / slopes;
     const double fall = depth * std::tan(p.falling), rise = depth * std::tan(p.rising);
-    const double corner[5] = {0.5 * p.crest, 0.5 * p.crest + fall, 0.5 * p.crest + fall + p.root, p.pitch - 0.5 * p.crest,
-                              p.pitch + 0.5 * p.crest};
-    const double ridge = 0.5 * p.pitch - p.crest; // ridge on the pitch line: crest + (what both flanks run) = pitch / 2
+    const double corner[5] = {0.5 * p.crest, 0.5 * p.crest + fall, 0.5 * p.crest + fall + p.root,
+                              p.pitch - 0.5 * p.crest, p.pitch + 0.5 * p.crest};
+    const double ridge =
+        0.5 * p.pitch - p.crest; // ridge on the pitch line: crest + (what both flanks run) = pitch / 2
     const double crest_height = ridge / slopes;
     const auto straight = [&](double x) {
       if (x < corner[0] || x > corner[3]) return crest_height;
@@ -361,8 +368,8 @@ TEST(Thread, IsStraightBetweenItsRoundedCorners) {
       }
       EXPECT_LE(h, crest_height + rounding_error);
       EXPECT_GE(h, crest_height - depth - rounding_error);
-      if (nearest < p.rounding && (s[0] < corner[0] + p.rounding || s[0] > corner[3] - p.rounding) && p.root > 2 * p.rounding &&
-          fall > 2 * p.rounding && rise > 2 * p.rounding) {
+      if (nearest < p.rounding && (s[0] < corner[0] + p.rounding || s[0] > corner[3] - p.rounding) &&
+          p.root > 2 * p.rounding && fall > 2 * p.rounding && rise > 2 * p.rounding) {
         EXPECT_LE(h, lines + rounding_error) << "a crest loses material";
       }
     }

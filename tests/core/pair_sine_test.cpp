@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sine along an iteration: moved from point to point it stays the sine, and every lane moves as the number alone.
+// A sine along an iteration: moved from point to point it stays the sine, and every lane moves as the number
+// alone.
 #include "core/pair_sine.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ using namespace ents::ENTS_ISA;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr SineHeight sine = {0.75, {1.0, 0.0}, 0.0625};
 
-// As an iteration goes: from a first point by steps that are far, next to it, at the border of both, tiny, none.
+// As an iteration goes: from a first point by steps that are far, next to it, at the border of both, tiny,
+// none.
 double step(std::mt19937_64& generator, int i) {
   constexpr double sizes[] = {0.4, 1e-2, next_to, 1e-5, 1e-9, 1e-14, 0.0};
   std::uniform_real_distribution<double> part(0.98, 1.02);

@@ -48,6 +48,13 @@ inline Lanes minus_value(Lanes a, Lanes b) { return a - b; }
 inline Lanes select(LaneMask m, Lanes a, Lanes b) {
   return each_lane([&](int i) { return m.lane[i] ? a.lane[i] : b.lane[i]; });
 }
+inline int store_numbers(const Lanes& x, double* to) {
+  for (int i = 0; i < Lanes::count; ++i) to[i] = x.lane[i];
+  return Lanes::count;
+}
+inline void load_numbers(const double* from, Lanes& x) {
+  for (int i = 0; i < Lanes::count; ++i) x.lane[i] = from[i];
+}
 inline Lanes power_of_two(Lanes n) {
   return each_lane([&](int i) { return power_of_two(n.lane[i]); });
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file of any content is read, or refused with a message that names it: no crash, no other exception, no memory beyond
-// what the size of the file explains.
+// A scene file of any content is read, or refused with a message that names it: no crash, no other exception,
+// no memory beyond what the size of the file explains.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -23,9 +23,9 @@ constexpr double tolerance =
 /// above the tolerance. The residuals are relative to the forces, so the constant compares the second
 /// derivative of the forces with the first, over a step that changes them by as much as themselves: 1 or less
 /// for a gently curved master, and for a rough one as much more as its slope changes between two nodes.
-/// This shows that the iteration converges fast, not that its tangent is exact: on the four gently curved scenes
-/// the terms that the first variation leaves out are so small that it keeps the bound of 1 as well (constants
-/// of 1e-5 to 0.03 with either). AnApproximateTangentIsSeen shows it on the rough one.
+/// This shows that the iteration converges fast, not that its tangent is exact: on the four gently curved
+/// scenes the terms that the first variation leaves out are so small that it keeps the bound of 1 as well
+/// (constants of 1e-5 to 0.03 with either). AnApproximateTangentIsSeen shows it on the rough one.
 double quadratic_constant(const std::vector<double>& residuals, const std::vector<int>& changes) {
   double constant = 0;
   for (std::size_t n = 1; n < residuals.size(); ++n)

@@ -90,6 +90,25 @@ TEST_F(Groove, AStepThatLeavesANodeBehindTheEdgeFails) {
   EXPECT_GT(std::min(lost, held), 15);
 }
 
+// A block that is drawn over the end of a flat master: its nodes leave it in contact. The step fails, whether
+// the iteration has lost them at its begin or on its way; a block that stays, or that is lifted on its way,
+// does not mind.
+TEST_F(Groove, AStepThatDrawsANodeOverTheEndOfTheMasterFails) {
+  Json json = scene(0, 0, 0, 0.02);
+  json["solver"]["min_step"] = 0.05;
+  json["steps"]["values"] = {0.5, 1};
+  for (const double shift : {0.3, 0.45, 0.6, 0.75, 2.1}) {
+    json["supports"][1]["x"] = shift;
+    const std::string failure = failure_of(json, folder_ / "scene.json");
+    EXPECT_EQ(failure.empty(), shift < 0.5) << shift << ": " << failure;
+    if (failure.empty()) continue;
+    EXPECT_NE(failure.find("was in contact and lies beside all segments of the master now"),
+              std::string::npos)
+        << failure;
+    EXPECT_NE(failure.find("let the master reach farther"), std::string::npos) << failure;
+  }
+}
+
 /// A stiff block presses beside a node of a soft block's flat surface, which bends to a concave kink there.
 Json pressed(double from, double to, double depth) {
   const auto part = [](const char* name, const char* material, const Json& x, const Json& y) {

@@ -154,7 +154,8 @@ TEST(StabilityMaps, InSpaceBasesAgree) {
         const Press press = make_press_in_space(0.02, 1, {surface, projection, tangent});
         if (truth.position.empty()) truth = true_path(press);
         const Outcome outcome = solve(library(), press);
-        EXPECT_EQ(outcome.levels.size(), 16u) << word(surface) << ", " << word(projection) << ", " << word(tangent);
+        EXPECT_EQ(outcome.levels.size(), 16u)
+            << word(surface) << ", " << word(projection) << ", " << word(tangent);
         EXPECT_EQ(judged(outcome, press, truth).fate, Fate::solved)
             << word(surface) << ", " << word(projection) << ", " << word(tangent);
       }
@@ -173,8 +174,8 @@ TEST(StabilityMaps, AFoldIsSeenFirst) {
 // The command leaves one page that needs no network, and its data.
 TEST(Chart, LeavesPageAndData) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "ents_chart";
-  const test::ProgramOutput output =
-      test::ents_host("chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + folder.string() + "\"");
+  const test::ProgramOutput output = test::ents_host(
+      "chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + folder.string() + "\"");
   EXPECT_EQ(output.exit_code, 0) << output.text;
   EXPECT_NE(output.text.find("chart: 0 silently wrong"), std::string::npos) << output.text;
   const Json data = parse_json_file(folder / "chart.json");

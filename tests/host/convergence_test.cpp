@@ -40,10 +40,11 @@ void expect_second_order(const std::string& scene, const std::string& divisions)
     EXPECT_GT(row.at("master_dofs"), enriched.at("master_dofs"));
   }
   EXPECT_NEAR(result.at("order").get<double>(), 2, 0.15); // fitted over all: disturbances even out
-  // What the fit promises, the mesh of equal error keeps: within a third, as one more mesh scatters. (One that misses it by more is not
-  // called so, see program_test.cpp.) Nor is it finer than it has to be.
+  // What the fit promises, the mesh of equal error keeps: within a third, as one more mesh scatters. (One
+  // that misses it by more is not called so, see program_test.cpp.) Nor is it finer than it has to be.
   ASSERT_EQ(result.at("explicit_at_equal_error").size(), 1u);
-  const double at_equal_error = result.at("explicit_at_equal_error")[0].at("difference"), error = result.at("equal_error");
+  const double at_equal_error = result.at("explicit_at_equal_error")[0].at("difference"),
+               error = result.at("equal_error");
   std::printf("at equal error: difference %.2e of %.2e\n", at_equal_error, error);
   EXPECT_GT(at_equal_error, 0.75 * error);
 }

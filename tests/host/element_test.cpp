@@ -34,7 +34,8 @@ std::vector<Case> all_cases() {
       for (const auto formulation :
            {Formulation::plane_strain, Formulation::plane_stress, Formulation::axisymmetric})
         cases.push_back({type, formulation, law});
-    for (const auto type : {ElementType::tet4, ElementType::hex8}) cases.push_back({type, Formulation::solid, law});
+    for (const auto type : {ElementType::tet4, ElementType::hex8})
+      cases.push_back({type, Formulation::solid, law});
   }
   return cases;
 }
@@ -98,7 +99,8 @@ protected:
 };
 
 TEST_P(Elements, PatchTest) {
-  // A homogeneous state is in equilibrium whatever the shape of the elements. Axisymmetric: u_r = a r, u_z = b z.
+  // A homogeneous state is in equilibrium whatever the shape of the elements. Axisymmetric: u_r = a r, u_z =
+  // b z.
   Matrix3 H = Matrix3::Zero();
   for (int i = 0; i < static_cast<int>(d_); ++i)
     for (int j = 0; j < static_cast<int>(d_); ++j)
@@ -114,7 +116,8 @@ TEST_P(Elements, PatchTest) {
 TEST_P(Elements, RigidMotionsAreFree) {
   Matrix3 H = Matrix3::Zero(); // finite rotation for finite strains, infinitesimal for small ones
   if (!axisymmetric()) {
-    const Eigen::Vector3d axis = d_ == 2 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(1, -2, 0.5).normalized();
+    const Eigen::Vector3d axis =
+        d_ == 2 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(1, -2, 0.5).normalized();
     if (GetParam().law == Material::Law::neo_hooke)
       H = Eigen::AngleAxisd(0.8, axis).toRotationMatrix() - Matrix3::Identity();
     else
@@ -123,7 +126,8 @@ TEST_P(Elements, RigidMotionsAreFree) {
   std::vector<double> u = linear_field(H, 0);
   for (int n = 0; n < mesh_.node_count(); ++n) // a body of revolution can only move along its axis
     u[static_cast<std::size_t>(n) * d_ + 1] += 0.4;
-  EXPECT_LT(norm(residual(u)), 1e-11 * 210); // displacements of size 3 on elements of 0.3: rounding 1e-15 in H
+  EXPECT_LT(norm(residual(u)),
+            1e-11 * 210); // displacements of size 3 on elements of 0.3: rounding 1e-15 in H
 }
 
 TEST_P(Elements, ResidualAndTangentAreDerivatives) {

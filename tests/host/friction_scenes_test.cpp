@@ -141,8 +141,9 @@ TEST(FrictionScene, IroningOverPlainSegments) {
   EXPECT_GT(cuts(result), 0u);
 }
 
-// An elastic nut on a rigid bolt: the ridges at its ends carry more than those between, most of all the one at the bearing; all
-// together carry the load, on the loaded flanks alone; and 512 plain segments, 73 to a pitch, give the same motion.
+// An elastic nut on a rigid bolt: the ridges at its ends carry more than those between, most of all the one
+// at the bearing; all together carry the load, on the loaded flanks alone; and 512 plain segments, 73 to a
+// pitch, give the same motion.
 TEST(FrictionScene, ThreadSharesItsLoad) {
   const Json result = run_scene("thread", "--nodes");
   const Json &last = result.at("steps").back(), &nodes = last.at("nodes");
@@ -156,8 +157,8 @@ TEST(FrictionScene, ThreadSharesItsLoad) {
       EXPECT_GT(std::fmod(y, pitch), 0.5 * pitch) << "an unloaded flank carries";
     }
   }
-  std::printf("shares of the load, from the bearing on: %.1f %.1f %.1f %.1f %.1f %%\n", 100 * share[0], 100 * share[1], 100 * share[2],
-              100 * share[3], 100 * share[4]);
+  std::printf("shares of the load, from the bearing on: %.1f %.1f %.1f %.1f %.1f %%\n", 100 * share[0],
+              100 * share[1], 100 * share[2], 100 * share[3], 100 * share[4]);
   EXPECT_NEAR(share[0] + share[1] + share[2] + share[3] + share[4], 1, 1e-9);
   EXPECT_GT(share[0], share[4]);
   EXPECT_GT(share[4], share[1]);
@@ -168,7 +169,8 @@ TEST(FrictionScene, ThreadSharesItsLoad) {
   EXPECT_LT(comparison.at("explicit")[0].at("difference").get<double>(), 2e-3);
 }
 
-// The third derivatives of a map jump between its cells, and with them the tangent of friction: that costs no iteration.
+// The third derivatives of a map jump between its cells, and with them the tangent of friction: that costs no
+// iteration.
 TEST(FrictionScene, FrictionOverACubicMap) {
   const auto run = [](const std::function<void(Json&)>& edit) {
     const Scene scene = test::shipped_scene("texture", [&](Json& json) { edit(json["contact"]["model"]); });
@@ -183,8 +185,13 @@ TEST(FrictionScene, FrictionOverACubicMap) {
   constexpr int samples = 16; // of a wave
   const auto as_map = [&](Json& model) {
     const Json& sine = model.at("height");
-    Json map{{"type", "map"}, {"boundary", "periodic"}, {"values", Json::array()}, {"size", {1 / sine.at("wave_vector")[0].get<double>()}}};
-    for (int i = 0; i < samples; ++i) map["values"].push_back(sine.at("amplitude").get<double>() * std::sin(2 * std::numbers::pi * i / samples));
+    Json map{{"type", "map"},
+             {"boundary", "periodic"},
+             {"values", Json::array()},
+             {"size", {1 / sine.at("wave_vector")[0].get<double>()}}};
+    for (int i = 0; i < samples; ++i)
+      map["values"].push_back(sine.at("amplitude").get<double>() *
+                              std::sin(2 * std::numbers::pi * i / samples));
     model["height"] = map;
   };
   const std::vector<StepRecord> wave = run([](Json&) {}), map = run(as_map);
@@ -192,8 +199,8 @@ TEST(FrictionScene, FrictionOverACubicMap) {
     as_map(model);
     model["tangent"] = "first_variation";
   });
-  std::printf("iterations: %d over a sine, %d over its map, %d with first variations alone\n", iterations(wave), iterations(map),
-              iterations(map_without));
+  std::printf("iterations: %d over a sine, %d over its map, %d with first variations alone\n",
+              iterations(wave), iterations(map), iterations(map_without));
   EXPECT_NEAR(iterations(map), iterations(wave), 0.02 * iterations(wave));
   EXPECT_GT(iterations(map_without), 1.1 * iterations(map));
   EXPECT_NEAR(map.back().force, wave.back().force, 1e-3 * wave.back().force);

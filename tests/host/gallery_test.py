@@ -44,6 +44,17 @@ class Gallery(unittest.TestCase):
             self.assertIn("MISSED slope: moved differs by", done.stderr)
             self.assertIn("MISSED", (self.folder / "out/gallery.md").read_text())
 
+    def test_a_variant_and_steps_that_do_not_count(self):
+        entry = {"scene": "patch_test", "variant": "sampling3", "checks": [{"quantity": "largest pressure", "exact": "uniform", "bound": 0.02}]}
+        done = self.run_gallery([entry])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("| patch_test_sampling3 | largest pressure |", (self.folder / "out/gallery.md").read_text())
+        self.assertTrue((self.folder / "out/patch_test_sampling3/result.json").is_file())
+        entry["checks"][0]["from"] = 1e9
+        done = self.run_gallery([entry])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('no step has an exact "largest pressure"', done.stderr)
+
     def test_a_quantity_that_is_not_there(self):
         done = self.run_gallery([{"scene": "slope", "checks": [{"quantity": "speed", "exact": "none", "bound": 1}]}])
         self.assertEqual(done.returncode, 1)

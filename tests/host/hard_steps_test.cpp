@@ -109,7 +109,8 @@ TEST(HardSteps, ADegenerateSegmentStillFails) {
       JobError);
 }
 
-// A body that is only carried along has no forces but rounding: the residual cannot fall below a part of them.
+// A body that is only carried along has no forces but rounding: the residual cannot fall below a part of
+// them.
 TEST(HardSteps, ABodyWithoutStressIsInEquilibrium) {
   test::Random random(5);
   for (int i = 0; i < 200; ++i) {

@@ -57,7 +57,7 @@ TEST(JsonReader, TheOutermostValueIsAnObject) {
 }
 
 TEST(JsonReader, MillionsOfObjectsAreRefusedBeforeTheyAreInMemory) {
-  std::string many = "["; // GCC 12 warns falsely of "[" + std::string
+  std::string many = "[";                           // GCC 12 warns falsely of "[" + std::string
   (many += repeated("{\"\":0},", 8000000)) += "0]"; // 56 MB
   const double before = peak();
   EXPECT_EQ(message(many), "file: an object is expected, this is array");

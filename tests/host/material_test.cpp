@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stress is the derivative of the energy and the tangent that of the stress: the remainder of a Taylor expansion must
-// fall at its order.
+// Stress is the derivative of the energy and the tangent that of the stress: the remainder of a Taylor
+// expansion must fall at its order.
 #include "material.hpp"
 
 #include <Eigen/Geometry>
@@ -41,8 +41,8 @@ TEST_P(FiniteStrain, StressAndTangentAreDerivatives) {
                                      0.5 * h * h * step.dot(point.tangent * step));
       stress_remainder[k] = (flat(moved.stress) - flat(point.stress) - h * (point.tangent * step)).norm();
     }
-    // A tenth of the step leaves a thousandth (hundredth) of a remainder of third (second) order; the next order
-    // of the expansion changes that by less than the factor e^{1/2} allowed here.
+    // A tenth of the step leaves a thousandth (hundredth) of a remainder of third (second) order; the next
+    // order of the expansion changes that by less than the factor e^{1/2} allowed here.
     EXPECT_LT(energy_remainder[1], energy_remainder[0] * 1e-3 * 1.65);
     EXPECT_LT(stress_remainder[1], stress_remainder[0] * 1e-2 * 1.65);
   }
@@ -71,7 +71,8 @@ TEST_P(FiniteStrain, StressVanishesUnderRotation) {
 
 TEST(Material, PlaneStressHasNone) {
   test::Random random(3);
-  for (const auto law : {Material::Law::linear_elastic, Material::Law::st_venant_kirchhoff, Material::Law::neo_hooke}) {
+  for (const auto law :
+       {Material::Law::linear_elastic, Material::Law::st_venant_kirchhoff, Material::Law::neo_hooke}) {
     const Material material{law, 210, 0.3};
     for (int sample = 0; sample < 20; ++sample) {
       Matrix3 gradient = random_gradient(random, 0.2);
@@ -82,8 +83,8 @@ TEST(Material, PlaneStressHasNone) {
       ASSERT_TRUE(evaluate_plane_stress(material, solved, true, point));
       ASSERT_TRUE(evaluate(material, solved, false, check));
       EXPECT_LT(std::abs(check.stress(2, 2)), 1e-12 * material.young);
-      // The condensed tangent is the derivative of the in-plane stress along P_33 = 0: central difference, error
-      // h^2 = 1e-10 times third derivatives of order one, rounding 1e-16 / h = 1e-11.
+      // The condensed tangent is the derivative of the in-plane stress along P_33 = 0: central difference,
+      // error h^2 = 1e-10 times third derivatives of order one, rounding 1e-16 / h = 1e-11.
       const double h = 1e-5;
       for (const int entry : {0, 1, 3, 4}) {
         Matrix3 plus = gradient, minus = gradient;
@@ -111,7 +112,8 @@ TEST_P(FiniteStrain, InsideOutIsRefused) {
 INSTANTIATE_TEST_SUITE_P(Material, FiniteStrain,
                          testing::Values(Material::Law::st_venant_kirchhoff, Material::Law::neo_hooke),
                          [](const auto& test) {
-                           return test.param == Material::Law::neo_hooke ? "neo_hooke" : "st_venant_kirchhoff";
+                           return test.param == Material::Law::neo_hooke ? "neo_hooke"
+                                                                         : "st_venant_kirchhoff";
                          });
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-
 namespace host {
 namespace {
 

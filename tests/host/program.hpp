@@ -32,7 +32,9 @@ inline ProgramOutput run_in_shell(const std::string& line) {
 }
 
 /// ents-host with arguments as typed in a shell.
-inline ProgramOutput ents_host(const std::string& arguments) { return run_in_shell("\"" ENTS_HOST "\" " + arguments); }
+inline ProgramOutput ents_host(const std::string& arguments) {
+  return run_in_shell("\"" ENTS_HOST "\" " + arguments);
+}
 
 /// The JSON result of a scene of examples/.
 inline Json run_scene(const std::string& name, const std::string& options = "") {

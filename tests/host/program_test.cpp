@@ -19,7 +19,9 @@ std::string quoted(const fs::path& file) { return std::string("'").append(file.s
 
 class Program : public testing::Test {
 protected:
-  Program() : folder_(fs::temp_directory_path() / (std::string("ents_program_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+  Program()
+      : folder_(fs::temp_directory_path() / (std::string("ents_program_") +
+                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -60,7 +62,8 @@ protected:
   }
   static void expect(const ProgramOutput& output, int exit_code, const std::vector<std::string>& words) {
     EXPECT_EQ(output.exit_code, exit_code) << output.text;
-    for (const std::string& word : words) EXPECT_NE(output.text.find(word), std::string::npos) << word << "\n" << output.text;
+    for (const std::string& word : words)
+      EXPECT_NE(output.text.find(word), std::string::npos) << word << "\n" << output.text;
   }
 
   fs::path folder_;
@@ -75,30 +78,44 @@ TEST_F(Program, NamesACommandItDoesNotKnow) {
 
 TEST_F(Program, NamesAnOptionItDoesNotKnowAndTheOneThatWasMeant) {
   const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
-  expect(ents_host("run " + scene + " --outt x"), 2, {"ents-host run: unknown option --outt; did you mean --out?\n"});
-  expect(ents_host("run --no-picture=1 " + scene), 2, {"ents-host run: unknown option --no-picture; did you mean --no-pictures?\n"});
+  expect(ents_host("run " + scene + " --outt x"), 2,
+         {"ents-host run: unknown option --outt; did you mean --out?\n"});
+  expect(ents_host("run --no-picture=1 " + scene), 2,
+         {"ents-host run: unknown option --no-picture; did you mean --no-pictures?\n"});
   expect(ents_host("run --helpp"), 2, {"ents-host run: unknown option --helpp; did you mean --help?\n"});
-  expect(ents_host("check " + model + " --colour red"), 2, {"ents-host check: unknown option --colour\n", "ents-host check --help"});
-  expect(ents_host("run " + scene + " other.json more.json"), 2, {"ents-host run: unexpected argument \"other.json\"\n"});
+  expect(ents_host("check " + model + " --colour red"), 2,
+         {"ents-host check: unknown option --colour\n", "ents-host check --help"});
+  expect(ents_host("run " + scene + " other.json more.json"), 2,
+         {"ents-host run: unexpected argument \"other.json\"\n"});
   expect(ents_host("run"), 2, {"ents-host run: scene is required"});
 }
 
 TEST_F(Program, HelpOfACommandBeginsWithItsNameAndSaysWhatItTells) {
   expect(ents_host("--help"), 0, {"Usage: ents-host [OPTIONS] SUBCOMMAND\n"});
-  expect(ents_host("run --help"), 0, {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps", "abi/model.schema.json",
-                                    "tangential over normal force is mu / (1 - kappa |g|)", "checkpoint_before.json"});
+  expect(ents_host("run --help"), 0,
+         {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps",
+          "abi/model.schema.json", "tangential over normal force is mu / (1 - kappa |g|)",
+          "checkpoint_before.json"});
   const ProgramOutput verify = ents_host("verify --help"), variants = ents_host("variants --help");
-  expect(verify, 0, {"Usage: ents-host verify [OPTIONS] files...\n",
-                     "Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above --tolerance"});
-  expect(variants, 0, {"Usage: ents-host variants [OPTIONS] scene\n", "The first row, \"as it is\", is the scene", "Columns: "});
-  for (const ProgramOutput& output : {verify, variants}) EXPECT_EQ(output.text.find("ents-host chart"), std::string::npos) << output.text;
+  expect(verify, 0,
+         {"Usage: ents-host verify [OPTIONS] files...\n",
+          "Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above "
+          "--tolerance"});
+  expect(variants, 0,
+         {"Usage: ents-host variants [OPTIONS] scene\n", "The first row, \"as it is\", is the scene",
+          "Columns: "});
+  for (const ProgramOutput& output : {verify, variants})
+    EXPECT_EQ(output.text.find("ents-host chart"), std::string::npos) << output.text;
 }
 
 // The scripts answer by their own names, before they do anything.
 TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
-  const auto script = [](const std::string& command) { return run_in_shell("sh \"" EXAMPLES "/../" + command); };
+  const auto script = [](const std::string& command) {
+    return run_in_shell("sh \"" EXAMPLES "/../" + command);
+  };
   for (const char* options : {"--target", "-DA=1 --target ents", "--target -DA=1"})
-    expect(script(std::string("examples/setup.sh\" ") + options), 2, {"setup.sh: --target needs a NAME and stands before -D..."});
+    expect(script(std::string("examples/setup.sh\" ") + options), 2,
+           {"setup.sh: --target needs a NAME and stands before -D..."});
   expect(script("examples/setup.sh\" --with"), 2, {"setup.sh: --with needs a PACKAGE"});
   for (const char* options : {"--foo", "-DA=1 --foo", "foo"}) {
     const ProgramOutput output = script(std::string("tests/run.sh\" ") + options);
@@ -111,7 +128,8 @@ TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
 TEST_F(Program, AnOutputFolderThatCannotBeIsToldFirst) {
   const std::string scene = write("small.json", small()), file = write_text("afile", "");
   const std::string model = write("model.json", {{"segment", "line2"}});
-  for (const std::string& command : {"run " + scene, "run " + scene + " --compare 3,6", "check " + model, std::string("chart")}) {
+  for (const std::string& command :
+       {"run " + scene, "run " + scene + " --compare 3,6", "check " + model, std::string("chart")}) {
     const ProgramOutput output = ents_host(command + " --out " + file);
     expect(output, 2, {"--out", "afile is a file; name a folder"});
     EXPECT_EQ(output.text.find("enriched segment"), std::string::npos) << output.text; // nothing was computed
@@ -126,13 +144,15 @@ TEST_F(Program, AFailedStepLeavesWhatWasSolvedBefore) {
   write("whole.json", small());
   ASSERT_EQ(ents_host("run " + path("whole.json") + out).exit_code, 0); // an older run in the same folder
   EXPECT_EQ(read("out/result.json").at("failure"), nullptr);
-  expect(ents_host("run " + scene + out), 1, {"mean pressure", "FAILED at step 3 of 3", "step 3 cannot be solved"});
+  expect(ents_host("run " + scene + out), 1,
+         {"mean pressure", "FAILED at step 3 of 3", "step 3 cannot be solved"});
   const Json result = read("out/result.json");
   EXPECT_EQ(result.at("steps").size(), 2u);
   EXPECT_EQ(result.at("failure").at("step"), 3);
   EXPECT_NE(result.at("failure").at("reason").get<std::string>().find("penetration"), std::string::npos);
   EXPECT_EQ(read("out/checkpoint.json").at("step"), 2);
-  // also on stdout; and where a part of the third step was taken before the next one failed, the state is still that after the second
+  // also on stdout; and where a part of the third step was taken before the next one failed, the state is
+  // still that after the second
   Json partly = failing();
   partly["steps"]["values"][2] = 0.2;
   const std::string command = "run " + write("partly.json", partly) + " --json --cut random --seed 12";
@@ -145,14 +165,16 @@ TEST_F(Program, AFailedStepLeavesWhatWasSolvedBefore) {
   // nothing solved: files of the older run must not look like this one's
   Json hopeless = failing();
   hopeless["steps"]["values"] = {0.05};
-  expect(ents_host("run " + write("scene.json", hopeless) + out), 1, {"FAILED at step 1 of 1", "nothing is solved"});
+  expect(ents_host("run " + write("scene.json", hopeless) + out), 1,
+         {"FAILED at step 1 of 1", "nothing is solved"});
   EXPECT_EQ(read("out/result.json").at("steps").size(), 0u);
   EXPECT_FALSE(fs::exists(folder_ / "out" / "result.pvd"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "checkpoint.json"));
 }
 
 TEST_F(Program, ARestartKeepsTheStepsBefore) {
-  const std::string out = " --no-pictures --out " + path("out"), restart = " --restart " + path("out/checkpoint.json");
+  const std::string out = " --no-pictures --out " + path("out"),
+                    restart = " --restart " + path("out/checkpoint.json");
   const std::string scene = write("scene.json", three());
   ASSERT_EQ(ents_host("run " + scene + out + " --last-step 1").exit_code, 0);
   fs::copy(folder_ / "out", folder_ / "kept");
@@ -166,14 +188,18 @@ TEST_F(Program, ARestartKeepsTheStepsBefore) {
   for (const char* file : {"result_bulk_0001.vtu", "result_bulk_0002.vtu", "result_bulk_0003.vtu"})
     EXPECT_NE(text("out/result.pvd").find(file), std::string::npos) << file;
   // elsewhere: the later steps alone
-  ASSERT_EQ(ents_host("run " + scene + " --no-pictures --out " + path("other") + " --restart " + path("kept/checkpoint.json")).exit_code, 0);
+  ASSERT_EQ(ents_host("run " + scene + " --no-pictures --out " + path("other") + " --restart " +
+                      path("kept/checkpoint.json"))
+                .exit_code,
+            0);
   EXPECT_EQ(read("other/result.json").at("steps").size(), 2u);
   expect(ents_host("run " + scene + restart), 2, {"the run is finished"});
 }
 
 // What a user changes after a failure is taken; another scene is not.
 TEST_F(Program, ACheckpointOfAnotherSceneIsRefused) {
-  const std::string scene = write("scene.json", three()), restart = " --restart " + path("out/checkpoint.json");
+  const std::string scene = write("scene.json", three()),
+                    restart = " --restart " + path("out/checkpoint.json");
   ASSERT_EQ(ents_host("run " + scene + " --last-step 2 --no-pictures --out " + path("out")).exit_code, 0);
   const auto go_on = [&](const std::function<void(Json&)>& edit) {
     Json json = three();
@@ -185,7 +211,10 @@ TEST_F(Program, ACheckpointOfAnotherSceneIsRefused) {
   expect(go_on([](Json& j) { j["contact"]["model"]["height"]["coefficients"][2] = -0.06; }), 2,
          {"/contact/model/height/coefficients/2 is -0.05 there and -0.06 here"});
   expect(go_on([](Json& j) { j["thickness"] = 2; }), 2, {"/thickness is not there and 2 here"});
-  expect(go_on([](Json& j) { j["steps"]["values"] = {0.25, 0.6, 0.75}; }), 2, {"/steps/values: step 2 is 0.5000 there and 0.6000"});
+  expect(go_on([](Json& j) {
+           j["steps"]["values"] = {0.25, 0.6, 0.75};
+         }),
+         2, {"/steps/values: step 2 is 0.5000 there and 0.6000"});
   expect(go_on([](Json& j) { j["steps"]["values"] = {0.25}; }), 2, {"after step 2, the scene has 1"});
   expect(ents_host("run " + scene + " --explicit 8" + restart), 2, {"another master surface"});
   expect(go_on([](Json& j) { j["steps"]["values"] = {0.25, 0.5, 0.6, 0.7, 0.75}; }), 0, {"step 5/5"});
@@ -195,8 +224,10 @@ TEST_F(Program, ACheckpointOfAnotherSceneIsRefused) {
            j["contact"]["model"]["tangent"] = "small_gap";
            j["title"] = "again";
            j.erase("compare");
-         }), 0, {"step 3/3"});
-  expect(ents_host("run " + scene + " --restart " + scene), 2, {"this is no checkpoint", "checkpoint.json that a run leaves"});
+         }),
+         0, {"step 3/3"});
+  expect(ents_host("run " + scene + " --restart " + scene), 2,
+         {"this is no checkpoint", "checkpoint.json that a run leaves"});
 }
 
 // Files on a full disk: the table all the same, then what could not be written.
@@ -216,17 +247,21 @@ TEST_F(Program, AFileThatCannotBeWrittenDoesNotCostTheTable) {
 TEST_F(Program, AnAnswerThatCannotBeWrittenIsAFailure) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full, the file of Linux that is always full";
   const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
-  for (const std::string& command : {"run " + scene, "run " + scene + " --json", "check " + model, std::string("--help")})
-    expect(ents_host(command + " >/dev/full 2>" + path("errors") + "; code=$?; cat " + path("errors") + "; exit $code; :"), 1,
-           {"stdout cannot be written"});
+  for (const std::string& command :
+       {"run " + scene, "run " + scene + " --json", "check " + model, std::string("--help")})
+    expect(ents_host(command + " >/dev/full 2>" + path("errors") + "; code=$?; cat " + path("errors") +
+                     "; exit $code; :"),
+           1, {"stdout cannot be written"});
 }
 
 TEST_F(Program, NumbersOfOptionsAreNamedWithWhatIsWanted) {
   const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
   for (const char* value : {"-1", "inf", "nan", "0", "x"})
-    expect(ents_host("check " + model + " --reach " + value), 2, {"--reach: a number > 0 is expected, this is \"" + std::string(value) + "\""});
+    expect(ents_host("check " + model + " --reach " + value), 2,
+           {"--reach: a number > 0 is expected, this is \"" + std::string(value) + "\""});
   for (const char* value : {"0", "1.5", "99999999999"})
-    expect(ents_host("run " + scene + " --last-step " + value), 2, {"--last-step: an integer from 1 to 1000000 is expected"});
+    expect(ents_host("run " + scene + " --last-step " + value), 2,
+           {"--last-step: an integer from 1 to 1000000 is expected"});
   expect(ents_host("run " + scene + " --cut random --seed -1"), 2, {"--seed: an integer from 0"});
   expect(ents_host("run " + scene + " --compare 3,0"), 2, {"--compare: integers from 1 to 100000"});
 }
@@ -245,7 +280,8 @@ TEST_F(Program, CompareLeavesTheSceneItsPlace) {
   json["compare"] = {{"divisions", {3, 6}}, {"error", 0.5}};
   const std::string scene = write("small.json", json);
   expect(ents_host("run --compare " + scene), 0, {"explicit 3", "explicit 6", "with order"});
-  expect(ents_host("run --compare 4,8 " + scene), 0, {"explicit 4", "explicit 8", "do not fall"}); // both have a node in the middle
+  expect(ents_host("run --compare 4,8 " + scene), 0,
+         {"explicit 4", "explicit 8", "do not fall"}); // both have a node in the middle
   const ProgramOutput one = ents_host("run " + scene + " --compare 3");
   expect(one, 0, {"one mesh shows no order"});
   EXPECT_EQ(one.text.find("with order"), std::string::npos) << one.text;
@@ -256,10 +292,12 @@ TEST_F(Program, CompareLeavesTheSceneItsPlace) {
 TEST_F(Program, AMeshOfTheFitThatCannotBeSolvedDoesNotCostTheTable) {
   Json json = small();
   json["compare"] = {{"divisions", {3, 5}}, {"error", 0.3}};
-  json["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e5; // penetrations 2e-6, 9e-6; 2.7e-5 (enriched); 5e-5 (two segments)
+  json["contact"]["model"]["contact"]["normal"]["stiffness"] =
+      1e5; // penetrations 2e-6, 9e-6; 2.7e-5 (enriched); 5e-5 (two segments)
   json["contact"]["model"]["penetration_limit"] = 4e-5;
   const std::string command = "run --compare " + write("small.json", json);
-  expect(ents_host(command), 0, {"explicit 3", "explicit 5", "cannot be solved, 2 segments per direction: step 1", "penetrat"});
+  expect(ents_host(command), 0,
+         {"explicit 3", "explicit 5", "cannot be solved, 2 segments per direction: step 1", "penetrat"});
   const Json result = Json::parse(ents_host(command + " --json").text);
   EXPECT_EQ(result.at("explicit").size(), 2u);
   EXPECT_EQ(result.at("explicit_unsolved").get<std::string>().rfind("2 segments", 0), 0u);
@@ -280,7 +318,8 @@ TEST_F(Program, EqualErrorIsOnlySaidWhereItHolds) {
     for (const Json& row : missed) EXPECT_GT(row.at("difference").get<double>(), 1.33 * 5e-6);
     const ProgramOutput text = ents_host(command);
     EXPECT_EQ(text.text.find(", equal error") != std::string::npos, !reached.empty()) << text.text;
-    EXPECT_EQ(text.text.find("is not reached: the fit asks for") != std::string::npos, reached.empty()) << text.text;
+    EXPECT_EQ(text.text.find("is not reached: the fit asks for") != std::string::npos, reached.empty())
+        << text.text;
   }
 }
 
@@ -294,9 +333,11 @@ TEST_F(Program, AStepThatCannotBeSolvedSaysWhatMayHelp) {
          {"the residual does not fall any more: lower " + stiffness + " or raise /solver/tolerance\n"});
   Json soft = small();
   soft["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e-3;
-  expect(ents_host("run " + write("scene.json", soft)), 1,
-         {"penetration exceeds", "; take smaller steps, or see /solver/min_step, or raise " + stiffness + "\n"});
-  expect(ents_host("run \"" EXAMPLES "/chatter/scene.json\""), 1, {"; nodes open and close in turn: see examples/chatter (power or exponential law)\n"});
+  expect(
+      ents_host("run " + write("scene.json", soft)), 1,
+      {"penetration exceeds", "; take smaller steps, or see /solver/min_step, or raise " + stiffness + "\n"});
+  expect(ents_host("run \"" EXAMPLES "/chatter/scene.json\""), 1,
+         {"; nodes open and close in turn: see examples/chatter (power or exponential law)\n"});
 }
 
 TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
@@ -304,39 +345,53 @@ TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
     Json normal = {{"type", law}};
     if (std::string(law) != "exponential") normal["stiffness"] = 1;
     const std::vector<int> none(residuals.size(), 0);
-    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches), none}, {{"contact", {{"normal", normal}}}});
+    return advice_if_stuck({residuals, std::vector<int>(residuals.size(), switches), none},
+                           {{"contact", {{"normal", normal}}}});
   };
-  const std::vector<double> still{1, 0.1, 1.2e-8, 3e-9, 5.9e-8, 1.2e-8, 4e-9, 1.2e-8, 1.2e-8, 5.9e-8}, in_turn{1, .5, .2, .1, .2, .1, .2, .1, .2, .1};
+  const std::vector<double> still{1, 0.1, 1.2e-8, 3e-9, 5.9e-8, 1.2e-8, 4e-9, 1.2e-8, 1.2e-8, 5.9e-8},
+      in_turn{1, .5, .2, .1, .2, .1, .2, .1, .2, .1};
   EXPECT_EQ(advice(still, 0).substr(0, 40), "the residual does not fall any more: low");
   EXPECT_EQ(advice(still, 0, "exponential"), "the residual does not fall any more: raise /solver/tolerance");
-  EXPECT_EQ(advice_if_stuck({still, std::vector<int>(still.size(), 0), std::vector<int>(still.size(), 0)}, Json()), "the residual does not fall any more: raise /solver/tolerance");
+  EXPECT_EQ(
+      advice_if_stuck({still, std::vector<int>(still.size(), 0), std::vector<int>(still.size(), 0)}, Json()),
+      "the residual does not fall any more: raise /solver/tolerance");
   EXPECT_EQ(advice(in_turn, 1).substr(0, 18), "nodes open and clo");
   EXPECT_EQ(advice(in_turn, 0), "");                // no node opens or closes
   EXPECT_EQ(advice(in_turn, 1, "exponential"), ""); // a law that begins smoothly already
   EXPECT_EQ(advice({1, 1e-9, 1e-9, 1e-9}, 0), "");  // too few to tell
   std::vector<double> slow{1e-4}, growing{1e-9}, lost{0.5};
-  for (int i = 0; i < 12; ++i) slow.push_back(0.7 * slow.back()), growing.push_back(5 * growing.back()), lost.push_back(i % 3 == 0 ? 0.7 : 0.4);
+  for (int i = 0; i < 12; ++i)
+    slow.push_back(0.7 * slow.back()), growing.push_back(5 * growing.back()),
+        lost.push_back(i % 3 == 0 ? 0.7 : 0.4);
   for (const auto& residuals : {slow, growing, lost}) EXPECT_EQ(advice(residuals, 0), "") << residuals.back();
 }
 
-// Asked before the mesh is made: later there is no more than "bad_alloc", or the operating system ends the program.
+// Asked before the mesh is made: later there is no more than "bad_alloc", or the operating system ends the
+// program.
 TEST_F(Program, AMeshThatDoesNotFitIsRefusedByItsKey) {
   Json json = small();
-  for (const char* axis : {"x", "y"}) json["parts"][0][axis]["pieces"] = {{{"to", *axis == 'x' ? 10 : 0}, {"divisions", 100000}}};
-  expect(ents_host("run " + write("large.json", json)), 2, {"large.json: /parts/0: /x, /y: 100000 x 100000 divisions", "GB of memory"});
+  for (const char* axis : {"x", "y"})
+    json["parts"][0][axis]["pieces"] = {{{"to", *axis == 'x' ? 10 : 0}, {"divisions", 100000}}};
+  expect(ents_host("run " + write("large.json", json)), 2,
+         {"large.json: /parts/0: /x, /y: 100000 x 100000 divisions", "GB of memory"});
   Json solid = parse_json_file(fs::path(EXAMPLES) / "hertz3d" / "scene.json");
-  expect(ents_host("run " + write("solid.json", solid) + " --explicit 100000"), 2, {"--explicit", "100000 x 100000 segments need at least"});
-  // The shell's limit: refused by the key where the mesh alone is too large, else told when memory is used up.
+  expect(ents_host("run " + write("solid.json", solid) + " --explicit 100000"), 2,
+         {"--explicit", "100000 x 100000 segments need at least"});
+  // The shell's limit: refused by the key where the mesh alone is too large, else told when memory is used
+  // up.
   for (Json& piece : json["parts"][0]["x"]["pieces"]) piece["divisions"] = 300;
   for (Json& piece : json["parts"][0]["y"]["pieces"]) piece["divisions"] = 300;
   const std::string scene = write("middle.json", json);
   int refused = 0, used_up = 0;
   for (const int megabytes : {50, 80, 120, 180, 240}) {
-    const ProgramOutput output = run_in_shell("ulimit -v " + std::to_string(megabytes * 1024) + "; exec \"" ENTS_HOST "\" run " + scene);
+    const ProgramOutput output = run_in_shell("ulimit -v " + std::to_string(megabytes * 1024) +
+                                              "; exec \"" ENTS_HOST "\" run " + scene);
     if (output.text.find("shared object") != std::string::npos) continue; // not even the program fits
     refused += output.exit_code == 2;
     used_up += output.exit_code == 1;
-    EXPECT_NE(output.text.find(output.exit_code == 2 ? "/parts/0: /x, /y: 300 x 300 divisions" : "too large for the machine's memory"), std::string::npos)
+    EXPECT_NE(output.text.find(output.exit_code == 2 ? "/parts/0: /x, /y: 300 x 300 divisions"
+                                                     : "too large for the machine's memory"),
+              std::string::npos)
         << megabytes << " MB: " << output.text;
     EXPECT_EQ(output.text.find("singular"), std::string::npos) << output.text;
   }
@@ -351,9 +406,11 @@ TEST_F(Program, WhatIsNoSceneIsRefusedBeforeItFillsTheMemory) {
   json["contact"]["model"]["height"] = "deep";
   std::string text = json.dump();
   text.replace(text.find("\"deep\""), 6, deep);
-  expect(ents_host("run " + write_text("deep.json", text)), 2, {"deep.json: objects and arrays lie more than 100 levels deep"});
-  expect(ents_host("run " + write("small.json", small()) + " --restart " + write_text("checkpoint.json", "{\"displacement\":" + std::string(100000, '[') + "0")), 2,
-         {"checkpoint.json: objects and arrays lie more than 100 levels deep"});
+  expect(ents_host("run " + write_text("deep.json", text)), 2,
+         {"deep.json: objects and arrays lie more than 100 levels deep"});
+  expect(ents_host("run " + write("small.json", small()) + " --restart " +
+                   write_text("checkpoint.json", "{\"displacement\":" + std::string(100000, '[') + "0")),
+         2, {"checkpoint.json: objects and arrays lie more than 100 levels deep"});
 }
 
 TEST_F(Program, MistakesInFilesAreNamed) {
@@ -365,13 +422,16 @@ TEST_F(Program, MistakesInFilesAreNamed) {
   json = small();
   json["parts"][0] = {{"name", "block"}, {"material", "block"}, {"deck", "nope.inp"}};
   json.erase("variants");
-  expect(ents_host("run " + write("scene.json", json)), 2, {"scene.json: /parts/0/deck: ", "nope.inp: cannot be read"});
+  expect(ents_host("run " + write("scene.json", json)), 2,
+         {"scene.json: /parts/0/deck: ", "nope.inp: cannot be read"});
   expect(ents_host("run " + path("")), 2, {"this is a folder"});
   expect(ents_host("check " + write("scene.json", small())), 2, {"this is a scene", "/contact/model"});
   const std::string model = write("model.json", {{"segment", "line2"}});
-  expect(ents_host("check " + model + " --mesh " + write_text("empty.inp", "")), 2, {"empty.inp: no mesh; expected *NODE"});
-  expect(ents_host("check " + model + " --mesh " + write_text("typo.inp", "*NOED\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n")), 2,
-         {"not understood and skipped: *NOED (", "typo.inp:1)"});
+  expect(ents_host("check " + model + " --mesh " + write_text("empty.inp", "")), 2,
+         {"empty.inp: no mesh; expected *NODE"});
+  expect(ents_host("check " + model + " --mesh " +
+                   write_text("typo.inp", "*NOED\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n")),
+         2, {"not understood and skipped: *NOED (", "typo.inp:1)"});
 }
 
 TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
@@ -385,26 +445,31 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   json["contact"]["master"]["direction"] = {0, 1};
   expect(ents_host("run " + write("scene.json", json)), 1, {"no slave node", "direction"});
   json["steps"] = {{"control", "approach"}, {"values", {0.0005}}}; // solved, for nothing is in the way
-  expect(ents_host("run " + write("scene.json", json)), 0, {"no slave node was in contact", "order of its nodes"});
+  expect(ents_host("run " + write("scene.json", json)), 0,
+         {"no slave node was in contact", "order of its nodes"});
   json["contact"]["master"]["direction"] = {0, -1};
   const ProgramOutput good = ents_host("run " + write("scene.json", json));
   expect(good, 0, {});
   EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
 }
 
-// A forgotten "length_unit" leaves a speck of a map: said before the run, whose result looks like a master that faces away.
+// A forgotten "length_unit" leaves a speck of a map: said before the run, whose result looks like a master
+// that faces away.
 TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
   write_text("profile.txt", "# Channel: z\n# Width: 4 mm\n# Height: 1 mm\n# Value units: m\n"
                             "1e-5 2e-5 3e-5 4e-5 5e-5 4e-5 3e-5 2e-5 1e-5 1e-5\n");
   const auto scene = [&](const Json& more) {
     Json json = small();
-    json["contact"]["model"]["height"] = {{"type", "map"}, {"file", "profile.txt"}, {"boundary", "clamped"}, {"origin", {-1.5}}};
+    json["contact"]["model"]["height"] = {
+        {"type", "map"}, {"file", "profile.txt"}, {"boundary", "clamped"}, {"origin", {-1.5}}};
     json["contact"]["model"]["height"].update(more);
     json.erase("exact");
     json["steps"] = {{"control", "approach"}, {"values", {1e-4}}};
     return write("scene.json", json);
   };
-  const std::string warning = "ents-host: warning: the map /contact/model/height covers only a part of the segments", good = scene({{"length_unit", 1e-3}});
+  const std::string
+      warning = "ents-host: warning: the map /contact/model/height covers only a part of the segments",
+      good = scene({{"length_unit", 1e-3}});
   for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
     const ProgramOutput fine = ents_host("run " + good + more);
     EXPECT_EQ(fine.text.find("warning"), std::string::npos) << fine.text;
@@ -413,18 +478,21 @@ TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
   for (const char* more : {"", " --explicit 8", " --compare 4,8", " --json"}) {
     const ProgramOutput output = ents_host("run " + bad + more);
     EXPECT_NE(output.text.find(warning), std::string::npos) << output.text;
-    EXPECT_LT(output.text.find(warning), output.text.find("step 1")) << output.text; // before anything is solved
+    EXPECT_LT(output.text.find(warning), output.text.find("step 1"))
+        << output.text; // before anything is solved
   }
   const ProgramOutput json = ents_host("run " + bad + " --json 2>/dev/null; exit $?; :");
   EXPECT_TRUE(Json::accept(json.text)) << json.text;
 }
 
-// Of a master that deforms the faces say where the segments lie; the outer nodes of smoothed ones are its neighbours'.
+// Of a master that deforms the faces say where the segments lie; the outer nodes of smoothed ones are its
+// neighbours'.
 TEST_F(Program, AMapIsHeldAgainstTheSurfaceCoordinatesOfTheSegments) {
   Json text = small();
   text["contact"]["model"]["segment"] = "catmull_rom4";
   text["contact"]["model"].erase("surface_coordinates");
-  text["contact"]["model"]["height"] = {{"type", "map"}, {"values", {0, 1e-3, 0}}, {"boundary", "clamped"}, {"size", {1}}};
+  text["contact"]["model"]["height"] = {
+      {"type", "map"}, {"values", {0, 1e-3, 0}}, {"boundary", "clamped"}, {"size", {1}}};
   const Scene scene = read_scene_text(text.dump(), folder_ / "scene.json");
   const auto said = [&](const std::vector<double>& of_segments) {
     testing::internal::CaptureStderr();
@@ -432,7 +500,8 @@ TEST_F(Program, AMapIsHeldAgainstTheSurfaceCoordinatesOfTheSegments) {
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said({-1, 0, 0.5, 1, 0, 0.5, 1, 2}), "");
-  EXPECT_NE(said({-1, 0, 0.5, 1, 0, 0.5, 1.1, 2}).find("warning: the map /contact/model/height"), std::string::npos);
+  EXPECT_NE(said({-1, 0, 0.5, 1, 0, 0.5, 1.1, 2}).find("warning: the map /contact/model/height"),
+            std::string::npos);
   EXPECT_NE(said({}).find("warning: the map /contact/model/height"), std::string::npos); // s = xi: -1 .. 1
 }
 

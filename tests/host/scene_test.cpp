@@ -16,7 +16,11 @@ Json good() {
           {"formulation", "plane_strain"},
           {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 1}, {"poisson", 0.3}}}}},
           {"parts",
-           {{{"name", "b"}, {"material", "m"}, {"element", "quad4"}, {"x", axis(0, 1, 2)}, {"y", axis(0, 1, 2)}}}},
+           {{{"name", "b"},
+             {"material", "m"},
+             {"element", "quad4"},
+             {"x", axis(0, 1, 2)},
+             {"y", axis(0, 1, 2)}}}},
           {"supports", {{{"nodes", "b.y_min"}, {"x", 0}, {"y", 0}}}},
           {"contact",
            {{"slave", "b.y_max"},
@@ -60,51 +64,105 @@ TEST_P(Mistakes, AreNamedWithTheirPlace) {
 INSTANTIATE_TEST_SUITE_P(
     All, Mistakes,
     testing::Values(
-        Mistake{"unknown_key", [](Json& j) { j["parts"][0]["colour"] = 1; }, {"test.json", "/parts/0", "colour"}},
+        Mistake{
+            "unknown_key", [](Json& j) { j["parts"][0]["colour"] = 1; }, {"test.json", "/parts/0", "colour"}},
         Mistake{"missing_key", [](Json& j) { j["parts"][0].erase("element"); }, {"/parts/0", "element"}},
-        Mistake{"wrong_type", [](Json& j) { j["materials"]["m"]["young"] = "1"; }, {"/materials/m/young", "number"}},
-        Mistake{"not_positive", [](Json& j) { j["materials"]["m"]["young"] = 0; }, {"/materials/m/young", "> 0"}},
+        Mistake{"wrong_type",
+                [](Json& j) { j["materials"]["m"]["young"] = "1"; },
+                {"/materials/m/young", "number"}},
+        Mistake{
+            "not_positive", [](Json& j) { j["materials"]["m"]["young"] = 0; }, {"/materials/m/young", "> 0"}},
         Mistake{"poisson", [](Json& j) { j["materials"]["m"]["poisson"] = 0.5; }, {"/materials/m/poisson"}},
-        Mistake{"law", [](Json& j) { j["materials"]["m"]["law"] = "mooney"; }, {"/materials/m/law", "neo_hooke"}},
-        Mistake{"no_material", [](Json& j) { j["parts"][0]["material"] = "steel"; }, {"/parts/0/material", "steel"}},
+        Mistake{
+            "law", [](Json& j) { j["materials"]["m"]["law"] = "mooney"; }, {"/materials/m/law", "neo_hooke"}},
+        Mistake{"no_material",
+                [](Json& j) { j["parts"][0]["material"] = "steel"; },
+                {"/parts/0/material", "steel"}},
         Mistake{"dimension", [](Json& j) { j["dimension"] = 4; }, {"/dimension", "2 to 3"}},
         Mistake{"element", [](Json& j) { j["parts"][0]["element"] = "hex8"; }, {"/parts/0/element", "quad4"}},
-        Mistake{"grid", [](Json& j) { j["parts"][0]["x"]["pieces"][0]["to"] = -1; }, {"/parts/0/x/pieces/0/to"}},
+        Mistake{
+            "grid", [](Json& j) { j["parts"][0]["x"]["pieces"][0]["to"] = -1; }, {"/parts/0/x/pieces/0/to"}},
         Mistake{"same_name", [](Json& j) { j["parts"].push_back(j["parts"][0]); }, {"/parts/1", "already"}},
-        Mistake{"no_component", [](Json& j) { j["supports"][0].erase("x"), j["supports"][0].erase("y"); },
+        Mistake{"no_component",
+                [](Json& j) { j["supports"][0].erase("x"), j["supports"][0].erase("y"); },
                 {"/supports/0", "component"}},
-        Mistake{"no_nodes", [](Json& j) { j["supports"][0]["nodes"] = "b.top"; }, {"/supports/0/nodes", "b.y_max"}},
+        Mistake{"no_nodes",
+                [](Json& j) { j["supports"][0]["nodes"] = "b.top"; },
+                {"/supports/0/nodes", "b.y_max"}},
         Mistake{"no_faces", [](Json& j) { j["contact"]["slave"] = "b.top"; }, {"/contact/slave", "b.y_max"}},
-        Mistake{"node_size", [](Json& j) { j["contact"]["master"]["nodes"][0] = {1, 2, 3}; },
+        Mistake{"node_size",
+                [](Json& j) {
+                  j["contact"]["master"]["nodes"][0] = {1, 2, 3};
+                },
                 {"/contact/master/nodes/0", "2 numbers"}},
-        Mistake{"node_count", [](Json& j) { j["contact"]["master"]["nodes"].push_back({2, 2}); },
+        Mistake{"node_count",
+                [](Json& j) {
+                  j["contact"]["master"]["nodes"].push_back({2, 2});
+                },
                 {"/contact/master/nodes", "2", "3"}},
-        Mistake{"direction", [](Json& j) { j["contact"]["master"]["direction"] = {0, 0}; },
+        Mistake{"direction",
+                [](Json& j) {
+                  j["contact"]["master"]["direction"] = {0, 0};
+                },
                 {"/contact/master/direction"}},
-        Mistake{"model_key", [](Json& j) { j["contact"]["model"]["hight"] = nullptr; }, {"/contact/model", "hight"}},
-        Mistake{"model_segment", [](Json& j) { j["contact"]["model"]["segment"] = "quad4"; },
+        Mistake{"model_key",
+                [](Json& j) { j["contact"]["model"]["hight"] = nullptr; },
+                {"/contact/model", "hight"}},
+        Mistake{"model_segment",
+                [](Json& j) { j["contact"]["model"]["segment"] = "quad4"; },
                 {"/contact/model/segment", "dimension"}},
-        Mistake{"model_master", [](Json& j) { j["contact"]["model"]["master"] = "deformable"; }, {"/contact/model"}},
+        Mistake{"model_master",
+                [](Json& j) { j["contact"]["model"]["master"] = "deformable"; },
+                {"/contact/model"}},
         Mistake{"control", [](Json& j) { j["steps"]["control"] = "speed"; }, {"/steps/control", "approach"}},
         Mistake{"no_steps", [](Json& j) { j["steps"]["values"] = Json::array(); }, {"/steps/values"}},
-        Mistake{"negative_force", [](Json& j) { j["steps"] = {{"control", "force"}, {"values", {-1}}}; },
+        Mistake{"negative_force",
+                [](Json& j) {
+                  j["steps"] = {{"control", "force"}, {"values", {-1}}};
+                },
                 {"/steps/values"}},
         Mistake{"nothing_to_move",
-                [](Json& j) { j["contact"]["master"] = {{"faces", "b.y_min"}}; }, {"/steps/control", "rigid"}},
-        Mistake{"tolerance", [](Json& j) { j["solver"] = {{"tolerance", 10}}; }, {"/solver/tolerance", "< 1"}},
-        Mistake{"exact_in_space", [](Json& j) { j["exact"] = {{"type", "hertz_point"}, {"radius", 1}}; },
+                [](Json& j) {
+                  j["contact"]["master"] = {{"faces", "b.y_min"}};
+                },
+                {"/steps/control", "rigid"}},
+        Mistake{"tolerance",
+                [](Json& j) {
+                  j["solver"] = {{"tolerance", 10}};
+                },
+                {"/solver/tolerance", "< 1"}},
+        Mistake{"exact_in_space",
+                [](Json& j) {
+                  j["exact"] = {{"type", "hertz_point"}, {"radius", 1}};
+                },
                 {"/exact/type", "space", "/dimension is 2"}},
-        Mistake{"nothing_holds", [](Json& j) { j["supports"] = Json::array(); }, {"/supports", "nothing holds"}},
-        Mistake{"nothing_given_that_holds", [](Json& j) { j.erase("supports"); }, {"/supports", "nothing holds"}},
-        Mistake{"exact", [](Json& j) { j["exact"] = {{"type", "hertz_line"}}; }, {"/exact", "radius"}},
-        Mistake{"half_space", [](Json& j) { j["half_space"] = {{"nodes", {"b.x_max"}}}; }, {"/half_space"}},
-        Mistake{"periodic", [](Json& j) { j["periodic"] = {{"b.x_min", "b.y_min", "b"}}; }, {"/periodic/0", "pair"}},
-        Mistake{"not_periodic", [](Json& j) {
+        Mistake{
+            "nothing_holds", [](Json& j) { j["supports"] = Json::array(); }, {"/supports", "nothing holds"}},
+        Mistake{
+            "nothing_given_that_holds", [](Json& j) { j.erase("supports"); }, {"/supports", "nothing holds"}},
+        Mistake{"exact",
+                [](Json& j) {
+                  j["exact"] = {{"type", "hertz_line"}};
+                },
+                {"/exact", "radius"}},
+        Mistake{"half_space",
+                [](Json& j) {
+                  j["half_space"] = {{"nodes", {"b.x_max"}}};
+                },
+                {"/half_space"}},
+        Mistake{"periodic",
+                [](Json& j) {
+                  j["periodic"] = {{"b.x_min", "b.y_min", "b"}};
+                },
+                {"/periodic/0", "pair"}},
+        Mistake{"not_periodic",
+                [](Json& j) {
                   j["parts"].push_back(j["parts"][0]);
                   j["parts"][1]["name"] = "c";
                   j["parts"][1]["y"] = axis(0, 1, 3);
                   j["periodic"] = Json::array({Json::array({"b.x_min", "c.x_max"})});
-                }, {"/periodic/0", "same mesh"}}),
+                },
+                {"/periodic/0", "same mesh"}}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Scene, DuplicateKeysAndSyntaxAreErrors) {
@@ -130,7 +188,8 @@ TEST(Scene, ShippedScenesAreRead) {
   for (const char* name : {"hertz2d", "hertz3d", "westergaard", "wavy3d", "rough_afm"}) {
     const Scene scene = test::shipped_scene(name);
     EXPECT_FALSE(scene.compare.divisions.empty()) << name;
-    EXPECT_EQ(scene.contact->rigid.size() / static_cast<std::size_t>(scene.dimension), scene.dimension == 2 ? 2u : 4u)
+    EXPECT_EQ(scene.contact->rigid.size() / static_cast<std::size_t>(scene.dimension),
+              scene.dimension == 2 ? 2u : 4u)
         << name << ": the master is one segment";
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small scene with friction for the tests: an elastic block pressed on an elastic slab, then dragged along it over
-// several of its segments and back.
+// A small scene with friction for the tests: an elastic block pressed on an elastic slab, then dragged along
+// it over several of its segments and back.
 #pragma once
 
 #include "support.hpp"
@@ -23,27 +23,33 @@ inline Json sliding(const Json& normal, const Json& friction, const std::string&
   Json contact{{"normal", scaled(normal)}};
   if (!friction.is_null()) contact["friction"] = scaled(friction);
   const double l = length;
-  return {{"dimension", 2},
-          {"formulation", "plane_strain"},
-          {"thickness", l},
-          {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100 * pressure}, {"poisson", 0.3}}}}},
-          {"parts",
-           {{{"name", "slab"}, {"material", "m"}, {"element", "quad4"}, {"x", axis(-2 * l, 2 * l, 20)}, {"y", axis(-l, 0, 4)}},
-            {{"name", "block"},
-             {"material", "m"},
-             {"element", "quad4"},
-             {"x", axis(-0.55 * l, 0.55 * l, 7)},
-             {"y", axis(0, 0.6 * l, 3)}}}},
-          {"supports",
-           {{{"nodes", "slab.y_min"}, {"x", 0}, {"y", 0}},
-            {{"nodes", "block.y_max"}, {"y", -0.01 * l}, {"path", {{0, 0}, {1, 1}}}},
-            {{"nodes", "block.y_max"}, {"x", 0.4 * l}, {"path", {{1, 0}, {2, 1}, {3, 0.5}}}}}},
-          {"contact",
-           {{"slave", "block.y_min"},
-            {"master", {{"faces", "slab.y_max"}, {"surface_coordinates", {"x"}}}},
-            {"model", {{"segment", segment}, {"contact", contact}}}}},
-          {"solver", {{"tolerance", 1e-12}, {"extrapolate", true}}},
-          {"steps", {{"control", "load_factor"}, {"values", {{{"to", 1}, {"count", 2}}, {{"to", 3}, {"count", 40}}}}}}};
+  return {
+      {"dimension", 2},
+      {"formulation", "plane_strain"},
+      {"thickness", l},
+      {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100 * pressure}, {"poisson", 0.3}}}}},
+      {"parts",
+       {{{"name", "slab"},
+         {"material", "m"},
+         {"element", "quad4"},
+         {"x", axis(-2 * l, 2 * l, 20)},
+         {"y", axis(-l, 0, 4)}},
+        {{"name", "block"},
+         {"material", "m"},
+         {"element", "quad4"},
+         {"x", axis(-0.55 * l, 0.55 * l, 7)},
+         {"y", axis(0, 0.6 * l, 3)}}}},
+      {"supports",
+       {{{"nodes", "slab.y_min"}, {"x", 0}, {"y", 0}},
+        {{"nodes", "block.y_max"}, {"y", -0.01 * l}, {"path", {{0, 0}, {1, 1}}}},
+        {{"nodes", "block.y_max"}, {"x", 0.4 * l}, {"path", {{1, 0}, {2, 1}, {3, 0.5}}}}}},
+      {"contact",
+       {{"slave", "block.y_min"},
+        {"master", {{"faces", "slab.y_max"}, {"surface_coordinates", {"x"}}}},
+        {"model", {{"segment", segment}, {"contact", contact}}}}},
+      {"solver", {{"tolerance", 1e-12}, {"extrapolate", true}}},
+      {"steps",
+       {{"control", "load_factor"}, {"values", {{{"to", 1}, {"count", 2}}, {{"to", 3}, {"count", 40}}}}}}};
 }
 
 inline const Json penalty{{"type", "penalty"}, {"stiffness", 1e4}};

@@ -43,7 +43,8 @@ TEST_P(NeoHookeTension, IsExact) {
   Simulation simulation(scene, nullptr);
   const std::vector<StepRecord> records = solve(simulation, {});
 
-  // Stretches (lateral, stretch, third): P_lateral = mu (l - 1/l) + lambda ln(J) / l = 0, solved by bisection.
+  // Stretches (lateral, stretch, third): P_lateral = mu (l - 1/l) + lambda ln(J) / l = 0, solved by
+  // bisection.
   const Material& material = scene.parts[0].setup.material;
   const bool strain = GetParam().formulation == "plane_strain";
   const auto log_jacobian = [&](double l) { return std::log(l * stretch * (strain ? 1 : l)); };
@@ -52,15 +53,18 @@ TEST_P(NeoHookeTension, IsExact) {
     const double l = 0.5 * (low + high);
     (material.mu() * (l - 1 / l) + material.lambda() * log_jacobian(l) / l < 0 ? low : high) = l;
   }
-  const double force = material.mu() * (stretch - 1 / stretch) + material.lambda() * log_jacobian(low) / stretch;
+  const double force =
+      material.mu() * (stretch - 1 / stretch) + material.lambda() * log_jacobian(low) / stretch;
   const double area = GetParam().formulation == "axisymmetric" ? std::acos(-1.) : 1;
 
-  // The residual is below 1e-10 of the forces; displacements follow it within the stiffness, of order one here.
+  // The residual is below 1e-10 of the forces; displacements follow it within the stiffness, of order one
+  // here.
   const Mesh& mesh = simulation.mesh();
   const auto d = static_cast<std::size_t>(mesh.dimension);
   const std::vector<double> reactions = simulation.reactions();
   double pull = 0;
-  for (const int node : mesh.node_sets.at("b.y_max")) pull += reactions[static_cast<std::size_t>(node) * d + 1];
+  for (const int node : mesh.node_sets.at("b.y_max"))
+    pull += reactions[static_cast<std::size_t>(node) * d + 1];
   EXPECT_NEAR(pull, force * area, 1e-9 * force);
   for (const int node : mesh.node_sets.at("b.x_max"))
     EXPECT_NEAR(1 + simulation.now().displacement[static_cast<std::size_t>(node) * d], low, 1e-9);
@@ -79,21 +83,22 @@ INSTANTIATE_TEST_SUITE_P(All, NeoHookeTension,
                                          Body{"tri3", "plane_stress"}, Body{"quad4", "plane_stress"},
                                          Body{"quad4", "axisymmetric"}, Body{"tet4", ""}, Body{"hex8", ""}));
 
-/// Thick tube, inner radius 1, outer 2, under inner pressure 1, held at its ends: error of the inner displacement.
+/// Thick tube, inner radius 1, outer 2, under inner pressure 1, held at its ends: error of the inner
+/// displacement.
 double tube_error(const std::string& element, int divisions) {
-  const Scene scene = test::scene_from(
-      {{"dimension", 2},
-       {"formulation", "axisymmetric"},
-       {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100}, {"poisson", 0.3}}}}},
-       {"parts",
-        {{{"name", "b"},
-          {"material", "m"},
-          {"element", element},
-          {"x", axis(1, 2, divisions)},
-          {"y", axis(0, 2. / divisions, 2)}}}},
-       {"supports", {{{"nodes", "b.y_min"}, {"y", 0}}, {{"nodes", "b.y_max"}, {"y", 0}}}},
-       {"tractions", {{{"faces", "b.x_min"}, {"value", {1, 0}}}}},
-       {"steps", {{"control", "load_factor"}, {"values", {1}}}}});
+  const Scene scene =
+      test::scene_from({{"dimension", 2},
+                        {"formulation", "axisymmetric"},
+                        {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 100}, {"poisson", 0.3}}}}},
+                        {"parts",
+                         {{{"name", "b"},
+                           {"material", "m"},
+                           {"element", element},
+                           {"x", axis(1, 2, divisions)},
+                           {"y", axis(0, 2. / divisions, 2)}}}},
+                        {"supports", {{{"nodes", "b.y_min"}, {"y", 0}}, {{"nodes", "b.y_max"}, {"y", 0}}}},
+                        {"tractions", {{{"faces", "b.x_min"}, {"value", {1, 0}}}}},
+                        {"steps", {{"control", "load_factor"}, {"values", {1}}}}});
   Simulation simulation(scene, nullptr);
   solve(simulation, {});
   // Lame: u = (1 + nu)/E * p a^2 / (b^2 - a^2) * ((1 - 2 nu) r + b^2 / r) at r = a = 1, b = 2.
@@ -104,7 +109,8 @@ double tube_error(const std::string& element, int divisions) {
 
 TEST(Tube, ConvergesAtSecondOrder) {
   for (const char* element : {"quad4", "tri3"}) {
-    const double coarse = tube_error(element, 8), medium = tube_error(element, 16), fine = tube_error(element, 32);
+    const double coarse = tube_error(element, 8), medium = tube_error(element, 16),
+                 fine = tube_error(element, 32);
     EXPECT_NEAR(std::log2(coarse / medium), 2, 0.1) << element;
     EXPECT_NEAR(std::log2(medium / fine), 2, 0.05) << element;
   }
@@ -128,10 +134,11 @@ TEST(Cantilever, DeflectsLikeTimoshenkosBeam) {
   Simulation simulation(scene, nullptr);
   solve(simulation, {});
   const double inertia = height * height * height / 12, shear = young / (2 * (1 + poisson));
-  const double exact = load * length * length * length / (3 * young * inertia) + load * length / (5. / 6 * shear);
+  const double exact =
+      load * length * length * length / (3 * young * inertia) + load * length / (5. / 6 * shear);
   const int node = simulation.mesh().node_sets.at("b.x_max").front();
-  // 16 elements of full integration over the height are too stiff by about (1/16)^2 = 0.4 %; the clamped end's
-  // restraint of the cross-section gives (height/length)^2 * nu = 0.3 %.
+  // 16 elements of full integration over the height are too stiff by about (1/16)^2 = 0.4 %; the clamped
+  // end's restraint of the cross-section gives (height/length)^2 * nu = 0.3 %.
   EXPECT_NEAR(-simulation.now().displacement[static_cast<std::size_t>(node) * 2 + 1] / exact, 1, 0.01);
 }
 
@@ -153,7 +160,8 @@ TEST(HalfSpace, BoussinesqsDisplacementIsInEquilibrium) {
   };
   const auto second = [&](int i, int j) -> Eigen::Vector3d {
     if (i == j) return (shifted(i, h, j, 0) - 2 * shifted(i, 0, j, 0) + shifted(i, -h, j, 0)) / (h * h);
-    return (shifted(i, h, j, h) - shifted(i, h, j, -h) - shifted(i, -h, j, h) + shifted(i, -h, j, -h)) / (4 * h * h);
+    return (shifted(i, h, j, h) - shifted(i, h, j, -h) - shifted(i, -h, j, h) + shifted(i, -h, j, -h)) /
+           (4 * h * h);
   };
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   double size = 0;

@@ -48,7 +48,8 @@ struct Assembled {
 
   explicit Assembled(bool symmetric) {
     test::Random random(5);
-    const auto fill = [&](StencilGroup& group, std::vector<Eigen::MatrixXd>& tangents, int dofs, int elements) {
+    const auto fill = [&](StencilGroup& group, std::vector<Eigen::MatrixXd>& tangents, int dofs,
+                          int elements) {
       group.dofs = dofs;
       for (int e = 0; e < elements; ++e) {
         std::vector<int> equations;
@@ -60,7 +61,8 @@ struct Assembled {
         for (int a = 0; a < dofs; ++a)
           for (int b = 0; b < dofs; ++b)
             if (equations[static_cast<std::size_t>(a)] >= 0 && equations[static_cast<std::size_t>(b)] >= 0)
-              dense(equations[static_cast<std::size_t>(a)], equations[static_cast<std::size_t>(b)]) += K(a, b);
+              dense(equations[static_cast<std::size_t>(a)], equations[static_cast<std::size_t>(b)]) +=
+                  K(a, b);
         tangents.push_back(K);
       }
     };

@@ -54,7 +54,8 @@ TEST(WorkPrecision, NumbersOfTheAxisStayInThePicture) {
   const std::regex number("<text x=\"([0-9.]+)\"[^>]*>(0\\.[0-9]+)</text>");
   std::size_t numbers = 0, at_the_edge = 0;
   for (double largest = 2e-4; largest < 2e-3; largest *= 1.01) { // wherever the last tic is
-    const Work work = made({made(Family::facets, 8, 0.1, 0.3 * largest), made(Family::enriched, 1, 0.01, largest)});
+    const Work work =
+        made({made(Family::facets, 8, 0.1, 0.3 * largest), made(Family::enriched, 1, 0.01, largest)});
     const std::string svg = work_panel(work, Price::time, "");
     for (std::sregex_iterator it(svg.begin(), svg.end(), number), end; it != end; ++it, ++numbers) {
       const double right = std::stod((*it)[1]) + 3.8 * static_cast<double>((*it)[2].length());
@@ -125,13 +126,15 @@ const Problem& problem(const std::vector<Problem>& problems, const std::string& 
   return *std::find_if(problems.begin(), problems.end(), [&](const Problem& at) { return at.name == name; });
 }
 
-// A cosine's chord is off by 1 - cos(pi / n) of the amplitude at a crest between two nodes, n in a wave; in 3D the product of two is off by
-// sin^2(pi / n) beside a crest at a node.
+// A cosine's chord is off by 1 - cos(pi / n) of the amplitude at a crest between two nodes, n in a wave; in
+// 3D the product of two is off by sin^2(pi / n) beside a crest at a node.
 TEST(WorkPrecision, SegmentsThatFollowASine) {
   const std::vector<Problem> problems = work_problems(EXAMPLES, true);
-  const Scene line = scene_of(problem(problems, "westergaard"), {}), sheet = scene_of(problem(problems, "wavy3d"), {});
+  const Scene line = scene_of(problem(problems, "westergaard"), {}),
+              sheet = scene_of(problem(problems, "wavy3d"), {});
   for (const double share : {0.05, 0.01, 0.002}) {
-    const double per_wave = std::numbers::pi / std::acos(1 - share), per_wave_3d = std::numbers::pi / std::asin(std::sqrt(share));
+    const double per_wave = std::numbers::pi / std::acos(1 - share),
+                 per_wave_3d = std::numbers::pi / std::asin(std::sqrt(share));
     const auto found = static_cast<double>(segments_that_follow(library(), line, share));
     EXPECT_NEAR(found, 1.5 * per_wave, 1.5) << share;
     const double found_3d = std::sqrt(static_cast<double>(segments_that_follow(library(), sheet, share)));
@@ -194,9 +197,10 @@ TEST(WorkPrecision, SmoothedSegmentsAreThirdOrder) {
   EXPECT_GT(worst[1] / worst[2], 7);
 }
 
-// The differentiated element is the library's: slave nodes all over the scene's segment, one corner raised, pressed in by up to the amplitude. Coordinates and
-// the distances that come from them are of order 1, so that both round the gap by some 1e-15 and the residual by that times the stiffness; a
-// tangent is made of some hundred operations on numbers of its own size.
+// The differentiated element is the library's: slave nodes all over the scene's segment, one corner raised,
+// pressed in by up to the amplitude. Coordinates and the distances that come from them are of order 1, so
+// that both round the gap by some 1e-15 and the residual by that times the stiffness; a tangent is made of
+// some hundred operations on numbers of its own size.
 TEST(WorkPrecision, AutomaticTangentIsTheClosedOne) {
   const std::vector<Problem> problems = work_problems(EXAMPLES, true);
   const Scene scene = scene_of(problem(problems, "wavy3d"), {});

@@ -19,18 +19,18 @@ using nlohmann::json;
 struct Method {
   std::string name;
   json normal, friction;
+  json wear = nullptr;
 };
 inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
 // Every normal law with every kind of friction. Lengths are of order 1, gaps of order 0.05.
 inline std::vector<Method> methods() {
-  const std::vector<json> normals = {
-      {{"type", "penalty"}, {"stiffness", 100.0}},
-      {{"type", "power"}, {"coefficient", 400.0}, {"exponent", 1.5}},
-      {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}},
-      {{"type", "augmented"}, {"stiffness", 100.0}},
-      {{"type", "augmented_multiplier"}, {"stiffness", 100.0}},
-      {{"type", "multiplier"}, {"stiffness", 100.0}}};
+  const std::vector<json> normals = {{{"type", "penalty"}, {"stiffness", 100.0}},
+                                     {{"type", "power"}, {"coefficient", 400.0}, {"exponent", 1.5}},
+                                     {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}},
+                                     {{"type", "augmented"}, {"stiffness", 100.0}},
+                                     {{"type", "augmented_multiplier"}, {"stiffness", 100.0}},
+                                     {{"type", "multiplier"}, {"stiffness", 100.0}}};
   const std::vector<std::pair<std::string, json>> frictions = {
       {"frictionless", nullptr},
       {"coulomb", {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}},
@@ -40,6 +40,31 @@ inline std::vector<Method> methods() {
   for (const json& normal : normals)
     for (const auto& [name, friction] : frictions)
       all.push_back({normal["type"].get<std::string>() + "_" + name, normal, friction});
+  return all;
+}
+
+// Laws that can wear, frictionless and with friction. About a tenth of the gap is worn off in an increment.
+inline std::vector<Method> methods_with_wear() {
+  std::vector<Method> all;
+  const json wears[] = {{{"coefficient", 0.05}, {"slave", 0.4}},
+                        {{"coefficient", 0.05}, {"scheme", "trapezoidal"}, {"sliding", 0.02}},
+                        {{"coefficient", 0.05}, {"scheme", "explicit"}, {"slave", 0}}};
+  for (const Method& method : methods()) {
+    const std::string normal = method.normal["type"];
+    if (normal.ends_with("multiplier") || method.name.ends_with("shear_limit") ||
+        method.name.ends_with("rough"))
+      continue;
+    for (json wear : wears) {
+      if (normal == "exponential") wear["coefficient"] = 0.005; // its pressures are larger
+      all.push_back(
+          {method.name + "_" + wear.value("scheme", "implicit"), method.normal, method.friction, wear});
+    }
+  }
+  return all;
+}
+inline std::vector<Method> all_methods() {
+  std::vector<Method> all = methods();
+  for (const Method& method : methods_with_wear()) all.push_back(method);
   return all;
 }
 
@@ -73,16 +98,25 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
   e.multiplier.resize(n * m);
   for (std::size_t i = 0; i < n; ++i) {
     double* s = &e.state[i * size];
-    s[1] = 2.0;  // in contact at the begin of the increment
+    s[1] = 2.0; // in contact at the begin of the increment
     std::size_t next = 3;
     for (std::size_t a = 0; a < t; ++a) s[next++] = e.at.start[i * t + a];
     if (e.layout.friction) {
-      for (std::size_t a = 0; a < t; ++a) s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
-      s[next++] = random.uniform(0.0, 1.0);  // slip so far
+      for (std::size_t a = 0; a < t; ++a)
+        s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
+      s[next++] = random.uniform(0.0, 1.0); // slip so far
     }
     if (e.layout.augmentable) {
       s[next++] = random.uniform(0.0, 3.0);
-      while (next + 1 < size) s[next++] = random.uniform(-0.5, 0.5);
+      const std::size_t end = e.layout.worn < 0 ? size - 1 : static_cast<std::size_t>(e.layout.worn);
+      while (next < end) s[next++] = random.uniform(-0.5, 0.5);
+    }
+    if (e.layout.worn >= 0) {
+      s[next++] = random.uniform(0.0, 0.005);
+      s[next++] = random.uniform(0.0, 0.002);
+      s[next++] = random.uniform(0.0, 3.0);
+      for (std::size_t a = 0; a < t; ++a)
+        s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
     }
     for (std::size_t k = 0; k < m; ++k)
       e.multiplier[i * m + k] = k == 0 ? random.uniform(0.0, 3.0) : random.uniform(-0.5, 0.5);
@@ -95,20 +129,10 @@ struct LawResults {
   std::vector<double> gap, residual, tangent, pressure, traction, state;
 };
 
-// What ents_evaluate returns. start: ents_input.start; empty: none
-inline std::int32_t try_evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r, ents_report& report,
-                                 const std::vector<double>& start = {}) {
+// The elements as the library takes them. start: ents_input.start; empty: none
+inline ents_input input_of(const LawElements& e, const std::vector<double>& start = {}) {
   const ents_layout& l = e.layout;
-  const std::int64_t count = e.at.count, d = l.dimension, n = l.dofs;
-  const auto sized = [&](auto& array, std::int64_t entries) { array.resize(static_cast<std::size_t>(count * entries)); };
-  sized(r.status, 1);
-  sized(r.flags, 1);
-  sized(r.residual, n);
-  if (wanted & ENTS_TANGENT) sized(r.tangent, n * n);
-  sized(r.gap, 1);
-  sized(r.pressure, 1);
-  sized(r.traction, d);
-  sized(r.state, l.state_size);
+  const std::int64_t d = l.dimension;
   ents_input in{};
   in.struct_size = sizeof in;
   in.slave = e.at.slave.data();
@@ -124,6 +148,26 @@ inline std::int32_t try_evaluate(const mechanics::Model& model, const LawElement
   in.state_begin_stride = l.state_size;
   in.multiplier = e.multiplier.data();
   in.multiplier_stride = l.multipliers;
+  return in;
+}
+
+// What ents_evaluate returns. start: ents_input.start; empty: none
+inline std::int32_t try_evaluate(const ents_model* model, const LawElements& e, std::int32_t wanted,
+                                 LawResults& r, ents_report& report, const std::vector<double>& start = {}) {
+  const ents_layout& l = e.layout;
+  const std::int64_t count = e.at.count, d = l.dimension, n = l.dofs;
+  const auto sized = [&](auto& array, std::int64_t entries) {
+    array.resize(static_cast<std::size_t>(count * entries));
+  };
+  sized(r.status, 1);
+  sized(r.flags, 1);
+  sized(r.residual, n);
+  if (wanted & ENTS_TANGENT) sized(r.tangent, n * n);
+  sized(r.gap, 1);
+  sized(r.pressure, 1);
+  sized(r.traction, d);
+  sized(r.state, l.state_size);
+  const ents_input in = input_of(e, start);
   ents_output out{};
   out.struct_size = sizeof out;
   out.wanted = wanted;
@@ -145,18 +189,23 @@ inline std::int32_t try_evaluate(const mechanics::Model& model, const LawElement
   out.state_end_stride = l.state_size;
   report = {};
   report.struct_size = sizeof report;
-  return ents_evaluate(model.handle(), 0, count, &in, &out, &report);
+  return ents_evaluate(model, 0, count, &in, &out, &report);
 }
-inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted, LawResults& r) {
+inline void evaluate(const ents_model* model, const LawElements& e, std::int32_t wanted, LawResults& r) {
   ents_report report;
   if (try_evaluate(model, e, wanted, r, report) < 0) throw std::runtime_error(report.message);
 }
+inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted,
+                     LawResults& r) {
+  evaluate(model.handle(), e, wanted, r);
+}
 
-inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method, const char* master = "deformable") {
+inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& method,
+                                 const char* master = "deformable") {
   json text = scene.model();
   text["master"] = master;
-  text["contact"] = {{"normal", method.normal}, {"friction", method.friction}};
+  text["contact"] = {{"normal", method.normal}, {"friction", method.friction}, {"wear", method.wear}};
   return mechanics::Model(text.dump());
 }
 
-}  // namespace laws
+} // namespace laws

@@ -1,4 +1,5 @@
-// The cone, invariance, and the life of a state: begin untouched, cut and uncut increments, augmentation, transfer.
+// The cone, invariance, and the life of a state: begin untouched, cut and uncut increments, augmentation,
+// transfer.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,8 +23,8 @@ const Method coulomb = {"coulomb",
                         {{"type", "penalty"}, {"stiffness", 100.0}},
                         {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}};
 
-// |t| = |A^ab t_b rho_e,a|: two multiplications with the metric and its inverse and a norm, each within a few units in the last
-// place times the metric's condition (below 10 here).
+// |t| = |A^ab t_b rho_e,a|: two multiplications with the metric and its inverse and a norm, each within a few
+// units in the last place times the metric's condition (below 10 here).
 TEST(Cone, TractionNeverExceedsMuTimesPressure) {
   Random random(5);
   double worst = 0.0;
@@ -61,7 +62,8 @@ TEST(Balance, OfForcesAndOfMomentsWithFriction) {
     const LawElements e = draw(random, scene, model, mechanics::samples(1000), 0.05);
     LawResults r;
     evaluate(model, e, ENTS_FLAGS | ENTS_RESIDUAL, r);
-    const std::size_t d = static_cast<std::size_t>(e.layout.dimension), n = static_cast<std::size_t>(e.layout.dofs);
+    const std::size_t d = static_cast<std::size_t>(e.layout.dimension),
+                      n = static_cast<std::size_t>(e.layout.dofs);
     for (std::size_t i = 0; i < r.status.size(); ++i) {
       if (r.status[i] != ENTS_OK || !(r.flags[i] & (ENTS_FLAG_STICK | ENTS_FLAG_SLIP))) continue;
       const double* R = &r.residual[i * n];
@@ -74,7 +76,8 @@ TEST(Balance, OfForcesAndOfMomentsWithFriction) {
           p[c] = x[node * d + c] - x[c];
           force[c] += f[c];
         }
-        for (int c = 0; c < 3; ++c) moment[c] += p[(c + 1) % 3] * f[(c + 2) % 3] - p[(c + 2) % 3] * f[(c + 1) % 3];
+        for (int c = 0; c < 3; ++c)
+          moment[c] += p[(c + 1) % 3] * f[(c + 2) % 3] - p[(c + 2) % 3] * f[(c + 1) % 3];
       }
       const double scale = mechanics::largest_entry(R, n);
       test::raise(worst_force, length_of(force, 3) / scale);
@@ -86,12 +89,13 @@ TEST(Balance, OfForcesAndOfMomentsWithFriction) {
   std::cout << "worst force " << worst_force << ", worst moment " << worst_moment << "\n";
 }
 
-// An element that moves as a rigid body, its state as it was: the anchor moves along, so gap, pressure and |t| stay.
+// An element that moves as a rigid body, its state as it was: the anchor moves along, so gap, pressure and
+// |t| stay.
 TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
   Random random(7);
   double worst = 0.0;
   std::int64_t compared = 0;
-  for (const Method& method : methods())
+  for (const Method& method : all_methods())
     for (const Basis& basis : mechanics::all_bases()) {
       if (method.friction.is_null()) continue;
       const mechanics::Scene scene = draw_scene(random, basis, "sine", "normal");
@@ -118,7 +122,8 @@ TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
         if (a.status[i] != ENTS_OK || !(a.flags[i] & (ENTS_FLAG_STICK | ENTS_FLAG_SLIP))) continue;
         ++compared;
         const double t = length_of(&a.traction[i * d], d);
-        // the size of the segment for the gap; the traction follows from the pressure and from slip times stiffness (80)
+        // the size of the segment for the gap; the traction follows from the pressure and from slip times
+        // stiffness (80)
         test::raise(worst, std::fabs(a.gap[i] - b.gap[i]));
         test::raise(worst, std::fabs(a.pressure[i] - b.pressure[i]) / (a.pressure[i] + 10.0));
         test::raise(worst, std::fabs(t - length_of(&b.traction[i * d], d)) / (t + 10.0));
@@ -131,7 +136,8 @@ TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
 
 // A slave node over a flat line2 from (0, 0) to (length, 0), pressed in by 0.01.
 struct Slide {
-  explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})", const std::string& height = "null")
+  explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})",
+                 const std::string& height = "null")
       : model(R"({"segment": "line2", "height": )" + height + R"(, "contact": {"normal": )" + normal +
               R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})") {
     elements.layout = layout_of(model.handle());
@@ -172,18 +178,21 @@ TEST(State, SticksThenSlipsAtTheConeAndComesBack) {
   s.evaluate_at(0.4 - 0.01);
   // the anchor lies inside the cone by 4e-15 of xi, half as much of x, and by 1e-13 of the elastic slip
   constexpr double inside = 50 * 0.5 * 4e-15 + 0.5 * 1e-13, rounding = 2e-14;
-  EXPECT_NEAR(s.results.traction[0], 0.0, inside + rounding) << "unloaded by the elastic slip mu p / stiffness";
+  EXPECT_NEAR(s.results.traction[0], 0.0, inside + rounding)
+      << "unloaded by the elastic slip mu p / stiffness";
 }
 
-// An increment begins at the limit where the last one slipped; nothing but rounding has moved since, by other starts of the projection.
-// With this stiffness a rounding of xi is 1e-10 of the elastic slip. Penalty with normal projection: many at once; others: one by one.
+// An increment begins at the limit where the last one slipped; nothing but rounding has moved since, by other
+// starts of the projection. With this stiffness a rounding of xi is 1e-10 of the elastic slip. Penalty with
+// normal projection: many at once; others: one by one.
 TEST(State, WhatSlippedSticksUntilItMoves) {
   const json friction = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e5}};
   json sheared = friction; // which stays where a pressure that is augmented moves the limit
   sheared["shear_limit"] = 0.01;
-  const Method laws[] = {{"penalty", coulomb.normal, friction},
-                         {"exponential", {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}}, friction},
-                         {"augmented", {{"type", "augmented"}, {"stiffness", 100.0}}, sheared}};
+  const Method laws[] = {
+      {"penalty", coulomb.normal, friction},
+      {"exponential", {{"type", "exponential"}, {"pressure", 0.5}, {"clearance", 0.015}}, friction},
+      {"augmented", {{"type", "augmented"}, {"stiffness", 100.0}}, sheared}};
   Random random(41);
   std::int64_t slipped = 0, again = 0;
   for (const Method& law : laws)
@@ -195,16 +204,20 @@ TEST(State, WhatSlippedSticksUntilItMoves) {
         LawResults before, after;
         evaluate(model, e, ENTS_FLAGS | ENTS_STATE, before);
         e.state = before.state;
-        const std::size_t size = static_cast<std::size_t>(e.layout.state_size), t = static_cast<std::size_t>(e.layout.parameters);
+        const std::size_t size = static_cast<std::size_t>(e.layout.state_size),
+                          t = static_cast<std::size_t>(e.layout.parameters);
         for (std::size_t i = 0; i < before.status.size(); ++i)
           for (std::size_t a = 0; a < t; ++a) e.state[i * size + 3 + a] += random.uniform(-1e-3, 1e-3);
         evaluate(model, e, ENTS_FLAGS, after);
         std::int64_t again_here = 0;
         for (std::size_t i = 0; i < before.status.size(); ++i) {
-          if (before.status[i] != ENTS_OK || after.status[i] != ENTS_OK || !(before.flags[i] & ENTS_FLAG_SLIP)) continue;
+          if (before.status[i] != ENTS_OK || after.status[i] != ENTS_OK ||
+              !(before.flags[i] & ENTS_FLAG_SLIP))
+            continue;
           if (e.layout.augmentable && !(before.flags[i] & ENTS_FLAG_SHEAR_LIMIT)) continue;
           ++slipped;
-          again_here += (after.flags[i] & ENTS_FLAG_SLIP) && (!e.layout.augmentable || (after.flags[i] & ENTS_FLAG_SHEAR_LIMIT));
+          again_here += (after.flags[i] & ENTS_FLAG_SLIP) &&
+                        (!e.layout.augmentable || (after.flags[i] & ENTS_FLAG_SHEAR_LIMIT));
         }
         EXPECT_EQ(again_here, 0) << law.name << ", " << basis.name << ", " << projection;
         again += again_here;
@@ -238,11 +251,13 @@ TEST_P(RowOfSegments, SlidesLikeOneLongSegment) {
   double worst = 0.0;
   for (int increment = 0; increment < 180; ++increment, x += increment % 7 == 3 ? -0.031 : 0.061) {
     if (const int now = static_cast<int>(std::floor(x)); now != at) {
-      const std::vector<double> before = row.elements.at.master, coordinates = row.elements.at.surface_coordinates;
+      const std::vector<double> before = row.elements.at.master,
+                                coordinates = row.elements.at.surface_coordinates;
       row.segment(now, now + 1);
       std::vector<double> moved(row.elements.state.size());
-      ASSERT_EQ(ents_state_transfer(row.model.handle(), before.data(), coordinates.data(), row.elements.at.master.data(),
-                                    row.elements.at.surface_coordinates.data(), row.elements.state.data(), moved.data(), nullptr),
+      ASSERT_EQ(ents_state_transfer(row.model.handle(), before.data(), coordinates.data(),
+                                    row.elements.at.master.data(), row.elements.at.surface_coordinates.data(),
+                                    row.elements.state.data(), moved.data(), nullptr),
                 ENTS_OK);
       row.elements.state = moved;
       at = now;
@@ -260,10 +275,14 @@ TEST_P(RowOfSegments, SlidesLikeOneLongSegment) {
   std::cout << "worst difference of the forces: " << worst << "\n";
 }
 INSTANTIATE_TEST_SUITE_P(Height, RowOfSegments,
-                         testing::Values("null", R"({"type": "sine", "amplitude": 0.005, "wave_vector": [0.7]})"),
-                         [](const auto& parameter) { return parameter.index == 0 ? "plain" : "sine"; }); // of x
+                         testing::Values("null",
+                                         R"({"type": "sine", "amplitude": 0.005, "wave_vector": [0.7]})"),
+                         [](const auto& parameter) {
+                           return parameter.index == 0 ? "plain" : "sine";
+                         }); // of x
 
-// Segments of a circle with the angle as surface coordinate: where it jumps from 2 pi to 0, the anchor goes on as it does elsewhere.
+// Segments of a circle with the angle as surface coordinate: where it jumps from 2 pi to 0, the anchor goes
+// on as it does elsewhere.
 TEST(State, MovesOverASeamOfTheSurfaceCoordinates) {
   Slide s;
   const double turn = 2.0 * std::acos(-1.0);
@@ -279,27 +298,38 @@ TEST(State, MovesOverASeamOfTheSurfaceCoordinates) {
   state[2 + 2] = -0.98;
   for (const double seam : {0.0, 1.0}) {
     const auto before = segment(15), after = segment(0);
-    const double old_s[2] = {turn, turn * 15 / 16}, new_s[2] = {turn / 16 + (1 - seam) * turn, (1 - seam) * turn};
+    const double old_s[2] = {turn, turn * 15 / 16},
+                 new_s[2] = {turn / 16 + (1 - seam) * turn, (1 - seam) * turn};
     std::vector<double> moved(state.size());
-    ASSERT_EQ(ents_state_transfer(s.model.handle(), before.data(), old_s, after.data(), new_s, state.data(), moved.data(), nullptr), ENTS_OK);
+    ASSERT_EQ(ents_state_transfer(s.model.handle(), before.data(), old_s, after.data(), new_s, state.data(),
+                                  moved.data(), nullptr),
+              ENTS_OK);
     EXPECT_NEAR(moved[2 + 1], 0.98, 0.02) << "seam " << seam;
     EXPECT_NEAR(moved[2 + 2], 1.02, 0.02) << "seam " << seam;
   }
 }
 
-// Grooves along one direction: the other coordinate is 0 everywhere, so coordinates alone do not say where a point is.
+// Grooves along one direction: the other coordinate is 0 everywhere, so coordinates alone do not say where a
+// point is.
 TEST(State, MovesWhereCoordinatesAreConstantAlongADirection) {
-  for (const char* friction : {"", R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50})"}) {
-    const mechanics::Model model(R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.01, "wave_vector": [0.5, 0]},
-      "contact": {"normal": {"type": "penalty", "stiffness": 100})" + std::string(friction) + "}}");
+  for (const char* friction :
+       {"", R"(, "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50})"}) {
+    const mechanics::Model model(
+        R"({"segment": "quad4", "height": {"type": "sine", "amplitude": 0.01, "wave_vector": [0.5, 0]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 100})" +
+        std::string(friction) + "}}");
     const ents_layout layout = layout_of(model.handle());
     std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
     ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
     state[1] = 2.0;
     for (std::size_t k = 3; k < 3 + (layout.friction ? 4 : 2); k += 2) state[k] = 1.02, state[k + 1] = 0.5;
-    const double before[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, after[12] = {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0};
+    const double before[12] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
+                 after[12] = {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0};
     const double old_s[8] = {0, 0, 1, 0, 1, 0, 0, 0}, new_s[8] = {1, 0, 2, 0, 2, 0, 1, 0};
-    ASSERT_EQ(ents_state_transfer(model.handle(), before, old_s, after, new_s, state.data(), moved.data(), nullptr), ENTS_OK) << friction;
+    ASSERT_EQ(
+        ents_state_transfer(model.handle(), before, old_s, after, new_s, state.data(), moved.data(), nullptr),
+        ENTS_OK)
+        << friction;
     for (std::size_t k = 3; k < 3 + (layout.friction ? 4 : 2); k += 2) {
       EXPECT_NEAR(moved[k], -0.98, 1e-9) << friction;
       EXPECT_NEAR(moved[k + 1], 0.5, 1e-9) << friction;
@@ -310,8 +340,10 @@ TEST(State, MovesWhereCoordinatesAreConstantAlongADirection) {
 // A texture with the same coordinates on every segment: they say nothing of where a point is.
 TEST(State, MovesWhereCoordinatesRepeat) {
   for (const int d : {2, 3}) {
-    const std::string height = R"("height": {"type": "sine", "amplitude": 0.001, "wave_vector": )" + std::string(d == 2 ? "[1]" : "[1, 0]") + "}";
-    const mechanics::Model model(R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + "\", " + height +
+    const std::string height = R"("height": {"type": "sine", "amplitude": 0.001, "wave_vector": )" +
+                               std::string(d == 2 ? "[1]" : "[1, 0]") + "}";
+    const mechanics::Model model(R"({"segment": ")" + std::string(d == 2 ? "line2" : "quad4") + "\", " +
+                                 height +
                                  R"(, "contact": {"normal": {"type": "penalty", "stiffness": 100},
                                      "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})");
     const ents_layout layout = layout_of(model.handle());
@@ -320,20 +352,24 @@ TEST(State, MovesWhereCoordinatesRepeat) {
     const auto t = static_cast<std::size_t>(d - 1);
     state[1] = 2.0, state[3] = 1.002, state[3 + t] = 0.98; // just beyond the end, the anchor before it
     const double line[2][4] = {{0, 0, 1, 0}, {1, 0, 2, 0}}, line_s[2] = {0, 1};
-    const double quad[2][12] = {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0}}, quad_s[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    const double quad[2][12] = {{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, {1, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0}},
+                 quad_s[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     const double* s = d == 2 ? line_s : quad_s;
-    ASSERT_EQ(ents_state_transfer(model.handle(), d == 2 ? line[0] : quad[0], s, d == 2 ? line[1] : quad[1], s, state.data(), moved.data(), nullptr),
+    ASSERT_EQ(ents_state_transfer(model.handle(), d == 2 ? line[0] : quad[0], s, d == 2 ? line[1] : quad[1],
+                                  s, state.data(), moved.data(), nullptr),
               ENTS_OK);
     EXPECT_NEAR(moved[3], -0.998, 1e-4) << d; // heights repeat with the texture, not beyond the border
     EXPECT_NEAR(moved[3 + t], -1.02, 1e-3) << d;
   }
 }
 
-// The anchor just beyond the new segment's edge, on a steep texture: not some other place of the segment that is closest to it.
+// The anchor just beyond the new segment's edge, on a steep texture: not some other place of the segment that
+// is closest to it.
 TEST(State, MovesToTheClosestPlaceOfASteepTexture) {
   for (const double amplitude : {0.05, 0.2}) { // slopes 0.6 and 2.5
-    const mechanics::Model model(R"({"segment": "line2", "height": {"type": "sine", "amplitude": )" + std::to_string(amplitude) +
-                                 R"(, "wave_vector": [1]}, "contact": {"normal": {"type": "penalty", "stiffness": 100},
+    const mechanics::Model model(
+        R"({"segment": "line2", "height": {"type": "sine", "amplitude": )" + std::to_string(amplitude) +
+        R"(, "wave_vector": [1]}, "contact": {"normal": {"type": "penalty", "stiffness": 100},
                                      "friction": {"type": "rough", "stiffness": 10}}})");
     const ents_layout layout = layout_of(model.handle());
     std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
@@ -341,13 +377,16 @@ TEST(State, MovesToTheClosestPlaceOfASteepTexture) {
     for (const double lag : {0.02, 0.06, 0.1}) {
       ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
       state[1] = 2.0, state[3] = state[4] = 1.0 - lag;
-      ASSERT_EQ(ents_state_transfer(model.handle(), before, nullptr, after, nullptr, state.data(), moved.data(), nullptr), ENTS_OK);
+      ASSERT_EQ(ents_state_transfer(model.handle(), before, nullptr, after, nullptr, state.data(),
+                                    moved.data(), nullptr),
+                ENTS_OK);
       EXPECT_NEAR(moved[4], -1.0 - lag, 1e-9) << amplitude << ", " << lag;
     }
   }
 }
 
-// A multiplier may pull for an iteration while the pair is still counted as closed: no friction then, and nothing undefined.
+// A multiplier may pull for an iteration while the pair is still counted as closed: no friction then, and
+// nothing undefined.
 TEST(State, AMultiplierThatPullsHasNoFriction) {
   Slide s(R"({"type": "multiplier", "stiffness": 100})");
   s.segment(0.0, 1.0);
@@ -366,7 +405,8 @@ TEST(State, AMultiplierThatPullsHasNoFriction) {
 // Heights that wear: the worn model goes on with the state of the old one, anchor and slip included.
 TEST(State, GoesOnWithAnotherHeight) {
   const std::string penalty = R"({"type": "penalty", "stiffness": 100})";
-  Slide fresh(penalty, R"({"type": "constant", "value": 0.002})"), worn(penalty, R"({"type": "constant", "value": 0.001})");
+  Slide fresh(penalty, R"({"type": "constant", "value": 0.002})"),
+      worn(penalty, R"({"type": "constant", "value": 0.001})");
   for (Slide* s : {&fresh, &worn}) s->segment(0.0, 1.0);
   fresh.evaluate_at(0.3);
   fresh.commit();
@@ -380,7 +420,8 @@ TEST(State, GoesOnWithAnotherHeight) {
 
 // Flags are those of the element, whatever else is wanted, also of a slave that is far away.
 TEST(State, FlagsAloneRefuseNoSlaveFarAway) {
-  const mechanics::Model model(R"({"segment": "line3", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  const mechanics::Model model(
+      R"({"segment": "line3", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
   const double slave[2] = {50.0, 3.0}, master[6] = {1, 0, -1, 0, 0, 0.1};
   double residual[8];
   std::int32_t flags[2] = {-1, -1};
@@ -398,7 +439,8 @@ TEST(State, FlagsAloneRefuseNoSlaveFarAway) {
   EXPECT_TRUE(flags[0] & ENTS_FLAG_OUTSIDE);
 }
 
-// Uzawa: with the slave held at a penetration, multipliers grow by stiffness times gap; the begin of the increment stays.
+// Uzawa: with the slave held at a penetration, multipliers grow by stiffness times gap; the begin of the
+// increment stays.
 TEST(State, AugmentationMovesTheMultipliersOnly) {
   Slide s(R"({"type": "augmented", "stiffness": 100})");
   s.segment(0.0, 1.0);
@@ -414,5 +456,5 @@ TEST(State, AugmentationMovesTheMultipliersOnly) {
   for (std::size_t i = 0; i + 2 < size; ++i) EXPECT_EQ(s.elements.state[i], begin[i]) << i;
 }
 
-}  // namespace
-}  // namespace laws
+} // namespace
+} // namespace laws

@@ -195,9 +195,11 @@ TEST(Admissibility, AFoldedSurfaceRunsBackwards) {
       0.0);
 }
 
-// A segment without a normal of its own is degenerate, and no height can mend that; nor is it the height's fault.
+// A segment without a normal of its own is degenerate, and no height can mend that; nor is it the height's
+// fault.
 TEST(Admissibility, ADegenerateSegmentIsNoFold) {
-  const std::vector<double> point = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3}, bow_tie = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
+  const std::vector<double> point = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3},
+                            bow_tie = {-1, -1, 0, 1, -1, 0, -1, 1, 0, 1, 1, 0};
   for (const json& height : {json(), waves(0.1, 0.5)}) {
     json sheet = height;
     if (!sheet.is_null()) sheet["wave_vector"] = {0.5, 0.5};
@@ -205,7 +207,9 @@ TEST(Admissibility, ADegenerateSegmentIsNoFold) {
     for (const auto& nodes : {point, bow_tie}) {
       ents_admissibility result{};
       result.struct_size = sizeof result;
-      EXPECT_EQ(ents_model_check(m.handle(), nodes.data(), nullptr, &result, nullptr), ENTS_DEGENERATE_SEGMENT) << sheet;
+      EXPECT_EQ(ents_model_check(m.handle(), nodes.data(), nullptr, &result, nullptr),
+                ENTS_DEGENERATE_SEGMENT)
+          << sheet;
     }
   }
 }

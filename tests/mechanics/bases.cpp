@@ -114,8 +114,21 @@ const std::vector<Basis>& all_bases() {
                    Family::bernstein,
                    3,
                    true,
-                   {{0, 0}, {1, 0}, {0, 1}, {0.25, 0}, {0.5, 0}, {0.75, 0}, {0.75, 0.25}, {0.5, 0.5}, {0.25, 0.75},
-                    {0, 0.75}, {0, 0.5}, {0, 0.25}, {0.25, 0.25}, {0.5, 0.25}, {0.25, 0.5}}});
+                   {{0, 0},
+                    {1, 0},
+                    {0, 1},
+                    {0.25, 0},
+                    {0.5, 0},
+                    {0.75, 0},
+                    {0.75, 0.25},
+                    {0.5, 0.5},
+                    {0.25, 0.75},
+                    {0, 0.75},
+                    {0, 0.5},
+                    {0, 0.25},
+                    {0.25, 0.25},
+                    {0.5, 0.25},
+                    {0.25, 0.5}}});
     return all;
   }();
   return table;
@@ -153,7 +166,8 @@ Shape shape_functions(const Basis& basis, const double* xi) {
   constexpr double h = 1e-30;
   const double y = basis.dimension == 3 ? xi[1] : 0.0;
   Shape out;
-  if (basis.dimension == 3 && !basis.simplex && basis.family != Family::serendipity) { // products, each factor once
+  if (basis.dimension == 3 && !basis.simplex &&
+      basis.family != Family::serendipity) { // products, each factor once
     const int count = basis.family == Family::linear ? 2 : (basis.family == Family::quadratic ? 3 : 4);
     const double first = count == 4 ? -3.0 : -1.0, apart = count == 3 ? 1.0 : 2.0;
     Complex f[4], g[4];
@@ -162,7 +176,8 @@ Shape shape_functions(const Basis& basis, const double* xi) {
       g[i] = on_line(basis.family, first + apart * i, Complex(xi[1], h));
     }
     for (const auto& node : basis.nodes) {
-      const Complex a = f[static_cast<int>((node[0] - first) / apart)], b = g[static_cast<int>((node[1] - first) / apart)];
+      const Complex a = f[static_cast<int>((node[0] - first) / apart)],
+                    b = g[static_cast<int>((node[1] - first) / apart)];
       out.value.push_back(a.real() * b.real());
       out.d1.push_back(a.imag() / h * b.real());
       out.d2.push_back(a.real() * (b.imag() / h));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// No gap through which a slave node slips: over a kinked surface every slave inside the body is projected, or flagged.
+// No gap through which a slave node slips: over a kinked surface every slave inside the body is projected, or
+// flagged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ constexpr int cells = 6;
 MeshSurface kinked(Random& random, const Basis& basis, double roughness) {
   MeshSurface mesh = draw_mesh(random, basis, cells, 0.0);
   const auto d = static_cast<std::size_t>(basis.dimension);
-  for (std::size_t i = d - 1; i < mesh.positions.size(); i += d) mesh.positions[i] = random.uniform(-roughness, roughness);
+  for (std::size_t i = d - 1; i < mesh.positions.size(); i += d)
+    mesh.positions[i] = random.uniform(-roughness, roughness);
   return mesh;
 }
 
@@ -76,9 +78,10 @@ TEST(BehindEdge, NoSlaveSlipsThroughAKinkedSurfaceUnseen) {
         }
       }
     }
-    std::printf("%-6s %8lld slaves inside: %lld in a wedge and flagged, %lld unseen; %lld outside: %lld flagged\n", name,
-                static_cast<long long>(inside), static_cast<long long>(lost), static_cast<long long>(unseen),
-                static_cast<long long>(outside), static_cast<long long>(wrong));
+    std::printf(
+        "%-6s %8lld slaves inside: %lld in a wedge and flagged, %lld unseen; %lld outside: %lld flagged\n",
+        name, static_cast<long long>(inside), static_cast<long long>(lost), static_cast<long long>(unseen),
+        static_cast<long long>(outside), static_cast<long long>(wrong));
     EXPECT_GT(lost, inside / 1000);
     EXPECT_EQ(unseen, 0);
     EXPECT_EQ(wrong, 0);
@@ -117,7 +120,8 @@ std::int32_t flags_of(const MeshSurface& surface, const std::vector<double>& sla
   return found.flags[0];
 }
 
-MeshSurface surface_of(const char* basis, std::vector<std::int64_t> connectivity, std::vector<double> positions) {
+MeshSurface surface_of(const char* basis, std::vector<std::int64_t> connectivity,
+                       std::vector<double> positions) {
   MeshSurface out;
   out.basis = &basis_named(basis);
   out.connectivity = std::move(connectivity), out.positions = std::move(positions);
@@ -126,12 +130,14 @@ MeshSurface surface_of(const char* basis, std::vector<std::int64_t> connectivity
 
 // Free edges that are equally far from a slave are no common one: between two plates, on the axis of a hole.
 TEST(BehindEdge, FreeEdgesThatAreEquallyFarAreNone) {
-  EXPECT_EQ(flags_of(surface_of("line2", {0, 1, 2, 3}, {-2, 0, -1, 0, 1, 0, 2, 0}), {0.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED);
-  const MeshSurface plates = surface_of("quad4", {0, 1, 2, 3, 4, 5, 6, 7},
-                                        {-2, -1, 0, -1, -1, 0, -1, 1, 0, -2, 1, 0, 1, -1, 0, 2, -1, 0, 2, 1, 0, 1, 1, 0});
+  EXPECT_EQ(flags_of(surface_of("line2", {0, 1, 2, 3}, {-2, 0, -1, 0, 1, 0, 2, 0}), {0.0, -0.3}, 5.0),
+            ENTS_FLAG_SEARCHED);
+  const MeshSurface plates =
+      surface_of("quad4", {0, 1, 2, 3, 4, 5, 6, 7},
+                 {-2, -1, 0, -1, -1, 0, -1, 1, 0, -2, 1, 0, 1, -1, 0, 2, -1, 0, 2, 1, 0, 1, 1, 0});
   EXPECT_EQ(flags_of(plates, {0.0, 0.1, -0.3}, 5.0), ENTS_FLAG_SEARCHED);
   EXPECT_EQ(flags_of(plates, {0.0, 1.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED); // corners
-  for (const int n : {4, 12, 90}) { // facets round a hole
+  for (const int n : {4, 12, 90}) {                                       // facets round a hole
     std::vector<std::int64_t> connectivity;
     std::vector<double> positions;
     for (int i = 0; i < n; ++i) {
@@ -140,13 +146,16 @@ TEST(BehindEdge, FreeEdgesThatAreEquallyFarAreNone) {
       const std::int64_t next = (i + 1) % n;
       connectivity.insert(connectivity.end(), {2 * i, 2 * i + 1, 2 * next + 1, 2 * next});
     }
-    EXPECT_EQ(flags_of(surface_of("quad4", connectivity, positions), {0.0, 0.0, -0.3}, 5.0), ENTS_FLAG_SEARCHED) << n;
+    EXPECT_EQ(flags_of(surface_of("quad4", connectivity, positions), {0.0, 0.0, -0.3}, 5.0),
+              ENTS_FLAG_SEARCHED)
+        << n;
   }
 }
 
 // The same in an element of several segments: open, not lost.
 TEST(BehindEdge, APatchBetweenFreeEdgesIsOpen) {
-  const Model model(R"({"segment": "line2", "patch": [[0, 1], [2, 3]], "contact": {"normal": {"type": "penalty", "stiffness": 10}}})");
+  const Model model(
+      R"({"segment": "line2", "patch": [[0, 1], [2, 3]], "contact": {"normal": {"type": "penalty", "stiffness": 10}}})");
   const double slave[] = {0.0, -0.3}, master[] = {-2, 0, -1, 0, 1, 0, 2, 0};
   std::vector<double> residual(10, 7.0);
   std::int32_t flags = 0;
@@ -161,7 +170,8 @@ TEST(BehindEdge, APatchBetweenFreeEdgesIsOpen) {
   EXPECT_EQ(residual, std::vector<double>(10, 0.0));
 }
 
-// The border closes the wedge of a valley. What lies beyond the edge is no part of the gap, and the reach is of the gap.
+// The border closes the wedge of a valley. What lies beyond the edge is no part of the gap, and the reach is
+// of the gap.
 TEST(BehindEdge, TheReachIsOfTheGap) {
   const MeshSurface valley = surface_of("line2", {0, 1, 1, 2}, {-1, 1, 0, 0, 1, 1});
   const Model model(R"({"segment": "line2", "border": 0.3})");
@@ -172,6 +182,7 @@ TEST(BehindEdge, TheReachIsOfTheGap) {
       if (followed) found.segment = {0}, found.xi = {0.95};
       Detector(model, valley).detect(slave, reach, found);
       EXPECT_EQ(found.segment[0] >= 0, reach > 0.0708) << reach << followed;
+      EXPECT_EQ((found.flags[0] & ENTS_FLAG_LEFT) != 0, followed && reach < 0.0708) << reach;
       if (found.segment[0] < 0) continue;
       EXPECT_NEAR(found.gap[0], -0.1 * std::sqrt(0.5), 1e-12) << reach << followed;
     }
@@ -179,12 +190,14 @@ TEST(BehindEdge, TheReachIsOfTheGap) {
 
 // Behind two grooves that are equally far: lost behind either.
 TEST(BehindEdge, GroovesThatAreEquallyFarAreSeen) {
-  const MeshSurface grooves = surface_of("line2", {0, 1, 1, 2, 2, 3, 3, 4}, {-2, 1, -1, 0, 0, 0.1, 1, 0, 2, 1});
-  for (const double x : {0.0, 0.1, -0.1}) EXPECT_EQ(flags_of(grooves, {x, -20.0}, 30.0), ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
+  const MeshSurface grooves =
+      surface_of("line2", {0, 1, 1, 2, 2, 3, 3, 4}, {-2, 1, -1, 0, 0, 0.1, 1, 0, 2, 1});
+  for (const double x : {0.0, 0.1, -0.1})
+    EXPECT_EQ(flags_of(grooves, {x, -20.0}, 30.0), ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE);
 }
 
-// A pit and a hill of n facets: however many meet in its lowest point, a slave behind it is seen, and one ahead of the top is open (as far as
-// facets are counted).
+// A pit and a hill of n facets: however many meet in its lowest point, a slave behind it is seen, and one
+// ahead of the top is open (as far as facets are counted).
 TEST(BehindEdge, FacetsRoundAPitAreAllCounted) {
   for (const int n : {3, 6, 12, 16, 17, 20, 32, 63, 64, 65, 100}) {
     std::vector<double> pit{0, 0, 0}, hill{0, 0, 0};
@@ -196,18 +209,22 @@ TEST(BehindEdge, FacetsRoundAPitAreAllCounted) {
       connectivity.insert(connectivity.end(), {0, 1 + i, 1 + (i + 1) % n});
     }
     for (const double x : {0.0, 0.001, 0.02}) {
-      EXPECT_EQ(flags_of(surface_of("tri3", connectivity, pit), {x, 0.5 * x, -0.1}, 0.5), ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE) << n;
+      EXPECT_EQ(flags_of(surface_of("tri3", connectivity, pit), {x, 0.5 * x, -0.1}, 0.5),
+                ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE)
+          << n;
       const std::int32_t open = flags_of(surface_of("tri3", connectivity, hill), {x, 0.5 * x, 0.1}, 0.5);
       EXPECT_EQ(open, n <= 64 ? ENTS_FLAG_SEARCHED : ENTS_FLAG_SEARCHED | ENTS_FLAG_BEHIND_EDGE) << n;
     }
   }
 }
 
-// Far from the origin, where positions are known to 1e-10 only: a slave on the outer border of a textured surface is on the surface.
+// Far from the origin, where positions are known to 1e-10 only: a slave on the outer border of a textured
+// surface is on the surface.
 TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
   Random random(41);
   const Basis& basis = basis_named("tri3");
-  const Model model(R"({"segment": "tri3", "height": {"type": "sine", "amplitude": 0.00025, "wave_vector": [0.4, 0.3]}})");
+  const Model model(
+      R"({"segment": "tri3", "height": {"type": "sine", "amplitude": 0.00025, "wave_vector": [0.4, 0.3]}})");
   for (const double offset : {0.0, 1e3, 1e6}) {
     std::int64_t lost = 0;
     const int count = static_cast<int>(samples(2000));
@@ -216,8 +233,11 @@ TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
       for (double& x : mesh.positions) x = 0.005 * x + offset;
       std::vector<double> slaves;
       for (int i = 0; i < 20; ++i) {
-        const double along = 0.05 + 0.9 * random.uniform(0.0, 1.0); // the side xi_2 = 0 of the first segment, which is on the border
-        const SurfacePoints at = evaluate_surface(model, mesh.master(0).data(), mesh.coordinates(0), {along, 0.0});
+        const double along =
+            0.05 +
+            0.9 * random.uniform(0.0, 1.0); // the side xi_2 = 0 of the first segment, which is on the border
+        const SurfacePoints at =
+            evaluate_surface(model, mesh.master(0).data(), mesh.coordinates(0), {along, 0.0});
         const double gap = random.uniform(-0.00025, 0.00025);
         for (std::size_t k = 0; k < 3; ++k) slaves.push_back(at.point[k] + gap * at.normal[k]);
       }

@@ -1,5 +1,5 @@
-// The search (start = null) finds the closest point: against a dense sweep, on textures with many minima. Distances are to this
-// test's own surface at the xi found.
+// The search (start = null) finds the closest point: against a dense sweep, on textures with many minima.
+// Distances are to this test's own surface at the xi found.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -68,8 +68,9 @@ TEST_P(ClosestPoint, IsFoundByTheSearch) {
   EXPECT_LE(off.error, same_point) << off.where;
   EXPECT_GT(compared, 9 * on_border);
   std::cout << basis.name << ": " << compared << " positions, farther than the sweep by at most "
-            << worst.error << ", points off the surface by " << off.error << "; surface evaluations: " << spent / (per_scene * scenes)
-            << " in the mean, at most " << most_spent << "\n";
+            << worst.error << ", points off the surface by " << off.error
+            << "; surface evaluations: " << spent / (per_scene * scenes) << " in the mean, at most "
+            << most_spent << "\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Basis, ClosestPoint, testing::ValuesIn(all_basis_names()),

@@ -127,7 +127,8 @@ TEST_P(ElementDerivatives, OfEnergyAndResidual) {
   }
 }
 
-// Without bezier15, which random control points bend too sharply for these steps: taylor_test.cpp, tests/laws/tangent_test.cpp.
+// Without bezier15, which random control points bend too sharply for these steps: taylor_test.cpp,
+// tests/laws/tangent_test.cpp.
 INSTANTIATE_TEST_SUITE_P(Basis, ElementDerivatives, testing::ValuesIn(basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 

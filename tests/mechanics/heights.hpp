@@ -23,7 +23,7 @@ public:
 
 private:
   enum class Kind { none, constant, sine, polynomial, gaussian, map, thread, sum, product };
-  double turns(const double* s) const;                                 // along the wave vector
+  double turns(const double* s) const;                                  // along the wave vector
   double spline(int a, double s, std::array<double, 4>& weights) const; // returns the first knot
 
   Kind kind_ = Kind::none;

@@ -49,7 +49,8 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
   const Basis& basis = basis_named(GetParam());
   const int d = basis.dimension, t = basis.parameters();
   const auto dim = static_cast<std::size_t>(d);
-  std::int64_t total = 0, clear = 0, refused = 0, wrong = 0, flagged = 0, accepted_flagged = 0, followed_slaves = 0;
+  std::int64_t total = 0, clear = 0, refused = 0, wrong = 0, flagged = 0, accepted_flagged = 0,
+               followed_slaves = 0;
   double first_us = 0.0, followed_us = 0.0, longest_us = 0.0;
   while (total < slaves_of_each_basis()) {
     MeshSurface mesh = draw_mesh(random, basis, d == 2 ? 6 : basis.node_count() > 9 ? 4 : 3, 0.05);

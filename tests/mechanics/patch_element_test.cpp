@@ -243,7 +243,8 @@ TEST(PatchElement, BeyondTheEndsIsOpenBehindAKinkIsLost) {
 
 // A slave that is open crosses a groove in small steps: the flank it meets is not the one it was last over.
 TEST(PatchElement, AnOpenSlaveIsLookedForAnew) {
-  const Model model(R"({"segment": "line2", "patch": [[0, 1], [1, 2]], "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
+  const Model model(
+      R"({"segment": "line2", "patch": [[0, 1], [1, 2]], "contact": {"normal": {"type": "penalty", "stiffness": 100}}})");
   const std::vector<double> groove = {-1, 5, 0, 0, 1, 5}; // its flanks are at x = +-0.56 where y = 2.8
   std::vector<double> state;
   for (const double x : {-0.3, 0.1, 0.5, 0.58, 0.6, 0.62}) {
@@ -251,7 +252,7 @@ TEST(PatchElement, AnOpenSlaveIsLookedForAnew) {
     const Evaluation followed = evaluate(model, slave, groove, nullptr, state, nullptr, false);
     const Evaluation fresh = evaluate(model, slave, groove, nullptr, {}, nullptr, false);
     EXPECT_EQ(followed.status, 0);
-    EXPECT_EQ(followed.gap < 0, x > 0.56) << x;
+    EXPECT_EQ(followed.gap<0, x> 0.56) << x;
     EXPECT_EQ(followed.gap, fresh.gap) << x;
     state = followed.state;
   }

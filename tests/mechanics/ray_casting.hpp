@@ -27,8 +27,10 @@ public:
       across.push_back({dot(d, b1), dot(d, b2)});
     }
     std::vector<double> found;
-    if (basis_.dimension == 2) cast_line(surface, slave, ray, b1, across, found);
-    else cast_triangles(surface, slave, ray, b1, b2, across, found);
+    if (basis_.dimension == 2)
+      cast_line(surface, slave, ray, b1, across, found);
+    else
+      cast_triangles(surface, slave, ray, b1, b2, across, found);
     std::sort(found.begin(), found.end());
     return found;
   }
@@ -50,8 +52,9 @@ private:
   }
 
   // 3D: a cell's triangle that the ray pierces, then Newton's method with differences
-  void cast_triangles(const Surface& surface, const Vec3& slave, const Vec3& ray, const Vec3& b1, const Vec3& b2,
-                      const std::vector<std::array<double, 2>>& across, std::vector<double>& found) const {
+  void cast_triangles(const Surface& surface, const Vec3& slave, const Vec3& ray, const Vec3& b1,
+                      const Vec3& b2, const std::vector<std::array<double, 2>>& across,
+                      std::vector<double>& found) const {
     const std::size_t n = static_cast<std::size_t>(grid_.columns());
     const auto pierced = [&](std::size_t a, std::size_t b, std::size_t c) {
       const auto side = [&](std::size_t i, std::size_t j) {
@@ -63,7 +66,8 @@ private:
     for (std::size_t j = 0; j + 1 < n; ++j)
       for (std::size_t i = 0; i + 1 < n; ++i) {
         const std::size_t a = j * n + i, b = a + 1, c = a + n, d = c + 1;
-        for (const auto& triangle : {std::array<std::size_t, 3>{a, b, c}, std::array<std::size_t, 3>{d, c, b}}) {
+        for (const auto& triangle :
+             {std::array<std::size_t, 3>{a, b, c}, std::array<std::size_t, 3>{d, c, b}}) {
           if (!pierced(triangle[0], triangle[1], triangle[2])) continue;
           std::array<double, 2> xi{};
           for (const std::size_t corner : triangle)
@@ -85,7 +89,8 @@ private:
     const std::array<double, 2> first = xi;
     for (int k = 0; k < 12; ++k) {
       const auto f = off(xi[0], xi[1]), fx = off(xi[0] + h, xi[1]), fy = off(xi[0], xi[1] + h);
-      const double j11 = (fx[0] - f[0]) / h, j12 = (fy[0] - f[0]) / h, j21 = (fx[1] - f[1]) / h, j22 = (fy[1] - f[1]) / h;
+      const double j11 = (fx[0] - f[0]) / h, j12 = (fy[0] - f[0]) / h, j21 = (fx[1] - f[1]) / h,
+                   j22 = (fy[1] - f[1]) / h;
       const double det = j11 * j22 - j12 * j21;
       xi[0] -= (j22 * f[0] - j12 * f[1]) / det;
       xi[1] -= (j11 * f[1] - j21 * f[0]) / det;

@@ -13,7 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-// Bases whose functions on a part of the segment are functions of the same kind: all Lagrange and serendipity ones.
+// Bases whose functions on a part of the segment are functions of the same kind: all Lagrange and serendipity
+// ones.
 class PartsOfASegment : public testing::TestWithParam<std::string> {
 protected:
   const Basis& basis() const { return basis_named(GetParam()); }
@@ -46,8 +47,8 @@ protected:
     return rows;
   }
 
-  static std::vector<double> interpolate(const std::vector<std::vector<double>>& rows, const std::vector<double>& values,
-                                         std::size_t entries) {
+  static std::vector<double> interpolate(const std::vector<std::vector<double>>& rows,
+                                         const std::vector<double>& values, std::size_t entries) {
     std::vector<double> out;
     for (const auto& row : rows)
       for (std::size_t c = 0; c < entries; ++c) {
@@ -70,12 +71,14 @@ protected:
   }
 };
 
-// Segments cut into 3 per direction; the nodes of a part lie on the whole and carry its surface coordinates. Then the element of
-// the part is the element of the whole: same gap, R = P^T R', K = P^T K' P with the interpolation P of the nodes. A straight
-// row of line2 against one long line2, and a net of quad4 against a large one, are cases of it.
+// Segments cut into 3 per direction; the nodes of a part lie on the whole and carry its surface coordinates.
+// Then the element of the part is the element of the whole: same gap, R = P^T R', K = P^T K' P with the
+// interpolation P of the nodes. A straight row of line2 against one long line2, and a net of quad4 against a
+// large one, are cases of it.
 TEST_P(PartsOfASegment, AreTheWholeSegment) {
   constexpr int count = 3;
-  constexpr double tolerance = 1e-12; // rounding of positions and s, 1e-15, times slopes, curvatures and 1 / size of the part
+  constexpr double tolerance =
+      1e-12; // rounding of positions and s, 1e-15, times slopes, curvatures and 1 / size of the part
   Random random(81);
   Worst worst;
   std::int64_t compared = 0;
@@ -85,8 +88,8 @@ TEST_P(PartsOfASegment, AreTheWholeSegment) {
       scene.with_coordinates = true;
       const Model model(scene.model().dump());
       const Elements elements = draw_elements(random, scene, model, samples(60), -0.15, -0.02);
-      constexpr std::int32_t wanted = ENTS_XI | ENTS_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_ENERGY | ENTS_RESIDUAL |
-                                      ENTS_TANGENT | ENTS_FLAGS;
+      constexpr std::int32_t wanted = ENTS_XI | ENTS_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_ENERGY |
+                                      ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS;
       const Results whole = model.evaluate(elements, wanted);
       const std::size_t d = static_cast<std::size_t>(basis().dimension), t = d - 1, m = basis().nodes.size();
       const std::size_t n = static_cast<std::size_t>(basis().dofs());
@@ -95,13 +98,15 @@ TEST_P(PartsOfASegment, AreTheWholeSegment) {
         const Part part = part_at(xi, count);
         std::array<double, 2> local{};
         for (std::size_t a = 0; a < t; ++a) local[a] = (xi[a] - part.low[a]) / part.size;
-        if (basis().simplex && local[0] + local[1] > 1.0) continue; // one of the triangles that stand on their head
+        if (basis().simplex && local[0] + local[1] > 1.0)
+          continue; // one of the triangles that stand on their head
         const auto p = interpolation(part);
         const std::vector<double> u = dofs_of(elements, static_cast<std::int64_t>(e), basis());
         Elements one;
         one.count = 1;
         one.slave.assign(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(d));
-        one.master = interpolate(p, std::vector<double>(u.begin() + static_cast<std::ptrdiff_t>(d), u.end()), d);
+        one.master =
+            interpolate(p, std::vector<double>(u.begin() + static_cast<std::ptrdiff_t>(d), u.end()), d);
         const double* s = &elements.surface_coordinates[e * m * t];
         one.surface_coordinates = interpolate(p, std::vector<double>(s, s + m * t), t);
         one.area = {elements.area[e]};
@@ -118,7 +123,8 @@ TEST_P(PartsOfASegment, AreTheWholeSegment) {
         same(r.normal.data(), &whole.normal[e * d], d, 1.0);
         same(r.point.data(), &whole.point[e * d], d, 1.0);
         same(r.energy.data(), &whole.energy[e], 1, whole.energy[e]);
-        same(gather(p, r.residual.data()).data(), &whole.residual[e * n], n, largest_entry(&whole.residual[e * n], n));
+        same(gather(p, r.residual.data()).data(), &whole.residual[e * n], n,
+             largest_entry(&whole.residual[e * n], n));
         std::vector<double> half(n * n);
         for (std::size_t j = 0; j < n; ++j) {
           const std::vector<double> column = gather(p, &r.tangent[j * n]);
@@ -138,8 +144,9 @@ INSTANTIATE_TEST_SUITE_P(Basis, PartsOfASegment,
                          testing::Values("line2", "line3", "tri3", "tri6", "quad4", "quad8", "quad9"),
                          [](const auto& parameter) { return parameter.param; });
 
-// Neighbouring smoothed segments with a height: the points of rho_e meet where rho has a common normal (C1), the normals n_e
-// where it has a common curvature (C2). Theory, section 5.3: C1 smoothing leaves kinks in n_e where h is not zero.
+// Neighbouring smoothed segments with a height: the points of rho_e meet where rho has a common normal (C1),
+// the normals n_e where it has a common curvature (C2). Theory, section 5.3: C1 smoothing leaves kinks in n_e
+// where h is not zero.
 TEST(SmoothedSegments, MeetAtTheirEnds) {
   Random random(83);
   double largest_kink = 0.0;
@@ -148,7 +155,8 @@ TEST(SmoothedSegments, MeetAtTheirEnds) {
       const bool kinked = enriched && std::string(name) == "catmull_rom4";
       json height;
       if (enriched) height = {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {0.3}}, {"phase", 0.4}};
-      const Model model(json{{"segment", name}, {"height", height}, {"projection", {{"type", "normal"}}}}.dump());
+      const Model model(
+          json{{"segment", name}, {"height", height}, {"projection", {{"type", "normal"}}}}.dump());
       for (int sample = 0; sample < 50; ++sample) {
         std::vector<double> nodes, s;
         for (int i = 0; i < 5; ++i) {
@@ -160,8 +168,10 @@ TEST(SmoothedSegments, MeetAtTheirEnds) {
         const SurfacePoints right = evaluate_surface(model, nodes.data() + 2, s.data() + 1, {-1.0});
         const double kink = norm(vec3(left.normal.data(), 2) - vec3(right.normal.data(), 2));
         EXPECT_LE(norm(vec3(left.point.data(), 2) - vec3(right.point.data(), 2)), 1e-14) << name;
-        if (kinked) test::raise(largest_kink, kink);
-        else EXPECT_LE(kink, 1e-14) << name << (enriched ? " enriched" : "");
+        if (kinked)
+          test::raise(largest_kink, kink);
+        else
+          EXPECT_LE(kink, 1e-14) << name << (enriched ? " enriched" : "");
       }
     }
   EXPECT_GT(largest_kink, 1e-6); // random curvatures differ on the two sides

@@ -1,4 +1,5 @@
-// ents_surface_evaluate: points, heights and normals of the enriched surface, against its definition and against each other.
+// ents_surface_evaluate: points, heights and normals of the enriched surface, against its definition and
+// against each other.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -34,13 +35,16 @@ protected:
       }
   }
 
-  // All over the segment, its border included, and somewhat beyond; a quartic of random control points folds there
+  // All over the segment, its border included, and somewhat beyond; a quartic of random control points folds
+  // there
   std::vector<double> draw_points(Random& random, std::int64_t count) const {
     const bool quartic = basis().family == Family::bernstein;
     std::vector<double> xi;
     for (std::int64_t k = 0; k < count; ++k) {
       for (int a = 0; a < basis().parameters(); ++a)
-        xi.push_back(quartic ? random.uniform(0.0, 1.0) : basis().simplex ? random.uniform(-0.1, 1.1) : random.uniform(-1.2, 1.2));
+        xi.push_back(quartic           ? random.uniform(0.0, 1.0)
+                     : basis().simplex ? random.uniform(-0.1, 1.1)
+                                       : random.uniform(-1.2, 1.2));
       if (!quartic) continue;
       double* at = &xi[xi.size() - 2];
       if (at[0] + at[1] > 1.0) at[0] = 1.0 - at[0], at[1] = 1.0 - at[1];
@@ -79,7 +83,8 @@ TEST_P(EnrichedSurface, PointHeightAndBaseAreThoseOfTheDefinition) {
 // n_e is a unit vector, orthogonal to the tangents of rho_e (differences of its points), on the side of n.
 TEST_P(EnrichedSurface, NormalIsOrthogonalToDifferencesOfPoints) {
   constexpr double step = 1e-3;
-  constexpr double tolerance = 1e-7; // rounding 1e-15 * 1.5 / step; truncation step^4 / 30 over lengths of 0.02 and more
+  constexpr double tolerance =
+      1e-7; // rounding 1e-15 * 1.5 / step; truncation step^4 / 30 over lengths of 0.02 and more
   Worst worst, length;
   for_every_segment(72, [&](const Segment& segment, Random& random) {
     const int d = basis().dimension, t = basis().parameters();
@@ -104,7 +109,8 @@ TEST_P(EnrichedSurface, NormalIsOrthogonalToDifferencesOfPoints) {
         ASSERT_EQ(p.status, ENTS_OK);
         Vec3 tangent{};
         for (int c = 0; c < d; ++c)
-          tangent[static_cast<std::size_t>(c)] = difference(&p.point[static_cast<std::size_t>(d + c)], static_cast<std::size_t>(d), step);
+          tangent[static_cast<std::size_t>(c)] =
+              difference(&p.point[static_cast<std::size_t>(d + c)], static_cast<std::size_t>(d), step);
         const Vec3 n = vec3(p.normal.data(), d);
         const auto where = [&] { return segment.scene.model().dump(); };
         worst.see(std::fabs(dot(n, tangent)) / norm(tangent), where);
@@ -119,7 +125,8 @@ TEST_P(EnrichedSurface, NormalIsOrthogonalToDifferencesOfPoints) {
 
 // The point and normal that an evaluation reports are those of the surface at its xi.
 TEST_P(EnrichedSurface, IsWhatTheElementProjectsOn) {
-  constexpr double tolerance = 1e-14 * 10; // positions up to 4 seen from the slave in one case, from a node in the other
+  constexpr double tolerance =
+      1e-14 * 10; // positions up to 4 seen from the slave in one case, from a node in the other
   Worst worst;
   Random random(73);
   for (const std::string& kind : height_kinds())
@@ -127,16 +134,18 @@ TEST_P(EnrichedSurface, IsWhatTheElementProjectsOn) {
       const Scene scene = draw_scene(random, basis(), kind, projection);
       const Model model(scene.model().dump());
       const Elements elements = draw_elements(random, scene, model, samples(20), -0.1, 0.1);
-      const Results r = model.evaluate(elements, ENTS_XI | ENTS_POINT | ENTS_NORMAL | ENTS_GAP | ENTS_NORMAL_GAP);
+      const Results r =
+          model.evaluate(elements, ENTS_XI | ENTS_POINT | ENTS_NORMAL | ENTS_GAP | ENTS_NORMAL_GAP);
       const int d = basis().dimension, t = basis().parameters(), m = basis().node_count();
       for (int e = 0; e < static_cast<int>(elements.count); ++e) {
         const std::vector<double> xi(&r.xi[0] + e * t, &r.xi[0] + (e + 1) * t);
-        const SurfacePoints p =
-            evaluate_surface(model, &elements.master[0] + e * m * d,
-                             scene.with_coordinates ? &elements.surface_coordinates[0] + e * m * t : nullptr, xi);
+        const SurfacePoints p = evaluate_surface(
+            model, &elements.master[0] + e * m * d,
+            scene.with_coordinates ? &elements.surface_coordinates[0] + e * m * t : nullptr, xi);
         const Vec3 slave = vec3(&elements.slave[0] + e * d, d), point = vec3(&r.point[0] + e * d, d);
         const Vec3 normal = vec3(&r.normal[0] + e * d, d), offset = slave - point;
-        const double gap = r.gap[static_cast<std::size_t>(e)], normal_gap = r.normal_gap[static_cast<std::size_t>(e)];
+        const double gap = r.gap[static_cast<std::size_t>(e)],
+                     normal_gap = r.normal_gap[static_cast<std::size_t>(e)];
         Vec3 along = normal;
         if (scene.projection == "shadow_direction") along = (1.0 / norm(scene.ray)) * scene.ray;
         if (scene.projection == "shadow_point") along = (1.0 / norm(scene.ray - slave)) * (scene.ray - slave);
@@ -162,13 +171,15 @@ TEST_P(EnrichedSurface, CoordinatesMayComeFromTheModelOrFromTheCaller) {
     nlohmann::json text = scene.model(), coordinates = nlohmann::json::array();
     const std::size_t t = static_cast<std::size_t>(basis().parameters());
     for (std::size_t k = 0; k < elements.surface_coordinates.size(); k += t)
-      coordinates.push_back(std::vector<double>(elements.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(k),
-                                                elements.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(k + t)));
+      coordinates.push_back(
+          std::vector<double>(elements.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(k),
+                              elements.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(k + t)));
     text["surface_coordinates"] = coordinates;
     const Model own(text.dump());
     constexpr std::int32_t wanted = ENTS_XI | ENTS_GAP | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_XI_HESSIAN;
     const Results from_caller = plain.evaluate(elements, wanted);
-    const SurfacePoints there = evaluate_surface(plain, elements.master.data(), elements.surface_coordinates.data(), elements.start);
+    const SurfacePoints there =
+        evaluate_surface(plain, elements.master.data(), elements.surface_coordinates.data(), elements.start);
     elements.surface_coordinates.clear();
     const Results from_model = own.evaluate(elements, wanted);
     const SurfacePoints here = evaluate_surface(own, elements.master.data(), nullptr, elements.start);

@@ -1,4 +1,5 @@
-// A dense sweep of a segment, refined where it finds minima: finds what a search must find, without derivatives.
+// A dense sweep of a segment, refined where it finds minima: finds what a search must find, without
+// derivatives.
 #pragma once
 
 #include <algorithm>
@@ -48,11 +49,13 @@ struct Minimum {
   std::array<double, 2> xi{};
 };
 
-// The local minima of the distance from `slave`, refined, those of the best `most` samples; the closest first.
-inline std::vector<Minimum> sweep_minima(const Grid& grid, const Basis& basis, const Surface& surface, const Vec3& slave,
-                                         std::size_t most) {
+// The local minima of the distance from `slave`, refined, those of the best `most` samples; the closest
+// first.
+inline std::vector<Minimum> sweep_minima(const Grid& grid, const Basis& basis, const Surface& surface,
+                                         const Vec3& slave, std::size_t most) {
   const auto distance = [&](const std::array<double, 2>& xi) {
-    return in_domain(basis, xi) ? norm(slave - surface.at(xi.data()).point) : std::numeric_limits<double>::infinity();
+    return in_domain(basis, xi) ? norm(slave - surface.at(xi.data()).point)
+                                : std::numeric_limits<double>::infinity();
   };
   std::vector<double> sampled(grid.xi.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < sampled.size(); ++k)
@@ -71,8 +74,8 @@ inline std::vector<Minimum> sweep_minima(const Grid& grid, const Basis& basis, c
   const auto closer = [](const Minimum& a, const Minimum& b) { return a.distance < b.distance; };
   std::sort(minima.begin(), minima.end(), closer);
   minima.resize(std::min(minima.size(), most));
-  // Compass search: walk to the best of the neighbours, else halve the step. The distance is quadratic at its minimum: steps of
-  // 3e-7 give it to 1e-12.
+  // Compass search: walk to the best of the neighbours, else halve the step. The distance is quadratic at its
+  // minimum: steps of 3e-7 give it to 1e-12.
   for (Minimum& m : minima)
     for (double step = 0.5 * grid.spacing(); step > 3e-7;) {
       Minimum best = m;
@@ -82,8 +85,10 @@ inline std::vector<Minimum> sweep_minima(const Grid& grid, const Basis& basis, c
           const double now = distance(xi);
           if (now < best.distance) best = {now, xi};
         }
-      if (best.distance < m.distance) m = best;
-      else step *= 0.5;
+      if (best.distance < m.distance)
+        m = best;
+      else
+        step *= 0.5;
     }
   std::sort(minima.begin(), minima.end(), closer);
   return minima;

@@ -44,8 +44,8 @@ protected:
     const double* quantity = (points.*pair.quantity).data() + e * stencil_points * pair.rows;
     double worst = 0.0;
     for (std::size_t i = 0; i < pair.rows; ++i)
-      test::raise(worst, std::fabs(difference(quantity + i, pair.rows, t) -
-                                   times_direction(derivative, v, dofs, i)));
+      test::raise(
+          worst, std::fabs(difference(quantity + i, pair.rows, t) - times_direction(derivative, v, dofs, i)));
     return worst / largest_entry(derivative, pair.rows * dofs);
   }
 

@@ -28,7 +28,7 @@ done
 for program in x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-gfortran-posix wine cmake ninja; do
   command -v $program >/dev/null || { echo "run.sh: $program is missing (see --help)" >&2; exit 2; }
 done
-for file in /usr/src/googletest/CMakeLists.txt /usr/include/nlohmann/json.hpp /usr/share/cmake/nlohmann_json; do
+for file in /usr/src/googletest/CMakeLists.txt /usr/include/nlohmann/json.hpp /usr/share/cmake/nlohmann_json /usr/include/tao/pegtl.hpp; do
   [ -e $file ] || { echo "run.sh: $file is missing (see --help)" >&2; exit 2; }
 done
 
@@ -43,7 +43,7 @@ if [ ! -e "$prefix/lib/libgtest.a" ]; then
 fi
 # Headers beside those of this machine's C library cannot be used.
 mkdir -p "$prefix/include" "$prefix/share/cmake"
-cp -r /usr/include/nlohmann "$prefix/include"
+cp -r /usr/include/nlohmann /usr/include/tao "$prefix/include"
 cp -r /usr/share/cmake/nlohmann_json "$prefix/share/cmake"
 
 echo "== building"

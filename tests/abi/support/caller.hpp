@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The functions of ents.h as a host calls them whose invalid operations, divisions by zero and overflows trap:
-// call::evaluate(...) is ents_evaluate(...) of such a host.
+// The functions of ents.h as a host calls them whose invalid operations, divisions by zero and overflows
+// trap: call::evaluate(...) is ents_evaluate(...) of such a host.
 #pragma once
 
 #include <cfenv>
@@ -26,6 +26,7 @@ template <class Function, class... Arguments> auto in_host(Function function, Ar
 }
 
 template <class... A> int32_t check_contract(A... a) { return in_host(ents_check_contract, a...); }
+template <class... A> int32_t height_register(A... a) { return in_host(ents_height_register, a...); }
 template <class... A> int32_t model_create(A... a) { return in_host(ents_model_create, a...); }
 template <class... A> int32_t model_create_from_file(A... a) {
   return in_host(ents_model_create_from_file, a...);

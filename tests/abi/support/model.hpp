@@ -96,8 +96,9 @@ inline const Basis& basis(const std::string& name) {
 }
 
 inline const std::vector<std::string>& height_kinds() {
-  static const std::vector<std::string> kinds = {"none",     "constant", "sine",    "polynomial",
-                                                 "gaussian", "map",      "product", "sum",        "thread"};
+  static const std::vector<std::string> kinds = {"none",     "constant",   "sine",    "polynomial",
+                                                 "gaussian", "map",        "product", "sum",
+                                                 "thread",   "expression", "window"};
   return kinds;
 }
 
@@ -109,6 +110,12 @@ inline std::string height(const std::string& kind, int dimension, double size = 
                            (line ? "[0.8]" : "[0.8, 0.5]") + R"(, "phase": 0.4})";
   const std::string gaussian = R"({"type": "gaussian", "amplitude": )" + n(-0.04) + R"(, "center": )" +
                                (line ? "[0.1]" : "[0.1, 0.2]") + R"(, "width": 0.6})";
+  if (kind == "expression")
+    return R"({"type": "expression", "h": "a*sin(2*pi*0.8*u + 0.4)*exp(-0.3*u^2) - a/(2 + )" +
+           std::string(line ? "u" : "u*v - sin(v)") + R"#()", "constants": {"a": )#" + n(0.02) + "}}";
+  if (kind == "window")
+    return R"({"type": "window", "of": )" + sine + R"(, "low": )" + (line ? "[-1.5]" : "[-1.5, -1.6]") +
+           R"(, "high": )" + (line ? "[1.5]" : "[1.5, 1.4]") + "}";
   if (kind == "none") return "null";
   if (kind == "constant") return R"({"type": "constant", "value": )" + n(0.02) + "}";
   if (kind == "sine") return sine;
@@ -132,8 +139,9 @@ inline std::string height(const std::string& kind, int dimension, double size = 
            height("gaussian", dimension, 20.0) + "]}";
   if (kind == "sum") return R"({"type": "sum", "of": [)" + sine + ", " + gaussian + "]}";
   if (kind == "thread") {
-    const std::string thread = R"({"type": "thread", "pitch": 1.5, "flank_angles": [80, 75], "crest": 0.3, "root": 0.4, "rounding": 0.3)" +
-                               std::string(line ? "}" : R"(, "turn": 9, "starts": 2})");
+    const std::string thread =
+        R"({"type": "thread", "pitch": 1.5, "flank_angles": [80, 75], "crest": 0.3, "root": 0.4, "rounding": 0.3)" +
+        std::string(line ? "}" : R"(, "turn": 9, "starts": 2})");
     if (size == 1.0) return thread;
     return R"({"type": "product", "of": [)" + thread + R"(, {"type": "constant", "value": )" + n(1.0) + "}]}";
   }

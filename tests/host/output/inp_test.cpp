@@ -198,8 +198,9 @@ TEST(InpErrors, Files) {
   expect_error("1, 0., 0.\n", "deck.inp:1", "data before the first keyword");
   for (const std::string keyword : {"*PART, NAME=p", "*ASSEMBLY, NAME=a", "*INSTANCE, NAME=i, PART=p"})
     expect_error(square + keyword + "\n", "deck.inp:8",
-                 keyword.substr(0, keyword.find(',')) + " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT "
-                 "(Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")");
+                 keyword.substr(0, keyword.find(',')) +
+                     " changes the mesh and is not read; write a flat deck of *NODE and *ELEMENT "
+                     "(Abaqus/CAE: choose \"Do not use parts and assemblies in input files\")");
   EXPECT_TRUE(error_of(square + "*NGEN\n1, 2\n").ends_with("write a flat deck of *NODE and *ELEMENT"));
   expect_error(square + "*NSET,\n", "deck.inp:8", "ends inside the keyword line");
   expect_error("*INCLUDE, INPUT=none.inp\n", "deck.inp:1", "none.inp: cannot be read: it does not exist");

@@ -215,10 +215,12 @@ TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
   std::vector<std::string> found;
   for (const Tag& tag : parse_xml(text.str()))
     if (tag.name == "DataSet")
-      found.push_back(tag.attributes.at("timestep") + " " + tag.attributes.at("part") + " " + tag.attributes.at("file"));
-  const std::vector<std::string> expected{
-      "0.25 0 result_bulk_0001.vtu", "0.25 1 result_slave_0001.vtu", "0.5 0 result_bulk_0002.vtu", "0.5 1 result_slave_0002.vtu",
-      "1.5 0 result_bulk_0003.vtu", "1.5 1 result_slave_0003.vtu", "2 0 result_bulk_0004.vtu", "2 1 result_slave_0004.vtu"};
+      found.push_back(tag.attributes.at("timestep") + " " + tag.attributes.at("part") + " " +
+                      tag.attributes.at("file"));
+  const std::vector<std::string> expected{"0.25 0 result_bulk_0001.vtu", "0.25 1 result_slave_0001.vtu",
+                                          "0.5 0 result_bulk_0002.vtu",  "0.5 1 result_slave_0002.vtu",
+                                          "1.5 0 result_bulk_0003.vtu",  "1.5 1 result_slave_0003.vtu",
+                                          "2 0 result_bulk_0004.vtu",    "2 1 result_slave_0004.vtu"};
   EXPECT_EQ(found, expected);
   EXPECT_EQ(rest.whole_steps(), (std::vector<int>{1, 2, 3, 4}));
   rest.add(5, 1, "bulk", plane_grid()); // a part is missing

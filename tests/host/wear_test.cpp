@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wear in whole scenes against answers that know nothing of the library: a boundary-element program of a
+// half-plane, closed forms of a sine in full contact and of a flat punch; volumes; tries that are thrown
+// away, and restarts.
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace host {
+namespace {
+
+using std::numbers::pi;
+using Vector = Eigen::VectorXd;
+
+/// Depths worn into a half-plane by a rigid cylinder that slides across: cells of uniform pressure (Johnson,
+/// Contact Mechanics, 1985, eq. 2.30b), Archard's law implicit in time.
+struct HalfPlane {
+  double modulus, radius, load, coefficient;
+  int cells;
+  double half_width;
+
+  Vector worn(double distance, int increments) const {
+    const double cell = 2 * half_width / cells, ds = distance / increments;
+    const auto place = [&](int i) { return (i + 0.5) * cell - half_width; };
+    const auto primitive = [](double x) { return x * std::log(x * x) - 2 * x; };
+    Eigen::MatrixXd influence(cells, cells);
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const double x = place(i) - place(j);
+        influence(i, j) = -(primitive(x + cell / 2) - primitive(x - cell / 2)) / (pi * modulus);
+      }
+    Vector depth = Vector::Zero(cells);
+    for (int n = 0; n < increments; ++n) {
+      std::vector<int> closed(static_cast<std::size_t>(cells));
+      std::iota(closed.begin(), closed.end(), 0);
+      for (bool changed = true;
+           changed;) { // cells that pull are open; then none of them overlaps (a convex body)
+        const auto size = static_cast<Eigen::Index>(closed.size());
+        Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size + 1, size + 1);
+        Vector right(size + 1);
+        for (Eigen::Index a = 0; a < size; ++a) {
+          const int i = closed[static_cast<std::size_t>(a)];
+          for (Eigen::Index b = 0; b < size; ++b)
+            system(a, b) = influence(i, closed[static_cast<std::size_t>(b)]);
+          system(a, a) += coefficient * ds;
+          system(a, size) = -1, system(size, a) = cell;
+          right[a] = -place(i) * place(i) / (2 * radius) - depth[i];
+        }
+        right[size] = load;
+        const Vector pressure = system.partialPivLu().solve(right);
+        std::vector<int> pressed;
+        for (Eigen::Index a = 0; a < size; ++a)
+          if (pressure[a] > 0) pressed.push_back(closed[static_cast<std::size_t>(a)]);
+        changed = pressed.size() < closed.size();
+        if (!changed)
+          for (Eigen::Index a = 0; a < size; ++a)
+            depth[closed[static_cast<std::size_t>(a)]] += coefficient * ds * pressure[a];
+        closed = pressed;
+      }
+    }
+    return depth;
+  }
+};
+
+std::vector<StepRecord> run(const Scene& scene) {
+  Simulation simulation(scene, &test::library());
+  return solve(simulation, {});
+}
+
+// Rigid cylinder, R = 20 mm, 10.8333 N/mm, 3600 m, k = 2e-9 / MPa, E* = 115 385 MPa.
+TEST(Wear, ACylinderWearsInAsOnAHalfPlane) {
+  const Scene scene = read_scene(std::filesystem::path(EXAMPLES) / "wear_cylinder/scene.json");
+  const std::vector<StepRecord> records = run(scene);
+  ASSERT_EQ(records.size(), 51u);
+  const double modulus = 105000 / (1 - 0.09);
+  const HalfPlane coarse{modulus, 20, 10.8333, 2e-9, 150, 1.5}, fine{modulus, 20, 10.8333, 2e-9, 300, 1.5};
+  const double deepest = fine.worn(3.6e6, 200).maxCoeff(), other = coarse.worn(3.6e6, 100).maxCoeff();
+  EXPECT_NEAR(other, deepest, 2e-5) << "the boundary elements have not converged";
+  EXPECT_NEAR(records.back().worn_depth, deepest, 2e-4); // 0.2 um
+  // Worn area: k sum p A ds, which is k P s but for the slope of the cylinder.
+  double expected = 0;
+  for (std::size_t step = 1; step < records.size(); ++step) {
+    const double ds = scene.history[0].values[step] - scene.history[0].values[step - 1];
+    double force = 0;
+    const ContactFields& fields = records[step].fields;
+    for (std::size_t k = 0; k < fields.pressure.size(); ++k)
+      if (fields.closed[k]) force += std::hypot(fields.node_forces[2 * k], fields.node_forces[2 * k + 1]);
+    expected += 2 * 2e-9 * force * ds;
+  }
+  EXPECT_NEAR(records.back().worn_slave / expected, 1, 1e-10);
+  EXPECT_NEAR(records.back().worn_slave / (2e-9 * 10.8333 * 3.6e6), 1, 1e-3);
+  EXPECT_EQ(records.back().worn_master, 0);
+  for (const StepRecord& record : records)
+    for (const IncrementRecord& increment : record.increments)
+      EXPECT_TRUE(quadratic(increment.residuals, 1e8, 1e-9)) << "step " << record.step;
+}
+
+/// A wave of the master in full contact on a layer of depth `depth`.
+Json wave(double depth, double share, const char* scheme) {
+  Json json = Json::parse(R"({
+    "dimension": 2, "formulation": "plane_strain",
+    "materials": {"block": {"law": "linear_elastic", "young": 1000, "poisson": 0.3}},
+    "parts": [{"name": "block", "material": "block", "element": "quad4",
+      "x": {"from": -0.5, "pieces": [{"to": 0.5, "divisions": 96}]}}],
+    "periodic": [["block.x_min", "block.x_max"]],
+    "supports": [{"nodes": "block.y_min", "x": 0, "y": 0}],
+    "contact": {"slave": "block.y_max", "master": {"nodes": [[0.75, 0.0005], [-0.75, 0.0005]], "direction": [0, -1]},
+      "model": {"segment": "line2", "surface_coordinates": [[0.75], [-0.75]], "parameters": {"slid": 0},
+        "height": {"type": "sine", "amplitude": 0.0005, "wave_vector": [1], "phase": 1.5707963267948966},
+        "contact": {"normal": {"type": "penalty", "stiffness": 1e8}, "wear": {"coefficient": 1e-6, "sliding": "slid"}}}},
+    "steps": {"control": "mean_pressure", "values": [4, {"to": 4, "count": 20}]}})");
+  json["parts"][0]["y"] = {{"from", -depth},
+                           {"pieces", {{{"to", 0}, {"divisions", static_cast<int>(96 * depth)}}}}};
+  json["contact"]["model"]["contact"]["wear"]["scheme"] = scheme;
+  if (share < 1) {
+    json["contact"]["model"]["contact"]["wear"]["slave"] = share;
+    const Json sine = json["contact"]["model"]["height"];
+    const Json field{{"type", "field"},        {"name", "worn"},   {"points", {96}},
+                     {"boundary", "periodic"}, {"origin", {-0.5}}, {"size", {1}}};
+    json["contact"]["model"]["height"] = {{"type", "sum"}, {"of", {sine, field}}};
+  }
+  return json;
+}
+
+/// Displacement of a bonded layer's surface over a pressure of wave number q (plane strain).
+double compliance(double young, double poisson, double q, double depth) {
+  const double kappa = 3 - 4 * poisson, t = q * depth, modulus = young / (1 - poisson * poisson);
+  const double numerator = kappa * std::sinh(2 * t) - 2 * t;
+  const double denominator = kappa * std::cosh(2 * t) + 2 * t * t + (1 + kappa * kappa) / 2;
+  return 2 / (modulus * q) * numerator / denominator;
+}
+
+/// First Fourier coefficient of what the slave has lost.
+double first_wave(const Scene& scene, const StepRecord& record) {
+  Simulation simulation(scene, &test::library());
+  double sum = 0, area = 0;
+  for (std::size_t k = 0; k < record.fields.worn.size(); ++k) {
+    const double x = simulation.contact()->slaves().place(k, simulation.mesh())[0];
+    sum += 2 * record.fields.worn[k] * std::cos(2 * pi * x) * simulation.contact()->areas()[k];
+    area += simulation.contact()->areas()[k];
+  }
+  return sum / area;
+}
+
+// A = A0 exp(-k s / c), c the compliance of the layer at the wave length, and of the penalty.
+TEST(Wear, ASineInFullContactDecaysByTheComplianceOfItsLayer) {
+  constexpr double amplitude = 5e-5;
+  for (const double depth : {1., 0.2}) {
+    const double c = compliance(1000, 0.3, 2 * pi, depth) + 1e-8, distance = 0.75 * c / 1e-6;
+    if (depth > 0.5) { // that of the half-plane: L / (pi E*)
+      EXPECT_NEAR(c, 0.91e-3 / pi + 1e-8, 1e-3 * c);
+    }
+    // The elements' own error is of second order in their size: two meshes, extrapolated (Richardson).
+    std::map<int, std::array<double, 3>> left;
+    for (const int cells : {40, 80}) {
+      Json json = wave(depth, 1, "trapezoidal");
+      // A tenth of height and pressure: the tilt of the normal is an error of the size of pressure / E*.
+      json["contact"]["model"]["height"]["amplitude"] = amplitude;
+      json["steps"]["values"] = {0.4, {{"to", 0.4}, {"count", 20}}};
+      json["parts"][0]["x"]["pieces"][0]["divisions"] = cells;
+      json["parts"][0]["y"]["pieces"][0]["divisions"] = static_cast<int>(cells * depth);
+      json["history"]["slid"] = {0, {{"to", distance}, {"count", 20}}};
+      const Scene scene = test::scene_from(json);
+      const std::vector<StepRecord> records = run(scene);
+      for (const std::size_t i : {0u, 1u, 2u}) {
+        const StepRecord& record = records[5u << i];
+        EXPECT_EQ(record.contact_fraction, 1) << "no full contact";
+        left[cells][i] = amplitude - std::abs(first_wave(scene, record));
+      }
+    }
+    for (const std::size_t i : {0u, 1u, 2u}) {
+      const double extrapolated = (4 * left[80][i] - left[40][i]) / 3;
+      const double s = distance * static_cast<double>(5u << i) / 20;
+      EXPECT_NEAR(extrapolated / (amplitude * std::exp(-1e-6 * s / c)), 1, 1e-3)
+          << "depth " << depth << ", slid " << s;
+    }
+  }
+}
+
+// Both sides lose their share of k p ds, the master into its field: the same decay, and exact volumes.
+TEST(Wear, BothSidesLoseTheirShares) {
+  Json json = wave(0.2, 0.4, "trapezoidal");
+  const double c = compliance(1000, 0.3, 2 * pi, 0.2) + 1e-8, distance = 1.5 * c / 1e-6;
+  json["history"]["slid"] = {0, {{"to", distance}, {"count", 20}}};
+  const Scene scene = test::scene_from(json);
+  const std::vector<StepRecord> records = run(scene);
+  const StepRecord& last = records.back();
+  EXPECT_NEAR(last.worn_slave / (last.worn_slave + last.worn_master), 0.4, 1e-12);
+  EXPECT_NEAR((last.worn_slave + last.worn_master) / (1e-6 * 4 * distance), 1, 1e-4);
+  const double left = 0.0005 - std::abs(first_wave(scene, last)) / 0.4;
+  EXPECT_NEAR(left / (0.0005 * std::exp(-1.5)), 1, 3e-3);
+}
+
+// A flat punch: first the root-singular pressure of a rigid punch, in the end the uniform one.
+TEST(Wear, AFlatPunchRunsInToUniformPressure) {
+  const Json json = Json::parse(R"({
+    "dimension": 2, "formulation": "plane_strain",
+    "materials": {"block": {"law": "linear_elastic", "young": 1000, "poisson": 0.3}},
+    "parts": [{"name": "block", "material": "block", "element": "quad4",
+      "x": {"from": 0, "pieces": [{"to": 1.2, "divisions": 120}, {"to": 30, "divisions": 24, "growth": 1.2}]},
+      "y": {"from": -30, "pieces": [{"to": -0.2, "divisions": 24, "growth": 0.833333}, {"to": 0, "divisions": 16}]}}],
+    "symmetry_copies": 2,
+    "supports": [{"nodes": "block.x_min", "x": 0}, {"nodes": "block.y_min", "y": 0}],
+    "contact": {"slave": "block.y_max", "master": {"nodes": [[1.005, 0], [-1.005, 0]], "direction": [0, -1]},
+      "model": {"segment": "line2", "height": null, "parameters": {"slid": 0},
+        "contact": {"normal": {"type": "penalty", "stiffness": 1e7}, "wear": {"coefficient": 1e-6, "sliding": "slid"}}}},
+    "steps": {"control": "force", "values": [2, {"to": 2, "count": 30}]},
+    "history": {"slid": [0, {"to": 60000, "count": 30}]}})");
+  const Scene scene = test::scene_from(json);
+  const std::vector<StepRecord> records = run(scene);
+  Simulation simulation(scene, &test::library());
+  for (std::size_t k = 0; k < simulation.contact()->slaves().size(); ++k) {
+    const double x = simulation.contact()->slaves().place(k, simulation.mesh())[0];
+    if (x < 0.9) {
+      EXPECT_NEAR(records.front().fields.pressure[k] * pi * std::sqrt(1 - x * x) / 2, 1, 0.03) << x;
+      EXPECT_NEAR(records.back().fields.pressure[k], 1, 0.01) << x;
+    }
+  }
+}
+
+// The limit 4 dx / (pi k E*) over three decades of dx: below it no pressure alternates, above it a warning,
+// and they do.
+TEST(Wear, ExplicitSchemeIsStableBelowItsLimitAndWarnedAboutAboveIt) {
+  for (const double size : {0.01, 0.1, 1., 10.})
+    for (const double part : {0.8, 4.}) {
+      Json json = wave(0.2, 1, "explicit");
+      json["parts"][0]["x"]["pieces"][0]["divisions"] = 64;
+      const auto scaled = [&](Json& value) { value = value.get<double>() * size; };
+      Json& block = json["parts"][0];
+      for (const char* axis : {"x", "y"}) scaled(block[axis]["from"]), scaled(block[axis]["pieces"][0]["to"]);
+      for (Json& node : json["contact"]["master"]["nodes"])
+        for (Json& x : node) scaled(x);
+      Json& model = json["contact"]["model"];
+      for (Json& s : model["surface_coordinates"]) scaled(s[0]);
+      scaled(model["height"]["amplitude"]);
+      model["height"]["wave_vector"][0] = 1 / size;
+      model["contact"]["normal"]["stiffness"] = 1e8 / size;
+      const double limit = 4 * size / 64 / (pi * 1e-6 * 1000 / 0.91);
+      json["steps"]["values"] = {4, {{"to", 4}, {"count", 40}}};
+      json["history"]["slid"] = {0, {{"to", 40 * part * limit}, {"count", 40}}};
+      const Scene scene = test::scene_from(json);
+      Simulation simulation(scene, &test::library());
+      int warnings = 0;
+      RunObserver observer;
+      observer.line = [&](const std::string& line) {
+        warnings += line.find("4 dx / (pi k E*)") != std::string::npos;
+      };
+      const std::vector<StepRecord> records = solve(simulation, observer);
+      EXPECT_EQ(warnings, part < 1 ? 0 : 40);
+      const std::vector<double>& pressure = records.back().fields.pressure;
+      double alternating = 0;
+      for (std::size_t k = 1; k + 1 < pressure.size(); ++k)
+        alternating = std::max(alternating, std::abs(pressure[k] - (pressure[k - 1] + pressure[k + 1]) / 2));
+      if (part < 1) {
+        EXPECT_LT(alternating, 0.02) << size;
+      } else {
+        EXPECT_GT(alternating, 1) << size;
+      }
+    }
+}
+
+// Nothing is lost twice by a try that is thrown away, and a checkpoint has it all: states, field, distance.
+TEST(Wear, TriesLeaveNoBitAndRestartsGoOn) {
+  for (const char* scheme : {"implicit", "trapezoidal", "explicit"}) {
+    Json json = wave(0.2, 0.4, scheme);
+    json["parts"][0]["x"]["pieces"][0]["divisions"] = 32;
+    json["parts"][0]["y"]["pieces"][0]["divisions"] = 4;
+    json["steps"]["values"] = {0.3, 1, 0.2, 2}; // contact opens and closes
+    json["history"]["slid"] = {0, 20, 45, 50};
+    const Scene scene = test::scene_from(json);
+    std::vector<std::string> ends;
+    for (const bool discard : {false, true}) {
+      Simulation simulation(scene, &test::library());
+      StepPlan plan;
+      plan.cut = StepPlan::Cut::halves, plan.discard = discard;
+      const auto records = solve(simulation, {}, plan);
+      EXPECT_GT(records.back().worn_slave, 0);
+      EXPECT_GT(records.back().worn_master, 0);
+      ends.push_back(simulation.fingerprint());
+    }
+    EXPECT_EQ(ends[0], ends[1]) << scheme;
+    Simulation whole(scene, &test::library());
+    std::vector<std::string> checkpoints;
+    RunObserver observer;
+    observer.step_done = [&](const Simulation& simulation, const StepRecord&) {
+      checkpoints.push_back(simulation.checkpoint().dump());
+    };
+    const StepRecord end = solve(whole, observer).back();
+    const double worn = end.worn_master, worn_slave = end.worn_slave;
+    for (std::size_t step = 1; step < checkpoints.size(); ++step) {
+      Simulation again(scene, &test::library());
+      again.restore(Json::parse(checkpoints[step - 1]));
+      StepPlan rest;
+      rest.first = static_cast<int>(step) + 1;
+      const StepRecord last = solve(again, {}, rest).back();
+      EXPECT_NEAR(last.worn_master / worn, 1, 1e-12) << scheme << ", restarted after step " << step;
+      EXPECT_NEAR(last.worn_slave / worn_slave, 1, 1e-12) << scheme << ", restarted after step " << step;
+    }
+  }
+}
+
+// A height that rises by itself, without a load: the force is that of the same master in that place.
+TEST(Scenes, AParameterChangesTheHeight) {
+  Json json = wave(0.2, 1, "implicit");
+  Json& model = json["contact"]["model"];
+  model["contact"].erase("wear");
+  model["parameters"] = {{"rise", 0}};
+  const Json sine = model["height"];
+  model["height"] = {{"type", "sum"}, {"of", {sine, {{"type", "constant"}, {"value", "rise"}}}}};
+  json["steps"] = {{"control", "approach"}, {"values", {0.0005, 0.0005}}};
+  json["history"]["rise"] = {0, 0.0002};
+  const auto risen = run(test::scene_from(json));
+  json.erase("history");
+  json["steps"]["values"] = {0.0005, 0.0007};
+  const auto moved = run(test::scene_from(json));
+  EXPECT_EQ(risen[0].force, moved[0].force);
+  EXPECT_NEAR(risen[1].force / moved[1].force, 1, 1e-9);
+}
+
+TEST(Scenes, AHistoryThatDoesNotFitIsRefused) {
+  const auto message = [](const Json& json) -> std::string {
+    try {
+      test::scene_from(json);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Json json = wave(0.2, 1, "implicit");
+  EXPECT_NE(message(json).find("/history is the distance slid"), std::string::npos) << message(json);
+  json["history"]["slid"] = {0, 1};
+  EXPECT_NE(message(json).find("there are 21 steps and 2 values"), std::string::npos) << message(json);
+  json["steps"]["values"] = {4, 4};
+  json["history"]["slid"] = {2, 1};
+  EXPECT_NE(message(json).find("never falls"), std::string::npos) << message(json);
+  json["history"] = {{"slid", {0, 1}}, {"slide", {0, 1}}};
+  EXPECT_NE(message(json).find("no parameter \"slide\""), std::string::npos) << message(json);
+  json["history"] = {{"slid", {0, 1}}};
+  json["exact"] = {{"type", "worn_cylinder"}, {"radius", 20}};
+  EXPECT_EQ(message(json), "");
+  json["contact"]["model"]["contact"]["wear"].erase("coefficient");
+  EXPECT_NE(message(json).find("a coefficient that is a number"), std::string::npos) << message(json);
+}
+
+} // namespace
+} // namespace host
