@@ -211,7 +211,9 @@ std::int32_t check_shared(const ents_model& model, const ents_input& caller, con
       {"segment", "ENTS_SHARED_SEGMENT", ENTS_SHARED_SEGMENT, in.segment, in.segment_stride},
       {"area", "ENTS_SHARED_AREA", ENTS_SHARED_AREA, in.area, in.area_stride},
       {"state_begin", "ENTS_SHARED_STATE", ENTS_SHARED_STATE, in.state_begin, in.state_begin_stride},
-      {"multiplier", "ENTS_SHARED_MULTIPLIER", ENTS_SHARED_MULTIPLIER, in.multiplier, in.multiplier_stride}};
+      {"multiplier", "ENTS_SHARED_MULTIPLIER", ENTS_SHARED_MULTIPLIER, in.multiplier, in.multiplier_stride},
+      {"slave_values", "ENTS_SHARED_SLAVE_VALUES", ENTS_SHARED_SLAVE_VALUES, in.slave_values,
+       in.slave_values_stride}};
   std::int64_t known = ENTS_SHARED_NO_STATE;
   for (const auto& a : arrays) known |= a.known;
   if ((in.shared & ~known) != 0)
@@ -224,8 +226,7 @@ std::int32_t check_shared(const ents_model& model, const ents_input& caller, con
                             "of two elements, or "
                             "%s in input.shared if they share it",
                             a.name, a.bit);
-  if (has_history(model.plan) && !in.state_begin &&
-      (in.shared & ENTS_SHARED_NO_STATE) == 0)
+  if (has_history(model.plan) && !in.state_begin && (in.shared & ENTS_SHARED_NO_STATE) == 0)
     return report_status(
         report, ENTS_NULL_ARGUMENT, -1,
         "input.state_begin is null: the history of friction, wear or multipliers would begin anew "

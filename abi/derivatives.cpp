@@ -11,7 +11,8 @@ namespace {
 
 LawRates rates_of(const LawBinding& binding, std::int32_t parameter) {
   const auto rate = [parameter](std::uint8_t index) { return index == parameter ? 1.0 : 0.0; };
-  return {rate(binding.normal), rate(binding.friction), rate(binding.wear), rate(binding.sliding)};
+  return {rate(binding.normal), rate(binding.friction), rate(binding.wear), rate(binding.sliding),
+          rate(binding.offset)};
 }
 
 // One element: by every parameter.
@@ -50,7 +51,8 @@ std::int32_t differentiate(const ElementCall& call, std::int64_t e, const ents_d
   double residual[3 * 17];
   for (std::int32_t i = 0; i < parameters; ++i) {
     plan.law.rates = rates_of(model.model.law_binding, i + 1);
-    ParameterRates rates{0.0, 0.0, has_law ? residual : nullptr};
+    ParameterRates rates{};
+    rates.residual = has_law ? residual : nullptr;
     if (const Status outcome = plan.by_parameter(plan, element, xi, i + 1, rates); outcome != Status::ok)
       return call.explain(static_cast<std::int32_t>(outcome), e, report);
     if (to.gap) to.gap[row + i] = rates.gap;
@@ -79,6 +81,9 @@ extern "C" int32_t ents_parameter_derivatives(const ents_model* model, int64_t f
       return ents::report_message(report, ENTS_BAD_VALUE, -1,
                                   "the model has %s: their derivatives by parameters are not available",
                                   model->plan.multipliers > 0 ? "multiplier dofs" : "a \"patch\"");
+    if (model->plan.law.flattening.parameter != 0)
+      return ents::report_status(report, ENTS_BAD_VALUE, -1,
+                                 "the model has \"flattening\": derivatives by parameters are not available");
     if (to->product && !to->adjoint)
       return ents::report_status(report, ENTS_NULL_ARGUMENT, -1,
                                  "derivatives.product is given without derivatives.adjoint");

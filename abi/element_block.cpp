@@ -21,6 +21,7 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   b.area = in.area, b.area_stride = in.area_stride;
   b.state_begin = in.state_begin, b.state_begin_stride = in.state_begin_stride;
   b.multiplier = in.multiplier, b.multiplier_stride = in.multiplier_stride;
+  b.slave_values = in.slave_values, b.slave_values_stride = in.slave_values_stride;
   b.first = first;
   b.wanted = pair_results(model, out.wanted);
   b.residual = out.residual, b.residual_stride = out.residual_stride;
@@ -56,6 +57,7 @@ void begin_at_first(PairBlock& b) noexcept {
   move(b.area, b.area_stride);
   move(b.state_begin, b.state_begin_stride);
   move(b.multiplier, b.multiplier_stride);
+  move(b.slave_values, b.slave_values_stride);
   move(b.residual, b.residual_stride);
   move(b.tangent, b.tangent_stride);
   if (only_forces(b.wanted)) return;
@@ -105,6 +107,8 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
         shared(in->surface_coordinates, in->surface_coordinates_stride, m * t) &&
         shared(in->start, in->start_stride, t) && shared(in->area, in->area_stride, 1) &&
         shared(in->state_begin, in->state_begin_stride, model->sizes.state) &&
+        (!in->slave_values || (model->model.law.has_slave_values() &&
+                               shared(in->slave_values, in->slave_values_stride, slave_value::count))) &&
         (plan.multipliers == 0 ||
          (in->multiplier && shared(in->multiplier, in->multiplier_stride, plan.multipliers))) &&
         own(want::residual, out->residual, out->residual_stride, n) && leading >= n && leading < most &&

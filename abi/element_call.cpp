@@ -115,7 +115,7 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   return ENTS_OK;
 }
 
-constexpr int input_arrays = 7, start_array = 3;
+constexpr int input_arrays = 8, start_array = 3;
 Array input_array(const ents_model& model, const ents_input& in, int index) noexcept {
   const Plan& plan = model.plan;
   const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes;
@@ -132,8 +132,10 @@ Array input_array(const ents_model& model, const ents_input& in, int index) noex
     return {"area", in.area, in.area_stride, 1};
   case 5:
     return {"state_begin", in.state_begin, in.state_begin_stride, model.sizes.state};
-  default:
+  case 6:
     return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
+  default:
+    return {"slave_values", in.slave_values, in.slave_values_stride, slave_value::count};
   }
 }
 
@@ -164,6 +166,11 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
     return report_message(report, ENTS_NULL_ARGUMENT, -1,
                           "input.multiplier is null, but the model has %d multiplier dofs",
                           model.plan.multipliers);
+  if (in.slave_values && !model.model.law.has_slave_values())
+    return report_status(
+        report, ENTS_BAD_VALUE, -1,
+        "input.slave_values is given, but the model's \"contact\" has neither \"offset\" nor "
+        "\"wear\", which would read it; write \"offset\": 0");
   const std::int64_t last = first + count - 1;
   if (in.mesh && last > 0 && in.segment_stride != 0)
     if (const std::int32_t status =
@@ -260,6 +267,9 @@ std::int32_t ElementCall::check_open(std::int64_t e) const {
       first_non_finite(area, 1) >= 0 || first_non_finite(lambda, plan->multipliers) >= 0)
     return ENTS_NON_FINITE;
   if (area && *area < 0.0) return ENTS_BAD_VALUE;
+  if (const Status status = ENTS_ISA::check_slave_values(at(in->slave_values, in->slave_values_stride, e));
+      status != Status::ok)
+    return static_cast<std::int32_t>(status);
   if (in->state_begin &&
       !(is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
         is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size])))
@@ -296,6 +306,7 @@ ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) con
           at(in->area, in->area_stride, e),
           at(in->state_begin, in->state_begin_stride, e),
           at(in->multiplier, in->multiplier_stride, e),
+          at(in->slave_values, in->slave_values_stride, e),
           start_first};
 }
 
@@ -333,8 +344,14 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
         return report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
                               static_cast<long long>(k), number, std::isnan(v[k]) ? "NaN" : "infinite");
     }
-  if (status == ENTS_BAD_VALUE)
+  if (status == ENTS_BAD_VALUE && in->area && *at(in->area, in->area_stride, e) < 0.0)
     return report_message(report, status, e, "input.area of element %lld is negative", number);
+  if (status == ENTS_BAD_VALUE)
+    return report_message(
+        report, status, e,
+        "input.slave_values of element %lld has a negative factor of the wear coefficient or of "
+        "\"sliding\" (entries 1 and 2)",
+        number);
   if (status == ENTS_BAD_STATE && in->state_begin && in->mesh &&
       is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&
       is_segment_number(at(in->state_begin, in->state_begin_stride, e)[plan->state.size]) &&

@@ -64,6 +64,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_SHARED_STATE = 8
   integer(c_int32_t), parameter :: ENTS_SHARED_MULTIPLIER = 16
   integer(c_int32_t), parameter :: ENTS_SHARED_NO_STATE = 32
+  integer(c_int32_t), parameter :: ENTS_SHARED_SLAVE_VALUES = 64
   integer(c_int32_t), parameter :: ENTS_XI = 1
   integer(c_int32_t), parameter :: ENTS_GAP = 2
   integer(c_int32_t), parameter :: ENTS_NORMAL_GAP = 4
@@ -190,6 +191,8 @@ module ents
     integer(c_int64_t) :: segment_stride = 0
     type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
     integer(c_int64_t) :: shared = 0
+    type(c_ptr) :: slave_values = c_null_ptr ! (3, elements)
+    integer(c_int64_t) :: slave_values_stride = 0
   end type ents_input
 
   type, bind(c) :: ents_output

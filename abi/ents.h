@@ -406,6 +406,10 @@ typedef struct ents_input {
                                         master does not deform, and null if the model says "master": "rigid". Since contract 1.5 */
   int64_t shared;                    /* ENTS_SHARED_... bits: arrays whose stride is 0, and states that are left out, on purpose; read by ents_assemble and ents_iterate.
                                         Since contract 1.5 */
+  const double *slave_values;        /* [3] numbers of this slave node: added to the model's "offset" [L]; factor of the wear coefficient, >= 0
+                                        (0: does not wear); factor of the wear's "sliding", >= 0 (the distance from the axis where that
+                                        is an angle). Null: 0, 1, 1. For models with "offset" or "wear". Since contract 1.6 */
+  int64_t slave_values_stride;
 } ents_input;
 
 /* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a
@@ -418,6 +422,7 @@ typedef struct ents_input {
 #define ENTS_SHARED_MULTIPLIER (1 << 4)
 #define ENTS_SHARED_NO_STATE   (1 << 5)  /* state_begin is null although the law has a history (ENTS_NEEDS_HISTORY): it begins with this call.
                                             Without this bit ents_assemble and ents_iterate refuse that (since contract 1.6) */
+#define ENTS_SHARED_SLAVE_VALUES (1 << 6) /* since contract 1.6 */
 
 /* Bits of ents_output.wanted: which results to compute. Other results are not computed, and their arrays are not written. */
 #define ENTS_XI            (1 << 0)  /* xi            [d-1]          natural coordinates of the projection */

@@ -152,7 +152,8 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.dofs = model->sizes.dofs;
     out.state_size = model->sizes.state;
     const ents::ContactLaw& law = model->plan.law;
-    out.symmetric_tangent = !(law.has_friction() || law.wear.on) || law.symmetrised;
+    out.symmetric_tangent =
+        !(law.has_friction() || law.wear.on || law.flattening.parameter != 0) || law.symmetrised;
     out.own_surface_coordinates = model->model.own_surface_coordinates;
     out.multipliers = model->plan.multipliers;
     out.friction = law.has_friction();

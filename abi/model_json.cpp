@@ -12,6 +12,7 @@
 #include "abi/json_text.hpp"
 #include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
+#include "core/flattening.hpp"
 #include "core/height_binding.hpp"
 
 namespace ents {
@@ -216,14 +217,61 @@ void read_wear(const json& wear, const std::string& path, Model& model) {
          "\"exponential\" or \"augmented\" as /contact/normal/type");
 }
 
+// Before the height is known: check_flattened() has the rest.
+void read_flattening(const json& value, const std::string& path, Model& model) {
+  check_keys(value, path, {"scale", "pressure"}, {"least"});
+  Flattening& law = model.law.flattening;
+  if (!value.at("scale").is_string())
+    fail(ENTS_BAD_VALUE, member(path, "scale"), "is no name of a parameter that scales a part of the height");
+  const double scale = read_bound_double(value.at("scale"), member(path, "scale"), Range::any,
+                                         model.parameters, law.parameter);
+  if (scale != 1.0)
+    fail(ENTS_BAD_VALUE, member(path, "scale"),
+         "is a parameter whose value is " + shown(scale) + "; write 1, the height without pressure");
+  law.pressure = read_double(value, path, "pressure", Range::positive);
+  if (value.contains("least")) law.least = read_double(value, path, "least", Range::any);
+  if (!(law.least >= 0.0 && law.least < 1.0))
+    fail(ENTS_BAD_VALUE, member(path, "least"),
+         "is " + shown(law.least) +
+             "; it is the part of the height that is left under any pressure, 0 .. < 1");
+  if (model.law.multiplier_is_dof() || model.law.wear.on)
+    fail(ENTS_BAD_VALUE, path,
+         "is not possible with " + std::string(model.law.wear.on ? "\"wear\"" : "multipliers as unknowns"));
+}
+
+void check_flattened(const Model& model) {
+  const std::uint8_t scale = model.law.flattening.parameter;
+  if (scale == 0) return;
+  bool scales = false, elsewhere = false;
+  for (const HeightNode& node : model.height.nodes())
+    for (int i = 0; i < 4; ++i)
+      if (node.kind != HeightKind::map && node.bound_to[i] == scale)
+        (node.kind == HeightKind::constant ? scales : elsewhere) = true;
+  const std::string path = "/contact/flattening/scale";
+  if (!scales || elsewhere)
+    fail(
+        ENTS_BAD_VALUE, path,
+        "has to be the \"by\" of a height {\"type\": \"scale\", \"by\": ..., \"of\": ...}, and nothing else");
+  if (model.height.nodes().size() > most_flattened_nodes)
+    fail(ENTS_BAD_VALUE, path,
+         "is of a height with more than " + std::to_string(most_flattened_nodes) + " parts");
+}
+
 void read_contact(const json& value, Model& model) {
   const std::string path = "/contact";
-  check_keys(value, path, {"normal"}, {"friction", "symmetrised", "wear"});
+  check_keys(value, path, {"normal"}, {"friction", "symmetrised", "wear", "offset", "flattening"});
   read_normal(value.at("normal"), member(path, "normal"), model);
   if (value.contains("friction") && !value.at("friction").is_null())
     read_friction(value.at("friction"), member(path, "friction"), model);
   if (value.contains("wear") && !value.at("wear").is_null())
     read_wear(value.at("wear"), member(path, "wear"), model);
+  if (value.contains("offset") && !value.at("offset").is_null()) {
+    model.law.has_offset = true;
+    model.law.offset = read_bound_double(value.at("offset"), member(path, "offset"), Range::any,
+                                         model.parameters, model.law_binding.offset);
+  }
+  if (value.contains("flattening") && !value.at("flattening").is_null())
+    read_flattening(value.at("flattening"), member(path, "flattening"), model);
   if (value.contains("symmetrised"))
     model.law.symmetrised = read_bool(value.at("symmetrised"), member(path, "symmetrised"));
 }
@@ -276,6 +324,7 @@ PatchedModel read_model(std::string_view text, const std::filesystem::path& dire
   if (root.contains("height") && !root.at("height").is_null())
     model.height = read_height(root.at("height"), "/height",
                                {basis.parameters, directory, data, model.parameters, &model.fields});
+  check_flattened(model);
   return model;
 }
 

@@ -54,9 +54,9 @@ public:
       if (in_contact())
         for (int t = 0; t < plan_.parameters; ++t) state_begin[StateLayout::xi_at + t] = found.at.xi[t];
     }
-    const ElementInput element = {in_.slave,     nodes.positions, nodes.surface_coordinates,
-                                  found.at.xi,   in_.area,        in_.state_begin ? state_begin : nullptr,
-                                  in_.multiplier};
+    const ElementInput element = {in_.slave,      nodes.positions, nodes.surface_coordinates,
+                                  found.at.xi,    in_.area,        in_.state_begin ? state_begin : nullptr,
+                                  in_.multiplier, in_.slave_values};
     if (open_) { // what it projects on from behind, ahead of a ridge, is no contact
       std::int32_t flags = 0;
       ElementOutput look{};

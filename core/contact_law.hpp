@@ -42,10 +42,26 @@ struct Wear {
   double sliding = 0.0; // [L] per increment, beside and perpendicular to that of the slave on the master
 };
 
+// A part of the height that gives way to the pressure: see flattening.hpp.
+struct Flattening {
+  std::uint8_t parameter = 0;         // 1 + index of its scale; 0: none
+  double pressure = 0.0, least = 0.0; // [F/L^2]; the scale that is left under any pressure
+};
+
 // Derivatives of a law's numbers by the parameter of a differentiation (parameter_rates.hpp)
 struct LawRates {
-  double normal = 0.0, friction = 0.0, wear = 0.0, sliding = 0.0;
+  double normal = 0.0, friction = 0.0, wear = 0.0, sliding = 0.0, offset = 0.0;
 };
+
+// Numbers that hold for one slave node: ents_input.slave_values
+namespace slave_value {
+enum : std::int32_t {
+  offset,
+  wear,
+  sliding,
+  count
+}; // added to the law's offset; factors of k and of `sliding`
+}
 
 struct ContactLaw {
   NormalKind normal = NormalKind::none;
@@ -58,14 +74,19 @@ struct ContactLaw {
   double friction_stiffness = 0.0;   // eps_t [F/L^3]
   double shear_limit = 0.0;          // [F/L^2]; 0: none
   bool symmetrised = false;          // tangent (K + K^T) / 2
+  bool has_offset = false;
+  double offset = 0.0; // [L] added to the gap that the law sees: > 0 a clearance, < 0 a coating
   Wear wear;
+  Flattening flattening;
   LawRates rates;
 
   constexpr bool has_friction() const { return friction != FrictionKind::none; }
   // Is the force W' = (W'/g) g with a finite W'/g?
   constexpr bool force_has_slope() const {
-    return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on;
+    return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on && !has_offset;
   }
+  // Does it read numbers of the slave node (SlaveValues)?
+  constexpr bool has_slave_values() const { return wear.on || has_offset; }
   constexpr bool multiplier_in_state() const { return normal == NormalKind::augmented; }
   constexpr bool multiplier_is_dof() const {
     return normal == NormalKind::augmented_multiplier || normal == NormalKind::multiplier;

@@ -30,10 +30,10 @@ template <class B, bool H, class S> struct ContactPoint {
   using V = Vec<S, D>;
   Pair<B, H, S>& pair;            // its projector is at xi
   const Ray<S, D>* ray = nullptr; // shadow projection
-  S gap, normal_gap;
-  V normal, c, onto[T]; // n_e; onto: shadow
-  NormalForce<S> law;   // 0 where there is no contact
-  Truth<S> safe;        // has the ray a frame, and does it enter the surface from the front?
+  S gap, normal_gap, law_gap;     // the last with the offset
+  V normal, c, onto[T];           // n_e; onto: shadow
+  NormalForce<S> law;             // 0 where there is no contact
+  Truth<S> safe;                  // has the ray a frame, and does it enter the surface from the front?
   PairFriction<B, H, S> friction;
   WearOfIncrement<S, D> wear; // if the law has it
   Truth<S> solved;            // was its pressure found?
@@ -52,16 +52,17 @@ template <class B, bool H, class S> struct ContactPoint {
   }
 
   // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; history: 1 where
-  // there is an anchor; worn: null without wear.
+  // there is an anchor; worn: null without wear; offset: of the slave node.
   ENTS_INLINE void press(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
-                         const WornState<S, T>* worn) {
+                         const WornState<S, T>* worn, const S& offset) {
     const S none(0.0), lambda = multiplier ? multiplier[0] : none;
+    law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
     if (worn) {
       set_slid(plan.law, *worn, pair.xi, pair.projector.s.e, wear);
-      law = worn_force(plan.law, gap, lambda, *worn, wear, solved);
+      law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
     } else {
       solved = gap <= gap;
-      law = normal_force(plan.law, gap, lambda);
+      law = normal_force(plan.law, law_gap, lambda);
     }
     Truth<S> outside = pair.outside;
     if (plan.multipliers > 0) { // a slave without area holds them at zero

@@ -23,7 +23,7 @@ template <class B, bool H> struct MultiplierEquations {
 
   ENTS_INLINE void write_residual(double* out) const {
     const double area = at.pair.area;
-    out[0] = at.pair.contact ? -area * at.gap : -area / plan.law.stiffness * multiplier[0];
+    out[0] = at.pair.contact ? -area * at.law_gap : -area / plan.law.stiffness * multiplier[0];
     for (int a = 1; a < plan.multipliers; ++a)
       out[a] = (at.friction.force[a - 1] - area * multiplier[a]) / plan.law.friction_stiffness;
   }
@@ -150,7 +150,7 @@ template <class B, bool H> struct GeneralElement {
 
     const PairBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<B, H, double> begin(plan, block, 0);
-    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null());
+    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(), begin.offset);
     if (element && !at.solved) return Status::out_of_range;
     if (!judged) pair.contact = false;
     if (pair.contact && element) {
@@ -216,7 +216,8 @@ private:
     double tangential = at.friction.active ? sum_of_absolutes(at.friction.force) : 0.0;
     size += tangential;
     if (plan.multipliers > 0) { // they come back in the residual, over a stiffness
-      size += area * (1.0 + absolute(at.gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.stiffness));
+      size +=
+          area * (1.0 + absolute(at.law_gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.stiffness));
       for (int a = 1; a < plan.multipliers; ++a) tangential += area * absolute(in.multiplier[a]);
       if (plan.multipliers > 1) size += tangential / plan.law.friction_stiffness;
     }

@@ -15,10 +15,15 @@ template <class S, class Number> ENTS_INLINE S of_each(Number&& number) {
     return each_lane<width_of<S>>(number);
 }
 
+ENTS_INLINE bool has_sound_values(const PairBlock& block, std::int64_t e) {
+  return check_slave_values(element_at(block.slave_values, block.slave_values_stride, e)) == Status::ok;
+}
+
 // What an element, or each lane's, is evaluated from.
 template <class B, bool H, class S> struct GeneralInputs {
   static constexpr int D = B::dim, T = D - 1;
   S anchor[T], history, multiplier[1 + T];
+  S offset; // of the gap, beside the law's own
   bool has_multiplier, has_wear;
   WornState<S, T> worn;
 
@@ -43,8 +48,15 @@ template <class B, bool H, class S> struct GeneralInputs {
                    ? element_at(block.multiplier, block.multiplier_stride, first + k)[i]
                    : state(k)[plan.state.multiplier_at + i];
       });
+    const auto own = [&](int i, double otherwise) ENTS_LAMBDA_INLINE {
+      return !block.slave_values ? S(otherwise) : of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
+        return block.slave_values[(first + k) * block.slave_values_stride + i];
+      });
+    };
+    offset = own(slave_value::offset, 0.0);
     has_wear = plan.law.wear.on;
     if (!has_wear) return;
+    worn.factor = own(slave_value::wear, 1.0), worn.sliding_factor = own(slave_value::sliding, 1.0);
     worn.depth = worn.pressure = worn.seen = S(0.0);
     for (S& x : worn.anchor) x = S(0.0);
     if (!block.state_begin) return;

@@ -237,7 +237,10 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
   if (!number(model.law_binding.normal, normal, smallest) ||
       !number(model.law_binding.friction, law.friction_coefficient, smallest) ||
       !number(model.law_binding.wear, law.wear.coefficient, 0.0) ||
-      !number(model.law_binding.sliding, law.wear.sliding, 0.0))
+      !number(model.law_binding.sliding, law.wear.sliding, 0.0) ||
+      !number(model.law_binding.offset, law.offset, -1e100))
+    return Status::bad_value;
+  if (const std::uint8_t scale = law.flattening.parameter; scale != 0 && values[which = scale - 1] != 1.0)
     return Status::bad_value;
 
   Fingerprint stamp;

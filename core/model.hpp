@@ -78,6 +78,7 @@ struct LawBinding {
   std::uint8_t friction = 0; // coefficient
   std::uint8_t wear = 0;     // coefficient
   std::uint8_t sliding = 0;  // of wear
+  std::uint8_t offset = 0;
 };
 
 struct Model {

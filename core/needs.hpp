@@ -39,7 +39,8 @@ inline bool is_one_by_one(const Model& model, bool patch) {
   const ContactLaw& law = model.law;
   const bool fast = model.projection == ProjectionKind::normal && law.force_has_slope() &&
                     model.tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
-  return patch || (!fast && (law.multiplier_is_dof() || basis_entry(model.basis).nodes > 9));
+  return patch || law.flattening.parameter != 0 ||
+         (!fast && (law.multiplier_is_dof() || basis_entry(model.basis).nodes > 9));
 }
 
 // Does the force depend on the state of the begin of the increment?
@@ -57,8 +58,7 @@ inline std::int32_t needs_of(const Model& model, const Plan& plan) {
          if_so(!flat, need::curved) |
          if_so(enriched || !flat, need::iteration) | // PairProjector::closed_form, and project()
          if_so(!model.rigid_master, need::master) | if_so(law.has_friction(), need::friction) |
-         if_so(has_history(plan), need::history) |
-         if_so(plan.multipliers > 0, need::multipliers);
+         if_so(has_history(plan), need::history) | if_so(plan.multipliers > 0, need::multipliers);
 }
 
 } // namespace ents

@@ -79,11 +79,14 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   if (begin.has_wear) {
     worn.depth = S(begin.worn.depth), worn.pressure = S(begin.worn.pressure), worn.seen = S(begin.worn.seen);
     for (int a = 0; a < T; ++a) worn.anchor[a] = S(begin.worn.anchor[a]);
+    worn.factor = S(begin.worn.factor), worn.sliding_factor = S(begin.worn.sliding_factor);
   }
   at.press(plan, anchor, S(begin.history), begin.has_multiplier ? multiplier : nullptr,
-           begin.has_wear ? &worn : nullptr);
+           begin.has_wear ? &worn : nullptr, S(begin.offset));
   out.gap = at.gap.d;
   out.energy = pair.area.v * at.law.energy.d;
+  out.pressure = 0.0 - at.law.force.d;
+  out.stiffness = at.law.stiffness.v;
   const int n = plan.dofs;
   for (int i = 0; out.residual && i < n; ++i) out.residual[i] = 0.0;
   double size = absolute(out.gap) + absolute(out.energy);

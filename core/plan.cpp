@@ -2,6 +2,7 @@
 #include "core/plan.hpp"
 
 #include "core/fingerprint.hpp"
+#include "core/flattening.hpp"
 #include "core/kernel_table.hpp"
 #include "core/pair_kernels.hpp"
 #include "core/parameter_kernels.hpp"
@@ -123,6 +124,7 @@ Plan make(const Model& model, bool enriched) {
   plan.by_parameter = parameter_kernels(model.basis).rates;
   plan.coordinates = parameter_kernels(model.basis).coordinates;
   plan.height = enriched ? &model.height.root() : nullptr;
+  plan.height_nodes = enriched ? static_cast<std::int32_t>(model.height.nodes().size()) : 0;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
     plan.feature_length[a] = a < basis.parameters ? model.height.feature_length(a) : Height::unbounded;
@@ -142,6 +144,12 @@ Plan make(const Model& model, bool enriched) {
   plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
   plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
   plan.state = make_state_layout(model);
+  if (enriched && model.law.flattening.parameter != 0) {
+    plan.unflattened = plan.element;
+    plan.element = evaluate_flattened;
+    plan.pairs = nullptr;
+    plan.block_results = 0;
+  }
   return plan;
 }
 

@@ -74,6 +74,7 @@ struct ElementInput {
   const double* area;                // or null: 1
   const double* state_begin;         // or null
   const double* multiplier;          // [multipliers] if the law has multiplier dofs
+  const double* slave_values;        // [slave_value::count], or null: 0, 1, 1
   bool start_first = false;          // before the history's xi
 };
 
@@ -194,9 +195,9 @@ struct PairBlock {
                                           want::point | want::energy | want::pressure | want::residual |
                                           want::tangent | want::state | want::flags | want::iterations |
                                           want::traction | want::slip | want::age;
-  const double *slave, *master, *surface_coordinates, *start, *area, *state_begin, *multiplier;
+  const double *slave, *master, *surface_coordinates, *start, *area, *state_begin, *multiplier, *slave_values;
   std::int64_t slave_stride, master_stride, surface_coordinates_stride, start_stride, area_stride,
-      state_begin_stride, multiplier_stride;
+      state_begin_stride, multiplier_stride, slave_values_stride;
   std::int32_t wanted; // of `results`
   double *xi, *gap, *normal_gap, *normal, *point, *energy, *pressure, *residual, *tangent, *state_end,
       *traction, *slip, *age;
@@ -216,8 +217,8 @@ inline PairBlock block_of(const ElementInput& in, const ElementOutput& out, cons
                           std::int32_t wanted) {
   PairBlock b{};
   b.slave = in.slave, b.master = in.master, b.surface_coordinates = in.surface_coordinates;
-  b.start = start, b.area = in.area, b.state_begin = in.state_begin, b.multiplier = in.multiplier,
-  b.start_first = in.start_first;
+  b.start = start, b.area = in.area, b.state_begin = in.state_begin, b.multiplier = in.multiplier;
+  b.slave_values = in.slave_values, b.start_first = in.start_first;
   b.wanted = wanted;
   b.xi = out.xi, b.gap = out.gap, b.normal_gap = out.normal_gap, b.normal = out.normal, b.point = out.point;
   b.energy = out.energy, b.pressure = out.pressure, b.residual = out.residual, b.tangent = out.tangent;
@@ -232,7 +233,8 @@ using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t
 
 // Derivatives of an element's results by a named parameter: see parameter_rates.hpp.
 struct ParameterRates {
-  double gap, energy;
+  double gap, energy, pressure;
+  double stiffness; // W'' itself
   double* residual; // [dofs] or null
 };
 using ParameterKernel = Status (*)(const Plan&, const ElementInput&, const double* xi, std::int32_t parameter,
@@ -258,6 +260,7 @@ struct Plan {
   ElementKernel element;
   FinishKernel finish;
   RestKernel rest;
+  ElementKernel unflattened;  // of a model with flattening: `element` at given numbers of the height
   PairKernel pairs;           // null: this model has no block kernel
   std::int32_t block_results; // of `pairs`, bits of `want`
   SurfaceKernel surface;
@@ -269,6 +272,7 @@ struct Plan {
   CoordinatesKernel coordinates;
   const Plan* base;         // the same segments without their height; this plan itself if it has none
   const HeightNode* height; // null: plain
+  std::int32_t height_nodes;
   const double* surface_coordinates; // the model's own, or null
   double feature_length[2];          // of the height, in s
   double height_bound;               // |h| <= height_bound
@@ -286,6 +290,18 @@ struct Plan {
   std::int32_t dofs;        // with multipliers
   StateLayout state;
 };
+
+namespace ENTS_ISA {
+// Numbers that a slave node has of its own; null: none
+ENTS_INLINE Status check_slave_values(const double* values) {
+  if (!values) return Status::ok;
+  double zero = 0.0;
+  for (int i = 0; i < slave_value::count; ++i) zero += 0.0 * values[i];
+  if (!(zero == 0.0)) return Status::non_finite;
+  return values[slave_value::wear] >= 0.0 && values[slave_value::sliding] >= 0.0 ? Status::ok
+                                                                                 : Status::bad_value;
+}
+} // namespace ENTS_ISA
 
 // The plan of a model; the model must outlive it. `base` is null.
 Plan make_plan(const Model& model);

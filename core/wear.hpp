@@ -21,8 +21,9 @@ namespace ents::ENTS_ISA {
 
 // What an element begins the increment with.
 template <class S, int T> struct WornState {
-  S depth, pressure; // w_n of both surfaces, p_n
-  S anchor[T], seen; // xi_n; 1 where the element was in contact, else it has not slid yet
+  S depth, pressure;        // w_n of both surfaces, p_n
+  S anchor[T], seen;        // xi_n; 1 where the element was in contact, else it has not slid yet
+  S factor, sliding_factor; // of k and of Wear::sliding, for this slave node
 };
 
 template <class S, int D> struct WearOfIncrement {
@@ -40,7 +41,7 @@ ENTS_INLINE void set_slid(const ContactLaw& law, const WornState<S, D - 1>& begi
   for (int a = 0; a < D - 1; ++a) to.moved[a] = select(begin.seen > 0.0, xi[a] - begin.anchor[a], S(0.0));
   Vec<S, D> way = to.moved[0] * tangents[0];
   if constexpr (D == 3) add_scaled(way, to.moved[1], tangents[1]);
-  const S beside = law_number<S>(law.wear.sliding, law.rates.sliding);
+  const S beside = begin.sliding_factor * law_number<S>(law.wear.sliding, law.rates.sliding);
   const S squared = dot(way, way) + beside * beside;
   to.slid = square_root(squared);
   const Truth<S> moves = to.slid > 0.0;
@@ -93,7 +94,7 @@ ENTS_INLINE NormalForce<S> worn_force(const ContactLaw& law, const S& gap, const
                                       const WornState<S, D - 1>& begin, WearOfIncrement<S, D>& to,
                                       Truth<S>& found) {
   const Wear& wear = law.wear;
-  const S coefficient = law_number<S>(wear.coefficient, law.rates.wear);
+  const S coefficient = begin.factor * law_number<S>(wear.coefficient, law.rates.wear);
   const S rate = coefficient * to.slid, share = wear.implicit * rate;
   const S explicit_part = (1.0 - wear.implicit) * begin.pressure;
   const S known = (gap + begin.depth) + rate * explicit_part;

@@ -20,6 +20,8 @@ struct Arguments {
   const LoadedModel* model = nullptr;
   const ElementRow* row = nullptr; ///< of the table, if it has one for this element
   double area = 0;
+  double slave_values[3] = {0, 1, 1}; ///< offset, and factors of wear
+  bool has_offset = false;
   int options = 0;
   int slave_nodes = 1; ///< of the face that a slave point lies in; 1: the slave is a node
   double weights[largest_slave_nodes] = {1};
@@ -47,7 +49,7 @@ void say(Result& result, const Element& e, const std::string& text) {
 
 /// The options that a host has, for who has taken another.
 std::string known_options(const Host& host) {
-  std::string text = "1 (selfcheck), 8 (slave point), 16 (may leave its segments)";
+  std::string text = "1 (selfcheck), 8 (slave point), 16 (may leave its segments), 32 (offset)";
   if (host.options & option_old_displacement) text += ", 2 (displacements lack the increment)";
   if (host.options & option_negative_tangent) text += ", 4 (the opposite sign)";
   return text;
@@ -99,21 +101,43 @@ std::string read_properties(const Element& e, Arguments& arguments) {
   return "";
 }
 
+/// What is added to the gap: from the table, or property 4 with option 32.
+/// @return what is wrong; "" if nothing
+std::string read_offset(const Element& e, Arguments& arguments) {
+  if (arguments.options & option_offset) {
+    const double offset = e.property_count > 3 ? e.properties(3) : std::nan("");
+    if (!std::isfinite(offset))
+      return e.host->properties +
+             std::string("4 is the offset of the gap with option 32, a length: > 0 a clearance, "
+                         "< 0 a coating");
+    arguments.slave_values[0] = offset;
+    arguments.has_offset = true;
+  } else if (arguments.row && arguments.model->offsets) {
+    arguments.slave_values[0] = arguments.row->offset;
+    arguments.has_offset = true;
+  }
+  return "";
+}
+
+/// Properties before those of a slave point and the surface coordinates
+int first_properties(const Arguments& arguments) { return arguments.options & option_offset ? 4 : 3; }
+
 /// The slave as a point: from the table, or from properties with option 8.
 /// @return what is wrong; "" if nothing
 std::string read_slave_point(const Element& e, Arguments& arguments) {
   const LoadedModel& model = *arguments.model;
   if (arguments.options & option_slave_point) {
     const auto entry = [&](int i) { return e.host->properties + std::to_string(i); };
-    const double count = e.property_count > 3 ? e.properties(3) : 0;
+    const int first = first_properties(arguments);
+    const double count = e.property_count > first ? e.properties(first) : 0;
     if (!(count >= 1 && count <= largest_slave_nodes) || count != std::floor(count) ||
-        e.property_count < 4 + count)
-      return entry(4) + " is the number of the slave's nodes with option 8, 1 .. " +
+        e.property_count < first + 1 + count)
+      return entry(first + 1) + " is the number of the slave's nodes with option 8, 1 .. " +
              std::to_string(largest_slave_nodes) + ", and as many weights follow";
     arguments.slave_nodes = static_cast<int>(count);
-    for (int i = 0; i < arguments.slave_nodes; ++i) arguments.weights[i] = e.properties(4 + i);
+    for (int i = 0; i < arguments.slave_nodes; ++i) arguments.weights[i] = e.properties(first + 1 + i);
     if (const std::string wrong = wrong_weights(arguments.weights, arguments.slave_nodes); !wrong.empty())
-      return entry(5) + " and following: " + wrong;
+      return entry(first + 2) + " and following: " + wrong;
   } else if (arguments.row && model.slave_nodes > 1) {
     arguments.slave_nodes = model.slave_nodes;
     std::copy(arguments.row->weights.begin(), arguments.row->weights.end(), arguments.weights);
@@ -158,7 +182,8 @@ std::string read_coordinates(const Element& e, Arguments& arguments) {
   const LoadedModel& model = *arguments.model;
   const int wanted = model.layout.nodes * model.layout.parameters;
   // Hosts with a fixed number of properties fill up with zeros: a segment without extent is none given.
-  const int before = 3 + (arguments.options & option_slave_point ? 1 + arguments.slave_nodes : 0);
+  const int before =
+      first_properties(arguments) + (arguments.options & option_slave_point ? 1 + arguments.slave_nodes : 0);
   int count = e.property_count;
   while (count > before && e.properties(count - 1) == 0) --count;
   if (count > before) {
@@ -184,6 +209,7 @@ std::string read_coordinates(const Element& e, Arguments& arguments) {
 /// @return what is wrong with the element's description; "" if nothing
 std::string read(const Element& e, Arguments& arguments) {
   std::string wrong = read_properties(e, arguments);
+  if (wrong.empty()) wrong = read_offset(e, arguments);
   if (wrong.empty()) wrong = read_slave_point(e, arguments);
   if (wrong.empty()) wrong = check_sizes(e, arguments);
   if (wrong.empty()) wrong = read_coordinates(e, arguments);
@@ -271,7 +297,7 @@ void begin_state(const Element& e, const LoadedModel& model, double* state) {
 bool find_start(const LoadedModel& model, const ents_input& input, double* start) {
   if (!model.base) return false;
   ents_input plain = input;
-  plain.state_begin = nullptr;
+  plain.state_begin = nullptr, plain.slave_values = nullptr;
   ents_output output{};
   output.struct_size = sizeof output;
   output.wanted = ENTS_XI;
@@ -290,7 +316,7 @@ void describe(const ents_layout& layout, Result& result) {
 int options(const Row<const double>& properties, int count) {
   if (count < 3) return 0;
   const double value = properties(2);
-  return value >= 0 && value <= 31 && value == std::floor(value) ? static_cast<int>(value) : -1;
+  return value >= 0 && value <= 63 && value == std::floor(value) ? static_cast<int>(value) : -1;
 }
 
 void negative_product(const Grid<const double>& matrix, int n, const double* vector, double* result) {
@@ -342,6 +368,7 @@ Result evaluate(const Element& e) {
   input.multiplier = layout.multipliers ? unknowns + layout.dimension * (layout.nodes + 1) : nullptr;
   input.surface_coordinates = arguments.surface_coordinates;
   input.area = &arguments.area;
+  if (arguments.has_offset) input.slave_values = arguments.slave_values;
   input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
   double start[2];
   if (find_start(model, input, start)) input.start = start;

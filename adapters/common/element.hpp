@@ -31,10 +31,12 @@ enum Option {
   option_negative_tangent = 4,
   option_slave_point =
       8, ///< properties 4 .. are n and n weights of the slave's nodes, before surface coordinates
-  option_may_leave =
-      16 ///< a slave that leaves its segments while in contact is open, without a word: the master ends there
+  option_may_leave = 16, ///< a slave that leaves its segments while in contact is open, without a word: the
+                         ///< master ends there
+  option_offset = 32     ///< property 4 is a length [L] that is added to the gap; the model has "offset"
 };
-inline constexpr int common_options = option_selfcheck | option_slave_point | option_may_leave;
+inline constexpr int common_options =
+    option_selfcheck | option_slave_point | option_may_leave | option_offset;
 
 /// What a host calls the things that a user can get wrong: a number is put behind each.
 struct Host {

@@ -46,6 +46,15 @@ int read_slave_nodes(const std::string& line, const std::string& where, bool fir
   return static_cast<int>(number[0]);
 }
 
+/// The line "offsets"? @throws std::string
+bool is_offsets(const std::string& line, const std::string& where, bool first) {
+  constexpr std::string_view key = "offsets";
+  if (line.compare(0, key.size(), key) != 0) return false;
+  if (!first || line.find_first_not_of(" \t\r", key.size()) != std::string::npos)
+    throw where + "write offsets alone in a line before the first element";
+  return true;
+}
+
 /// @throws std::string what is wrong, with the line
 void read_rows(const std::string& file, LoadedModel& loaded) {
   std::error_code error;
@@ -64,11 +73,16 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
       loaded.slave_nodes = n;
       continue;
     }
+    if (is_offsets(line, where, loaded.rows.empty())) {
+      loaded.offsets = true;
+      continue;
+    }
     if (!read_numbers(line, numbers)) throw where + "not a list of numbers";
     if (numbers.empty()) continue;
-    const std::size_t weights = loaded.slave_nodes > 1 ? static_cast<std::size_t>(loaded.slave_nodes) : 0;
-    if (numbers.size() != 2 + weights && numbers.size() != 2 + weights + coordinates)
-      throw where + "write ELEMENT AREA" +
+    const std::size_t weights = loaded.slave_nodes > 1 ? static_cast<std::size_t>(loaded.slave_nodes) : 0,
+                      before = loaded.offsets ? 3 : 2;
+    if (numbers.size() != before + weights && numbers.size() != before + weights + coordinates)
+      throw where + "write ELEMENT AREA" + (loaded.offsets ? " OFFSET" : "") +
           (weights ? " and " + std::to_string(weights) + " weights of the slave's nodes" : std::string()) +
           ", or behind that " + std::to_string(coordinates) + " surface coordinates of the master nodes";
     if (numbers[0] < 1 || numbers[0] > 9e15 || numbers[0] != std::floor(numbers[0]))
@@ -76,10 +90,12 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
     if (numbers[1] <= 0)
       throw where + "the area is " + (numbers[1] < 0 ? "negative" : "0") +
           "; write the tributary area of the slave node, > 0";
-    const auto behind = numbers.begin() + 2 + static_cast<std::ptrdiff_t>(weights);
+    const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(before),
+               behind = first + static_cast<std::ptrdiff_t>(weights);
     ElementRow row{static_cast<std::int64_t>(numbers[0]),
                    numbers[1],
-                   {numbers.begin() + 2, behind},
+                   loaded.offsets ? numbers[2] : 0.0,
+                   {first, behind},
                    {behind, numbers.end()}};
     if (const std::string wrong = wrong_weights(row.weights.data(), static_cast<int>(weights));
         !wrong.empty())

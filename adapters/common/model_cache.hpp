@@ -14,12 +14,13 @@ namespace ents_adapter {
 
 inline constexpr int largest_model_number = 9999;
 
-/// A line of ents_k.txt: "ELEMENT AREA [W ...] [S ...]", # starts a comment. Weights W are there if a line
-/// "slave_nodes n" with n > 1 comes first: the slave is then a point of a face, the sum of W times the
-/// positions of the element's first n nodes.
+/// A line of ents_k.txt: "ELEMENT AREA [OFFSET] [W ...] [S ...]", # starts a comment. OFFSET is there if a
+/// line "offsets" comes first, weights W if a line "slave_nodes n" with n > 1 does: the slave is then a point
+/// of a face, the sum of W times the positions of the element's first n nodes.
 struct ElementRow {
   std::int64_t element = 0;                ///< the host's number
   double area = 0;                         ///< [A] tributary area of the slave node, > 0
+  double offset = 0;                       ///< [L] added to the gap; 0 without a line "offsets"
   std::vector<double> weights;             ///< [slave_nodes]; empty for 1
   std::vector<double> surface_coordinates; ///< [m][d-1] of the master nodes; or empty
 };
@@ -35,6 +36,7 @@ struct LoadedModel {
   std::string error;
   std::vector<ElementRow> rows; ///< sorted by element
   int slave_nodes = 1;          ///< of each row
+  bool offsets = false;         ///< in each row
 
   /// @return null if there is no such line
   const ElementRow* row(std::int64_t element) const;

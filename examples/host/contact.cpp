@@ -45,6 +45,10 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     }
     size_ = std::hypot(size_, high - low);
   }
+  if (d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size())
+    for (std::size_t k = 0; k < points_.size(); ++k)
+      for (const double value : {0.0, 1.0, std::abs(points_.place(k, mesh)[0])})
+        slave_values_.push_back(value);
   number_unknowns();
   // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
   // elements behind them.
@@ -233,6 +237,12 @@ void Contact::build_tangent() {
   if (points_.are_nodes()) places_.assign(points_.size() * (d_ * (m_ + 1) * (m_ + 1) + 1), 0);
 }
 
+double Contact::largest_arm() const {
+  double largest = slave_values_.empty() ? 1 : 0;
+  for (std::size_t i = 2; i < slave_values_.size(); i += 3) largest = std::max(largest, slave_values_[i]);
+  return largest;
+}
+
 ents_input Contact::input(const ents_master_mesh& where) const {
   auto in = ents_struct<ents_input>();
   in.slave = slave_positions_.data(), in.slave_stride = stride(d_);
@@ -243,6 +253,7 @@ ents_input Contact::input(const ents_master_mesh& where) const {
   if (state_size_ > 0) in.state_begin = state_in_.data(), in.state_begin_stride = stride(state_size_);
   if (multipliers_ > 0)
     in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);
+  if (!slave_values_.empty()) in.slave_values = slave_values_.data(), in.slave_values_stride = 3;
   return in;
 }
 

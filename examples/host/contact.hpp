@@ -72,7 +72,10 @@ public:
   /// Volumes that slave and master have lost until the last accepted increment, of this mesh [L^3].
   double worn_slave() const;
   double worn_master() const { return worn_master_; }
-  /// Distance slid beside the motion of the mesh until then.
+  /// What a slave slides at most for a unit of the parameter that slides: 1, or round an axis its largest
+  /// radius.
+  double largest_arm() const;
+  /// Distance slid beside the motion of the mesh until then; round an axis the angle.
   double slid() const;
   /// Unknowns of multipliers: so many per slave node, in the order of `slaves`, after the displacements.
   std::size_t multipliers() const { return multipliers_; }
@@ -174,6 +177,7 @@ private:
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   double thickness_, worn_master_ = 0;
+  std::vector<double> slave_values_; ///< [points][3], see ents_input; empty: none
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
   std::vector<double> bound_;   ///< parameters of the model at present
   bool surface_changed_ = true; ///< since the detector has seen it

@@ -25,6 +25,7 @@ ents_input OwnElements::input(std::int64_t element) {
   if (one.area != nullptr) one.area += element * input_.area_stride;
   if (one.state_begin != nullptr) one.state_begin += element * input_.state_begin_stride;
   if (one.multiplier != nullptr) one.multiplier += element * input_.multiplier_stride;
+  if (one.slave_values != nullptr) one.slave_values += element * input_.slave_values_stride;
   return one;
 }
 

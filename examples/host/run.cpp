@@ -183,6 +183,7 @@ std::string warning_of_explicit_wear(const Simulation& simulation, int step) {
   const double area = areas[areas.size() / 4];
   const double dx = scene.dimension == 2 ? area / scene.parts.front().setup.thickness : std::sqrt(area);
   const double limit = 4 * dx / (std::numbers::pi * coefficient.get<double>() * contact_modulus(scene));
+  slid *= simulation.contact()->largest_arm();
   if (!(slid > limit)) return "";
   return "step " + std::to_string(step) + " slides " + format_number(slid, 3) +
          " and explicit wear is stable up to " + format_number(limit, 3) +

@@ -67,6 +67,8 @@ private:
         good = good && (!value.is_number() || value >= rule);
       else if (keyword == "maximum")
         good = good && (!value.is_number() || value <= rule);
+      else if (keyword == "exclusiveMaximum")
+        good = good && (!value.is_number() || value < rule);
       else if (keyword == "multipleOf")
         good = good && (!value.is_number() || std::fmod(value.get<double>(), rule.get<double>()) == 0.0);
       else if (keyword == "minItems")

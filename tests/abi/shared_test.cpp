@@ -22,12 +22,14 @@ const Array arrays[] = {{"slave", ENTS_SHARED_SLAVE, &ents_input::slave_stride},
                         {"segment", ENTS_SHARED_SEGMENT, &ents_input::segment_stride},
                         {"area", ENTS_SHARED_AREA, &ents_input::area_stride},
                         {"state_begin", ENTS_SHARED_STATE, &ents_input::state_begin_stride},
-                        {"multiplier", ENTS_SHARED_MULTIPLIER, &ents_input::multiplier_stride}};
+                        {"multiplier", ENTS_SHARED_MULTIPLIER, &ents_input::multiplier_stride},
+                        {"slave_values", ENTS_SHARED_SLAVE_VALUES, &ents_input::slave_values_stride}};
 
 TEST(Shared, AStrideOfZeroHasToBeMeant) {
   Random random(71);
   const Surface surface(random, 3);
-  const Model model(text_of(3, R"({"normal": {"type": "augmented_multiplier", "stiffness": 10}})"));
+  const Model model(
+      text_of(3, R"({"normal": {"type": "augmented_multiplier", "stiffness": 10}, "offset": 0})"));
   Found found;
   ents_report report = new_report();
   ASSERT_EQ(detect(model, surface, tree_of(model, surface), surface.slave, 0.5, found, report), ENTS_OK);
@@ -47,6 +49,9 @@ TEST(Shared, AStrideOfZeroHasToBeMeant) {
   right.area = area.data(), right.area_stride = 1;
   right.state_begin = states.data(), right.state_begin_stride = model.layout.state_size;
   right.multiplier = multiplier.data(), right.multiplier_stride = 1;
+  std::vector<double> values;
+  for (int i = 0; i < Surface::slaves; ++i) values.insert(values.end(), {0.0, 1.0, 1.0});
+  right.slave_values = values.data(), right.slave_values_stride = 3;
   const auto assemble = [&](const ents_input& in, int64_t count) {
     return call::in_host(ents_assemble, model.get(), int64_t{0}, count, &in, nullptr, &made, &report);
   };

@@ -45,11 +45,24 @@ CASES = {  # name: mesh, model, options
     "plain": (strips, {"segment": "line2", "contact": PENALTY}, {}),
     "wave over the length": (strips, {"segment": "line2", "height": WAVE, "contact": PENALTY}, {"surface_coordinates": "x"}),
     "friction": (strips, {"segment": "line2", "height": WAVE, "contact": FRICTION}, {"surface_coordinates": "x"}),
+    "offset": (strips, {"segment": "line2", "height": WAVE, "contact": {**FRICTION, "offset": 0}}, {"surface_coordinates": "x", "offset": -0.02}),
     "smoothed": (strips, {"segment": "bspline4", "height": WAVE, "contact": FRICTION}, {"surface_coordinates": "x", "ends": ents.ENDS_REPEATED}),
     "points inside facets": (strips, {"segment": "catmull_rom4", "contact": PENALTY}, {"sampling": 3}),
     "waves": (sheets, {"segment": "quad4", "height": WAVES, "contact": FRICTION}, {"surface_coordinates": "xy"}),
     "smoothed, points": (sheets, {"segment": "bspline16", "height": WAVES, "contact": PENALTY}, {"surface_coordinates": "xy", "sampling": 2}),
 }
+
+
+class Offsets(unittest.TestCase):
+    def test_a_coating_and_a_clearance(self):
+        positions = np.array([[-1.0, 0], [2, 0], [0, 0.01], [0.5, 0.01], [1, -0.05]])
+        model = {"segment": "line2", "contact": {**PENALTY, "offset": 0}}
+        contact = ents.Contact(model, positions, [[2, 3], [3, 4]], [[0, 1]], offset=[-0.03, 0.0, 0.02], reach=0.2)
+        contact.update(np.zeros(10))
+        np.testing.assert_allclose(contact.pressure, [800 * 0.02, 0, 800 * 0.03], atol=1e-10)
+        np.testing.assert_allclose(contact.gap, [0.01, 0.01, -0.05], atol=1e-14)
+        with self.assertRaisesRegex(ents.Error, 'write "offset": 0'):
+            ents.Contact({"segment": "line2", "contact": PENALTY}, positions, [[2, 3], [3, 4]], [[0, 1]], offset=0.1).update(np.zeros(10))
 
 
 class Derivatives(unittest.TestCase):

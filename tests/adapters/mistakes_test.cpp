@@ -162,7 +162,7 @@ TEST_P(Mistakes, EndTheJobWithAdvice) {
 TEST_P(Mistakes, OptionsThatMeanNothingAreRefused) {
   const auto option = [](int value) { return [value](Elements& e) { e.options = value; }; };
   const std::string area = own().area, property = area.substr(0, area.size() - 1) + "3 is ";
-  for (const int value : {1, 2, 3, 4, 5, 6, 7, 16, 17, 32, 33, -1}) {
+  for (const int value : {1, 2, 3, 4, 5, 6, 7, 16, 17, 32, 33, 64, 65, -1}) {
     if (value > 0 && (value & ~own().options) == 0) {
       Elements elements = problem_.elements;
       elements.options = value;

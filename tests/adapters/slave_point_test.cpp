@@ -135,6 +135,46 @@ TEST(SlavePoint, MistakesSayWhatToWrite) {
   expect({}, "slave_nodes 4\n90001 0.5 0.25 0.25 0.25 0.5\n", "line 2: the weights");
   expect({}, "slave_nodes 11\n", "line 1: write slave_nodes and a whole number");
   expect({}, "90001 0.5\nslave_nodes 4\n", "line 2: write slave_nodes");
+  expect({32}, "", "entry 4 is the offset of the gap");
+  expect({32, 0.1, 8}, "", "surface coordinates"); // 8: no option any more
+  expect({}, "offsets\n90001 0.5\n", "line 2: write ELEMENT AREA OFFSET");
+  expect({}, "90001 0.5\noffsets\n", "line 2: write offsets alone");
+}
+
+// A clearance or a coating of one slave node, from its properties and from the table: the force of a node
+// that is so much farther or nearer. With a slave point as well.
+TEST(Offset, IsAddedToTheGapOfItsElement) {
+  const auto model = [](const char* offset) {
+    return std::string(
+               R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 400})") +
+           offset + "}}";
+  };
+  write("ents_791.json", model(""));
+  write("ents_792.json", model(R"(, "offset": 0)"));
+  write("ents_793.json", model(R"(, "offset": 0)"));
+  write("ents_793.txt", "offsets\n90001 0.5 -0.03\n90002 0.5 0.02\n");
+  write("ents_794.json", model(R"(, "offset": 0)"));
+  const auto force = [](const Values& props, double y, bool point, int element) {
+    UelCall c = point ? call_of(props, {0, y - 1, 1, y + 1, 0, 0, 1, 0}, 2, 32)
+                      : call_of(props, {0.5, y, 0, 0, 1, 0}, 2, 32);
+    c.jelem = element;
+    c();
+    EXPECT_TRUE(abaqus_messages().empty());
+    return point ? c.rhs[1] + c.rhs[3] : c.rhs[1];
+  };
+  for (const double gap : {-0.05, 0.01}) {
+    const double near = force({791, 0.5}, gap - 0.03, false, 90001),
+                 far = force({791, 0.5}, gap + 0.02, false, 90001);
+    EXPECT_NEAR(force({792, 0.5, 32, -0.03}, gap, false, 90001), near, 1e-12);
+    EXPECT_NEAR(force({792, 0.5, 32, 0.02}, gap, false, 90001), far, 1e-12);
+    EXPECT_NEAR(force({793, 0}, gap, false, 90001), near, 1e-12);
+    EXPECT_NEAR(force({793, 0}, gap, false, 90002), far, 1e-12);
+    EXPECT_NEAR(force({794, 0.5, 40, -0.03, 2, 0.5, 0.5}, gap, true, 90001), near, 1e-12);
+  }
+  UelCall c = call_of({791, 0.5, 32, -0.03}, {0.5, -0.01, 0, 0, 1, 0}, 2, 32);
+  EXPECT_THROW(c(), HostStopped);
+  const std::string message = only_message();
+  EXPECT_NE(message.find("write \"offset\": 0"), std::string::npos) << message;
 }
 
 /// Two segments from x = 0 to 2, the slave above them; an increment after the other.

@@ -225,6 +225,34 @@ TEST(Wear, AFlatPunchRunsInToUniformPressure) {
   }
 }
 
+// An annular punch that turns: every radius wears by k p r per radian, so that in the end p r is the same
+// everywhere, F / (2 pi (b - a)).
+TEST(Wear, AnAnnularPunchRunsInToPressuresOfOneOverTheRadius) {
+  const Json json = Json::parse(R"({
+    "dimension": 2, "formulation": "axisymmetric",
+    "materials": {"block": {"law": "linear_elastic", "young": 1000, "poisson": 0.3}},
+    "parts": [{"name": "block", "material": "block", "element": "quad4",
+      "x": {"from": 0, "pieces": [{"to": 2, "divisions": 100}, {"to": 10, "divisions": 12, "growth": 1.3}]},
+      "y": {"from": -10, "pieces": [{"to": -0.4, "divisions": 14, "growth": 0.75}, {"to": 0, "divisions": 16}]}}],
+    "supports": [{"nodes": "block.x_min", "x": 0}, {"nodes": "block.y_min", "y": 0}],
+    "contact": {"slave": "block.y_max", "master": {"nodes": [[1.51, 0], [0.51, 0]], "direction": [0, -1]},
+      "model": {"segment": "line2", "height": null, "parameters": {"angle": 0},
+        "contact": {"normal": {"type": "penalty", "stiffness": 1e7}, "wear": {"coefficient": 1e-6, "sliding": "angle"}}}},
+    "steps": {"control": "force", "values": [2, {"to": 2, "count": 30}]},
+    "history": {"angle": [0, {"to": 60000, "count": 30}]}})");
+  const Scene scene = test::scene_from(json);
+  const std::vector<StepRecord> records = run(scene);
+  Simulation simulation(scene, &test::library());
+  int looked_at = 0;
+  for (std::size_t k = 0; k < simulation.contact()->slaves().size(); ++k) {
+    const double r = simulation.contact()->slaves().place(k, simulation.mesh())[0];
+    if (r < 0.59 || r > 1.41) continue;
+    ++looked_at;
+    EXPECT_NEAR(records.back().fields.pressure[k] * 2 * pi * r * 1.0 / 2, 1, 0.01) << r;
+  }
+  EXPECT_GT(looked_at, 30);
+}
+
 // The limit 4 dx / (pi k E*) over three decades of dx: below it no pressure alternates, above it a warning,
 // and they do.
 TEST(Wear, ExplicitSchemeIsStableBelowItsLimitAndWarnedAboutAboveIt) {

@@ -19,7 +19,7 @@ using nlohmann::json;
 struct Method {
   std::string name;
   json normal, friction;
-  json wear = nullptr;
+  json wear = nullptr, offset = nullptr, flattening = nullptr;
 };
 inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
@@ -62,16 +62,44 @@ inline std::vector<Method> methods_with_wear() {
   }
   return all;
 }
+// Every normal law with a clearance or a coating beside its geometry
+inline std::vector<Method> methods_with_offset() {
+  std::vector<Method> all;
+  for (Method method : methods()) {
+    if (!method.name.ends_with("coulomb")) continue;
+    method.name += "_offset";
+    method.offset = all.size() % 2 == 0 ? -0.02 : 0.01;
+    all.push_back(method);
+  }
+  return all;
+}
+// Laws under which all of the height gives way, to about three quarters at the deepest penetration
+inline std::vector<Method> methods_with_flattening() {
+  std::vector<Method> all;
+  for (Method method : methods()) {
+    if (std::string(method.normal["type"]).ends_with("multiplier") ||
+        !(method.name.ends_with("coulomb") || method.name == "penalty_frictionless"))
+      continue;
+    method.name += "_flattening";
+    method.flattening = {{"scale", "flat"}, {"pressure", 20.0}, {"least", 0.3}};
+    if (method.normal["type"] == "exponential") method.flattening["pressure"] = 200.0;
+    all.push_back(method);
+  }
+  return all;
+}
 inline std::vector<Method> all_methods() {
   std::vector<Method> all = methods();
   for (const Method& method : methods_with_wear()) all.push_back(method);
+  for (const Method& method : methods_with_offset()) all.push_back(method);
+  for (const Method& method : methods_with_flattening()) all.push_back(method);
   return all;
 }
 
-// Elements with a state that has been in contact at an anchor, and values of the multiplier dofs.
+// Elements with a state that has been in contact at an anchor, and values of the multiplier dofs and, where
+// the law wears, of the slave nodes.
 struct LawElements {
   mechanics::Elements at;
-  std::vector<double> state, multiplier;
+  std::vector<double> state, multiplier, slave_values;
   ents_layout layout{};
 };
 
@@ -118,6 +146,10 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
       for (std::size_t a = 0; a < t; ++a)
         s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
     }
+    if (e.layout.worn >= 0)
+      for (const double value :
+           {random.uniform(-0.01, 0.01), random.uniform(0.5, 1.5), random.uniform(0.0, 2.0)})
+        e.slave_values.push_back(value);
     for (std::size_t k = 0; k < m; ++k)
       e.multiplier[i * m + k] = k == 0 ? random.uniform(0.0, 3.0) : random.uniform(-0.5, 0.5);
   }
@@ -148,6 +180,7 @@ inline ents_input input_of(const LawElements& e, const std::vector<double>& star
   in.state_begin_stride = l.state_size;
   in.multiplier = e.multiplier.data();
   in.multiplier_stride = l.multipliers;
+  if (!e.slave_values.empty()) in.slave_values = e.slave_values.data(), in.slave_values_stride = 3;
   return in;
 }
 
@@ -204,7 +237,17 @@ inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& me
                                  const char* master = "deformable") {
   json text = scene.model();
   text["master"] = master;
-  text["contact"] = {{"normal", method.normal}, {"friction", method.friction}, {"wear", method.wear}};
+  text["contact"] = {{"normal", method.normal},
+                     {"friction", method.friction},
+                     {"wear", method.wear},
+                     {"offset", method.offset},
+                     {"flattening", method.flattening}};
+  if (!method.flattening.is_null()) {
+    const json none = {{"type", "constant"}, {"value", 0.01}};
+    text["height"] = {
+        {"type", "scale"}, {"by", "flat"}, {"of", scene.height.is_null() ? none : scene.height}};
+    text["parameters"] = {{"flat", 1.0}};
+  }
   return mechanics::Model(text.dump());
 }
 

@@ -109,7 +109,7 @@ protected:
       v = std::vector<double>(v.begin() + first * each, v.begin() + (first + size) * each);
     };
     cut(p.at.slave), cut(p.at.master), cut(p.at.surface_coordinates), cut(p.at.start), cut(p.at.area),
-        cut(p.state), cut(p.multiplier);
+        cut(p.state), cut(p.multiplier), cut(p.slave_values);
     p.at.count = size;
     return p;
   }

@@ -23,10 +23,10 @@ struct Value {
   const char* name;
   double value, step;
 };
-constexpr Value values[] = {{"amplitude", 0.012, 0.02}, {"eps", 100.0, 100.0},   {"factor", 0.9, 1.0},
-                            {"k", 0.05, 0.05},          {"level", 0.004, 0.02},  {"mu", 0.3, 0.3},
-                            {"phase", 0.7, 1.0},        {"sliding", 0.02, 0.02}, {"top", 0.01, 0.02},
-                            {"u", 0.15, 0.5},           {"v", -0.1, 0.5}};
+constexpr Value values[] = {{"amplitude", 0.012, 0.02}, {"eps", 100.0, 100.0},  {"factor", 0.9, 1.0},
+                            {"k", 0.05, 0.05},          {"level", 0.004, 0.02}, {"mu", 0.3, 0.3},
+                            {"offset", 0.003, 0.02},    {"phase", 0.7, 1.0},    {"sliding", 0.02, 0.02},
+                            {"top", 0.01, 0.02},        {"u", 0.15, 0.5},       {"v", -0.1, 0.5}};
 constexpr std::size_t parameters = std::size(values);
 
 json height_with_names(int t) {
@@ -50,7 +50,9 @@ json law_with_names(Method method) {
                                            : "stiffness"] = "eps";
   if (!method.friction.is_null()) method.friction["coefficient"] = "mu";
   if (!method.wear.is_null()) method.wear["coefficient"] = "k", method.wear["sliding"] = "sliding";
-  return {{"normal", normal}, {"friction", method.friction}, {"wear", method.wear}};
+  if (!method.offset.is_null()) method.offset = "offset";
+  return {
+      {"normal", normal}, {"friction", method.friction}, {"wear", method.wear}, {"offset", method.offset}};
 }
 // Every name replaced by its number
 void put_numbers(json& text, const std::array<double, parameters>& theta) {
@@ -86,8 +88,8 @@ void bind_values(const Handle& model, const std::array<double, parameters>& thet
 std::vector<Method> tried_methods() {
   std::vector<Method> all;
   for (const Method& method : all_methods())
-    if (!method.name.ends_with("rough") && !method.name.ends_with("shear_limit") &&
-        !std::string(method.normal["type"]).ends_with("multiplier"))
+    if (method.flattening.is_null() && !method.name.ends_with("rough") &&
+        !method.name.ends_with("shear_limit") && !std::string(method.normal["type"]).ends_with("multiplier"))
       all.push_back(method);
   return all;
 }

@@ -12,7 +12,8 @@ from ._arrays import Error, _address, _array, _new
 from ._structs import INPUTS, QUANTITIES, RESULTS, Data, Input, Layout, Output, Shared, Status, Surface
 from ._varying import Varying
 
-SHARED = {"area": Shared.AREA, "state_begin": Shared.STATE, "multiplier": Shared.MULTIPLIER}
+SHARED = {"area": Shared.AREA, "state_begin": Shared.STATE, "multiplier": Shared.MULTIPLIER,
+          "slave_values": Shared.SLAVE_VALUES}
 
 
 def _json(model):
@@ -90,7 +91,7 @@ class Model(Varying):
         lay = self.layout
         sizes = {"d": lay.dimension, "d-1": lay.parameters, "m": lay.nodes, "n": lay.dofs - lay.multipliers, "dofs": lay.dofs,
                  "tangent_leading_dimension": lay.dofs, "state_size": lay.state_size, "multipliers": lay.multipliers}
-        return tuple(sizes[extent] for extent in extents)
+        return tuple(sizes[extent] if extent in sizes else int(extent) for extent in extents)
 
     def state_init(self, count):
         """[count][state_size]: states of elements without history."""
@@ -119,13 +120,13 @@ class Model(Varying):
         return report.status, moved
 
     def evaluate(self, slave, master=None, want="residual tangent", *, tree=None, segment=None, surface_coordinates=None, start=None,
-                 area=None, state=None, multiplier=None, first=0, count=None, out=None):
+                 area=None, state=None, multiplier=None, slave_values=None, first=0, count=None, out=None):
         """Contact elements, one slave node and one segment each.
 
         slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
         want       names of QUANTITIES, as one string or a list
-        surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers]: one for
-                   all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
+        surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers],
+        slave_values [3] (gap offset [L], factors of the wear coefficient and of "sliding"): one for all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 
@@ -134,18 +135,19 @@ class Model(Varying):
         """
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
-                                   state_begin=state, multiplier=multiplier)
+                                   state_begin=state, multiplier=multiplier, slave_values=slave_values)
         result, block_out = self._output(len(slave), want, out)
         report = self._call("evaluate", first, len(slave) - first if count is None else count, block, block_out)
         result.update(step_factor=report.step_factor, message=report.message.decode())
         return result
 
-    def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None):
+    def assemble(self, system, slave, tree, segment, want="", *, start=None, area=None, state=None, multiplier=None, slave_values=None):
         """Residual and tangent are added to `system` (System), by the library. slave [n][d]: positions of the slave points; tree and segment [n]
         as detect gives them (-1: open); the rest as for evaluate. Returns what evaluate does, for all n elements. After an error or a
         recoverable status the system holds a part of the sum."""
         slave = _array("slave", slave, (None, self.layout.dimension))
-        given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier)
+        given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier,
+                                   slave_values=slave_values)
         result, block_out = self._output(len(slave), want, None)
         report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, tree, len(slave)))
         result.update(step_factor=report.step_factor, message=report.message.decode())
@@ -215,7 +217,8 @@ class Model(Varying):
         closed = np.flatnonzero(segment >= 0)
         if lay.multipliers and len(closed) < len(segment):
             raise Error(Status.BAD_VALUE, "segment: an element with multiplier dofs needs a segment, open ones too (their equation: multiplier = 0)")
-        own = {name: np.asarray(value)[closed] if np.ndim(value) and len(value) == len(slave) else value for name, value in inputs.items()}
+        per_element = lambda name, value: np.ndim(value) > len(self._shape(INPUTS[{"state": "state_begin"}.get(name, name)]))
+        own = {name: np.asarray(value)[closed] if per_element(name, value) else value for name, value in inputs.items()}
         result = self.evaluate(slave[closed], None, f"residual tangent {want}", tree=tree, segment=segment[closed], **own)
         parts = [_array("slave_equations", slave_equations, (len(slave), lay.dimension), np.int64)[closed]]
         if lay.dofs - lay.multipliers > lay.dimension:

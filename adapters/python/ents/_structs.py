@@ -72,6 +72,7 @@ class Shared(enum.IntFlag):
     STATE = 8
     MULTIPLIER = 16
     NO_STATE = 32
+    SLAVE_VALUES = 64
 
 
 # Results of elements: bit of `wanted`, type of the numbers, shape (without sizes that are 1).
@@ -107,6 +108,7 @@ INPUTS = {
     "area": (),
     "state_begin": ("state_size",),
     "multiplier": ("multipliers",),
+    "slave_values": ("3",),
 }
 
 # Places in the arrays of SurfaceAdmissibility.
@@ -207,6 +209,8 @@ class Input(ctypes.Structure):
         ("segment_stride", ctypes.c_int64),
         ("positions_begin", ctypes.c_void_p),
         ("shared", ctypes.c_int64),
+        ("slave_values", ctypes.c_void_p),
+        ("slave_values_stride", ctypes.c_int64),
     ]
 
 

@@ -31,6 +31,8 @@ class Contact:
     sampling   0: slave points are nodes, with their tributary areas; n: n points per direction inside each slave facet
     surface_coordinates  in which the height is given: "x" (3D: "xy", "xz" ...), undeformed coordinates; or an array
                [facets][nodes of a facet][d-1] (not smoothed); default: the model's own, else natural coordinates
+    offset     length [L] that is added to the gap, a number or one for each slave point: > 0 a clearance, < 0 a coating; needs "offset": 0 in the
+               model's "contact"
     elements   [slave points] bool: those that are assembled; the others belong to another process. Default: all
     ends       smoothed masters: ENDS_STRAIGHT or ENDS_REPEATED, see ents.h
 
@@ -39,7 +41,7 @@ class Contact:
     """
 
     def __init__(self, model, positions, slave, master, *, master_positions=None, dofs=None, rows=None, reach=None, thickness=1.0, sampling=0,
-                 surface_coordinates=None, elements=None, ends=ENDS_STRAIGHT):
+                 surface_coordinates=None, offset=None, elements=None, ends=ENDS_STRAIGHT):
         import scipy.sparse as sparse
         self._sparse = sparse
         self.model = model = model if isinstance(model, Model) else Model(model)
@@ -95,6 +97,10 @@ class Contact:
         self._spread = sparse.vstack(parts, "csr")
         count = len(self.areas)
         self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool)
+        self._own_values = None
+        if offset is not None:
+            self._own_values = np.ones((count, 3))
+            self._own_values[:, 0] = _array("offset", np.broadcast_to(np.asarray(offset, float), (count,)), (count,))
         self._slave_rows = np.arange(count * d).reshape(count, d)
         self._master_rows = None if self.rigid else count * d + np.arange(len(start) * d).reshape(len(start), d)
 
@@ -143,7 +149,7 @@ class Contact:
         if status:
             raise CutStep(status, "the history of a slave point cannot move to its new segment: take a smaller step", -1, 0.5)
         r, (values, places), result = model.blocks(points, self.tree, segment, self._slave_rows, self._master_rows, self._spread.shape[0], want=want,
-                                                   area=self.areas, start=found["xi"], state=state)
+                                                   area=self.areas, start=found["xi"], state=state, slave_values=self._own_values)
         bad = np.flatnonzero(result["status"])
         if len(bad):
             raise CutStep(Status(result["status"][bad[0]]), result["message"], int(result["closed"][bad[0]]), result["step_factor"])
