@@ -369,6 +369,13 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
                           "version; fill it with ents_state_init",
                           number);
   if (status == ENTS_DEEP_PENETRATION && report) return explain_penetration(e, report);
+  if (status == ENTS_AMBIGUOUS_PROJECTION && plan->law.flattening.parameter != 0)
+    return report_message(
+        report, status, e,
+        "element %lld: two points of the segment are equally close, or its height has several "
+        "scales under its pressure: a hollow rises faster than the pressure on it. Take a larger "
+        "\"pressure\" in \"flattening\", or a softer normal law",
+        number);
   return report_message(report, status, e, "element %lld: %s", number, ents_status_text(status));
 }
 

@@ -273,6 +273,13 @@ module ents
     type(c_ptr) :: weights = c_null_ptr ! (begin[points])
   end type ents_combination
 
+  type, bind(c) :: ents_pose
+    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: point(3) = 0
+    real(c_double) :: turn(9) = 0
+  end type ents_pose
+
   type, bind(c) :: ents_system
     integer(c_int32_t) :: struct_size = 0
     integer(c_int32_t) :: index_size = 0
@@ -290,6 +297,8 @@ module ents
     type(c_ptr) :: values = c_null_ptr ! (row_begin[rows])
     type(c_ptr) :: places = c_null_ptr ! (places_size, elements), int64
     integer(c_int64_t) :: places_size = 0
+    type(c_ptr) :: pose = c_null_ptr ! c_loc of an ents_pose
+    type(c_ptr) :: body_equations = c_null_ptr ! (2D: 3, 3D: 6), int64
   end type ents_system
 
   type, bind(c) :: ents_surface
@@ -345,10 +354,11 @@ module ents
   ! Zero a struct and set its struct_size: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
-      init_derivatives, init_area, init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
+      init_derivatives, init_area, init_combination, init_pose, init_system, init_surface, init_admissibility, &
+      init_surface_admissibility
   end interface ents_init
   private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_derivatives, &
-    init_area, init_combination, init_system, init_surface, init_admissibility, init_surface_admissibility
+    init_area, init_combination, init_pose, init_system, init_surface, init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -696,6 +706,62 @@ module ents
       integer(c_int32_t) :: status
     end function ents_smooth
 
+    ! The body's frame is that of space, the reference point its origin.
+    function ents_pose_init(dimension, pose, report) result(status) bind(c, name="ents_pose_init")
+      import :: c_int32_t, ents_pose, ents_report
+      integer(c_int32_t), value :: dimension
+      type(ents_pose), intent(inout), target :: pose
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_pose_init
+
+    ! Move the reference point and turn the body about it.
+    function ents_pose_move(dimension, translation, spin, pose, report) result(status) bind(c, name="ents_pose_move")
+      import :: c_double, c_int32_t, ents_pose, ents_report
+      integer(c_int32_t), value :: dimension
+      real(c_double), intent(in) :: translation(*), spin(*)
+      type(ents_pose), intent(inout), target :: pose
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_pose_move
+
+    ! y = Q^T (x - point), positions; v = Q w, vectors.
+    function ents_pose_to_body(dimension, pose, count, positions, in_body, report) result(status) &
+      bind(c, name="ents_pose_to_body")
+      import :: c_double, c_int32_t, c_int64_t, ents_pose, ents_report
+      integer(c_int32_t), value :: dimension
+      type(ents_pose), intent(in), target :: pose
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), intent(inout) :: in_body(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_pose_to_body
+
+    function ents_pose_to_space(dimension, pose, count, in_body, vectors, report) result(status) &
+      bind(c, name="ents_pose_to_space")
+      import :: c_double, c_int32_t, c_int64_t, ents_pose, ents_report
+      integer(c_int32_t), value :: dimension
+      type(ents_pose), intent(in), target :: pose
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: in_body(*)
+      real(c_double), intent(inout) :: vectors(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_pose_to_space
+
+    ! The element of a slave point and the body, from that of a rigid master in the body's frame.
+    function ents_pose_element(dimension, pose, slave, residual, tangent, body_residual, body_tangent, report) result(status) &
+      bind(c, name="ents_pose_element")
+      import :: c_double, c_int32_t, ents_pose, ents_report
+      integer(c_int32_t), value :: dimension
+      type(ents_pose), intent(in), target :: pose
+      real(c_double), intent(in) :: slave(*), residual(*), tangent(*)
+      real(c_double), intent(inout) :: body_residual(*), body_tangent(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_pose_element
+
     ! Evaluate the elements first .. first + count - 1 and add their residuals and tangents to the host's equations.
     function ents_assemble(model, first, count, input, output, system, report) result(status) bind(c, name="ents_assemble")
       import :: c_int32_t, c_int64_t, c_ptr, ents_input, ents_report, ents_system
@@ -803,6 +869,11 @@ contains
     type(ents_combination), intent(out) :: x
     x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
   end subroutine init_combination
+
+  subroutine init_pose(x)
+    type(ents_pose), intent(out) :: x
+    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+  end subroutine init_pose
 
   subroutine init_system(x)
     type(ents_system), intent(out) :: x

@@ -713,6 +713,54 @@ ENTS_API int32_t ents_smooth(const char *facet, const char *basis, int32_t ends,
                              int64_t nodes, int64_t points, int64_t terms, int64_t *segment_points, int64_t *begin,
                              int64_t *point_nodes, double *weights, ents_report *report);
 
+/* ---- a rigid master with a reference point ------------------------------------------------------
+ *
+ * A rigid body that moves and turns is a change of frame: the master's nodes stay where they are in the frame of the body, the slave
+ * points are seen from there, and forces are turned back (frame indifference; spatial spin: Simo and Vu-Quoc, Comput. Methods Appl. Mech.
+ * Eng. 58, 1986). The model says "master": "rigid"; mesh, tree, states and heights never change, for any number of turns. A host
+ *   1. makes a pose (ents_pose_init), and moves it as its unknowns or its program want (ents_pose_move);
+ *   2. takes the slave points into the body's frame (ents_pose_to_body) before ents_detect, ents_evaluate, ents_assemble, ents_iterate;
+ *   3. gives the pose with the system (ents_system.pose, body_equations), or makes the element of slave and body itself
+ *      (ents_pose_element). Normals, tractions and points that are results come back with ents_pose_to_space.
+ * Not with multipliers as unknowns. Since contract 1.6. */
+typedef struct ents_pose {
+  int32_t struct_size;
+  int32_t reserved;       /* 0 */
+  double point[3];        /* [d] the reference point in space, [L] */
+  double turn[9];         /* [d][d] row by row: Q, whose columns are the body's axes in space; x = point + Q y */
+} ents_pose;
+
+/* The body's frame is that of space, the reference point its origin.
+ *   dimension  2 or 3
+ *   pose       struct_size is set by the caller; the rest is written
+ * Errors: BAD_VALUE (dimension). */
+ENTS_API int32_t ents_pose_init(int32_t dimension, ents_pose *pose, ents_report *report);
+
+/* Move the reference point and turn the body about it: point += translation, Q <- exp([spin]x) Q, kept orthonormal: no drift, whatever the
+ * number of moves.
+ *   translation  [d] [L], in space; null: none
+ *   spin         [3] rotation vector in space, 2D [1] angle, radians; null: none. Turns about one axis add up in any number of steps
+ * Errors: NON_FINITE; BAD_STATE if the pose has no orthonormal Q. Nothing is written then. */
+ENTS_API int32_t ents_pose_move(int32_t dimension, const double *translation, const double *spin, ents_pose *pose,
+                                ents_report *report);
+
+/* y = Q^T (x - point), positions; v = Q w, vectors. The arrays [count][d] may be the same. Errors: BAD_COUNT, NON_FINITE (pose). */
+ENTS_API int32_t ents_pose_to_body(int32_t dimension, const ents_pose *pose, int64_t count, const double *positions, double *in_body,
+                                   ents_report *report);
+ENTS_API int32_t ents_pose_to_space(int32_t dimension, const ents_pose *pose, int64_t count, const double *in_body, double *vectors,
+                                    ents_report *report);
+
+/* The element of a slave point and the body, from that of a rigid master in the body's frame.
+ *   slave              [d] position in the body's frame
+ *   residual, tangent  [d], [d][d] of ents_evaluate there; tangent: null with body_tangent
+ *   body_residual      [n], n = 2d + (2D: 1, 3D: 3): on the slave point, on the reference point, moment about it [F L]
+ *   body_tangent       [n][n] column-major or null: derivatives by the slave's displacement, the reference point's, and the spatial spin.
+ *                      Without friction symmetric but for the block of the spin, whose skew part is -[moment]x / 2: finite rotations do
+ *                      not commute
+ * Errors: NULL_ARGUMENT, NON_FINITE (pose). */
+ENTS_API int32_t ents_pose_element(int32_t dimension, const ents_pose *pose, const double *slave, const double *residual,
+                                   const double *tangent, double *body_residual, double *body_tangent, ents_report *report);
+
 /* The host's equations: rows of the dofs, right-hand side, and matrix in compressed rows. Rows and columns are counted from 0. The caller
  * owns all arrays; residual, values and places are written. */
 typedef struct ents_system {
@@ -734,7 +782,9 @@ typedef struct ents_system {
                                         are in `values`, and adds faster the next time. Set all to 0 before the first call, and
                                         whenever row_begin or columns change. If an element gets another segment, other nodes
                                         or other equations, the library finds its places again by itself */
-  int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination */
+  int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination or a pose */
+  const ents_pose *pose;             /* of a rigid master that moves, or null: input.slave is in its frame. Since contract 1.6 */
+  const int64_t *body_equations;     /* [2D: 3, 3D: 6] rows of the reference point's displacement and of the spin; -1: prescribed, left out */
 } ents_system;
 
 /* Evaluate the elements first .. first + count - 1 and add their residuals and tangents to the host's equations.

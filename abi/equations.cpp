@@ -48,6 +48,7 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
     return report_message(report_, ENTS_BAD_COUNT, -1,
                           "system.master has %lld points; the mesh has %lld nodes",
                           static_cast<long long>(master_.points), static_cast<long long>(call_.mesh.nodes));
+  if (s.pose && (status = check_body()) != ENTS_OK) return status;
   for (std::int64_t e = first; plan_.multipliers > 0 && e < first + count; ++e)
     for (int a = 0; a < plan_.multipliers; ++a)
       if (const std::int64_t equation = s.multiplier_equations[e * plan_.multipliers + a]; equation >= s.rows)
@@ -67,6 +68,27 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
   if (s.values && count > 0 && (status = check_pattern()) != ENTS_OK) return status;
   constexpr std::int64_t cached = std::int64_t{1} << 18;
   large_ = s.values && count > 0 && pattern_.begin(s.rows) > cached;
+  return ENTS_OK;
+}
+
+std::int32_t Equations::check_body() {
+  const ents_system& s = *system_;
+  if (nodes() != 1 || plan_.multipliers > 0)
+    return report_message(report_, ENTS_BAD_VALUE, -1, "system.pose is given, but the model %s",
+                          plan_.multipliers > 0
+                              ? "has multipliers as unknowns; \"augmented\" keeps them in the state"
+                              : "has a deformable master; write \"master\": \"rigid\"");
+  if (!s.body_equations)
+    return report_status(report_, ENTS_NULL_ARGUMENT, -1,
+                         "system.body_equations is null, but system.pose is not");
+  std::int32_t status = ENTS_OK;
+  if (!(pose_ = checked_pose(plan_.dimension, s.pose, pose_copy_, "system.pose", status, report_)))
+    return status;
+  for (int i = 0; i < body_dofs(plan_.dimension); ++i)
+    if (s.body_equations[i] >= s.rows)
+      return report_message(report_, ENTS_BAD_VALUE, -1,
+                            "system.body_equations[%d] is %lld; there are %lld rows", i,
+                            static_cast<long long>(s.body_equations[i]), static_cast<long long>(s.rows));
   return ENTS_OK;
 }
 
@@ -162,14 +184,14 @@ std::int32_t Equations::add_residual(std::int64_t e, const double* residual) con
 }
 
 std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group& column,
-                                  const double* tangent, std::int64_t* place) const {
+                                  const double* tangent, int leading, std::int64_t* place) const {
   const double weight = row.weight * column.weight;
   const std::int64_t *rows = row.equations, *columns = column.equations;
   bool in_line = true; // the columns stand side by side in every row
   for (int j = 0; j < column.size; ++j) in_line = in_line && columns[j] == columns[0] + j && columns[j] >= 0;
   for (int i = 0; i < row.size; ++i) {
     if (rows[i] < 0) continue;
-    const double* block = tangent + (row.dof + i) + static_cast<std::int64_t>(column.dof) * plan_.dofs;
+    const double* block = tangent + (row.dof + i) + static_cast<std::int64_t>(column.dof) * leading;
     std::int64_t known = place ? place[i] - 1 : -1;
     for (int j = 0; j < column.size; ++j) {
       if (columns[j] < 0) continue;
@@ -189,7 +211,7 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
           if (place) place[i] = at + 1;
         }
       }
-      system_->values[at] += weight * block[static_cast<std::int64_t>(j) * plan_.dofs];
+      system_->values[at] += weight * block[static_cast<std::int64_t>(j) * leading];
     }
   }
   return ENTS_OK;
@@ -259,7 +281,7 @@ void Equations::add_known(std::int64_t e, const std::int64_t* places, const doub
 void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
 #if defined(__GNUC__)
   if (!large_) return;
-  if (!system_->places || system_->slave || system_->master || plan_.multipliers > 0) return;
+  if (!system_->places || system_->slave || system_->master || system_->pose || plan_.multipliers > 0) return;
   const std::int64_t* places = system_->places + e * system_->places_size;
   if (*places++ >= 0) return;
   for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) {
@@ -283,29 +305,56 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
   const Group multipliers{
       plan_.dofs - plan_.multipliers, plan_.multipliers,
       plan_.multipliers > 0 ? system_->multiplier_equations + e * plan_.multipliers : nullptr, 1.0};
-  if (segment < 0) return add_block(e, multipliers, multipliers, tangent, nullptr);
+  if (segment < 0) return add_block(e, multipliers, multipliers, tangent, plan_.dofs, nullptr);
   for (int a = 0; a < count; ++a) {
     const std::int32_t status = for_groups(e, a, [&](const Group& row) -> std::int32_t {
       for (int b = 0; b < count; ++b) {
         const std::int32_t outcome = for_groups(e, b, [&](const Group& column) {
-          return add_block(e, row, column, tangent, places ? places + 1 + d * (count * a + b) : nullptr);
+          return add_block(e, row, column, tangent, plan_.dofs,
+                           places ? places + 1 + d * (count * a + b) : nullptr);
         });
         if (outcome != ENTS_OK) return outcome;
       }
       if (plan_.multipliers == 0) return ENTS_OK;
-      const std::int32_t outcome = add_block(e, row, multipliers, tangent, nullptr);
-      return outcome == ENTS_OK ? add_block(e, multipliers, row, tangent, nullptr) : outcome;
+      const std::int32_t outcome = add_block(e, row, multipliers, tangent, plan_.dofs, nullptr);
+      return outcome == ENTS_OK ? add_block(e, multipliers, row, tangent, plan_.dofs, nullptr) : outcome;
     });
     if (status != ENTS_OK) return status;
   }
   if (places && plan_.multipliers == 0 &&
       std::find(places + 1, places + 1 + d * count * count, 0) == places + 1 + d * count * count)
     places[0] = -places[0];
-  return plan_.multipliers > 0 ? add_block(e, multipliers, multipliers, tangent, nullptr) : ENTS_OK;
+  return plan_.multipliers > 0 ? add_block(e, multipliers, multipliers, tangent, plan_.dofs, nullptr)
+                               : ENTS_OK;
+}
+
+// Slave and body: the groups are those of the slave node, or of the nodes of the slave point, and the body's.
+std::int32_t Equations::add_with_body(std::int64_t e, const double* residual, const double* tangent) const {
+  const int d = plan_.dimension, body = body_dofs(d), n = d + body;
+  double r[largest_body_element], t[largest_body_element * largest_body_element];
+  add_body(d, *pose_, at(call_.in->slave, call_.in->slave_stride, e), residual,
+           system_->values ? tangent : nullptr, r, t);
+  const Group of_body{d, body, system_->body_equations, 1.0};
+  const auto for_each = [&](auto&& f) {
+    const std::int32_t status = for_groups(e, 0, f);
+    return status == ENTS_OK ? f(of_body) : status;
+  };
+  std::int32_t status = ENTS_OK;
+  if (system_->residual)
+    status = for_each([&](const Group& group) -> std::int32_t {
+      for (int i = 0; i < group.size; ++i)
+        if (group.equations[i] >= 0) system_->residual[group.equations[i]] += group.weight * r[group.dof + i];
+      return ENTS_OK;
+    });
+  if (!system_->values || status != ENTS_OK) return status;
+  return for_each([&](const Group& row) {
+    return for_each([&](const Group& column) { return add_block(e, row, column, t, n, nullptr); });
+  });
 }
 
 std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent,
                             bool symmetric) const {
+  if (system_->pose) return add_with_body(e, residual, tangent);
   if (const std::int64_t* places = known_places(e)) {
     if (plan_.dimension == 3)
       add_known<3>(e, places, residual, tangent, symmetric);

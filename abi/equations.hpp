@@ -6,6 +6,7 @@
 
 #include "abi/combination.hpp"
 #include "abi/element_call.hpp"
+#include "abi/rigid_body.hpp"
 
 namespace ents {
 
@@ -64,6 +65,7 @@ private:
   };
 
   std::int32_t check_pattern();
+  std::int32_t check_body();
   std::int64_t stamp(std::int64_t e) const noexcept;
   std::int32_t check_equations(const char* name, const std::int64_t* equations, std::int64_t nodes,
                                std::int64_t node) const;
@@ -72,7 +74,8 @@ private:
   std::int32_t add_residual(std::int64_t e, const double* residual) const;
   std::int32_t add_tangent(std::int64_t e, const double* tangent) const;
   std::int32_t add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
-                         std::int64_t* place) const;
+                         int leading, std::int64_t* place) const;
+  std::int32_t add_with_body(std::int64_t e, const double* residual, const double* tangent) const;
   const std::int64_t* known_places(std::int64_t e) const noexcept;
   template <int D>
   void add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
@@ -87,6 +90,8 @@ private:
   ents_system copy_;
   const ents_system* system_;
   ents_combination slave_, master_;
+  const ents_pose* pose_ = nullptr; // checked
+  ents_pose pose_copy_;
   Pattern pattern_;
   bool large_; // more entries than caches hold
 };

@@ -21,9 +21,12 @@ public:
 
   Status evaluate(const ElementOutput& out) {
     if (const Status status = look(1.0); status != Status::ok) return status;
+    Status status = Status::ok;
     if (pressure_ > 0.0)
-      if (const Status status = solve(); status != Status::ok) return status;
-    return write(out);
+      status = solve();
+    else if (known_ && gap_ < plan_.height_bound)
+      status = look_for_contact();
+    return status == Status::ok ? write(out) : status;
   }
 
 private:
@@ -40,8 +43,8 @@ private:
         nodes_[i].value = s;
     std::int32_t flags = 0;
     ElementOutput to{};
-    to.wanted = want::xi | want::flags | want::pressure;
-    to.xi = xi_, to.flags = &flags, to.pressure = &pressure_;
+    to.wanted = want::xi | want::flags | want::pressure | want::gap;
+    to.xi = xi_, to.flags = &flags, to.pressure = &pressure_, to.gap = &gap_;
     const Status status = plan_.element(plan_, here(), to);
     if (status != Status::ok) return status;
     known_ = (flags & flag::outside) == 0;
@@ -73,22 +76,31 @@ private:
     }
     if (!(std::fabs(s_ - scale_at(pressure_)) <= 1e-9) || !(stability() > 0.0))
       return Status::ambiguous_projection;
-    return crest ? Status::ok : look_for_others();
+    return crest ? Status::ok : look_for_others(1);
   }
 
-  // On a hollow, the other solutions, as far as sixteen places between tell.
-  Status look_for_others() {
+  // Open with all of its height: a hollow could have risen to the slave all the same.
+  Status look_for_contact() {
+    if (const Status status = look(law_.least); status != Status::ok) return status;
+    if (pressure_ == 0.0) return look(1.0);
+    s_ = 1.0;
+    return look_for_others(0);
+  }
+
+  // On a hollow, the solutions beside the present one, as far as sixteen places between tell: where
+  // s - f(p(s)) > 0 changes more often than `expected`.
+  Status look_for_others(int expected) {
     const double found = s_;
     int changes = 0;
     bool before = false;
     for (int i = 0; i <= samples; ++i) {
       const double s = law_.least + (1.0 - law_.least) * i / samples;
       if (const Status status = look(s); status != Status::ok) return status;
-      const bool above = s_ - scale_at(pressure_) >= 0.0;
+      const bool above = s_ - scale_at(pressure_) > 0.0;
       changes += i > 0 && above != before;
       before = above;
     }
-    if (changes > 1) return Status::ambiguous_projection;
+    if (changes > expected) return Status::ambiguous_projection;
     return look(found);
   }
 
@@ -127,7 +139,7 @@ private:
   const ElementInput& in_;
   HeightNode nodes_[most_flattened_nodes];
   ParameterRates rates_{};
-  double s_ = 1.0, pressure_ = 0.0, xi_[2] = {};
+  double s_ = 1.0, pressure_ = 0.0, gap_ = 0.0, xi_[2] = {};
   bool known_ = false;
 };
 

@@ -82,6 +82,11 @@ void Contact::number_unknowns() {
   slave_dofs_ = unknowns_.size();
   for (std::size_t i = 0; !master_.rigid && i < master_.connectivity.size(); ++i)
     add_node(master_.connectivity[i]);
+  if (master_.body_node >= 0) {
+    add_node(master_.body_node), add_node(master_.body_node + 1);
+    for (std::size_t i = 0; i < (d_ == 2 ? 3 : 6); ++i)
+      body_equations_.push_back(dof_equations_[static_cast<std::size_t>(master_.body_node) * d_ + i]);
+  }
   multiplier_equations_.resize(multiplier_count());
   for (std::size_t j = 0; j < multiplier_count(); ++j) {
     multiplier_equations_[j] = stride(unknowns_.size());
@@ -130,13 +135,37 @@ std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<doub
   return position;
 }
 
+// The displacements of a body's second node are its turns, of which one may differ from zero: the rotation
+// vector, and its changes are the spin.
+ents_pose Contact::pose_at(const Configuration& at) const {
+  const EntsLibrary& library = master_.model->library();
+  auto pose = ents_struct<ents_pose>();
+  auto report = ents_struct<ents_report>();
+  const double* moved = at.displacement.data() + static_cast<std::size_t>(master_.body_node) * d_;
+  std::array<double, 3> point = master_.reference;
+  for (std::size_t i = 0; i < d_; ++i) point[i] += moved[i];
+  const auto d = static_cast<std::int32_t>(d_);
+  if (library.pose_init(d, &pose, &report) != ENTS_OK ||
+      library.pose_move(d, point.data(), moved + d_, &pose, &report) != ENTS_OK)
+    throw JobError("the rigid body: " + describe(library, report.status, report));
+  return pose;
+}
+
 void Contact::place(const Configuration& at) {
   bind(at);
   slave_positions_.resize(points_.size() * d_);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const std::array<double, 3> now = position_of(k, at.displacement);
     for (std::size_t i = 0; i < d_; ++i)
-      slave_positions_[k * d_ + i] = now[i] - (master_.rigid ? at.motion * master_.direction[i] : 0.);
+      slave_positions_[k * d_ + i] = now[i] - (master_.translates() ? at.motion * master_.direction[i] : 0.);
+  }
+  if (master_.body_node >= 0) {
+    pose_ = pose_at(at);
+    auto report = ents_struct<ents_report>();
+    const EntsLibrary& library = master_.model->library();
+    if (library.pose_to_body(static_cast<std::int32_t>(d_), &pose_, count(), slave_positions_.data(),
+                             slave_positions_.data(), &report) != ENTS_OK)
+      throw JobError("the rigid body: " + describe(library, report.status, report));
   }
   multiplier_values_ = at.multiplier;
   if (master_.rigid) return;
@@ -217,7 +246,8 @@ void Contact::build_tangent() {
   pattern_segment_ = at_.segment;
   StencilGroup elements, open; // an element without a segment: the multipliers alone
   const std::size_t q = points_.nodes_per_point;
-  elements.dofs = static_cast<int>((q + (master_.rigid ? 0 : m_)) * d_ + multipliers_);
+  elements.dofs =
+      static_cast<int>((q + (master_.rigid ? 0 : m_)) * d_ + multipliers_ + body_equations_.size());
   open.dofs = static_cast<int>(multipliers_);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     StencilGroup& group = master_.rigid || at_.segment[k] >= 0 ? elements : open;
@@ -230,6 +260,7 @@ void Contact::build_tangent() {
       add_node(master_.connectivity[static_cast<std::size_t>(at_.segment[k]) * m_ + a]);
     for (std::size_t j = 0; j < multipliers_; ++j)
       group.equations.push_back(static_cast<int>(multiplier_equations_[k * multipliers_ + j]));
+    for (const std::int64_t equation : body_equations_) group.equations.push_back(static_cast<int>(equation));
   }
   const StencilGroup* const groups[] = {&elements, &open};
   tangent_ =
@@ -257,7 +288,12 @@ ents_input Contact::input(const ents_master_mesh& where) const {
   return in;
 }
 
-std::int32_t Contact::add_elements(const ents_output& out, const ents_system& system, ents_report& report) {
+std::int32_t Contact::add_elements(const ents_output& out, ents_system system, ents_report& report) {
+  static constexpr std::int64_t none[6] = {-1, -1, -1, -1, -1, -1};
+  if (master_.body_node >= 0) {
+    system.pose = &pose_;
+    if (system.body_equations == nullptr) system.body_equations = none;
+  }
   const EntsLibrary& library = master_.model->library();
   const ents_master_mesh where = mesh();
   const ents_input in = input(where);
@@ -293,6 +329,7 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   }
   system.master_nodes = mesh_->node_count(), system.master_equations = dof_equations_.data();
   system.multiplier_equations = multiplier_equations_.data();
+  if (!body_equations_.empty()) system.body_equations = body_equations_.data();
   system.rows = stride(force.size());
   system.residual = force.data();
   if (want_tangent || coupling != nullptr) {

@@ -39,6 +39,8 @@ struct ContactFields {
   std::vector<std::int64_t> segment; ///< [slaves] -1: none
   std::vector<double> node_forces;   ///< [slaves][d] on the master
   std::vector<double> force;         ///< [d] their sum
+  std::vector<double>
+      moment; ///< [3], 2D [1] about the reference point of a rigid body that turns; else empty
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.
@@ -61,9 +63,13 @@ public:
   /// Current position.
   std::array<double, 3> position_of(std::size_t slave, const std::vector<double>& displacement) const;
   double total_area() const;
+  /// Positions [n][d] in the frame of a rigid body that turns, in space at its present place.
+  void to_space(std::vector<double>& points) const;
   /// Diagonal of the box round the slave nodes: the length that penetrations are measured by.
   double size() const { return size_; }
-  bool symmetric_tangent() const { return master_.model->layout().symmetric_tangent != 0; }
+  bool symmetric_tangent() const {
+    return master_.model->layout().symmetric_tangent != 0 && master_.body_node < 0;
+  }
   /// What an increment ends with depends on more than the configuration it starts from.
   bool has_history() const;
   bool augmentable() const { return master_.model->layout().augmentable != 0; }
@@ -162,7 +168,11 @@ private:
   ents_input input(const ents_master_mesh& mesh) const;
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
-  std::int32_t add_elements(const ents_output& out, const ents_system& system, ents_report& report);
+  std::int32_t add_elements(const ents_output& out, ents_system system, ents_report& report);
+  void turn(std::vector<double>& vectors) const;
+  void put_in_space(const Configuration& at, ContactFields& fields) const;
+  /// Where a rigid body is that moves and turns.
+  ents_pose pose_at(const Configuration& at) const;
   /// Nodes [m][d] of a segment at the begin of the increment.
   void gather(std::int64_t segment, std::vector<double>& positions) const;
   /// History of the elements as seen from their segments.
@@ -177,6 +187,8 @@ private:
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   double thickness_, worn_master_ = 0;
+  ents_pose pose_{}; ///< of a rigid body that turns, at present
+  std::vector<std::int64_t> body_equations_;
   std::vector<double> slave_values_; ///< [points][3], see ents_input; empty: none
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
   std::vector<double> bound_;   ///< parameters of the model at present

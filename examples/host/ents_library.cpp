@@ -75,6 +75,10 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(state_augment, "ents_state_augment");
     find(state_transfer, "ents_state_transfer");
     find(contact_area, "ents_contact_area");
+    find(pose_init, "ents_pose_init");
+    find(pose_move, "ents_pose_move");
+    find(pose_to_body, "ents_pose_to_body");
+    find(pose_to_space, "ents_pose_to_space");
     find(sampling_points, "ents_sampling_points");
     find(smooth_size, "ents_smooth_size");
     find(smooth, "ents_smooth");

@@ -49,6 +49,10 @@ public:
   decltype(&ents_state_augment) state_augment = nullptr;
   decltype(&ents_state_transfer) state_transfer = nullptr;
   decltype(&ents_contact_area) contact_area = nullptr;
+  decltype(&ents_pose_init) pose_init = nullptr;
+  decltype(&ents_pose_move) pose_move = nullptr;
+  decltype(&ents_pose_to_body) pose_to_body = nullptr;
+  decltype(&ents_pose_to_space) pose_to_space = nullptr;
   decltype(&ents_sampling_points) sampling_points = nullptr;
   decltype(&ents_smooth_size) smooth_size = nullptr;
   decltype(&ents_smooth) smooth = nullptr;

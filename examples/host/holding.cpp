@@ -77,12 +77,13 @@ std::string what_can_move(const Mesh& mesh, const DofMap& dofs, const std::vecto
     for (int i = 0; i < d; ++i) x[i] = mesh.node(node)[static_cast<std::size_t>(i)];
     return x;
   };
-  for (int node = 0; node < mesh.node_count(); ++node) {
+  const int nodes = mesh.node_count() - (scene.contact && scene.contact->body ? 2 : 0); // of elements
+  for (int node = 0; node < nodes; ++node) {
     Body& body = all[bodies.of(node)];
     body.low = body.low.cwiseMin(place(node)), body.high = body.high.cwiseMax(place(node));
   }
   for (auto& [first, body] : all) body.held = Eigen::MatrixXd::Zero(count, count);
-  for (int node = 0; node < mesh.node_count(); ++node) {
+  for (int node = 0; node < nodes; ++node) {
     Body& body = all[bodies.of(node)];
     const double size = (body.high - body.low).norm();
     const auto motions_of = [&](int of) {

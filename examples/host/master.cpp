@@ -49,8 +49,23 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
     master.base = std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
   }
   master.triangles = has_triangles(contact.model);
-  master.rigid = !contact.rigid.empty();
+  master.rigid = !contact.rigid.empty() || contact.body;
   const auto d = static_cast<std::size_t>(scene.dimension);
+  if (contact.body) {
+    const std::string place = scene.file.string() + ": /contact/master/rigid_body";
+    const RigidBodySpec& body = *contact.body;
+    const auto m = static_cast<std::size_t>(master.model->layout().nodes);
+    check_sizes(scene, *master.model, m, place);
+    if (body.connectivity.size() % m != 0 || master.model->layout().multipliers > 0)
+      throw InputError(place + (master.model->layout().multipliers > 0
+                                    ? ": a body that turns has no multipliers as unknowns; take \"augmented\""
+                                    : "/segments: the model's segment has " + std::to_string(m) + " nodes"));
+    master.positions = body.positions, master.connectivity = body.connectivity;
+    master.surface_coordinates = body.surface_coordinates;
+    master.reference = body.reference;
+    master.body_node = mesh.node_count() - 2; // the last two: Simulation::build_mesh
+    return master;
+  }
   if (master.rigid) {
     check_sizes(scene, *master.model, contact.rigid.size() / d,
                 scene.file.string() + ": /contact/master/nodes");

@@ -2,6 +2,7 @@
 // The master side of a contact: its segments, where they are, and what the library is told about them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,12 +21,16 @@ struct Master {
   std::vector<std::int64_t> connectivity;  ///< [segments][m] nodes: of `positions`, or of the mesh
   std::vector<double> positions;           ///< rigid: [nodes][d], before the master moves
   std::vector<double> surface_coordinates; ///< [segments][m][d-1], or empty: the model's own, else s = xi
-  std::vector<double> direction;           ///< rigid: unit vector of its motion
-  bool triangles = false;                  ///< natural coordinates: unit triangle, else [-1, 1] per direction
+  std::vector<double> direction;           ///< rigid, moved along a line: unit vector of its motion
+  int body_node = -1; ///< rigid, moves and turns: the first of its two nodes in the mesh; -1: no such body
+  std::array<double, 3> reference{}; ///< of such a body; its positions are seen from there
+  bool triangles = false;            ///< natural coordinates: unit triangle, else [-1, 1] per direction
 
   std::size_t segments() const {
     return connectivity.size() / static_cast<std::size_t>(model->layout().nodes);
   }
+  /// Is it moved along a line?
+  bool translates() const { return rigid && body_node < 0; }
   /// Do natural coordinates lie on the segment proper, not on its border?
   bool covers(const double* xi) const;
 };

@@ -103,7 +103,8 @@ void Simulation::find_contact(Configuration& at) {
   at.motion += std::max(0., smallest + overlap);
   // What wears off in this increment opens a gap that the fields do not have.
   double step = std::max(overlap, 1e-9 * contact_->size());
-  for (int doubled = 0; doubled < 100 && contact_->wears() && !touches(at); ++doubled, step *= 2) at.motion += step;
+  for (int doubled = 0; doubled < 100 && contact_->wears() && !touches(at); ++doubled, step *= 2)
+    at.motion += step;
 }
 
 bool Simulation::touches(const Configuration& at) {
@@ -154,7 +155,7 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     const Stopwatch watch;
     const CpuStopwatch cpu;
     auto report = ents_struct<ents_report>();
-    RigidCoupling* coupling = contact_->master().rigid ? &result.coupling : nullptr;
+    RigidCoupling* coupling = contact_->master().translates() ? &result.coupling : nullptr;
     const std::int32_t status =
         contact_->assemble(at, result.residual, want_tangent, coupling, squared_contact, report);
     if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent());
@@ -220,7 +221,7 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
 }
 
 std::string Simulation::advice_if_singular(const Configuration& at) {
-  if (!contact_ || !contact_->master().rigid) return "";
+  if (!contact_ || !contact_->master().translates()) return "";
   const std::vector<char> closed = contact_->fields(at).closed;
   if (std::any_of(closed.begin(), closed.end(), [](char c) { return c != 0; })) return "";
   return "no slave node is in contact with the rigid master: do its normal (order of its nodes) and its "
@@ -366,7 +367,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
       if (!keep) return outcome;
       if (contact_) {
         contact_->accept(next);
-        if (contact_->master().rigid) next.force = state.coupling.force;
+        if (contact_->master().translates()) next.force = state.coupling.force;
       }
       if (scene_->solver.extrapolate && size != 0) {
         rate_.resize(next.displacement.size());

@@ -24,4 +24,8 @@ struct Path {
   }
 };
 
+class JsonObject;
+/// {"path": [[load factor, factor], ...]} of an object that may have one.
+Path read_path(JsonObject& object);
+
 } // namespace host

@@ -76,6 +76,7 @@ Json step_json(const StepRecord& record, bool nodes) {
     step["wear"] = {{"slave_volume", record.worn_slave},
                     {"master_volume", record.worn_master},
                     {"slave_depth", record.worn_depth}};
+  if (!record.moment.empty()) step["moment"] = record.moment;
   step["increments"] = Json::array();
   for (const IncrementRecord& increment : record.increments) {
     const Convergence rate = convergence(increment.residuals);

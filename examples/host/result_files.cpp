@@ -11,12 +11,20 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
+/// The last nodes of the mesh, which no element has.
+int nodes_of_rigid_body(const Simulation& simulation) {
+  return simulation.contact() != nullptr && simulation.contact()->master().body_node >= 0 ? 2 : 0;
+}
+
 vtu::Grid bulk_grid(const Simulation& simulation) {
   const Mesh& mesh = simulation.mesh();
   const UnitNames& units = simulation.scene().units;
   vtu::Grid grid;
   grid.dimension = mesh.dimension;
-  grid.points = mesh.coordinates;
+  const auto of_bodies = static_cast<std::size_t>(mesh.dimension) *
+                         static_cast<std::size_t>(mesh.node_count() - nodes_of_rigid_body(simulation));
+  grid.points.assign(mesh.coordinates.begin(),
+                     mesh.coordinates.begin() + static_cast<std::ptrdiff_t>(of_bodies));
   for (const ElementGroup& group : mesh.groups) {
     vtu::Cells cells;
     cells.type = group.type == ElementType::tri3    ? vtu::Cell::triangle
@@ -27,8 +35,10 @@ vtu::Grid bulk_grid(const Simulation& simulation) {
     cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
     grid.cells.push_back(std::move(cells));
   }
-  grid.point_data.push_back(
-      {with_unit("displacement", units.length), mesh.dimension, simulation.now().displacement});
+  const std::vector<double>& moved = simulation.now().displacement;
+  grid.point_data.push_back({with_unit("displacement", units.length),
+                             mesh.dimension,
+                             {moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(of_bodies)}});
   if (mesh.groups.empty()) { // a layer: its surface, and no stress below it
     vtu::Cells cells;
     cells.type = vtu::Cell::quad;
@@ -38,8 +48,11 @@ vtu::Grid bulk_grid(const Simulation& simulation) {
     grid.cells.push_back(std::move(cells));
     return grid;
   }
-  grid.point_data.push_back({with_unit("stress", units.pressure), mesh.dimension == 3 ? 6 : 4,
-                             simulation.bulk().nodal_stress(simulation.now().displacement)});
+  std::vector<double> stress = simulation.bulk().nodal_stress(moved);
+  const std::size_t components = mesh.dimension == 3 ? 6 : 4;
+  stress.resize(of_bodies / static_cast<std::size_t>(mesh.dimension) * components);
+  grid.point_data.push_back(
+      {with_unit("stress", units.pressure), static_cast<int>(components), std::move(stress)});
   return grid;
 }
 
@@ -80,6 +93,47 @@ vtu::Grid surface_grid(Simulation& simulation) {
   return grid;
 }
 
+/// rho_e of all segments of a rigid body, where it is now.
+vtu::Grid body_grid(Simulation& simulation) {
+  const Contact& contact = *simulation.contact();
+  const Master& master = contact.master();
+  const auto d = static_cast<std::size_t>(simulation.mesh().dimension),
+             m = static_cast<std::size_t>(master.model->layout().nodes);
+  const std::size_t n = d == 2 ? 200 : 24;
+  const std::vector<double> xi = even_grid(static_cast<int>(d) - 1, n, master.triangles);
+  vtu::Grid grid;
+  grid.dimension = static_cast<int>(d);
+  vtu::Cells cells;
+  cells.type = d == 2 ? vtu::Cell::line : vtu::Cell::quad;
+  cells.nodes_per_cell = d == 2 ? 2 : 4;
+  std::vector<double> height;
+  for (std::size_t s = 0; s < master.segments(); ++s) {
+    std::vector<double> nodes, coordinates;
+    for (std::size_t a = 0; a < m; ++a)
+      for (std::size_t i = 0; i < d; ++i)
+        nodes.push_back(master.positions[static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i]);
+    if (!master.surface_coordinates.empty())
+      coordinates.assign(master.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(s * m * (d - 1)),
+                         master.surface_coordinates.begin() +
+                             static_cast<std::ptrdiff_t>((s + 1) * m * (d - 1)));
+    SurfaceSample sample = sample_surface(*master.model, nodes, coordinates, xi);
+    contact.to_space(sample.point);
+    const auto first = static_cast<std::int64_t>(grid.points.size() / d),
+               row = static_cast<std::int64_t>(n + 1);
+    grid.points.insert(grid.points.end(), sample.point.begin(), sample.point.end());
+    height.insert(height.end(), sample.height.begin(), sample.height.end());
+    for (std::int64_t j = 0; j < (d == 2 ? 1 : row - 1); ++j)
+      for (std::int64_t i = 0; i + 1 < row; ++i) {
+        const std::int64_t corner = first + j * row + i;
+        cells.connectivity.insert(cells.connectivity.end(), {corner, corner + 1});
+        if (d == 3) cells.connectivity.insert(cells.connectivity.end(), {corner + row + 1, corner + row});
+      }
+  }
+  grid.cells.push_back(std::move(cells));
+  grid.point_data.push_back({with_unit("height", simulation.scene().units.length), 1, std::move(height)});
+  return grid;
+}
+
 /// Plain segments as they are.
 vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
   const Mesh& mesh = simulation.mesh();
@@ -117,6 +171,7 @@ std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation
     parts.push_back(part("slave", [&] { return slave_grid(simulation, record); }));
     parts.push_back(part("surface", [&] {
       const Master& master = simulation.contact()->master();
+      if (master.body_node >= 0) return body_grid(simulation);
       return master.rigid && master.segments() == 1 && !master.triangles ? surface_grid(simulation)
                                                                          : segments_grid(simulation, master);
     }));

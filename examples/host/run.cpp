@@ -19,7 +19,7 @@ namespace {
 /// Motion at which the master of the undeformed scene touches: from there approaches are measured.
 double first_touch(Simulation& simulation) {
   Contact* contact = simulation.contact();
-  if (contact == nullptr || !contact->master().rigid) return 0;
+  if (contact == nullptr || !contact->master().translates()) return 0;
   Configuration at = simulation.now();
   std::fill(at.displacement.begin(), at.displacement.end(), 0.0);
   at.motion = 0;
@@ -104,10 +104,12 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   record.fields = contact->accepted();
   record.contact_force = record.fields.force;
   for (double& component : record.contact_force) component *= scene.symmetry_copies;
+  record.moment = record.fields.moment;
   record.force = simulation.now().force * scene.symmetry_copies;
   record.approach = simulation.now().motion - touch;
   record.mean_pressure = simulation.now().force / simulation.contact_area();
-  if (!contact->master().rigid) { // the load is not ours to prescribe: what the contact carries, in size
+  if (!contact->master()
+           .translates()) { // the load is not ours to prescribe: what the contact carries, in size
     double squared = 0;
     for (const double component : record.contact_force) squared += component * component;
     record.force = std::sqrt(squared);

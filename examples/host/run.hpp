@@ -47,6 +47,7 @@ struct StepRecord {
          worn_depth = 0;             ///< volumes, all symmetric copies; deepest slave [L]
   double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
+  std::vector<double> moment;        ///< [3], 2D [1] of these about a rigid body's reference point; or empty
   std::vector<Quantity> exact;
   ContactFields fields;
   std::vector<double> positions; ///< [slaves][d] current

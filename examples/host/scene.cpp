@@ -129,20 +129,6 @@ PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& 
 }
 
 /// [[load factor, factor], ...]
-Path read_path(JsonObject& object) {
-  Path path;
-  if (!object.has("path")) return path;
-  const JsonValue value = object.at("path");
-  for (const JsonValue& item : value.items()) {
-    const auto point = item.numbers(2);
-    if (!path.points.empty() && !(point[0] > path.points.back()[0]))
-      item.fail("load factors of a path ascend");
-    path.points.push_back({point[0], point[1]});
-  }
-  if (path.points.empty()) value.fail("at least one point [load factor, factor] is expected");
-  return path;
-}
-
 SupportSpec read_support(const JsonValue& value, int dimension) {
   static constexpr std::array<const char*, 3> axes{"x", "y", "z"};
   JsonObject object(value);
@@ -199,6 +185,10 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
         axes.fail("one reference coordinate per surface coordinate is expected: " +
                   std::to_string(dimension - 1));
     }
+  } else if (master.has("rigid_body")) {
+    const Json segment = find_json(object.at("model").json(), "/segment");
+    contact.body = read_rigid_body(master.at("rigid_body"), dimension,
+                                   segment.is_string() ? segment.get<std::string>() : std::string());
   } else {
     contact.rigid = read_nodes(master.at("nodes"), dimension);
     const JsonValue direction = master.at("direction");
@@ -214,7 +204,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   contact.model = model.json();
   contact.model_where = model.where();
   // One place says whether the master is rigid: the scene.
-  contact.model["master"] = contact.rigid.empty() ? "deformable" : "rigid";
+  contact.model["master"] = contact.rigid.empty() && !contact.body ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
     model.fail("\"master\" contradicts the scene's master; leave it out here");
   object.finish();

@@ -11,6 +11,7 @@
 #include "json_reader.hpp"
 #include "mesh.hpp"
 #include "path.hpp"
+#include "rigid_body.hpp"
 
 namespace host {
 
@@ -64,8 +65,10 @@ struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
   bool equal_areas = false; ///< every slave node gets the same area, as if it had no neighbours to share with
-  std::vector<double> rigid;        ///< rigid master: [m][d], nodes of its one segment; empty: deformable
-  std::string master, master_where; ///< deformable master: faces, each one segment
+  std::vector<double>
+      rigid; ///< rigid master that moves along a line: [m][d], nodes of its one segment; else empty
+  std::optional<RigidBodySpec> body; ///< rigid master that moves and turns
+  std::string master, master_where;  ///< deformable master: faces, each one segment
   std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction; ///< rigid master: unit vector of its motion
   Json model;                    ///< passed on to the library

@@ -128,6 +128,10 @@ void Simulation::build_mesh() {
       add_block(mesh_, part.name, part.type, part.lines, index);
     setups.push_back(part.setup);
   }
+  if (scene_->contact && scene_->contact->body) // displacement and turns of the body
+    for (int node = 0; node < 2; ++node)
+      mesh_.coordinates.insert(mesh_.coordinates.end(), scene_->contact->body->reference.begin(),
+                               scene_->contact->body->reference.begin() + mesh_.dimension);
   bulk_ = std::make_unique<Bulk>(mesh_, setups);
   if (scene_->parts.front().layer)
     layer_ = std::make_shared<LayerBody>(scene_->parts.front().lines, setups.front().material);
@@ -179,6 +183,25 @@ void Simulation::build_equations() {
   for (const SpringSpec& spring : scene_->springs) {
     springs_.resize(total, 0.0);
     add_by_area(spring.faces, spring.where, spring.stiffness, springs_);
+  }
+  if (scene_->contact && scene_->contact->body) {
+    const RigidBodySpec& body = *scene_->contact->body;
+    const int first = mesh_.node_count() - 2;
+    const auto dof = [&](const BodyComponent& c) {
+      return static_cast<std::size_t>(first) * d + static_cast<std::size_t>(c.component);
+    };
+    for (const BodyComponent& c : body.prescribed) {
+      dofs_->prescribe(first + c.component / mesh_.dimension, c.component % mesh_.dimension);
+      prescribed_.push_back({dof(c), c.value, &c.path});
+    }
+    for (const BodyComponent& c : body.loads) {
+      loads_.push_back({std::vector<double>(total, 0.0), &c.path});
+      loads_.back().force[dof(c)] = c.value;
+    }
+    for (const BodyComponent& c : body.springs) {
+      springs_.resize(total, 0.0);
+      springs_[dof(c)] += c.value;
+    }
   }
   for (int node = 0; layer_ && node < mesh_.node_count(); ++node)
     for (const int c : {0, 1}) {

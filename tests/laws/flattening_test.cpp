@@ -67,12 +67,12 @@ TEST(Flattening, TheScaleFollowsFromThePressure) {
     const double height = random.uniform(-0.02, 0.06), y = height + random.uniform(-0.06, 0.02);
     const Answer answer = evaluate_at(height, y);
     const std::vector<double> s = scales(height, y);
+    if (eps * -height / pressure_0 * (1 - least) >= 1) continue; // may have several
     if (eps * (height - y) <= 0) {
       EXPECT_EQ(answer.status, ENTS_OK);
       EXPECT_EQ(answer.pressure, 0.0) << "open without pressure";
       continue;
     }
-    if (eps * -height / pressure_0 * (1 - least) >= 1) continue; // may have several
     ASSERT_EQ(s.size(), 1u) << height << " " << y;
     ASSERT_EQ(answer.status, ENTS_OK) << height << " " << y;
     EXPECT_NEAR(answer.gap, y - s[0] * height, 1e-14) << height << " " << y;
@@ -83,27 +83,29 @@ TEST(Flattening, TheScaleFollowsFromThePressure) {
   EXPECT_GT(hollows, 200);
 }
 
-// A hollow that rises faster than the pressure on it has two stable answers.
+// A hollow that rises faster than the pressure on it could carry a slave that is open: refused where it has
+// such an answer, on more than a sixteenth of the scales.
 TEST(Flattening, SeveralAnswersAreRefused) {
   mechanics::Random random(6);
   int several = 0, one = 0;
   for (int i = 0; i < 4000; ++i) {
-    const double height = random.uniform(-0.2, -0.05), y = height - random.uniform(0.0, 0.05);
-    const std::vector<double> s = scales(height, y);
+    const double height = random.uniform(-0.2, 0.05), y = height + random.uniform(0.0, 0.1);
+    constexpr int steps = 1600;
+    int risen = 0;
+    for (int k = 0; k <= steps; ++k) risen += miss(height, y, least + (1 - least) * k / steps) > 0;
     const Answer answer = evaluate_at(height, y);
-    if (s.size() == 1) {
+    if (risen == 0) {
       ++one;
-      if (answer.status == ENTS_OK) {
-        EXPECT_NEAR(answer.gap, y - s[0] * height, 1e-12) << height << " " << y;
-      }
+      EXPECT_EQ(answer.status, ENTS_OK) << height << " " << y;
+      EXPECT_EQ(answer.pressure, 0.0) << height << " " << y;
     }
-    several += s.size() > 1;
-    if (s.size() > 1) {
+    if (risen > steps / 16) {
+      ++several;
       EXPECT_EQ(answer.status, ENTS_AMBIGUOUS_PROJECTION) << height << " " << y;
     }
   }
-  EXPECT_GT(several, 20);
-  EXPECT_GT(one, 200);
+  EXPECT_GT(several, 100);
+  EXPECT_GT(one, 1000);
 }
 
 std::string refusal(const json& text) {

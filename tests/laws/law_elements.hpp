@@ -68,7 +68,7 @@ inline std::vector<Method> methods_with_offset() {
   for (Method method : methods()) {
     if (!method.name.ends_with("coulomb")) continue;
     method.name += "_offset";
-    method.offset = all.size() % 2 == 0 ? -0.02 : 0.01;
+    method.offset = all.size() % 2 == 0 && method.normal["type"] != "exponential" ? -0.008 : 0.01;
     all.push_back(method);
   }
   return all;

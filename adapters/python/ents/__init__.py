@@ -23,6 +23,7 @@ from ._arrays import CutStep, Error, _new  # noqa: F401
 from ._library import Library, library  # noqa: F401
 from ._model import Model  # noqa: F401
 from ._structs import *  # noqa: F401,F403
+from ._pose import Pose  # noqa: F401
 from ._surface import Tree  # noqa: F401
 from ._system import System  # noqa: F401
 from .contact import Contact  # noqa: F401

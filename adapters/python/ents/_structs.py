@@ -300,6 +300,15 @@ class Combination(ctypes.Structure):
     ]
 
 
+class Pose(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("point", ctypes.c_double * 3),
+        ("turn", ctypes.c_double * 9),
+    ]
+
+
 class System(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_int32),
@@ -318,6 +327,8 @@ class System(ctypes.Structure):
         ("values", ctypes.c_void_p),
         ("places", ctypes.c_void_p),
         ("places_size", ctypes.c_int64),
+        ("pose", ctypes.c_void_p),
+        ("body_equations", ctypes.c_void_p),
     ]
 
 
@@ -388,6 +399,7 @@ STRUCTS = {
     "ents_derivatives": Derivatives,
     "ents_area": Area,
     "ents_combination": Combination,
+    "ents_pose": Pose,
     "ents_system": System,
     "ents_surface": Surface,
     "ents_admissibility": Admissibility,
@@ -425,6 +437,11 @@ FUNCTIONS = {
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_pose_init": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_pose_move": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_pose_to_body": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_pose_to_space": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_pose_element": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_assemble": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_iterate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_surface_evaluate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),

@@ -18,13 +18,16 @@ class System:
     rows             number of rows, if there is no matrix
     slave, master    combinations (begin, nodes, weights) if slave points or master nodes are not the host's nodes: sampling_points, smooth
     multiplier_equations [n][multipliers]
+    pose, body_equations ents.Pose of a rigid master that moves, and the rows [2D: 3, 3D: 6] of its displacement and spin, -1: prescribed. The
+                     slave points that are given to assemble are then pose.to_body(positions)
 
     .residual [rows] and .matrix.data are added to: set them to zero before each assembly. Where the entries of each element lie is remembered: assign
     another matrix, other indptr and indices or other equations, instead of writing into those that are there (equations are copied and
     cannot be written to).
     """
 
-    def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None):
+    def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None, pose=None, body_equations=None):
+        self.pose, self._body_equations = pose, None if body_equations is None else _array("body_equations", body_equations, (None,), np.int64)
         self.slave_equations, self.master_equations, self.multiplier_equations = slave_equations, master_equations, multiplier_equations
         self.matrix = matrix
         if matrix is None and rows is None:
@@ -55,6 +58,11 @@ class System:
             out.multiplier_equations = self.multiplier_equations.ctypes.data
         if not (isinstance(self.residual, np.ndarray) and self.residual.dtype == np.float64 and self.residual.flags.c_contiguous):
             raise Error(Status.BAD_VALUE, "residual: wanted is a contiguous array of float64")
+        if self.pose is not None:
+            wanted = 3 if self.pose.dimension == 2 else 6
+            if self._body_equations is None or len(self._body_equations) != wanted:
+                raise Error(Status.BAD_COUNT, f"body_equations: wanted are {wanted}, of the body's displacement and spin")
+            out.pose, out.body_equations = self.pose._address(), self._body_equations.ctypes.data
         if self.matrix is None:
             return out
         begin, columns, values = self.matrix.indptr, self.matrix.indices, self.matrix.data
