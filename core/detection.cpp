@@ -287,13 +287,54 @@ Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* s
   return Status::ok;
 }
 
+namespace {
+
+// The distance of the slave from the surface at xi, or at the point of the segment next to it: no closest
+// point is farther. Infinite: not known.
+double distance_at(const Plan& plan, const MasterMesh& mesh, const double* slave, std::int64_t segment,
+                   const double (&at)[2]) {
+  SegmentNodes nodes;
+  if (gather(plan, mesh, segment, nodes) != Status::ok) return infinity;
+  double xi[2] = {at[0], at[1]}, point[3], squared = 0.0;
+  const double low = plan.simplex ? 0.0 : -1.0;
+  for (double& x : xi) x = std::clamp(x, low, 1.0);
+  if (const double sum = xi[0] + xi[1]; plan.simplex && sum > 1.0)
+    for (double& x : xi) x /= sum;
+  const SurfacePoint to = {point, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
+  if (plan.surface(plan, nodes.positions, nodes.surface_coordinates, xi, to) != Status::ok) return infinity;
+  for (int k = 0; k < plan.dimension; ++k) squared += (slave[k] - point[k]) * (slave[k] - point[k]);
+  return std::sqrt(squared);
+}
+
+Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                  double reach, Detection& out);
+
+} // namespace
+
 Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave, double reach,
               Detection& out) {
+  const std::int64_t before = out.segment;
+  const double xi[2] = {out.at.xi[0], out.at.xi[1]};
   if (const Status status = detect_followed(plan, mesh, slave, reach, out);
       status != Status::ok || out.segment >= 0)
     return status;
+  // The farther a search looks, the more it has to exclude: first no farther than the surface was.
+  if (before >= 0 && plan.projection == ProjectionKind::normal && !is_own(plan, mesh, out.own_node, before)) {
+    const double near = distance_at(plan, mesh, slave, before, xi) * (1.0 + 1e-9);
+    if (near > 0.0 && near < 0.5 * reach) {
+      const Status status = search_all(plan, mesh, tree, slave, near, out);
+      if (status != Status::ok || (out.segment >= 0 && !out.at.ambiguous)) return status;
+    }
+  }
+  return search_all(plan, mesh, tree, slave, reach, out);
+}
+
+namespace {
+
+Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
+                  double reach, Detection& out) {
   SegmentNodes nodes;
-  out.searched = true;
+  out.searched = true, out.behind_edge = false;
   out.segment = out.other = -1;
   constexpr int most_doubts = 8;
   std::int64_t in_doubt[most_doubts]; // segments whose search could not be completed
@@ -365,5 +406,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
     out.at.ambiguous = doubtful;
   return Status::ok;
 }
+
+} // namespace
 
 } // namespace ents

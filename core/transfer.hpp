@@ -52,6 +52,39 @@ ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::d
   return max_norm(xi) < 1e6;
 }
 
+// Calls f(ahead) with what the new segment's coordinates may be ahead of the old one's, until it is true:
+// zero, then what they are where both segments have a node in the same place: across the seam of a closed
+// surface a full turn, say.
+template <class B, class F>
+ENTS_INLINE bool try_seams(const double* old_master, const double* old_c, const double* new_master,
+                           const double* new_c, F&& f) {
+  constexpr int D = B::dim, T = D - 1, most = 4;
+  double tried[most][T] = {};
+  if (f(tried[0])) return true;
+  int count = 1;
+  for (int i = 0; i < B::nodes; ++i)
+    for (int j = 0; j < B::nodes; ++j) {
+      double apart_by = 0.0, far = 0.0;
+      for (int k = 0; k < D; ++k) {
+        apart_by += absolute(old_master[D * i + k] - new_master[D * j + k]);
+        far += absolute(old_master[D * i + k]) + absolute(new_master[D * j + k]);
+      }
+      bool same = apart_by <= 1e-14 * far;
+      for (int known = 0; known < count && same; ++known) {
+        double apart = 0.0, size = 1.0;
+        for (int t = 0; t < T; ++t) {
+          apart += absolute(new_c[T * j + t] - old_c[T * i + t] - tried[known][t]);
+          size += absolute(new_c[T * j + t]) + absolute(old_c[T * i + t]);
+        }
+        same = apart > 1e-9 * size;
+      }
+      if (!same || count == most) continue;
+      for (int t = 0; t < T; ++t) tried[count][t] = new_c[T * j + t] - old_c[T * i + t];
+      if (f(tried[count++])) return true;
+    }
+  return false;
+}
+
 // Where a segment without its height is, seen from the slave.
 template <class B, bool H> ENTS_INLINE Vec<double, B::dim> base_of(const Surface<B, H, double>& s) {
   if constexpr (H)
@@ -78,7 +111,8 @@ ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old
     const double length = beyond_segment<B>(old_xi) * before + beyond_segment<B>(xi) * now;
     beyond = length > beyond ? length : beyond;
   }
-  const double most = 0.5 * beyond + 1e-6 * size;
+  // farther beyond than two segments nobody knows what it goes on as
+  const double most = 0.5 * (beyond < 2.0 * size ? beyond : 2.0 * size) + 1e-6 * size;
   return dot(miss, miss) <= most * most;
 }
 
@@ -133,7 +167,23 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     bool located = old_coordinates && new_coordinates;
     if (located) {
       coordinates_at<B>(old_coordinates, from.xi, s, s1);
-      located = locate_coordinates<B>(new_coordinates, s, xi) && is_there<B, H>(g, from.s, from.xi, xi, to);
+      // Of several places the one that is least beyond the border; the first one where that is hardly so.
+      double least = 0.0;
+      located = false;
+      try_seams<B>(old_master, old_coordinates, new_master, new_coordinates, [&](const double(&ahead)[T]) {
+        double wanted[T], there[T];
+        for (int t = 0; t < T; ++t) wanted[t] = s[t] + ahead[t];
+        if (!locate_coordinates<B>(new_coordinates, wanted, there) ||
+            !is_there<B, H>(g, from.s, from.xi, there, to))
+          return false;
+        const double beyond = beyond_segment<B>(there);
+        if (!located || beyond < least) {
+          for (int a = 0; a < T; ++a) xi[a] = there[a];
+          least = beyond;
+        }
+        located = true;
+        return least < 2.0;
+      });
     }
     if (!located) {
       const bool found = closest_place(plan, g, to);

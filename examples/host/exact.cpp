@@ -178,6 +178,8 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     return compare_with_cattaneo(scene, state);
   case Type::slope:
     return compare_with_slope(scene, state);
+  case Type::screw:
+    return compare_with_screw(scene, state);
   case Type::uniform_pressure: {
     double squares = 0, area = 0;
     for (std::size_t k = 0; k < state.pressure.size(); ++k) {

@@ -80,6 +80,9 @@ struct SurfaceState {
   std::vector<char> sticks;          ///< [slaves] closed and not slipping
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, this mesh's share
   std::vector<double> load;          ///< [d] dead loads, this mesh's share
+  double moment = 0;                 ///< of these about z, of a rigid body that turns
+  double mean_radius = 0;            ///< weighted by the force along z
+  int turning = 0;                   ///< 1, -1: the way such a body turns round z in this step
   double approach = 0;               ///< motion of the master since first touch
   double force = 0;                  ///< of all symmetric copies
   double mean_pressure = 0;
@@ -120,6 +123,10 @@ std::vector<Quantity> compare_with_cattaneo(const Scene& scene, const SurfaceSta
 
 /// A block on a slope: the friction force is the lesser of the pull and coefficient times normal force.
 std::vector<Quantity> compare_with_slope(const Scene& scene, const SurfaceState& state);
+
+/// Torque over axial force of a screw (exact_screw.cpp). flank_angle: degrees, in an axial section
+double screw_torque(double radius, double lead, double flank_angle, double coefficient, bool tightened);
+std::vector<Quantity> compare_with_screw(const Scene& scene, const SurfaceState& state);
 
 /// The scene's exact solution against a step; empty if the scene has none.
 std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState& state);

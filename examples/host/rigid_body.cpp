@@ -37,7 +37,7 @@ std::vector<BodyComponent> read_components(const JsonValue& list, int dimension,
 
 /// Segments round the z axis: `around` in a turn, `along` from `from` to `to`; surface coordinates are the
 /// angle [radians] and z. Plain quad4 have their nodes on the cylinder. Of smoothed segments the control
-/// points are moved out until the knots are on it.
+/// points are moved out until the mean radius is that of the cylinder (Simpson's rule over a segment).
 void add_cylinder(const JsonValue& value, const std::string& segment, RigidBodySpec& body) {
   JsonObject object(value);
   const double radius = object.at("radius").positive(), from = object.at("from").number(),
@@ -51,7 +51,9 @@ void add_cylinder(const JsonValue& value, const std::string& segment, RigidBodyS
   if (!smooth && segment != "quad4")
     value.fail("a cylinder has segments quad4 or bspline16, the model's are " + segment);
   const double step = 2 * std::numbers::pi / around, pitch = (to - from) / along,
-               of_nodes = smooth ? radius * 3 / (2 + std::cos(step)) : radius;
+               knot = (2 + std::cos(step)) / 3,
+               middle = (23 * std::cos(step / 2) + std::cos(1.5 * step)) / 24,
+               of_nodes = smooth ? radius * 3 / (knot + 2 * middle) : radius;
   const int before = smooth ? 1 : 0, rows = along + 1 + 2 * before, wide = smooth ? 4 : 2;
   const double turn = outside ? 1 : -1; // the normal points at somebody who sees the nodes go round leftwards
   for (int row = 0; row < rows; ++row)

@@ -139,6 +139,25 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
       layer != nullptr ? layer->compare(simulation.now().motion, state) : compare_with_exact(scene, state);
 }
 
+/// Of a rigid body that turns: moment, mean radius of its contact, and which way it turns.
+void set_turning(const Simulation& simulation, const StepRecord& record, SurfaceState& state) {
+  const auto d = static_cast<std::size_t>(simulation.scene().dimension);
+  state.moment = record.fields.moment.back();
+  double sum = 0, weights = 0;
+  for (std::size_t k = 0; k < record.fields.closed.size(); ++k) {
+    const double weight = record.fields.node_forces[k * d + d - 1];
+    sum += weight * std::hypot(record.positions[k * d], record.positions[k * d + 1]);
+    weights += weight;
+  }
+  state.mean_radius = weights != 0 ? sum / weights : 0;
+  const double now = simulation.now().load_factor;
+  for (const BodyComponent& c : simulation.scene().contact->body->prescribed) {
+    if (c.component != RigidBodySpec::components(static_cast<int>(d)) - 1) continue;
+    const double step = c.value * (c.path.at(now) - c.path.at(now - 1e-6 * (1 + std::abs(now))));
+    state.turning = step > 0 ? 1 : step < 0 ? -1 : 0;
+  }
+}
+
 /// Value of a parameter before the first step.
 double start_of(const Simulation& simulation, const std::string& name) {
   const EntsModel& model = *simulation.contact()->master().model;
@@ -241,6 +260,7 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
     state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);
   }
   state.contact_force = record.fields.force;
+  if (simulation.scene().contact->body) set_turning(simulation, record, state);
   state.pressure = record.fields.pressure;
   state.gap = record.fields.gap;
   state.area = contact.areas();

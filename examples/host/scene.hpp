@@ -101,13 +101,15 @@ struct ExactSpec {
     slope,
     uniform_pressure,
     boundary_elements,
-    worn_cylinder
+    worn_cylinder,
+    screw
   };
   Type type = Type::none;
-  std::string where;      ///< file and path, for messages
-  double radius = 0;      ///< hertz_line, hertz_point, cattaneo, worn_cylinder [L]
-  double coefficient = 0; ///< cattaneo, slope: friction
-  double distance = 0;    ///< cattaneo: of the points that displacements are measured against [L]
+  std::string where;                ///< file and path, for messages
+  double radius = 0;                ///< hertz_line, hertz_point, cattaneo, worn_cylinder [L]
+  double coefficient = 0;           ///< cattaneo, slope, screw: friction
+  double lead = 0, flank_angle = 0; ///< screw: along z in a turn [L]; degrees, in an axial section
+  double distance = 0;              ///< cattaneo: of the points that displacements are measured against [L]
   double amplitude = 0, wavelength = 0; ///< westergaard, double_sine [L]
   double pressure = 0;                  ///< uniform_pressure [F/L^2]
   int points = 128;                     ///< boundary_elements: along the longer side of the layer

@@ -19,7 +19,8 @@ const std::map<std::string, Type> types{{"hertz_line", Type::hertz_line},
                                         {"slope", Type::slope},
                                         {"uniform_pressure", Type::uniform_pressure},
                                         {"boundary_elements", Type::boundary_elements},
-                                        {"worn_cylinder", Type::worn_cylinder}};
+                                        {"worn_cylinder", Type::worn_cylinder},
+                                        {"screw", Type::screw}};
 
 bool is_rigid(const Scene& scene) { return !scene.contact->rigid.empty(); }
 
@@ -30,7 +31,7 @@ void check_formulation(Type type, const JsonValue& word, const Scene& scene) {
   const bool axisymmetric =
       scene.dimension == 2 && scene.parts.front().setup.formulation == Formulation::axisymmetric;
   const bool point = type == Type::hertz_point,
-             space = type == Type::double_sine || type == Type::boundary_elements;
+             space = type == Type::double_sine || type == Type::boundary_elements || type == Type::screw;
   if (point   ? scene.dimension == 3 || axisymmetric
       : space ? scene.dimension == 3
               : scene.dimension == 2 && !axisymmetric)
@@ -46,6 +47,13 @@ void check_formulation(Type type, const JsonValue& word, const Scene& scene) {
 /// What else the formulae take for granted.
 void check_bodies(const ExactSpec& exact, const JsonValue& value, const Scene& scene) {
   if (exact.type == Type::uniform_pressure) return;
+  if (exact.type == Type::screw) {
+    const auto turns = [](const BodyComponent& c) { return c.component == 5 && c.value != 0; };
+    const auto& body = scene.contact->body;
+    if (!body || std::none_of(body->prescribed.begin(), body->prescribed.end(), turns))
+      value.fail("\"screw\" is for a master that is a rigid_body whose turn_z is prescribed");
+    return;
+  }
   if (exact.type == Type::cattaneo) {
     if (is_rigid(scene)) value.fail("\"cattaneo\" is for two elastic bodies in the plane");
     const PartSpec *slave = part_of_set(scene, scene.contact->slave),
@@ -108,6 +116,13 @@ ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
     exact.radius = object.at("radius").positive();
     exact.coefficient = object.at("coefficient").positive();
     exact.distance = object.at("distance").positive();
+  } else if (exact.type == Type::screw) {
+    exact.lead = object.at("lead").positive();
+    exact.flank_angle = object.at("flank_angle").number();
+    if (!(exact.flank_angle >= 0 && exact.flank_angle < 89))
+      object.at("flank_angle").fail("degrees between the flank and the plane across the axis, 0 .. < 89");
+    exact.coefficient = object.at("coefficient").number();
+    if (!(exact.coefficient >= 0)) object.at("coefficient").fail("a number >= 0 is expected");
   } else if (exact.type == Type::slope) {
     exact.coefficient = object.at("coefficient").positive();
   } else if (exact.type == Type::uniform_pressure) {
