@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "exact.hpp"
 #include "output/table.hpp"
@@ -67,6 +68,27 @@ Chart force_history(const Scene& scene, const std::vector<StepRecord>& records) 
     }
     chart.curves.push_back(std::move(curve));
   }
+  return chart;
+}
+
+Chart screw_torque_history(const Scene& scene, const std::vector<StepRecord>& records) {
+  Chart chart;
+  chart.title = "Torque over axial force";
+  chart.subtitle = scene.title + "; exact: a rigid helix with inclined flanks";
+  chart.x = {"turns", ""};
+  chart.y = {"torque / force", scene.units.length, false, 0};
+  Curve computed{"computed", {}, {}, Style::points}, exact{"exact", {}, {}, Style::exact};
+  for (const StepRecord& record : records) {
+    double angle = 0;
+    for (const BodyComponent& c : scene.contact->body->prescribed)
+      if (c.component == 5) angle += c.value * c.path.at(record.value);
+    for (const Quantity& quantity : record.exact) {
+      if (!quantity.compared) continue;
+      for (Curve* curve : {&computed, &exact}) curve->x.push_back(std::abs(angle) / (2 * std::numbers::pi));
+      computed.y.push_back(quantity.value), exact.y.push_back(quantity.exact);
+    }
+  }
+  chart.curves = {exact, computed};
   return chart;
 }
 

@@ -343,7 +343,9 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
                           type != ExactSpec::Type::worn_cylinder; // the exact pressure
   if (simulation.scene().control == Control::load_factor && records.size() > 1)
     note(draw(force_history(simulation.scene(), records), folder, "force"));
-  if (type == ExactSpec::Type::slope) return problems;
+  if (type == ExactSpec::Type::screw)
+    note(draw(screw_torque_history(simulation.scene(), records), folder, "torque"));
+  if (type == ExactSpec::Type::slope || type == ExactSpec::Type::screw) return problems;
   if (type == ExactSpec::Type::cattaneo) {
     note(draw(partial_slip_profile(simulation, records.back()), folder, "traction"));
     return problems;

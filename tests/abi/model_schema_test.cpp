@@ -214,6 +214,18 @@ protected:
                       {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", "k"}}}, {"wear", wear}}}});
     result.push_back({{"segment", "line2"},
                       {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}, {"wear", nullptr}}}});
+    const json flattening = {{"scale", "a"}, {"pressure", 1}, {"least", 0.5}};
+    for (const json& offset : {json(0.1), json("b"), json(nullptr)})
+      result.push_back({{"segment", "quad4"},
+                        {"parameters", {{"a", 1}, {"b", -1}}},
+                        {"height", {{"type", "scale"}, {"by", "a"}, {"of", two}}},
+                        {"contact",
+                         {{"normal", {{"type", "penalty"}, {"stiffness", 1}}},
+                          {"offset", offset},
+                          {"flattening", flattening}}}});
+    result.push_back(
+        {{"segment", "line2"},
+         {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}, {"flattening", nullptr}}}});
     for (const char* scheme : {"implicit", "explicit"})
       result.push_back({{"segment", "line2"},
                         {"contact",
@@ -282,6 +294,9 @@ bool depends_on_more(const std::string& message) {
            "a length from pitch / 2048 to pitch / 4",
            "has no angle round the axis", // in 2D
            "twice",
+           "has to be the \"by\" of a height", // what flattening scales
+           "is not possible with",
+           "the height without pressure",
            "has no segment with node",                   // numbered without gaps
            "write a number, or a name that the model's", // "parameters" have
            "is a parameter whose value is",

@@ -312,6 +312,47 @@ TEST(State, MovesOverASeamOfTheSurfaceCoordinates) {
   }
 }
 
+// A smoothed cylinder, angle and height as coordinates: over the seam as from any other segment to the next,
+// whatever coordinates of a full turn more would lead to beyond the border.
+TEST(State, MovesOverTheSeamOfASmoothedCylinder) {
+  for (const int around : {4, 5, 8, 16}) {
+    const mechanics::Model model(
+        R"({"segment": "bspline16", "master": "rigid",
+            "height": {"type": "thread", "pitch": 0.3, "flank_angles": [30, 30], "crest": 0.04, "root": 0.07},
+            "contact": {"normal": {"type": "penalty", "stiffness": 100},
+                        "friction": {"type": "coulomb", "coefficient": 0.5, "stiffness": 50}}})");
+    const ents_layout layout = layout_of(model.handle());
+    const double step = 2.0 * std::acos(-1.0) / around;
+    const auto segment = [&](int i, std::vector<double>& nodes, std::vector<double>& s) {
+      nodes.clear(), s.clear();
+      for (int b = 0; b < 4; ++b)
+        for (int a = 0; a < 4; ++a) {
+          const int column = i + a - 1, place = (column + around) % around;
+          nodes.insert(nodes.end(), {std::cos(step * place), std::sin(step * place), 0.5 * b});
+          s.insert(s.end(), {step * column, 0.5 * b});
+        }
+    };
+    std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size()), old_nodes,
+        old_s, new_nodes, new_s;
+    ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
+    for (const double direction : {1.0, -1.0}) {
+      state[1] = 3.0;
+      state[3] = direction * 1.01, state[4] = 0.2, state[5] = direction * 0.6, state[6] = 0.15;
+      for (const int from : {1, 0, around - 1, around - 2}) {
+        const int to = (from + static_cast<int>(direction) + around) % around;
+        segment(from, old_nodes, old_s), segment(to, new_nodes, new_s);
+        ASSERT_EQ(ents_state_transfer(model.handle(), old_nodes.data(), old_s.data(), new_nodes.data(),
+                                      new_s.data(), state.data(), moved.data(), nullptr),
+                  ENTS_OK);
+        EXPECT_NEAR(moved[3], direction * -0.99, 1e-9) << around << " from " << from;
+        EXPECT_NEAR(moved[5], direction * -1.4, 1e-9) << around << " from " << from;
+        EXPECT_NEAR(moved[4], 0.2, 1e-9) << around << " from " << from;
+        EXPECT_NEAR(moved[6], 0.15, 1e-9) << around << " from " << from;
+      }
+    }
+  }
+}
+
 // Grooves along one direction: the other coordinate is 0 everywhere, so coordinates alone do not say where a
 // point is.
 TEST(State, MovesWhereCoordinatesAreConstantAlongADirection) {
