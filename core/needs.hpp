@@ -33,12 +33,18 @@ static_assert(!is_flat<Line3> && !is_flat<CatmullRom4> && !is_flat<BSpline4> && 
               !is_flat<BSpline16> && !is_flat<Bezier15>);
 } // namespace ENTS_ISA
 
+// Does such a model have the faster kernel (pair_kernel.hpp)? Without friction its tangent is symmetric to
+// the last bit.
+constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection, TangentKind tangent) {
+  return projection == ProjectionKind::normal && law.force_has_slope() &&
+         tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
+}
+
 // Are the elements of a call evaluated one after the other? patch: the element has several segments. Lanes:
 // evaluate_general() of general_block.hpp, and all of pair_kernel.hpp.
 inline bool is_one_by_one(const Model& model, bool patch) {
   const ContactLaw& law = model.law;
-  const bool fast = model.projection == ProjectionKind::normal && law.force_has_slope() &&
-                    model.tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
+  const bool fast = has_fast_kernel(law, model.projection, model.tangent);
   return patch || law.flattening.parameter != 0 ||
          (!fast && (law.multiplier_is_dof() || basis_entry(model.basis).nodes > 9));
 }

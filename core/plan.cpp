@@ -4,6 +4,7 @@
 #include "core/fingerprint.hpp"
 #include "core/flattening.hpp"
 #include "core/kernel_table.hpp"
+#include "core/needs.hpp"
 #include "core/pair_kernels.hpp"
 #include "core/parameter_kernels.hpp"
 
@@ -46,9 +47,8 @@ const KernelSet& kernels_of(Basis basis) {
 PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
   const ContactLaw& law = model.law;
   const PairKernelsOfBasis& of = kernels.of_basis(model.basis);
-  const bool fast = model.projection == ProjectionKind::normal && law.force_has_slope() &&
-                    model.tangent == TangentKind::consistent && !(law.has_friction() && law.symmetrised);
-  return fast ? of.of[enriched][law.has_friction()] : of.general[enriched];
+  return has_fast_kernel(law, model.projection, model.tangent) ? of.of[enriched][law.has_friction()]
+                                                               : of.general[enriched];
 }
 
 const PairKernels& best_pair_kernels() {

@@ -16,22 +16,6 @@
 namespace host {
 namespace {
 
-/// Motion at which the master of the undeformed scene touches: from there approaches are measured.
-double first_touch(Simulation& simulation) {
-  Contact* contact = simulation.contact();
-  if (contact == nullptr || !contact->master().translates()) return 0;
-  Configuration at = simulation.now();
-  std::fill(at.displacement.begin(), at.displacement.end(), 0.0);
-  at.motion = 0;
-  auto report = ents_struct<ents_report>();
-  contact->choose(at, false, report);
-  const ContactFields fields = contact->fields(at);
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double gap : fields.gap)
-    if (gap < smallest) smallest = gap;
-  return std::isfinite(smallest) ? smallest : 0;
-}
-
 /// The increments of a step under a plan, as parts of the step.
 class StepParts {
 public:
@@ -97,7 +81,7 @@ std::string step_line(const Scene& scene, const StepRecord& record) {
   return text;
 }
 
-void fill_contact_results(Simulation& simulation, double touch, StepRecord& record) {
+void fill_contact_results(Simulation& simulation, StepRecord& record) {
   Contact* contact = simulation.contact();
   if (contact == nullptr) return;
   const Scene& scene = simulation.scene();
@@ -106,7 +90,7 @@ void fill_contact_results(Simulation& simulation, double touch, StepRecord& reco
   for (double& component : record.contact_force) component *= scene.symmetry_copies;
   record.moment = record.fields.moment;
   record.force = simulation.now().force * scene.symmetry_copies;
-  record.approach = simulation.now().motion - touch;
+  record.approach = simulation.now().motion - simulation.first_touch();
   record.mean_pressure = simulation.now().force / simulation.contact_area();
   if (!contact->master()
            .translates()) { // the load is not ours to prescribe: what the contact carries, in size
@@ -279,7 +263,6 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
   const auto say = [&](const std::string& line) {
     if (observer.line) observer.line(line);
   };
-  const double touch = first_touch(simulation);
   const double last = scene.steps.back();
   const int steps = plan.last > 0 ? plan.last : static_cast<int>(scene.steps.size());
   StepParts parts(plan);
@@ -337,7 +320,7 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
       if (!begin.is_null()) simulation.restore(begin);
       throw StepFailure(step, error.what(), std::move(records));
     }
-    fill_contact_results(simulation, touch, record);
+    fill_contact_results(simulation, record);
     record.wall_time = watch.seconds();
     say(step_line(scene, record));
     if (observer.step_done) observer.step_done(simulation, record);

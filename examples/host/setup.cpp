@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -104,11 +105,23 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
     now_.parameters = contact_->master().model->defaults();
     contact_->begin_increment(now_);
     auto report = ents_struct<ents_report>();
+    first_touch_ = find_first_touch();
+    contact_->begin_increment(now_);
     contact_->choose(now_, false, report);
   }
   build_pattern();
   timings_.setup += watch.seconds();
   timings_.total += watch.seconds();
+}
+
+double Simulation::find_first_touch() {
+  if (!contact_->master().translates()) return 0;
+  auto report = ents_struct<ents_report>();
+  contact_->choose(now_, false, report);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double gap : contact_->fields(now_).gap)
+    if (gap < smallest) smallest = gap;
+  return std::isfinite(smallest) ? smallest : 0;
 }
 
 void Simulation::build_mesh() {

@@ -85,6 +85,10 @@ public:
   const Timings& timings() const { return timings_; }
   std::string solver_name() const { return solver_->name(); }
 
+  /// Motion at which the master of the scene touches, before anything has deformed or worn: from there
+  /// approaches are measured.
+  double first_touch() const { return first_touch_; }
+
   /// Solve for the target, starting from the present configuration, which moves only on success.
   /// @param keep  false: throw the solution away; nothing that later increments see has changed
   NewtonOutcome advance(const Target& target, bool keep = true);
@@ -121,6 +125,7 @@ private:
   void build_equations();
   void build_contact(const EntsLibrary* library, int divisions, const MasterMaker& maker);
   void build_pattern();
+  double find_first_touch();
   NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate);
   /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.
   int equation(std::size_t unknown) const {
@@ -181,6 +186,7 @@ private:
   std::vector<Load> loads_;
   std::vector<double> springs_; ///< [dofs] stiffness against the ground, or empty
   Configuration now_;
+  double first_touch_ = 0;
   std::vector<double>
       rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
   Timings timings_;

@@ -131,6 +131,9 @@ constexpr const char* penalty = R"({"normal": {"type": "penalty", "stiffness": 3
 constexpr const char* multipliers =
     R"({"normal": {"type": "augmented_multiplier", "stiffness": 3.0}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 2.0}})";
 
+constexpr const char* wear = // without friction not symmetric either
+    R"({"normal": {"type": "penalty", "stiffness": 3.0}, "wear": {"coefficient": 0.5, "sliding": 0.1}})";
+
 constexpr const char* friction =
     R"({"normal": {"type": "penalty", "stiffness": 3.0}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 2.0}})";
 
@@ -205,7 +208,8 @@ protected:
       state[1] = 2.0; // stick; then age, xi, anchor, slip
       for (std::int64_t a = 0; a < t; ++a) {
         state[3 + a] = found_.xi[static_cast<std::size_t>(e * t + a)];
-        state[3 + t + a] = state[3 + a] + random_.uniform(-0.2, 0.2);
+        const std::int64_t anchor = layout_.worn < 0 ? 3 + t : layout_.worn + 3;
+        state[anchor + a] = state[3 + a] + random_.uniform(-0.2, 0.2);
       }
     }
   }
@@ -416,6 +420,7 @@ TEST_P(Assembly, IterateIsDetectionAndAssembly) {
   detection.segment = segment.data(), detection.xi = xi.data(), detection.flags = flags.data();
   ents_input in = input(mesh);
   in.slave = nullptr, in.mesh = nullptr, in.segment = nullptr, in.start = nullptr;
+  in.positions_begin = mesh.positions;
   ents_output out{};
   out.struct_size = sizeof out;
   out.wanted = ENTS_GAP | ENTS_FLAGS;
@@ -548,6 +553,7 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
   name.append(info.param.slave_points ? "_points" : "_nodes");
   if (info.param.control_points) name.append("_combined");
   if (info.param.contact == multipliers) name.append("_multipliers");
+  if (info.param.contact == wear) name.append("_wear");
   if (info.param.contact == friction) name.append("_friction");
   return name;
 }
@@ -557,7 +563,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{"line2", false, false, penalty}, Case{"line2", true, false, multipliers},
                     Case{"catmull_rom4", true, true, penalty}, Case{"tri3", true, true, penalty},
                     Case{"quad4", false, false, penalty}, Case{"quad4", false, false, multipliers},
-                    Case{"quad4", true, true, multipliers}, Case{"bspline16", false, true, penalty}),
+                    Case{"quad4", true, true, multipliers}, Case{"bspline16", false, true, penalty},
+                    Case{"line2", false, false, wear}, Case{"quad4", false, false, wear}),
     case_name);
 INSTANTIATE_TEST_SUITE_P(Kinds, AssemblyWithFriction,
                          testing::Values(Case{"quad4", false, false, friction},
