@@ -60,6 +60,18 @@ void note_without_contact(const Scene& scene, const std::vector<StepRecord>& rec
                        "the motion bring the surfaces together?\n");
 }
 
+/// What elements of other programs cannot do.
+void check_adapter(const Scene& scene, const std::string& adapter) {
+  if (!scene.contact || adapter == "plain") return;
+  const std::string end = "; run it without --adapter " + adapter;
+  if (scene.contact->body)
+    throw InputError(scene.file.string() +
+                     ": /contact/master/rigid_body: the elements of adapters have no reference point" + end);
+  if (!find_json(scene.contact->model, "/parameters").is_null())
+    throw InputError(scene.contact->model_where +
+                     "/parameters: the elements of adapters read a model once, and it stays" + end);
+}
+
 } // namespace
 
 int run_command(const CommonOptions& common, const RunOptions& options) {
@@ -67,6 +79,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.variant);
   std::unique_ptr<EntsLibrary> library;
   if (scene.contact) library = std::make_unique<EntsLibrary>(common.library);
+  check_adapter(scene, options.adapter);
   if (library) install_adapter(*library, options.adapter);
   Simulation simulation(scene, library.get(), options.explicit_divisions);
 

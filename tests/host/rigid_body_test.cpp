@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "program.hpp"
 #include "support.hpp"
 
 namespace host {
@@ -121,6 +122,25 @@ TEST(RigidBody, AMomentTurnsItQuadratically) {
     EXPECT_GT(angle, moment > 1 ? 1.0 : 1e-5);
     EXPECT_LT(angle, moment > 1 ? moment - 1 : 0.1);
     EXPECT_TRUE(quadratic(records.back().increments.back().residuals, 1e5, 1e-11));
+  }
+}
+
+// The scene of the gallery, as far as the whole flank slips.
+TEST(RigidBody, AScrewHasItsTorque) {
+  const Scene scene = test::shipped_scene("screw", [](Json& json) { json["steps"]["values"] = {1, 1.001}; });
+  const std::vector<StepRecord> records = run(scene);
+  const Quantity& torque = test::quantity(records.back(), "torque / force, tightened");
+  EXPECT_GT(torque.exact, 1.4);
+  EXPECT_NEAR(torque.error, 0, 1e-3);
+  EXPECT_TRUE(quadratic(records.back().increments.back().residuals, 1e6, 1e-10));
+}
+
+TEST(RigidBody, AdaptersAreRefused) {
+  for (const char* scene : {"screw", "wear_cylinder"}) {
+    const test::ProgramOutput output = test::ents_host("run " + test::scene_file(scene).string() +
+                                                       " --adapter abaqus --out refused_by_adapter");
+    EXPECT_EQ(output.exit_code, 2) << output.text;
+    EXPECT_NE(output.text.find("run it without --adapter"), std::string::npos) << output.text;
   }
 }
 
