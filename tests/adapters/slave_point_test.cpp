@@ -136,7 +136,6 @@ TEST(SlavePoint, MistakesSayWhatToWrite) {
   expect({}, "slave_nodes 11\n", "line 1: write slave_nodes and a whole number");
   expect({}, "90001 0.5\nslave_nodes 4\n", "line 2: write slave_nodes");
   expect({32}, "", "entry 4 is the offset of the gap");
-  expect({32, 0.1, 8}, "", "surface coordinates"); // 8: no option any more
   expect({}, "offsets\n90001 0.5\n", "line 2: write ELEMENT AREA OFFSET");
   expect({}, "90001 0.5\noffsets\n", "line 2: write offsets alone");
 }
