@@ -351,6 +351,14 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   return ENTS_OK;
 }
 
+void Contact::add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const {
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
+      if (const std::size_t j = unknowns_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
+          j < direction.size())
+        residual[unknowns_[i]] += tangent_.valuePtr()[at] * direction[j];
+}
+
 void Contact::count_changes(const std::vector<std::int32_t>& flags) {
   status_changes_ = switches_ = moves_ = 0;
   for (std::size_t k = 0; k < points_.size(); ++k) {

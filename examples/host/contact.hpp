@@ -121,6 +121,9 @@ public:
   std::int32_t assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent,
                         RigidCoupling* coupling, double& squared_force, ents_report& report);
 
+  /// residual += tangent of the last `assemble` times displacements [dofs].
+  void add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const;
+
   /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are
   /// close enough.
   /// @return by how much forces and multipliers differ over the stiffness: penetration or elastic slip [L]

@@ -156,8 +156,11 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     const CpuStopwatch cpu;
     auto report = ents_struct<ents_report>();
     RigidCoupling* coupling = contact_->master().translates() ? &result.coupling : nullptr;
+    // A body that is moved takes the slave along, or leaves it behind.
+    const bool follows = !direction.empty() && contact_->master().body_node >= 0;
     const std::int32_t status =
-        contact_->assemble(at, result.residual, want_tangent, coupling, squared_contact, report);
+        contact_->assemble(at, result.residual, want_tangent || follows, coupling, squared_contact, report);
+    if (follows && status == ENTS_OK) contact_->add_tangent_times(direction, result.residual);
     if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent());
     timings_.contact += watch.seconds();
     timings_.contact_cpu += cpu.seconds();

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""polar.py [ENTS-HOST] [--out FOLDER]: friction of a ridged surface in 24 directions, against the exact values, as a table and a polar plot.
+
+A rigid plane of ONE quad4 segment carries ridges as a height: flanks that rise by 10 degrees along x, and fall steeply behind. An elastic block
+lies on the flanks under a constant load; the plane is drawn away below it in each direction. What slides up a flank has to be lifted as well:
+the resistance depends on the direction, and has a part across it, although the friction on the flank, 0.2, does not.
+
+Exact: a point on a plane with the unit normal n, pressed by N, slides along the tangent w of its way on the flank: the force on it is N (n - mu w).
+Exit status 1: a force differs by more than 0.5 %.
+"""
+import argparse
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve()
+ANGLE, MU, BOUND, LOAD = 10.0, 0.2, 0.005, 100.0
+
+
+def exact(direction):
+    """(along, side) force of the ridges over the normal load, on the slider that moves in this direction [degrees]."""
+    a, d = math.radians(ANGLE), math.radians(direction)
+    n = (-math.sin(a), 0.0, math.cos(a))  # the flank rises along x
+    way = (math.cos(d), math.sin(d), math.tan(a) * math.cos(d))
+    size = math.sqrt(sum(x * x for x in way))
+    force = [n[i] - MU * way[i] / size for i in range(3)]
+    along = -(force[0] * math.cos(d) + force[1] * math.sin(d)) / force[2]
+    side = (-force[0] * math.sin(d) + force[1] * math.cos(d)) / force[2]
+    return along, side
+
+
+def scene(direction):
+    s = json.loads((HERE.parent / "scene.json").read_text())
+    d = math.radians(direction)
+    # the plane moves against the slider
+    s["contact"]["master"]["rigid_body"]["prescribed"] = [
+        {"x": -0.2 * math.cos(d), "y": -0.2 * math.sin(d), "path": [[1, 0], [2, 1]]}]
+    return s
+
+
+def solve(program, folder, direction):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "scene.json").write_text(json.dumps(scene(direction)))
+    done = subprocess.run([program, "run", folder / "scene.json", "--out", folder / "out"], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"polar.py: direction {direction}: {done.stderr}")
+    # force of the slider on the plane
+    x, y, z = json.loads((folder / "out" / "result.json").read_text())["steps"][-1]["contact_force"]
+    d = math.radians(direction)
+    return -(x * math.cos(d) + y * math.sin(d)) / z, -(-x * math.sin(d) + y * math.cos(d)) / -z
+
+
+def draw(rows, folder):
+    data = folder / "polar.dat"
+    data.write_text("".join(f"{d} {a} {s} {ea} {es}\n" for d, a, s, ea, es in rows + rows[:1]))
+    if not shutil.which("gnuplot"):
+        print("polar.py: no picture: gnuplot is not installed")
+        return
+    picture = folder / "polar.png"
+    curve = "".join(f"{k} {exact(k)[0]} {exact(k)[1]}\n" for k in range(361))
+    (folder / "exact.dat").write_text(curve)
+    script = f"""set terminal pngcairo size 1500,780 font "sans,16" rounded
+set output "{picture}"
+set multiplot layout 1,2
+set polar; set angles degrees; set grid polar 30 lc rgb "#dddddd"; unset border; unset xtics; unset ytics; set size square
+set rrange [0:0.45]; set rtics 0.1 font "sans,12"; set key bottom outside center horizontal
+set title "resistance / normal load, by direction of motion"
+plot "{folder}/exact.dat" using 1:2 with lines lw 2 lc rgb "#333333" title "exact", \
+     "{data}" using 1:2 with points pt 7 ps 1.4 lc rgb "#0072b2" title "ONE enriched quad4"
+set rrange [0:0.25]
+set title "size of the side force / normal load"
+plot "{folder}/exact.dat" using 1:(abs($3)) with lines lw 2 lc rgb "#333333" title "exact", \
+     "{data}" using 1:(abs($3)) with points pt 7 ps 1.4 lc rgb "#d55e00" title "ONE enriched quad4"
+"""
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    print(picture)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", default=str(HERE.parents[2] / "build/bin/ents-host"))
+    parser.add_argument("--out", default="out/ridges", type=pathlib.Path)
+    arguments = parser.parse_args()
+    rows, worst = [], 0.0
+    print(f"{'direction':>9}  {'along':>9}{'exact':>10}  {'side':>9}{'exact':>10}")
+    for direction in range(0, 360, 15):
+        along, side = solve(arguments.program, arguments.out / str(direction), direction)
+        exact_along, exact_side = exact(direction)
+        worst = max(worst, math.hypot(along - exact_along, side - exact_side) / math.hypot(exact_along, exact_side))
+        rows.append((direction, along, side, exact_along, exact_side))
+        print(f"{direction:>9}  {along:>9.6f}{exact_along:>10.6f}  {side:>9.6f}{exact_side:>10.6f}", flush=True)
+    draw(rows, arguments.out)
+    print(f"largest difference of a force {100 * worst:.3f} % (bound {100 * BOUND:g} %)")
+    return int(not worst <= BOUND)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
