@@ -45,10 +45,11 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     }
     size_ = std::hypot(size_, high - low);
   }
-  if (d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size())
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      for (const double value : {0.0, 1.0, std::abs(points_.place(k, mesh)[0])})
-        slave_values_.push_back(value);
+  wear_factor_ = spec.wear_factor;
+  const bool turns = d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size();
+  for (std::size_t k = 0; k < points_.size() && (turns || !wear_factor_.points.empty()); ++k)
+    for (const double value : {0.0, 1.0, turns ? std::abs(points_.place(k, mesh)[0]) : 1.0})
+      slave_values_.push_back(value);
   number_unknowns();
   // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
   // elements behind them.

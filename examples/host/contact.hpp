@@ -192,6 +192,7 @@ private:
   double thickness_, worn_master_ = 0;
   ents_pose pose_{}; ///< of a rigid body that turns, at present
   std::vector<std::int64_t> body_equations_;
+  Path wear_factor_;                 ///< over the pressure, see ContactSpec
   std::vector<double> slave_values_; ///< [points][3], see ents_input; empty: none
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
   std::vector<double> bound_;   ///< parameters of the model at present

@@ -170,6 +170,18 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
     if (contact.equal_areas && contact.sampling > 0)
       areas.fail("sampling points have areas of their own; leave it out");
   }
+  if (object.has("wear_factor")) {
+    const JsonValue table = object.at("wear_factor");
+    for (const JsonValue& item : table.items()) {
+      const std::vector<double> point = item.numbers(2);
+      if (point[0] < 0 || point[1] < 0) item.fail("[pressure, factor] are not negative");
+      if (!contact.wear_factor.points.empty() && !(point[0] > contact.wear_factor.points.back()[0]))
+        item.fail("pressures ascend");
+      contact.wear_factor.points.push_back({point[0], point[1]});
+    }
+    if (contact.wear_factor.points.empty() || find_json(object.at("model").json(), "/contact/wear").is_null())
+      table.fail("[[pressure, factor], ...] is expected, and a model with contact.wear");
+  }
   JsonObject master(object.at("master"));
   if (master.has("faces")) {
     contact.master = master.at("faces").string();

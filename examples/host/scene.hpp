@@ -68,7 +68,9 @@ struct ContactSpec {
   std::vector<double>
       rigid; ///< rigid master that moves along a line: [m][d], nodes of its one segment; else empty
   std::optional<RigidBodySpec> body; ///< rigid master that moves and turns
-  std::string master, master_where;  ///< deformable master: faces, each one segment
+  Path wear_factor; ///< of the model's wear coefficient, over the pressure at the begin of the increment; no
+                    ///< points: 1
+  std::string master, master_where; ///< deformable master: faces, each one segment
   std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction; ///< rigid master: unit vector of its motion
   Json model;                    ///< passed on to the library

@@ -225,6 +225,23 @@ TEST(Wear, AFlatPunchRunsInToUniformPressure) {
   }
 }
 
+// A coefficient that grows with the pressure: with that of the begin of each increment.
+TEST(Wear, TheCoefficientMayFollowThePressure) {
+  Json json = wave(0.2, 1, "implicit");
+  json["contact"]["model"]["height"] = nullptr; // uniform pressure
+  json["contact"]["wear_factor"] = {{1, 0}, {3, 2}};
+  json["steps"]["values"] = {2, 4, 2.5, 0.5, 4};
+  json["history"]["slid"] = {100, 200, 350, 400, 500};
+  const std::vector<StepRecord> records = run(test::scene_from(json));
+  constexpr double pressure[] = {2, 4, 2.5, 0.5, 4}, slid[] = {100, 100, 150, 50, 100},
+                   factor[] = {0, 1, 2, 1.5, 0}; // of the pressure before
+  double depth = 0;
+  for (std::size_t s = 0; s < 5; ++s) {
+    depth += 1e-6 * factor[s] * pressure[s] * slid[s];
+    EXPECT_NEAR(records[s].worn_slave, depth, 1e-9 * (1e-3 + depth)) << "step " << s + 1;
+  }
+}
+
 // An annular punch that turns: every radius wears by k p r per radian, so that in the end p r is the same
 // everywhere, F / (2 pi (b - a)).
 TEST(Wear, AnAnnularPunchRunsInToPressuresOfOneOverTheRadius) {
