@@ -65,6 +65,41 @@ class Offsets(unittest.TestCase):
             ents.Contact({"segment": "line2", "contact": PENALTY}, positions, [[2, 3], [3, 4]], [[0, 1]], offset=0.1).update(np.zeros(10))
 
 
+class RigidBodies(unittest.TestCase):
+    def test_assembly_is_the_sum_of_the_elements_and_a_turn_ends_where_it_began(self):
+        rng = np.random.default_rng(8)
+        model = ents.Model({"segment": "quad4", "master": "rigid", "height": WAVES, "contact": PENALTY})
+        master = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+        tree = ents.Tree(model, [[0, 1, 2, 3]], master)
+        pose = ents.Pose(3, point=[0.3, -0.2, 1.0])
+        pose.move(translation=[0.1, 0, 0], spin=[0.4, -0.7, 1.1])
+        body = np.column_stack([rng.uniform(-0.8, 0.8, (6, 2)), rng.uniform(-0.06, 0.0, 6)])
+        space = pose.point + pose.to_space(body)
+        np.testing.assert_allclose(pose.to_body(space), body, atol=1e-14)
+        rows = 6 * 3 + 6
+        system = ents.System(np.arange(18).reshape(6, 3), None, sparse.csr_matrix(np.ones((rows, rows))), pose=pose, body_equations=np.arange(18, 24))
+        system.matrix.data[:] = 0
+        found = tree.detect(body, 0.5)
+        model.assemble(system, body, tree, found["segment"], start=found["xi"], area=1.0)
+        single = model.evaluate(body, master, "residual tangent", start=found["xi"])
+        residual, tangent = np.zeros(rows), np.zeros((rows, rows))
+        for k in range(6):
+            r, t = pose.element(body[k], single["residual"][k], single["tangent"][k])
+            own = np.r_[3 * k:3 * k + 3, 18:24]
+            residual[own] += r
+            tangent[np.ix_(own, own)] += t
+        self.assertGreater(np.abs(residual).max(), 1)
+        np.testing.assert_allclose(system.residual, residual, atol=1e-11)
+        np.testing.assert_allclose(system.matrix.toarray(), tangent, atol=1e-10)
+        np.testing.assert_allclose(residual[18:21], -residual[:18].reshape(6, 3).sum(0), atol=1e-11)
+        before = pose.turn
+        for _ in range(64):
+            pose.move(spin=[0, 0, 2 * np.pi / 64])
+        np.testing.assert_allclose(pose.turn, before, atol=1e-13)
+        with self.assertRaisesRegex(ents.Error, "body_equations: wanted are 6"):
+            model.assemble(ents.System(np.arange(18).reshape(6, 3), None, rows=rows, pose=pose), body, tree, found["segment"], start=found["xi"], area=1.0)
+
+
 class Derivatives(unittest.TestCase):
     def test_tangent_balance_and_history(self):
         """In random positions, after a committed step, and with some dofs that are no unknowns: the tangent is the derivative of the residual; forces

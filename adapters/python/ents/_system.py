@@ -27,7 +27,7 @@ class System:
     """
 
     def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None, pose=None, body_equations=None):
-        self.pose, self._body_equations = pose, None if body_equations is None else _array("body_equations", body_equations, (None,), np.int64)
+        self.pose, self._body_rows = pose, None if body_equations is None else _array("body_equations", body_equations, (None,), np.int64)
         self.slave_equations, self.master_equations, self.multiplier_equations = slave_equations, master_equations, multiplier_equations
         self.matrix = matrix
         if matrix is None and rows is None:
@@ -60,9 +60,9 @@ class System:
             raise Error(Status.BAD_VALUE, "residual: wanted is a contiguous array of float64")
         if self.pose is not None:
             wanted = 3 if self.pose.dimension == 2 else 6
-            if self._body_equations is None or len(self._body_equations) != wanted:
+            if self._body_rows is None or len(self._body_rows) != wanted:
                 raise Error(Status.BAD_COUNT, f"body_equations: wanted are {wanted}, of the body's displacement and spin")
-            out.pose, out.body_equations = self.pose._address(), self._body_equations.ctypes.data
+            out.pose, out.body_equations = self.pose._address(), self._body_rows.ctypes.data
         if self.matrix is None:
             return out
         begin, columns, values = self.matrix.indptr, self.matrix.indices, self.matrix.data
