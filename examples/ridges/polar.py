@@ -63,10 +63,10 @@ def draw(rows, folder):
     picture = folder / "polar.png"
     curve = "".join(f"{k} {exact(k)[0]} {exact(k)[1]}\n" for k in range(361))
     (folder / "exact.dat").write_text(curve)
-    script = f"""set terminal pngcairo size 1500,780 font "sans,16" rounded
+    script = f"""set terminal pngcairo size 1100,570 font "sans,12" rounded
 set output "{picture}"
 set multiplot layout 1,2
-set polar; set angles degrees; set grid polar 30 lc rgb "#dddddd"; unset border; unset xtics; unset ytics; set size square
+set polar; set angles degrees; set grid polar 30 lc rgb "#bbbbbb"; unset border; unset xtics; unset ytics; set size square
 set rrange [0:0.45]; set rtics 0.1 font "sans,12"; set key bottom outside center horizontal
 set title "resistance / normal load, by direction of motion"
 plot "{folder}/exact.dat" using 1:2 with lines lw 2 lc rgb "#333333" title "exact", \
