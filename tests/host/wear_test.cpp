@@ -367,6 +367,31 @@ TEST(Scenes, AParameterChangesTheHeight) {
   EXPECT_NEAR(risen[1].force / moved[1].force, 1, 1e-9);
 }
 
+// Waves that give way to the pressure on them: quadratic, more contact and smaller peaks than without.
+TEST(Scenes, AHeightThatGivesWayToThePressureConvergesQuadratically) {
+  Json json = wave(0.2, 1, "implicit");
+  json["parts"][0]["x"]["pieces"][0]["divisions"] = 32;
+  json["parts"][0]["y"]["pieces"][0]["divisions"] = 4;
+  json["steps"]["values"] = {1, 3, 6, 10};
+  json["contact"]["master"]["nodes"] = {{0.75, 0.02}, {-0.75, 0.02}};
+  Json& model = json["contact"]["model"];
+  Json sine = model["height"];
+  sine["amplitude"] = 0.005;
+  model["height"] = {{"type", "scale"},
+                     {"by", "flat"},
+                     {"of", {{"type", "sum"}, {"of", {sine, {{"type", "constant"}, {"value", 0.0065}}}}}}};
+  model["parameters"] = {{"flat", 1}};
+  model["contact"] = {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}};
+  const std::vector<StepRecord> hard = run(test::scene_from(json));
+  model["contact"]["flattening"] = {{"scale", "flat"}, {"pressure", 20}, {"least", 0.2}};
+  const std::vector<StepRecord> soft = run(test::scene_from(json));
+  for (std::size_t s = 0; s < soft.size(); ++s) {
+    EXPECT_LT(soft[s].peak_pressure, 0.8 * hard[s].peak_pressure);
+    EXPECT_GT(soft[s].contact_fraction, hard[s].contact_fraction);
+    EXPECT_TRUE(quadratic(soft[s].increments.back().residuals, 1e4, 1e-11)) << "step " << s + 1;
+  }
+}
+
 TEST(Scenes, AHistoryThatDoesNotFitIsRefused) {
   const auto message = [](const Json& json) -> std::string {
     try {
