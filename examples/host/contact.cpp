@@ -221,8 +221,11 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
     // height.
     Projections straight = at_;
     base_detector_->find(where, slave_positions_, straight);
+    // A body may have turned on by several segments: a closed node is straight ahead of another one now.
+    const bool may_jump = master_.body_node >= 0;
     for (std::size_t k = 0; k < points_.size(); ++k)
-      if (at_.segment[k] < 0) {
+      if (at_.segment[k] < 0 ||
+          (may_jump && straight.segment[k] >= 0 && straight.segment[k] != at_.segment[k])) {
         at_.segment[k] = straight.segment[k];
         std::copy_n(straight.xi.data() + k * parameters_, parameters_, at_.xi.data() + k * parameters_);
       }
