@@ -78,7 +78,7 @@ Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
     exact.y.push_back(pressure(x));
     exact.x.push_back(x * end);
   }
-  if (scene.exact.type != ExactSpec::Type::double_sine) chart.curves.push_back(exact);
+  if (end > 0) chart.curves.push_back(exact);
   Curve computed{"computed (slave nodes)", {}, {}, Style::points};
   for (const std::size_t k : order)
     if (state.distance[k] <= 1.3 * std::max(edge, end)) {
