@@ -262,11 +262,11 @@ TEST(Pose, ManyTurnsEndInTheSamePlace) {
   for (const int d : {2, 3})
     for (const int steps : {8, 64, 512}) {
       ents_pose pose = pose_of(d);
-      const double axis[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3};
-      double spin[3];
-      for (int i = 0; i < 3; ++i) spin[i] = (d == 2 ? 1.0 : axis[i]) * 2 * 3.14159265358979323846 / steps;
+      const double angle = 2 * 3.14159265358979323846 / steps;
+      std::vector<double> spin{angle};
+      if (d == 3) spin = {2 * angle / 3, -angle / 3, 2 * angle / 3};
       for (int k = 0; k < 100 * steps; ++k)
-        ASSERT_EQ(ents_pose_move(d, nullptr, spin, &pose, nullptr), ENTS_OK);
+        ASSERT_EQ(ents_pose_move(d, nullptr, spin.data(), &pose, nullptr), ENTS_OK);
       for (int i = 0; i < d; ++i)
         for (int j = 0; j < d; ++j) {
           EXPECT_NEAR(pose.turn[d * i + j], i == j, 1e-11) << d << " " << steps;
@@ -276,7 +276,8 @@ TEST(Pose, ManyTurnsEndInTheSamePlace) {
         }
       // one turn
       pose = pose_of(d);
-      for (int k = 0; k < steps; ++k) ASSERT_EQ(ents_pose_move(d, nullptr, spin, &pose, nullptr), ENTS_OK);
+      for (int k = 0; k < steps; ++k)
+        ASSERT_EQ(ents_pose_move(d, nullptr, spin.data(), &pose, nullptr), ENTS_OK);
       for (int i = 0; i < d * d; ++i) EXPECT_NEAR(pose.turn[i], i % (d + 1) == 0, 1e-12) << d << " " << steps;
     }
 }
