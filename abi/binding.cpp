@@ -132,6 +132,17 @@ std::int32_t refuse_block(const char* name, ents_report* report) {
                         "the block is not that of the field \"%s\"; make it with ents_field_init", name);
 }
 
+namespace {
+
+// As check_field(), of a handle that is not checked yet.
+std::int32_t check_block(const ents_model* model, const char* name, const double* block, std::int64_t size,
+                         FieldLayout& layout, std::int32_t& index, ents_report* report) {
+  if (const std::int32_t status = check_any_handle(model, report); status != ENTS_OK) return status;
+  return check_field(*model, name, block, size, layout, index, report);
+}
+
+} // namespace
+
 } // namespace ents
 
 extern "C" {
@@ -176,10 +187,10 @@ int32_t ents_field_size(const ents_model* model, const char* name, int64_t* size
 int32_t ents_field_init(const ents_model* model, const char* name, const double* samples, double* block,
                         int64_t size, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    std::int32_t status = ents::check_any_handle(model, report), index = 0;
-    if (status != ENTS_OK) return status;
     ents::FieldLayout layout;
-    if ((status = ents::check_field(*model, name, block, size, layout, index, report)) != ENTS_OK)
+    std::int32_t index = 0;
+    if (const std::int32_t status = ents::check_block(model, name, block, size, layout, index, report);
+        status != ENTS_OK)
       return status;
     const ents::FloatingPointGuard guard;
     if (const std::int64_t k = samples ? ents::first_non_finite(samples, layout.columns * layout.rows) : -1;
@@ -194,10 +205,10 @@ int32_t ents_field_init(const ents_model* model, const char* name, const double*
 int32_t ents_field_sample(const ents_model* model, const char* name, const double* block, int64_t size,
                           int64_t count, const double* s, double* height, ents_report* report) {
   return ents::at_the_door(report, [&] {
-    std::int32_t status = ents::check_any_handle(model, report), index = 0;
-    if (status != ENTS_OK) return status;
     ents::FieldLayout layout;
-    if ((status = ents::check_field(*model, name, block, size, layout, index, report)) != ENTS_OK)
+    std::int32_t index = 0;
+    if (const std::int32_t status = ents::check_block(model, name, block, size, layout, index, report);
+        status != ENTS_OK)
       return status;
     if (!ents::is_field(layout, {block, static_cast<std::size_t>(layout.size)}))
       return ents::refuse_block(name, report);

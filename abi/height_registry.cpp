@@ -88,7 +88,7 @@ Height callback_height(const RegisteredHeight& registered, const CallbackBounds&
   source.data = std::make_shared<const Callback>(Callback{registered, bounds});
   source.bound = bounds.height < ExternalHeight::no_range ? bounds.height : Height::unbounded;
   for (int a = 0; a < 2; ++a) source.feature_length[a] = bounds.feature_length[a];
-  Fingerprint print; // two functions are told apart by their names
+  Fingerprint print; // functions of different names are different heights
   for (const char c : registered.name) print.add(static_cast<double>(c));
   for (const double bound : {bounds.height, bounds.slope, bounds.curvature}) print.add(bound);
   source.stamp = print.number();

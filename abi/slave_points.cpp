@@ -58,7 +58,7 @@ const BasisEntry* facet_named(const char* name) {
   return nullptr;
 }
 
-// What tributary areas and sampling points are told about the facets.
+// The arguments that tributary areas and sampling points have in common.
 struct Facets {
   const BasisEntry* entry;
   std::int64_t count, nodes;

@@ -11,7 +11,7 @@ namespace ents {
 
 namespace {
 
-// What both functions are told.
+// The arguments that both functions have in common.
 struct Surface {
   const char *facet, *basis;
   std::int32_t ends;

@@ -70,8 +70,8 @@ ENTS_INLINE void add_quarters(double quarters, double& sine, double& cosine) {
 }
 
 // Sine and cosine of 2 pi f, |f| <= 1/8. Polynomials in f^2 through the zeros of Chebyshev's: sine to 1.3e-17
-// of 2 pi f, cosine to 1.2e-19, where arithmetic is exact. Summed in pairs, not one after the other: whoever
-// waits for a sine waits for the longest chain.
+// of 2 pi f, cosine to 1.2e-19, where arithmetic is exact. Summed in pairs, not one after the other: the
+// time of a sine is that of the longest chain of sums.
 template <class R> ENTS_INLINE void sin_cos_near_zero(R f, R& sine, R& cosine) {
   const R z = f * f, z2 = z * z, z4 = z2 * z2;
   const R s =

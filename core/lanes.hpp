@@ -30,8 +30,8 @@ ENTS_INLINE std::uint32_t bits_of(bool a) { return a; }
 
 template <class S> using Truth = decltype(S(0.0) < S(0.0));
 
-// a / x, 1 / x where x may be zero: whoever divides before knowing that must not use the result. (The
-// sanitizers are told.)
+// a / x, 1 / x where x may be zero: the caller divides before it knows, and then does not use the result.
+// (Sanitizers do not report it.)
 #if defined(__SANITIZE_ADDRESS__)
 __attribute__((no_sanitize("float-divide-by-zero"))) inline double unchecked_ratio(double a, double x) {
   return a / x;

@@ -51,9 +51,9 @@ template <class S> ENTS_INLINE void move_sine(SineAt<S>& at, const SineHeight& p
   at.turns = turns, at.h = h, at.slope = slope;
 }
 
-// evaluate_height() at one s after the other. What a function out of line is told the address of lies in
-// memory, with all that it is part of: Apart, it is told that of a copy. Faster where registers hold most of
-// a projection's numbers.
+// evaluate_height() at one s after the other. An object whose address goes to a function out of line has to
+// lie in memory as a whole. Apart: the address is that of a copy, and the object may stay in registers, which
+// is faster where they hold most of a projection's numbers.
 template <bool Apart, int T, class S>
 ENTS_INLINE HeightJet<T, S> move_height(SineAt<S>& at, const HeightNode& node, const S (&s)[T]) {
   if (node.kind != HeightKind::sine) {

@@ -57,7 +57,7 @@ ENTS_NOINLINE inline void copy_some(DeferredCopy& of, std::int64_t count) {
   copy_past_caches(of.from, count, of.to);
   of.from += count, of.to += count, of.count -= count;
 }
-// The memory takes few lines at a time: whoever computes hands them over in between, as many as are computed
+// The memory takes few lines at a time: a computation copies some of them in between, as many as it makes
 // meanwhile.
 ENTS_INLINE void copy_beside(DeferredCopy* of, std::int64_t count) {
   if (of) copy_some(*of, count);
