@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver.hpp"
 
+#include <limits>
 #include <new>
 
 #include <dlfcn.h>
@@ -37,8 +38,13 @@ public:
   using Decomposition = Eigen::SparseLU<Matrix>;
   std::string name() const override { return "Eigen SparseLU"; }
 #endif
-  void analyze(const Matrix& matrix) override { lu_.analyzePattern(matrix); }
+  // UMFPACK chooses its strategy by the entries: analysed with zeros it gives wrong solutions without an
+  // error.
+  void analyze(const Matrix&) override { analyzed_ = false; }
   bool factorize(const Matrix& matrix) override {
+    matrix_ = &matrix;
+    if (!analyzed_) lu_.analyzePattern(matrix);
+    analyzed_ = true;
     lu_.factorize(matrix);
 #ifdef ENTS_HOST_UMFPACK
     if (lu_.umfpackFactorizeReturncode() == UMFPACK_ERROR_out_of_memory)
@@ -47,11 +53,24 @@ public:
     return lu_.info() == Eigen::Success;
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override {
-    return lu_.solve(right_hand_sides);
+    Eigen::MatrixXd solution = lu_.solve(right_hand_sides);
+    if (solves(solution, right_hand_sides)) return solution;
+    analyzed_ = false; // the pivots that were chosen for other entries
+    if (factorize(*matrix_)) solution = lu_.solve(right_hand_sides);
+    if (!solves(solution, right_hand_sides)) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return solution;
   }
 
 private:
+  /// The solution is that of a matrix beside this one, nearer than 1e-9 of it.
+  bool solves(const Eigen::MatrixXd& solution, const Eigen::MatrixXd& right_hand_sides) const {
+    const double error = (*matrix_ * solution - right_hand_sides).norm();
+    return error <= 1e-9 * (matrix_->norm() * solution.norm() + right_hand_sides.norm());
+  }
+
   Decomposition lu_;
+  const Matrix* matrix_ = nullptr; // of the factors
+  bool analyzed_ = false;
 };
 
 /// Cholesky of the lower triangle. A tangent that is symmetric and not positive definite (beyond a

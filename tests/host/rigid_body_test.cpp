@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A rigid master that moves and turns, in whole scenes: loads and moments, against the master that moves
 // along a line, many turns.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -105,6 +106,37 @@ TEST(RigidBody, TurnsOverTheSeamOfItsSurface) {
       normal += records[s].fields.pressure[k] * simulation.contact()->areas()[k];
     EXPECT_GT(normal, 1);
     EXPECT_NEAR(records[s].moment[0] / normal, -0.3, 1e-3) << "step " << s + 1;
+  }
+}
+
+// A cylinder that nothing but contact holds, from a first touch of one node or two.
+TEST(RigidBody, AForcePressesItQuadratically) {
+  Json json = parse_json_file(test::scene_file("wear_cylinder"));
+  Json& contact = json["contact"];
+  contact["master"] = {{"rigid_body",
+                        {{"nodes", {{2, 0.1}, {-0.5, 0.1}, {-2, 0.1}}},
+                         {"segments", {{0, 1}, {1, 2}}},
+                         {"surface_coordinates", {{2}, {-0.5}, {-2}}},
+                         {"loads", {{{"y", -10.8333 / 2}}}}}}};
+  Json& model = contact["model"];
+  for (const char* key : {"surface_coordinates", "parameters"}) model.erase(key);
+  model["contact"].erase("wear");
+  for (const char* key : {"exact", "history"}) json.erase(key);
+  const auto peak = [](const StepRecord& record) {
+    return *std::max_element(record.fields.pressure.begin(), record.fields.pressure.end());
+  };
+  Json moved = json;
+  moved["contact"]["master"] = {{"nodes", {{2, 0.1}, {-2, 0.1}}}, {"direction", {0, -1}}};
+  moved["contact"]["model"]["surface_coordinates"] = {{2}, {-2}};
+  moved["steps"] = {{"control", "force"}, {"values", {10.8333}}};
+  const double expected = peak(run(test::scene_from(moved)).back());
+  json["steps"] = {{"control", "load_factor"}, {"values", {1}}};
+  for (const double overlap : {1e-5, 1e-4, 1e-2}) {
+    model["height"]["coefficients"][0] = 0.1 + overlap;
+    const StepRecord record = run(test::scene_from(json)).back();
+    EXPECT_EQ(record.increments.size(), 1u) << overlap;
+    EXPECT_TRUE(quadratic(record.increments.back().residuals, 1e8, 1e-9)) << overlap;
+    EXPECT_NEAR(peak(record) / expected, 1, 1e-9) << overlap;
   }
 }
 

@@ -102,6 +102,50 @@ TEST(Wear, ACylinderWearsInAsOnAHalfPlane) {
       EXPECT_TRUE(quadratic(increment.residuals, 1e8, 1e-9)) << "step " << record.step;
 }
 
+/// The same scene with a master of many segments, pressed by a load.
+Json cylinder_of(int segments, int increments) {
+  Json json = parse_json_file(test::scene_file("wear_cylinder"));
+  Json nodes, connectivity, coordinates;
+  for (int i = 0; i <= segments; ++i) {
+    const double x = 2 - 4.0 * i / segments;
+    nodes.push_back({x, 0.1}), coordinates.push_back({x});
+    if (i < segments) connectivity.push_back({i, i + 1});
+  }
+  Json& contact = json["contact"];
+  contact["master"] = {{"rigid_body",
+                        {{"nodes", nodes},
+                         {"segments", connectivity},
+                         {"surface_coordinates", coordinates},
+                         {"loads", {{{"y", -10.8333 / 2}}}}}}};
+  contact["model"].erase("surface_coordinates");
+  contact["model"]["height"]["coefficients"][0] = 0.1001; // overlaps a little
+  json["steps"] = {{"control", "load_factor"}, {"values", {1, {{"to", 1}, {"count", increments}}}}};
+  json["history"]["distance"] = {0, {{"to", 72000 * increments}, {"count", increments}}};
+  json.erase("exact");
+  return json;
+}
+
+TEST(Wear, ACylinderWearsInTheSameWithAnySegments) {
+  const int increments = 12;
+  const Scene one = test::shipped_scene("wear_cylinder", [&](Json& json) {
+    json["steps"]["values"][1]["count"] = increments;
+    json["history"]["distance"][1] = {{"to", 72000 * increments}, {"count", increments}};
+  });
+  const StepRecord expected = run(one).back();
+  for (const int segments : {1, 4, 16}) {
+    const Scene scene = test::scene_from(cylinder_of(segments, increments));
+    const std::vector<StepRecord> records = run(scene);
+    ASSERT_EQ(records.size(), increments + 1u);
+    EXPECT_NEAR(records.back().worn_depth / expected.worn_depth, 1, 1e-9) << segments;
+    EXPECT_NEAR(records.back().worn_slave / expected.worn_slave, 1, 1e-9) << segments;
+    for (const StepRecord& record : records)
+      for (const IncrementRecord& increment : record.increments) {
+        EXPECT_TRUE(quadratic(increment.residuals, 1e8, 1e-9)) << segments << ", step " << record.step;
+        EXPECT_LE(increment.residuals.size(), 6u) << segments << ", step " << record.step;
+      }
+  }
+}
+
 /// A wave of the master in full contact on a layer of depth `depth`.
 Json wave(double depth, double share, const char* scheme) {
   Json json = Json::parse(R"({
