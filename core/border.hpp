@@ -181,8 +181,8 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
         closest.consider(e, w, chord);
       } else { // most are too far, whatever their course
         if constexpr (H) chord -= plan.height_bound;
-        if (!(chord < closest.limit)) continue;
-        if constexpr (!straight_edges<B>) chord -= closest.sag();
+        if constexpr (!straight_edges<B>)
+          if (!(chord < closest.limit)) chord -= closest.sag();
         if (chord < closest.limit) closest.search_edge(e);
       }
     }

@@ -218,6 +218,39 @@ TEST(BehindEdge, FacetsRoundAPitAreAllCounted) {
   }
 }
 
+// The bottom of a valley whose course is curved, and slaves straight below it.
+TEST(BehindEdge, ValleysWithCurvedEdgesAreSeen) {
+  constexpr int n = 4;
+  Random random(29);
+  for (const char* name : {"tri3", "tri6", "quad4", "quad8", "quad9"}) {
+    const Basis& basis = basis_named(name);
+    const Model model(nlohmann::json{{"segment", name}}.dump());
+    int unseen = 0;
+    const int count = static_cast<int>(samples(400));
+    for (int trial = 0; trial < count; ++trial) {
+      MeshSurface mesh = draw_mesh(random, basis, n, 0.0);
+      const double slope = random.uniform(0.05, 1.0), bend = random.uniform(0.0, 0.3),
+                   phase = random.uniform(-3.0, 3.0);
+      for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+        mesh.positions[i + 2] = slope * std::fabs(mesh.positions[i] - 4.0);
+        mesh.positions[i] += bend * std::sin(mesh.positions[i + 1] + phase);
+      }
+      const int row = random.below(n);
+      const double along = random.uniform(basis.simplex ? 0.1 : -0.8, basis.simplex ? 0.9 : 0.8);
+      const std::int64_t segment = basis.simplex ? 2 * (row * n + 2) : row * n + 1;
+      const std::vector<double> xi = {basis.simplex ? 0.0 : 1.0, along};
+      SurfacePoints at = evaluate_surface(model, mesh.master(segment).data(), nullptr, xi);
+      ASSERT_NEAR(at.point[2], 0.0, 1e-14) << "not on the bottom";
+      at.point[2] -= random.uniform(0.001, 0.1);
+      Detector::Found found;
+      Detector(model, mesh).detect(at.point, 0.5, found);
+      unseen += found.segment[0] < 0 && (found.flags[0] & ENTS_FLAG_BEHIND_EDGE) == 0;
+      EXPECT_LT(found.segment[0], 0) << name;
+    }
+    EXPECT_EQ(unseen, 0) << name;
+  }
+}
+
 // Far from the origin, where positions are known to 1e-10 only: a slave on the outer border of a textured
 // surface is on the surface.
 TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
