@@ -181,6 +181,7 @@ private:
       open_ = true;
       return Status::ok;
     }
+    if (doubtful) return Status::ambiguous_projection;
     double least = infinity;
     for (std::int64_t s = 0; s < segments_; ++s) {
       SegmentNodes nodes;

@@ -25,7 +25,6 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
   return dot(p.s.d, ray_of<B::dim>(t));
 }
 
-inline constexpr int search_budget = 10000;  // evaluations of the surface
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
 
@@ -168,7 +167,7 @@ template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
 // are not those of a triangle.
 template <bool H>
 ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
-                                    int e, Search& result, double (&xi)[2], int& evaluations) {
+                                    int budget, int e, Search& result, double (&xi)[2], int& evaluations) {
   const int nodes[3] = {e, (e + 2) % 4, (e + 3) % 4};
   Geometry<Tri3> triangle;
   double coordinates[6];
@@ -182,7 +181,7 @@ ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, c
     triangle.surface_coordinates = coordinates;
   }
   Projection<Tri3, H> p;
-  result = search<Tri3, H>(triangle, t, plan, p, limit);
+  result = search<Tri3, H>(triangle, t, plan, p, limit, budget);
   evaluations = p.evaluations;
   if (result.found != Found::yes) return true;
   const double off = p.xi[0] + p.xi[1]; // 0 in the corner, 1 on the side across
@@ -333,7 +332,8 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all, P
 }
 
 template <class B, bool H>
-Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best, double limit) {
+Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best, double limit,
+              int budget) {
   constexpr int T = B::dim - 1;
   Candidates<B, H> all{g, t, best, plan, limit};
   Projection<B, H> p;
@@ -350,7 +350,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     if (Search found; collapsed >= 0 && t.kind == ProjectionKind::normal) {
       double xi[T];
       int evaluations = 0;
-      if (search_collapsed<H>(g, t, plan, limit, collapsed, found, xi, evaluations) &&
+      if (search_collapsed<H>(g, t, plan, limit, budget, collapsed, found, xi, evaluations) &&
           found.found == Found::yes) {
         all.evaluations += evaluations;
         all.inside = false, all.result = {Found::not_converged, false};
@@ -383,7 +383,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     while (count > 0) {
       box = waiting[--count];
       if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
-      if (all.evaluations > search_budget) {
+      if (all.evaluations > budget) {
         certain = false;
         break;
       }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/facets.hpp"
+#include "core/search.hpp"
 
 namespace ents {
 
@@ -209,7 +210,8 @@ private:
       const double slave[3] = {f_.points[k].x(), f_.points[k].y(), f_.points[k].z()};
       SegmentProjection at;
       const auto project = [&](const double* start) {
-        return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, c_.size, at);
+        return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, c_.size,
+                             portable::search_budget, at);
       };
       if (!project(visit.start) &&
           (visits >= f_.corners() || pair.attempts >= most_searches || !project(nullptr)))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/detection.hpp"
 #include "core/behind_edge.hpp"
+#include "core/search.hpp"
 #include "core/segment_tree.hpp"
 #include "core/target.hpp"
 
@@ -281,7 +282,8 @@ Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* s
     return status;
   }
   const double start[2] = {out.at.xi[0], out.at.xi[1]};
-  if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity, out.at) &&
+  if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity,
+                   portable::search_budget, out.at) &&
       std::fabs(out.at.gap) <= reach)
     out.segment = segment, out.other = -1;
   return Status::ok;
@@ -336,9 +338,10 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
   SegmentNodes nodes;
   out.searched = true, out.behind_edge = false;
   out.segment = out.other = -1;
-  constexpr int most_doubts = 8;
-  std::int64_t in_doubt[most_doubts]; // segments whose search could not be completed
-  int doubts = 0;
+  // Segments whose search could not be completed; they are searched again when the others are known.
+  constexpr int most_doubts = 8, thorough = 10 * portable::search_budget; // for all of them
+  std::int64_t in_doubt[most_doubts];
+  int doubts = 0, budget = portable::search_budget;
   portable::Target target;
   const bool has_ray = plan.dimension == 2 ? portable::set_target<2>(plan, slave, target)
                                            : portable::set_target<3>(plan, slave, target);
@@ -367,11 +370,17 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
       farthest += 2.0 * plan.border * (box[plan.dimension + k] - box[k]);
     if (out.segment >= 0) farthest = std::min(farthest, out.at.rank + out.at.tie);
     SegmentProjection candidate;
-    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr, farthest, candidate)) {
-      if (!normal || std::fabs(candidate.gap) <= reach) consider(plan.dimension, segment, candidate, out);
-    } else if (candidate.ambiguous) {
+    const bool found = plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr,
+                                    farthest, budget, candidate);
+    if (candidate.ambiguous) {
       if (doubts < most_doubts) in_doubt[doubts] = segment;
       ++doubts;
+    }
+    if (found && (!normal || std::fabs(candidate.gap) <= reach)) {
+      if (segment == out.segment) // searched again
+        out.at = candidate;
+      else
+        consider(plan.dimension, segment, candidate, out);
     }
     return Status::ok;
   };
@@ -380,21 +389,12 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
   const Status status = tree ? visit_segments(shape, tree, rank, limit, visit)
                              : visit_nearest_first(plan, mesh, rank, limit, visit);
   if (status != Status::ok) return status;
-  // What could not be decided while nothing was known may be decided now.
-  if (doubts > 0 && doubts <= most_doubts && out.segment >= 0) {
+  if (doubts > 0 && doubts <= most_doubts) {
     const int count = doubts;
     doubts = 0;
+    budget = std::max(portable::search_budget, thorough / count);
     for (int i = 0; i < count; ++i)
       if (const Status again = visit(in_doubt[i]); again != Status::ok) return again;
-  }
-  if (out.segment >= 0 && out.at.ambiguous && out.other < 0) {
-    SegmentProjection again;
-    if (const Status gathered = gather(plan, mesh, out.segment, nodes); gathered != Status::ok)
-      return gathered;
-    if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, nullptr,
-                     out.at.rank + out.at.tie, again) &&
-        !again.ambiguous)
-      out.at = again;
   }
   const bool doubtful = doubts > 0;
   if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)

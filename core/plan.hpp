@@ -169,10 +169,10 @@ using TransferKernel = Status (*)(const Plan&, const double* old_master, const d
                                   const double* state, double* moved);
 
 // A projection whose rank is smaller than `limit`: the one next to `start`; the best of the segment where
-// start is null. False: there is none.
+// start is null, in at most `budget` evaluations of the surface. False: there is none.
 using ProjectKernel = bool (*)(const Plan&, const double* slave, const double* master,
                                const double* surface_coordinates, const double* start, double limit,
-                               SegmentProjection&);
+                               int budget, SegmentProjection&);
 // False: no point of the border is closer than `limit`.
 using BorderKernel = bool (*)(const Plan&, const double* from, const double* master,
                               const double* surface_coordinates, double limit, BorderPoint&);

@@ -9,7 +9,7 @@ namespace ents::ENTS_ISA {
 
 template <class B, bool H>
 bool project_on_segment(const Plan& plan, const double* slave, const double* master,
-                        const double* surface_coordinates, const double* start, double limit,
+                        const double* surface_coordinates, const double* start, double limit, int budget,
                         SegmentProjection& out) {
   constexpr int D = B::dim, T = D - 1;
   out.ambiguous = false;
@@ -25,7 +25,7 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
     if (project(g, t, p) != Found::yes) return false;
     if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) return false;
   } else {
-    const Search s = search<B, H>(g, t, plan, p, limit);
+    const Search s = search<B, H>(g, t, plan, p, limit, budget);
     out.ambiguous = s.ambiguous;
     if (s.found != Found::yes) return false;
   }
@@ -118,13 +118,13 @@ void segment_box(const Plan& plan, const double* master, const double* surface_c
 
 #define ENTS_SEARCH(B)                                                                                       \
   template Search search<B, false>(const Geometry<B>&, const Target&, const Plan&, Projection<B, false>&,    \
-                                   double);                                                                  \
+                                   double, int);                                                             \
   template Search search<B, true>(const Geometry<B>&, const Target&, const Plan&, Projection<B, true>&,      \
-                                  double);                                                                   \
+                                  double, int);                                                              \
   template bool project_on_segment<B, false>(const Plan&, const double*, const double*, const double*,       \
-                                             const double*, double, SegmentProjection&);                     \
+                                             const double*, double, int, SegmentProjection&);                \
   template bool project_on_segment<B, true>(const Plan&, const double*, const double*, const double*,        \
-                                            const double*, double, SegmentProjection&);                      \
+                                            const double*, double, int, SegmentProjection&);                 \
   template bool closest_border_point<B, false>(const Plan&, const double*, const double*, const double*,     \
                                                double, BorderPoint&);                                        \
   template bool closest_border_point<B, true>(const Plan&, const double*, const double*, const double*,      \

@@ -125,7 +125,10 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
       refused += status != ENTS_OK;
       if (status != ENTS_OK)
         std::printf("  status %d, gap %.17g, limit %g, depth %g\n", status, found.gap[0], limit, depth);
-      wrong += status == ENTS_OK && std::fabs(gap - found.gap[0]) > 1e-11;
+      if (status == ENTS_OK && std::fabs(gap - found.gap[0]) > 1e-11) {
+        ++wrong;
+        std::printf("  gap %.17g, not %.17g, limit %g, depth %g\n", gap, found.gap[0], limit, depth);
+      }
       if (status != ENTS_OK || (flags & ENTS_FLAG_CONTACT) == 0) continue; // an open one is searched anew
       ++followed_slaves;
       in.state_begin = end.data(), out.state_end = state.data();
@@ -146,6 +149,50 @@ TEST_P(PatchAnswers, AreThoseOfADetection) {
   EXPECT_EQ(refused, 0);
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(accepted_flagged, 0);
+}
+
+// Two segments of a thread, and slaves so deep that the search of one of them takes long: whether it is
+// searched first or last.
+TEST(PatchOrder, DoesNotMatter) {
+  const std::vector<double> nodes = {2, 2, 0, 4, 2, 0, 3, 2, 0, 0, 4, 0, 1, 3,
+                                     0, 2, 4, 0, 1, 4, 0, 2, 3, 0, 3, 3, 0};
+  const std::vector<double> coordinates = {2, 2, 4, 2, 3, 2, 0, 4, 1, 3, 2, 4, 1, 4, 2, 3, 3, 3};
+  json text{
+      {"segment", "tri6"},
+      {"height",
+       {{"type", "thread"}, {"pitch", 0.248}, {"flank_angles", {30, 30}}, {"crest", 0.03}, {"root", 0.05}}},
+      {"penetration_limit", 0.3},
+      {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 7}}}}}};
+  text["patch"] = {{0, 1, 5, 2, 8, 7}, {5, 3, 0, 6, 4, 7}};
+  const Model first(text.dump());
+  text["patch"] = {{5, 3, 0, 6, 4, 7}, {0, 1, 5, 2, 8, 7}};
+  const Model last(text.dump());
+  Random random(8);
+  int contacts = 0;
+  for (int n = 0; n < 40; ++n) {
+    std::vector<double> moved = nodes;
+    for (double& x : moved) x += random.uniform(-0.05, 0.05);
+    const std::vector<double> slave = {random.uniform(2.0, 2.04), random.uniform(3.7, 3.8),
+                                       random.uniform(-0.16, -0.13)};
+    double gap[2] = {7, 7};
+    std::int32_t status[2];
+    for (int k = 0; k < 2; ++k) {
+      ents_input in{};
+      in.struct_size = sizeof in;
+      in.slave = slave.data(), in.master = moved.data(), in.surface_coordinates = coordinates.data();
+      ents_output out{};
+      out.struct_size = sizeof out;
+      double residual[30];
+      out.wanted = ENTS_GAP | ENTS_RESIDUAL;
+      out.gap = &gap[k], out.residual = residual;
+      status[k] = ents_evaluate((k == 0 ? first : last).handle(), 0, 1, &in, &out, nullptr);
+    }
+    EXPECT_TRUE(status[0] == ENTS_OK || status[0] == ENTS_NO_PROJECTION) << n << ", status " << status[0];
+    EXPECT_EQ(status[0], status[1]) << n;
+    EXPECT_NEAR(gap[0], gap[1], 1e-11) << n;
+    contacts += gap[0] < 0;
+  }
+  EXPECT_GT(contacts, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bases, PatchAnswers,
