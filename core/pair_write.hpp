@@ -96,7 +96,9 @@ ENTS_INLINE void write_pieces(const Tangent& t, double* out, std::int64_t leadin
 }
 
 // Rows of one element, one piece each: where they are few
-template <int N> inline constexpr bool unrolls_pieces = N <= 15 || (width_for(N) >= 4 && N <= 30) || (width_for(N) >= 8 && N <= 56);
+template <int N>
+inline constexpr bool unrolls_pieces = N <= 15 || (width_for(N) >= 4 && N <= 30) ||
+                                       (width_for(N) >= 8 && N <= 56);
 
 template <int D, class Tangent>
 ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
