@@ -71,7 +71,8 @@ if(TARGET ents-host)
   install(FILES ${generated}/ents-host DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
   install(FILES ${generated}/libents.so DESTINATION ${private}/lib COMPONENT ents-tools EXCLUDE_FROM_ALL)
   install(DIRECTORY examples/ DESTINATION share/ents/examples COMPONENT ents-tools EXCLUDE_FROM_ALL FILES_MATCHING
-    REGEX "/[a-z0-9_]+/[a-zA-Z0-9_]+\\.(json|inp|txt)$" PATTERN CMakeLists.txt EXCLUDE PATTERN host EXCLUDE PATTERN fortran_host EXCLUDE PATTERN slide EXCLUDE)
+    REGEX "/[a-z0-9_]+/[a-zA-Z0-9_]+\\.(json|inp|txt)$" PATTERN CMakeLists.txt EXCLUDE PATTERN host EXCLUDE PATTERN fortran_host EXCLUDE PATTERN slide EXCLUDE
+    PATTERN bolted_joint EXCLUDE)
   if(TARGET ents-deck)
     install(TARGETS ents-deck RUNTIME DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
     install(CODE "file(RPATH_REMOVE FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/ents-deck\")" COMPONENT ents-tools EXCLUDE_FROM_ALL)
