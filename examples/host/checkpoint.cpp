@@ -106,7 +106,7 @@ void Simulation::restore(const Json& checkpoint) {
     } catch (const std::exception& error) {
       throw InputError("checkpoint: " + std::string(error.what()));
     }
-    if (!contact_->master().rigid) build_pattern(); // that of the restored segments
+    if (!contact_->master().rigid || contact_->cuts_again()) build_pattern(); // that of the restored segments
   }
   object.finish();
   now_ = at;

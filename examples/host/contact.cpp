@@ -23,9 +23,9 @@ double stiffness_of(const Json& model, const char* law) {
 } // namespace
 
 Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dof_map,
-                 SlavePoints points, double thickness)
-    : master_(std::move(master)), mesh_(&mesh), dofs_(&dof_map), points_(std::move(points)),
-      thickness_(thickness), detector_(*master_.model) {
+                 SlavePoints points, CutSpec cut_spec, double thickness)
+    : master_(std::move(master)), mesh_(&mesh), dofs_(&dof_map), cut_(std::move(cut_spec)),
+      points_(std::move(points)), thickness_(thickness), detector_(*master_.model) {
   const ents_layout& layout = master_.model->layout();
   d_ = static_cast<std::size_t>(layout.dimension);
   m_ = static_cast<std::size_t>(layout.nodes);
@@ -36,6 +36,11 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   tangential_stiffness_ = stiffness_of(spec.model, "friction");
   sliding_ = parameter_of(find_json(spec.model, "/contact/wear/sliding"));
   if (master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
+  if (cut_.per_direction > 0) {
+    cut_at_.displacement.assign(dofs(), 0.0);
+    begin_ = cut_at_;
+    points_ = cut(cut_at_);
+  }
 
   for (std::size_t i = 0; i < d_; ++i) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -60,6 +65,10 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     sample_surface(*master_.model, nodes, std::vector<double>(m_ * parameters_), centre);
   }
 
+  reset_points();
+}
+
+void Contact::reset_points() {
   at_.segment.assign(points_.size(), -1);
   at_.xi.assign(points_.size() * parameters_, 0.0);
   begin_at_ = at_;
@@ -71,6 +80,8 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
 
 void Contact::number_unknowns() {
   dof_equations_.assign(dofs(), -1);
+  for (auto* list : {&body_equations_, &point_begin_, &slave_equations_}) list->clear();
+  unknowns_.clear();
   const auto add_node = [&](std::int64_t node) {
     for (std::size_t dof = static_cast<std::size_t>(node) * d_, i = 0; i < d_; ++i, ++dof)
       if (dof_equations_[dof] < 0) {
@@ -155,19 +166,9 @@ ents_pose Contact::pose_at(const Configuration& at) const {
 void Contact::place(const Configuration& at) {
   bind(at);
   slave_positions_.resize(points_.size() * d_);
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const std::array<double, 3> now = position_of(k, at.displacement);
-    for (std::size_t i = 0; i < d_; ++i)
-      slave_positions_[k * d_ + i] = now[i] - (master_.translates() ? at.motion * master_.direction[i] : 0.);
-  }
-  if (master_.body_node >= 0) {
-    pose_ = pose_at(at);
-    auto report = ents_struct<ents_report>();
-    const EntsLibrary& library = master_.model->library();
-    if (library.pose_to_body(static_cast<std::int32_t>(d_), &pose_, count(), slave_positions_.data(),
-                             slave_positions_.data(), &report) != ENTS_OK)
-      throw JobError("the rigid body: " + describe(library, report.status, report));
-  }
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    std::copy_n(position_of(k, at.displacement).begin(), d_, slave_positions_.data() + k * d_);
+  see_from_master(at, slave_positions_);
   multiplier_values_ = at.multiplier;
   if (master_.rigid) return;
   master_positions_ = mesh_->coordinates;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "configuration.hpp"
+#include "cut_points.hpp"
 #include "detector.hpp"
 #include "dof_map.hpp"
 #include "master.hpp"
@@ -43,6 +44,14 @@ struct ContactFields {
       moment; ///< [3], 2D [1] about the reference point of a rigid body that turns; else empty
 };
 
+/// Slave points that are made anew where an increment begins: see cut_points.hpp.
+struct CutSpec {
+  std::vector<Face> faces;
+  SlaveGeometry geometry;
+  int per_direction = 0; ///< 0: the slave points are given and stay
+  std::string where;     ///< for messages
+};
+
 /// What a restart needs: the history at the end of the last accepted increment.
 struct ContactHistory {
   Projections at;
@@ -53,9 +62,10 @@ struct ContactHistory {
 
 class Contact {
 public:
+  /// @param points     without a cut
   /// @param thickness  2D: of the bodies; axisymmetric ones: 0
   Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dofs, SlavePoints points,
-          double thickness);
+          CutSpec cut, double thickness);
 
   const Master& master() const { return master_; }
   const SlavePoints& slaves() const { return points_; }
@@ -72,6 +82,9 @@ public:
   }
   /// What an increment ends with depends on more than the configuration it starts from.
   bool has_history() const;
+  /// Are the slave faces cut anew at the begin of each increment? If the points have a history or multipliers
+  /// of their own, they stay those of the reference configuration.
+  bool cuts_again() const { return cut_.per_direction > 0 && !has_history() && multipliers_ == 0; }
   bool augmentable() const { return master_.model->layout().augmentable != 0; }
   /// Does the model wear?
   bool wears() const { return master_.model->layout().worn >= 0; }
@@ -88,6 +101,11 @@ public:
   std::size_t multiplier_count() const { return multipliers_ * points_.size(); }
   /// Residuals of the multipliers times this are forces per area times area.
   double multiplier_scale(std::size_t index) const;
+
+  /// Cut the slave faces where an increment begins. Points, areas and the accepted fields are new then, and
+  /// the tangent needs its pattern again.
+  /// @return false: the points are those of this configuration already, or stay
+  bool cut_again(const Configuration& begin);
 
   /// An increment begins here, whatever was tried before.
   void begin_increment(const Configuration& begin);
@@ -145,7 +163,9 @@ public:
   /// Fields at the end of the last accepted increment.
   const ContactFields& accepted() const { return accepted_; }
 
+  /// Points that are cut again have none: the configuration says where they are.
   ContactHistory history() const {
+    if (cuts_again()) return {{}, {}, {}, {}, master_.model->fields(), worn_master_};
     return {begin_at_,   state_begin_, accepted_.pressure, accepted_.traction, master_.model->fields(),
             worn_master_};
   }
@@ -156,6 +176,13 @@ private:
   std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
   std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
   void number_unknowns();
+  /// The slave points of a cut in this configuration.
+  SlavePoints cut(const Configuration& at);
+  /// Arrays over the slave points, for points that have been nowhere yet.
+  void reset_points();
+  SegmentCorners segment_corners() const;
+  /// Positions as the master sees them, [points][d]: it stays where it is.
+  void see_from_master(const Configuration& at, std::vector<double>& positions);
   /// The model with the parameters of a configuration, and what has been slid since the begin of the
   /// increment.
   void bind(const Configuration& at);
@@ -176,7 +203,7 @@ private:
   void put_in_space(const Configuration& at, ContactFields& fields) const;
   /// Where a rigid body is that moves and turns.
   ents_pose pose_at(const Configuration& at) const;
-  /// Nodes [m][d] of a segment at the begin of the increment.
+  /// Nodes [m][d] of a segment at the begin of the increment. A rigid master's are in its own frame.
   void gather(std::int64_t segment, std::vector<double>& positions) const;
   /// History of the elements as seen from their segments.
   void move_history(ents_report& report);
@@ -186,6 +213,8 @@ private:
   Master master_;
   const Mesh* mesh_;
   const DofMap* dofs_;
+  CutSpec cut_;
+  Configuration cut_at_; ///< where the points were cut
   SlavePoints points_;
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;

@@ -151,6 +151,16 @@ void Contact::collect_wear() {
 }
 
 void Contact::restore(const ContactHistory& history, const Configuration& at) {
+  if (cuts_again()) {
+    if (!history.at.segment.empty() || !history.pressure.empty() ||
+        !fields_fit(history.fields, master_.model->fields()))
+      throw InputError("the contact's history is that of another scene: its sizes differ");
+    master_.model->fields() = history.fields;
+    bound_.clear();
+    cut_at_ = {};
+    cut_again(at);
+    return;
+  }
   if (history.at.segment.size() != begin_at_.segment.size() || history.state.size() != state_begin_.size() ||
       history.at.xi.size() != begin_at_.xi.size() || history.pressure.size() != pressure_.size() ||
       history.traction.size() != traction_.size() || !fields_fit(history.fields, master_.model->fields()))

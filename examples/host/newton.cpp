@@ -280,6 +280,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     return fail(evaluation.reason, evaluation.step_factor);
   };
 
+  if (contact_ && contact_->cut_again(now_)) build_pattern();
   if (contact_) contact_->begin_increment(now_);
   if (!choose(at, false, outcome.reason, outcome.step_factor))
     return fail(outcome.reason, outcome.step_factor);

@@ -92,14 +92,14 @@ Chart pressure_profile(Simulation& simulation, const StepRecord& record) {
 
 /// Numbers of the slave nodes along the surface of a body in the plane: over x or y, along which it extends
 /// farther.
-/// @param of  curves and their names
-Chart along_surface(Simulation& simulation,
+/// @param record  of a step with these slave nodes
+/// @param of      curves and their names
+Chart along_surface(Simulation& simulation, const StepRecord& record,
                     const std::vector<std::pair<std::string, std::vector<double>>>& of) {
   const Scene& scene = simulation.scene();
-  const SlavePoints& slaves = simulation.contact()->slaves();
-  std::vector<std::array<double, 3>> places(slaves.size());
-  for (std::size_t k = 0; k < slaves.size(); ++k)
-    for (std::size_t c = 0; c < 2; ++c) places[k][c] = slaves.place(k, simulation.mesh())[c];
+  std::vector<std::array<double, 3>> places(record.areas.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t c = 0; c < 2; ++c) places[k][c] = record.places[2 * k + c];
   const auto extent = [&](std::size_t c) {
     const auto [low, high] =
         std::minmax_element(places.begin(), places.end(), [&](auto& a, auto& b) { return a[c] < b[c]; });
@@ -125,7 +125,7 @@ Chart along_surface(Simulation& simulation,
 }
 
 Chart pressure_along_surface(Simulation& simulation, const StepRecord& record) {
-  Chart chart = along_surface(simulation, {{"", record.fields.pressure}});
+  Chart chart = along_surface(simulation, record, {{"", record.fields.pressure}});
   chart.title = "Contact pressure, last step";
   chart.y = {"pressure", simulation.scene().units.pressure, false, 0};
   return chart;
@@ -142,7 +142,7 @@ Chart worn_profile(Simulation& simulation, const std::vector<StepRecord>& record
     const std::string name = "step " + std::to_string(record.step);
     if (profiles.empty() || profiles.back().first != name) profiles.emplace_back(name, std::move(profile));
   }
-  Chart chart = along_surface(simulation, profiles);
+  Chart chart = along_surface(simulation, records.back(), profiles);
   double low = std::numeric_limits<double>::infinity(),
          high = -low; // where something has been worn off, and beside it
   const Curve& end = chart.curves.back();
@@ -274,14 +274,13 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pictures::Maps maps;
   const Scene& scene = simulation.scene();
   if (scene.dimension != 3) return maps;
-  const SlavePoints& slaves = simulation.contact()->slaves();
+  const std::size_t slaves = record.areas.size();
   std::map<double, int> columns, rows;
-  for (std::size_t k = 0; k < slaves.size(); ++k) {
-    const auto position = slaves.place(k, simulation.mesh());
-    columns.emplace(position[0], 0);
-    rows.emplace(position[1], 0);
+  for (std::size_t k = 0; k < slaves; ++k) {
+    columns.emplace(record.places[3 * k], 0);
+    rows.emplace(record.places[3 * k + 1], 0);
   }
-  if (columns.size() * rows.size() != slaves.size() || columns.size() < 3 || rows.size() < 3) return maps;
+  if (columns.size() * rows.size() != slaves || columns.size() < 3 || rows.size() < 3) return maps;
   const auto regular = [](std::map<double, int>& axis) {
     const double step = (axis.rbegin()->first - axis.begin()->first) / static_cast<double>(axis.size() - 1);
     int index = 0;
@@ -305,11 +304,10 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pressure.blank_zero = pressure.at_nodes = true;
   pressure.clip = 0.99;
   pressure.columns = static_cast<int>(columns.size()), pressure.rows = static_cast<int>(rows.size());
-  pressure.values.assign(slaves.size(), 0.0);
-  for (std::size_t k = 0; k < slaves.size(); ++k) {
-    const auto position = slaves.place(k, simulation.mesh());
-    const auto at =
-        static_cast<std::size_t>(rows.at(position[1]) * pressure.columns + columns.at(position[0]));
+  pressure.values.assign(slaves, 0.0);
+  for (std::size_t k = 0; k < slaves; ++k) {
+    const auto at = static_cast<std::size_t>(rows.at(record.places[3 * k + 1]) * pressure.columns +
+                                             columns.at(record.places[3 * k]));
     pressure.values[at] = record.fields.pressure[k];
   }
   pictures::Map height = height_map(simulation, *simulation.contact(), maps);

@@ -100,6 +100,7 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
     record.mean_pressure = record.force / (simulation.contact_area() * scene.symmetry_copies);
   }
   double closed = 0, gap = 0, gap_area = 0;
+  record.areas = contact->areas();
   for (std::size_t k = 0; k < contact->slaves().size(); ++k) {
     const double area = contact->areas()[k];
     if (record.fields.closed[k]) {
@@ -110,6 +111,8 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
     record.peak_pressure = std::max(record.peak_pressure, record.fields.pressure[k]);
     const auto position = contact->position_of(k, simulation.now().displacement);
     record.positions.insert(record.positions.end(), position.begin(), position.begin() + scene.dimension);
+    const auto place = contact->slaves().place(k, simulation.mesh());
+    record.places.insert(record.places.end(), place.begin(), place.begin() + scene.dimension);
   }
   record.contact_fraction = closed / simulation.contact_area();
   record.area = estimate_area(simulation, record.fields);
@@ -228,18 +231,18 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   const Contact& contact = *simulation.contact();
   const auto d = static_cast<std::size_t>(simulation.mesh().dimension);
   SurfaceState state;
-  for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
-    const auto position = contact.slaves().place(k, simulation.mesh());
-    state.distance.push_back(
-        d == 2 ? distance_from(simulation.exact_axis(), simulation.scene().exact, position[0])
-               : std::hypot(position[0], position[1]));
+  for (std::size_t k = 0; k < record.areas.size(); ++k) {
+    const double* place = record.places.data() + k * d;
+    state.distance.push_back(d == 2
+                                 ? distance_from(simulation.exact_axis(), simulation.scene().exact, place[0])
+                                 : std::hypot(place[0], place[1]));
   }
   state.load.assign(d, 0.0);
   const std::vector<double> loads = simulation.loads(simulation.now().load_factor);
   for (std::size_t dof = 0; dof < loads.size(); ++dof) state.load[dof % d] += loads[dof];
-  for (std::size_t k = 0; k < contact.slaves().size(); ++k) {
-    state.place.push_back(contact.slaves().place(k, simulation.mesh())[0]);
-    state.moved.push_back(contact.slaves().combine(k, simulation.now().displacement, d)[0]);
+  for (std::size_t k = 0; k < record.areas.size(); ++k) {
+    state.place.push_back(record.places[k * d]);
+    state.moved.push_back(record.positions[k * d] - record.places[k * d]);
     state.shear.push_back(record.fields.traction[k * d]);
     state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);
   }
@@ -247,7 +250,7 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   if (simulation.scene().contact->body) set_turning(simulation, record, state);
   state.pressure = record.fields.pressure;
   state.gap = record.fields.gap;
-  state.area = contact.areas();
+  state.area = record.areas;
   state.closed = record.fields.closed;
   state.approach = record.approach;
   state.force = record.force;
@@ -267,6 +270,8 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
   const int steps = plan.last > 0 ? plan.last : static_cast<int>(scene.steps.size());
   StepParts parts(plan);
   std::vector<StepRecord> records;
+  if (scene.contact && scene.contact->cut > 0 && !simulation.contact()->cuts_again())
+    say("note: the slave faces stay cut as they were before the first step: their points have a history");
   for (int step = 1; step <= steps; ++step) {
     const auto index = static_cast<std::size_t>(step - 1);
     const double from = step == 1 ? 0 : scene.steps[index - 1], to = scene.steps[index];

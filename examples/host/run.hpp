@@ -50,7 +50,9 @@ struct StepRecord {
   std::vector<double> moment;        ///< [3], 2D [1] of these about a rigid body's reference point; or empty
   std::vector<Quantity> exact;
   ContactFields fields;
-  std::vector<double> positions; ///< [slaves][d] current
+  // Slave points may be others in the next step.
+  std::vector<double> positions, places; ///< [slaves][d] current; in the reference configuration
+  std::vector<double> areas;             ///< [slaves]
   double wall_time = 0;
 
   int iterations() const;

@@ -163,11 +163,11 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   ContactSpec contact;
   contact.slave = object.at("slave").string();
   contact.slave_where = object.at("slave").where();
-  contact.sampling = object.integer_or("sampling", 1, 64, 0);
+  if (object.has("sampling")) read_sampling(object.at("sampling"), contact);
   if (object.has("areas")) {
     const JsonValue areas = object.at("areas");
     contact.equal_areas = areas.word({"tributary", "equal"}) == "equal";
-    if (contact.equal_areas && contact.sampling > 0)
+    if (contact.equal_areas && (contact.sampling > 0 || contact.cut > 0))
       areas.fail("sampling points have areas of their own; leave it out");
   }
   if (object.has("wear_factor")) {

@@ -64,6 +64,8 @@ struct PeriodicSpec {
 struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
+  int cut = 0; ///< points per direction of every piece of the slave faces, which are cut at the borders of
+               ///< the master's segments; 0: no pieces
   bool equal_areas = false; ///< every slave node gets the same area, as if it had no neighbours to share with
   std::vector<double>
       rigid; ///< rigid master that moves along a line: [m][d], nodes of its one segment; else empty
@@ -182,6 +184,10 @@ Scene read_scene_text(const std::string& text, const std::filesystem::path& file
 
 /// The part that a set "PART" or "PART.NAME" is of; null: none of that name.
 const PartSpec* part_of_set(const Scene& scene, const std::string& set);
+
+/// The key "sampling" of a contact: a number, "cut" or {"cut": number}.
+/// @throws InputError naming the key
+void read_sampling(const JsonValue& value, ContactSpec& contact);
 
 /// The key "exact".
 /// @param scene  all of it that is read before this key

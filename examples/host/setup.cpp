@@ -247,12 +247,17 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   const ElementSetup& setup = scene_->parts.front().setup;
   const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,
                                scene_->contact->equal_areas};
-  const int sampling = scene_->contact->sampling;
-  SlavePoints points = sampling > 0 ? sampling_points(*library, mesh_, slaves, sampling, geometry,
-                                                      scene_->contact->slave_where)
-                                    : slave_nodes(mesh_, *dofs_, slaves, geometry);
-  contact_ = std::make_unique<Contact>(std::move(master), *scene_->contact, mesh_, *dofs_, std::move(points),
-                                       geometry.axisymmetric ? 0 : geometry.thickness);
+  const ContactSpec& contact = *scene_->contact;
+  SlavePoints points;
+  CutSpec cut;
+  if (contact.cut > 0)
+    cut = {slaves, geometry, contact.cut, contact.slave_where};
+  else if (contact.sampling > 0)
+    points = sampling_points(*library, mesh_, slaves, contact.sampling, geometry, contact.slave_where);
+  else
+    points = slave_nodes(mesh_, *dofs_, slaves, geometry);
+  contact_ = std::make_unique<Contact>(std::move(master), contact, mesh_, *dofs_, std::move(points),
+                                       std::move(cut), geometry.axisymmetric ? 0 : geometry.thickness);
 }
 
 void Simulation::build_pattern() {

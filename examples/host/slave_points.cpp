@@ -43,15 +43,19 @@ SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<
   return points;
 }
 
+std::size_t count_of_nodes(const std::vector<Face>& faces, const std::string& where) {
+  for (const Face& face : faces)
+    if (face.count != faces.front().count)
+      throw InputError(where + ": the slave's faces must be all triangles or all quadrilaterals");
+  return static_cast<std::size_t>(faces.front().count);
+}
+
 SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces,
                             int per_direction, const SlaveGeometry& geometry, const std::string& where) {
-  const auto count = static_cast<std::size_t>(faces.front().count);
+  const std::size_t count = count_of_nodes(faces, where);
   std::vector<std::int64_t> connectivity;
-  for (const Face& face : faces) {
-    if (static_cast<std::size_t>(face.count) != count)
-      throw InputError(where + ": the slave's faces must be all triangles or all quadrilaterals");
+  for (const Face& face : faces)
     connectivity.insert(connectivity.end(), face.nodes.begin(), face.nodes.begin() + face.count);
-  }
   const char* facet = mesh.dimension == 2 ? "line2" : (count == 3 ? "tri3" : "quad4");
   const auto n = static_cast<std::size_t>(per_direction), each = mesh.dimension == 2 ? n : n * n;
   SlavePoints points;

@@ -25,20 +25,22 @@ Pressures pressures(const Scene& scene) {
           test::quantity(record, "scatter of the pressure (rms)").value};
 }
 
-Scene with_slave(const std::function<void(Json&)>& edit, bool solid) {
+/// @param upper, lower  elements of the bodies in space
+Scene with_slave(const std::function<void(Json&)>& edit, bool solid, const char* upper = "hex8",
+                 const char* lower = "hex8") {
   return test::shipped_scene("patch_test", [&](Json& scene) {
     edit(scene["contact"]);
     scene.erase("variants");
     if (!solid) return;
     scene["dimension"] = 3;
     scene.erase("formulation");
-    const auto spread = [](Json& part, int divisions, double growth) {
-      part["element"] = "hex8";
+    const auto spread = [](Json& part, const char* element, int divisions, double growth) {
+      part["element"] = element;
       part["z"] = part["y"];
       part["y"] = {{"from", 0}, {"pieces", {{{"to", 1}, {"divisions", divisions}, {"growth", growth}}}}};
     };
-    spread(scene["parts"][0], 4, 0.9);
-    spread(scene["parts"][1], 3, 1);
+    spread(scene["parts"][0], upper, 4, 0.9);
+    spread(scene["parts"][1], lower, 3, 1);
     Json supports = Json::array();
     for (const char* part : {"upper", "lower"})
       for (const char* axis : {"x", "y"})
@@ -49,7 +51,7 @@ Scene with_slave(const std::function<void(Json&)>& edit, bool solid) {
     scene["tractions"] = {{{"faces", "upper.z_max"}, {"value", {0, 0, -1}}}};
     scene["contact"]["slave"] = "upper.z_min";
     scene["contact"]["master"]["faces"] = "lower.z_max";
-    scene["contact"]["model"]["segment"] = "quad4";
+    scene["contact"]["model"]["segment"] = std::string(lower) == "tet4" ? "tri3" : "quad4";
   });
 }
 
@@ -77,6 +79,30 @@ TEST(PatchTest, SamplingPointsRecoverWhatNodesCannotTransmit) {
   }
 }
 
+// On the pieces of the slave faces the shape functions of both bodies are polynomials, of degree 1 on
+// triangles, of degree 2 on rectangles: a rule of that degree gives every node of both surfaces the exact
+// integral of its shape function, which is its force under a uniform pressure. What is left is the residual,
+// 1e-12 of the forces, over the smallest share of a node in them, some hundredths.
+TEST(PatchTest, CutFacesPass) {
+  const auto scatter = [](const Json& sampling, bool solid, const char* upper, const char* lower) {
+    const Scene scene =
+        with_slave([&](Json& contact) { contact["sampling"] = sampling; }, solid, upper, lower);
+    Scene tight = scene;
+    tight.solver.tolerance = 1e-12;
+    const Pressures p = pressures(tight);
+    std::printf("%s %s over %s: pressure 1 %+.1e %+.1e, scatter %.1e\n", sampling.dump().c_str(),
+                solid ? upper : "quad4", solid ? lower : "quad4", p.smallest - 1, p.largest - 1, p.scatter);
+    return std::max({p.scatter, p.largest - 1, 1 - p.smallest});
+  };
+  for (const Json& sampling : {Json("cut"), Json{{"cut", 1}}, Json{{"cut", 5}}})
+    EXPECT_LT(scatter(sampling, false, "", ""), 1e-10);
+  for (const Json& sampling : {Json("cut"), Json{{"cut", 5}}})
+    for (const char* upper : {"hex8", "tet4"})
+      for (const char* lower : {"hex8", "tet4"}) EXPECT_LT(scatter(sampling, true, upper, lower), 1e-10);
+  EXPECT_LT(scatter({{"cut", 1}}, true, "tet4", "tet4"), 1e-10);
+  EXPECT_GT(scatter({{"cut", 1}}, true, "hex8", "tet4"), 1e-3); // degree 1 is not enough there
+}
+
 // With matching meshes both are exact, up to the penalty's own unevenness: none, the pressure is uniform.
 TEST(PatchTest, MatchingMeshesAreExact) {
   for (const int points : {0, 1, 3}) {
@@ -101,6 +127,9 @@ TEST(PatchTest, BadKeysAreNamed) {
   expect("areas", "equal", "/contact/areas");
   expect("sampling", 0, "/contact/sampling");
   expect("sampling", "many", "/contact/sampling");
+  expect("sampling", {{"cut", 0}}, "/contact/sampling/cut");
+  expect("sampling", {{"cut", 17}}, "/contact/sampling/cut");
+  expect("sampling", {{"cut", 2}, {"points", 2}}, "/contact/sampling");
 }
 
 } // namespace

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact: slave points that are cut anew where an increment begins, and stay within it.
+#include "contact.hpp"
+
+namespace host {
+
+void Contact::see_from_master(const Configuration& at, std::vector<double>& positions) {
+  for (std::size_t i = 0; master_.translates() && i < positions.size(); ++i)
+    positions[i] -= at.motion * master_.direction[i % d_];
+  if (master_.body_node < 0) return;
+  pose_ = pose_at(at);
+  auto report = ents_struct<ents_report>();
+  const EntsLibrary& library = master_.model->library();
+  if (library.pose_to_body(static_cast<std::int32_t>(d_), &pose_,
+                           static_cast<std::int64_t>(positions.size() / d_), positions.data(),
+                           positions.data(), &report) != ENTS_OK)
+    throw JobError("the rigid body: " + describe(library, report.status, report));
+}
+
+SegmentCorners Contact::segment_corners() const {
+  SegmentCorners result;
+  const std::vector<double> line{-1, 1}, triangle{0, 0, 1, 0, 0, 1}, square{-1, -1, 1, -1, 1, 1, -1, 1};
+  const std::vector<double>& corners = d_ == 2 ? line : master_.triangles ? triangle : square;
+  result.corners = corners.size() / parameters_;
+  std::vector<double> nodes(m_ * d_), coordinates;
+  for (std::size_t s = 0; s < master_.segments(); ++s) {
+    gather(static_cast<std::int64_t>(s), nodes);
+    if (!master_.surface_coordinates.empty()) {
+      const auto first =
+          master_.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(s * m_ * parameters_);
+      coordinates.assign(first, first + static_cast<std::ptrdiff_t>(m_ * parameters_));
+    }
+    const SurfaceSample sample = sample_surface(*master_.model, nodes, coordinates, corners);
+    result.points.insert(result.points.end(), sample.point.begin(), sample.point.end());
+    result.normals.insert(result.normals.end(), sample.normal.begin(), sample.normal.end());
+  }
+  return result;
+}
+
+SlavePoints Contact::cut(const Configuration& at) {
+  bind(at);
+  std::vector<double> positions = mesh_->coordinates;
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += at.displacement[i];
+  see_from_master(at, positions);
+  return cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry,
+                    cut_.where);
+}
+
+bool Contact::cut_again(const Configuration& begin) {
+  if (!cuts_again() || (begin.displacement == cut_at_.displacement && begin.motion == cut_at_.motion &&
+                        begin.parameters == cut_at_.parameters))
+    return false;
+  begin_ = cut_at_ = begin;
+  points_ = cut(begin);
+  number_unknowns();
+  reset_points();
+  begin_increment(begin);
+  auto report = ents_struct<ents_report>();
+  choose(begin, false, report);
+  accepted_ = fields(begin);
+  state_begin_ = state_in_; // those of elements without history
+  begin_at_ = at_;
+  begin_increment(begin);
+  pattern_segment_.clear();
+  return true;
+}
+
+} // namespace host
