@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact: positions, choice of segments, and the library's elements in the host's equations.
+// Contact: positions and the choice of segments.
 #include "contact.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   if (master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
   if (cut_.per_direction > 0) {
     cut_at_.displacement.assign(dofs(), 0.0);
-    begin_ = cut_at_;
+    master_begin_ = master_points(cut_at_.displacement);
     points_ = cut(cut_at_);
   }
 
@@ -56,6 +56,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     for (const double value : {0.0, 1.0, turns ? std::abs(points_.place(k, mesh)[0]) : 1.0})
       slave_values_.push_back(value);
   number_unknowns();
+  master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
   // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
   // elements behind them.
   std::vector<double> nodes(m_ * d_);
@@ -76,39 +77,6 @@ void Contact::reset_points() {
   state_begin_.assign(points_.size() * state_size_, 0.0);
   accepted_.pressure.assign(points_.size(), 0.0);
   accepted_.traction.assign(points_.size() * d_, 0.0);
-}
-
-void Contact::number_unknowns() {
-  dof_equations_.assign(dofs(), -1);
-  for (auto* list : {&body_equations_, &point_begin_, &slave_equations_}) list->clear();
-  unknowns_.clear();
-  const auto add_node = [&](std::int64_t node) {
-    for (std::size_t dof = static_cast<std::size_t>(node) * d_, i = 0; i < d_; ++i, ++dof)
-      if (dof_equations_[dof] < 0) {
-        dof_equations_[dof] = stride(unknowns_.size());
-        unknowns_.push_back(dof);
-      }
-  };
-  point_nodes_.assign(points_.nodes.begin(), points_.nodes.end());
-  for (const std::int64_t node : point_nodes_) add_node(node);
-  slave_dofs_ = unknowns_.size();
-  for (std::size_t i = 0; !master_.rigid && i < master_.connectivity.size(); ++i)
-    add_node(master_.connectivity[i]);
-  if (master_.body_node >= 0) {
-    add_node(master_.body_node), add_node(master_.body_node + 1);
-    for (std::size_t i = 0; i < (d_ == 2 ? 3 : 6); ++i)
-      body_equations_.push_back(dof_equations_[static_cast<std::size_t>(master_.body_node) * d_ + i]);
-  }
-  multiplier_equations_.resize(multiplier_count());
-  for (std::size_t j = 0; j < multiplier_count(); ++j) {
-    multiplier_equations_[j] = stride(unknowns_.size());
-    unknowns_.push_back(dofs() + j);
-  }
-  for (std::size_t k = 0; k <= points_.size(); ++k)
-    point_begin_.push_back(stride(k * points_.nodes_per_point));
-  for (const std::int64_t node : point_nodes_)
-    for (std::size_t i = 0; i < d_; ++i)
-      slave_equations_.push_back(dof_equations_[static_cast<std::size_t>(node) * d_ + i]);
 }
 
 std::size_t Contact::parameter_of(const Json& name) const {
@@ -171,8 +139,16 @@ void Contact::place(const Configuration& at) {
   see_from_master(at, slave_positions_);
   multiplier_values_ = at.multiplier;
   if (master_.rigid) return;
-  master_positions_ = mesh_->coordinates;
-  for (std::size_t i = 0; i < master_positions_.size(); ++i) master_positions_[i] += at.displacement[i];
+  master_positions_ = master_points(at.displacement);
+}
+
+std::vector<double> Contact::master_points(const std::vector<double>& displacement) const {
+  if (master_.rigid) return master_.positions;
+  std::vector<double> nodes = mesh_->coordinates;
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += displacement[i];
+  if (!master_.net) return nodes;
+  master_.net->check_held(displacement);
+  return master_.net->positions(nodes);
 }
 
 ents_master_mesh Contact::mesh() const {
@@ -247,32 +223,6 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   return at_.segment != pattern_segment_;
 }
 
-void Contact::build_tangent() {
-  pattern_segment_ = at_.segment;
-  StencilGroup elements, open; // an element without a segment: the multipliers alone
-  const std::size_t q = points_.nodes_per_point;
-  elements.dofs =
-      static_cast<int>((q + (master_.rigid ? 0 : m_)) * d_ + multipliers_ + body_equations_.size());
-  open.dofs = static_cast<int>(multipliers_);
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    StencilGroup& group = master_.rigid || at_.segment[k] >= 0 ? elements : open;
-    const auto add_node = [&](std::int64_t node) {
-      for (std::size_t i = 0; i < d_; ++i)
-        group.equations.push_back(static_cast<int>(dof_equations_[static_cast<std::size_t>(node) * d_ + i]));
-    };
-    for (std::size_t a = 0; a < q && &group == &elements; ++a) add_node(point_nodes_[k * q + a]);
-    for (std::size_t a = 0; !master_.rigid && a < m_ && &group == &elements; ++a)
-      add_node(master_.connectivity[static_cast<std::size_t>(at_.segment[k]) * m_ + a]);
-    for (std::size_t j = 0; j < multipliers_; ++j)
-      group.equations.push_back(static_cast<int>(multiplier_equations_[k * multipliers_ + j]));
-    for (const std::int64_t equation : body_equations_) group.equations.push_back(static_cast<int>(equation));
-  }
-  const StencilGroup* const groups[] = {&elements, &open};
-  tangent_ =
-      pattern_of(static_cast<int>(unknowns_.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
-  if (points_.are_nodes()) places_.assign(points_.size() * (d_ * (m_ + 1) * (m_ + 1) + 1), 0);
-}
-
 double Contact::largest_arm() const {
   double largest = slave_values_.empty() ? 1 : 0;
   for (std::size_t i = 2; i < slave_values_.size(); i += 3) largest = std::max(largest, slave_values_[i]);
@@ -291,108 +241,6 @@ ents_input Contact::input(const ents_master_mesh& where) const {
     in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);
   if (!slave_values_.empty()) in.slave_values = slave_values_.data(), in.slave_values_stride = 3;
   return in;
-}
-
-std::int32_t Contact::add_elements(const ents_output& out, ents_system system, ents_report& report) {
-  static constexpr std::int64_t none[6] = {-1, -1, -1, -1, -1, -1};
-  if (master_.body_node >= 0) {
-    system.pose = &pose_;
-    if (system.body_equations == nullptr) system.body_equations = none;
-  }
-  const EntsLibrary& library = master_.model->library();
-  const ents_master_mesh where = mesh();
-  const ents_input in = input(where);
-  const std::int32_t status = library.assemble(master_.model->get(), 0, count(), &in, &out, &system, &report);
-  if (status < 0) throw JobError("contact: " + describe(library, status, report));
-  return status;
-}
-
-std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent,
-                               RigidCoupling* coupling, double& squared_force, ents_report& report) {
-  place(at);
-  std::vector<std::int32_t> flags(points_.size());
-  std::vector<double> force(unknowns_.size());
-  auto out = ents_struct<ents_output>();
-  out.wanted = ENTS_FLAGS;
-  out.flags = flags.data(), out.flags_stride = 1;
-  if (state_size_ > 0) {
-    out.wanted |= ENTS_STATE;
-    out.state_end = state_out_.data(), out.state_end_stride = stride(state_size_);
-  }
-  auto points = ents_struct<ents_combination>();
-  auto system = ents_struct<ents_system>();
-  system.index_size = sizeof(int);
-  system.slave_nodes = points_.are_nodes() ? count() : mesh_->node_count();
-  system.slave_equations = points_.are_nodes() ? slave_equations_.data() : dof_equations_.data();
-  if (points_.are_nodes()) {
-    system.places = places_.data(), system.places_size = stride(places_.size() / points_.size());
-  } else {
-    points.points = count();
-    points.begin = point_begin_.data(), points.nodes = point_nodes_.data(),
-    points.weights = points_.weights.data();
-    system.slave = &points;
-  }
-  system.master_nodes = mesh_->node_count(), system.master_equations = dof_equations_.data();
-  system.multiplier_equations = multiplier_equations_.data();
-  if (!body_equations_.empty()) system.body_equations = body_equations_.data();
-  system.rows = stride(force.size());
-  system.residual = force.data();
-  if (want_tangent || coupling != nullptr) {
-    std::fill_n(tangent_.valuePtr(), tangent_.nonZeros(), 0.0);
-    system.row_begin = tangent_.outerIndexPtr(), system.columns = tangent_.innerIndexPtr();
-    system.values = tangent_.valuePtr();
-  }
-  const std::int32_t status = add_elements(out, system, report);
-  if (status != ENTS_OK) return status;
-  count_changes(flags);
-  squared_force = 0;
-  for (std::size_t i = 0; i < slave_dofs_; ++i) squared_force += force[i] * force[i];
-  if (coupling != nullptr) {
-    coupling->column.assign(residual.size(), 0.0);
-    coupling->row.assign(residual.size(), 0.0);
-    couple(force, *coupling);
-  }
-  for (std::size_t i = 0; i < force.size(); ++i) residual[unknowns_[i]] += force[i];
-  return ENTS_OK;
-}
-
-void Contact::add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const {
-  for (std::size_t i = 0; i < unknowns_.size(); ++i)
-    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
-      if (const std::size_t j = unknowns_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
-          j < direction.size())
-        residual[unknowns_[i]] += tangent_.valuePtr()[at] * direction[j];
-}
-
-void Contact::count_changes(const std::vector<std::int32_t>& flags) {
-  status_changes_ = switches_ = moves_ = 0;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    closed_[k] = (flags[k] & ENTS_FLAG_CONTACT) != 0;
-    const std::int64_t now =
-        closed_[k] == 0 ? -1 : 2 * at_.segment[k] + ((flags[k] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
-    status_changes_ += now != found_[k];
-    switches_ += (now < 0) != (found_[k] < 0);
-    moves_ += now >= 0 && found_[k] >= 0 && now / 2 != found_[k] / 2;
-    found_[k] = now;
-  }
-}
-
-// Only the relative position of slave and master counts: moving the master is moving all slave points back,
-// and the weights of a point's nodes add to one.
-void Contact::couple(const std::vector<double>& force, RigidCoupling& coupling) const {
-  coupling.force = coupling.diagonal = 0;
-  std::vector<double> direction(force.size(), 0.0);
-  for (std::size_t i = 0; i < slave_dofs_; ++i) direction[i] = master_.direction[i % d_];
-  for (std::size_t i = 0; i < force.size(); ++i) {
-    coupling.force -= force[i] * direction[i];
-    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at) {
-      const auto j = static_cast<std::size_t>(tangent_.innerIndexPtr()[at]);
-      const double value = tangent_.valuePtr()[at];
-      coupling.column[unknowns_[i]] -= value * direction[j];
-      coupling.row[unknowns_[j]] -= direction[i] * value;
-      coupling.diagonal += direction[i] * value * direction[j];
-    }
-  }
 }
 
 } // namespace host

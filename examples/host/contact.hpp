@@ -195,6 +195,13 @@ private:
   /// stay, and the slaves move against it.
   void place(const Configuration& at);
   ents_master_mesh mesh() const;
+  /// Positions of the master's nodes or control points, [n][d], for displacements of the mesh.
+  std::vector<double> master_points(const std::vector<double>& displacement) const;
+  /// The master's side of a system of equations: `master_nodes_` nodes, with the net's combination.
+  void set_master(ents_system& system, ents_combination& points,
+                  const std::vector<std::int64_t>& equations) const;
+  /// Mirror images move against their nodes: the signs of their unknowns go into the tangent.
+  void turn_images();
   ents_input input(const ents_master_mesh& mesh) const;
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
@@ -242,13 +249,16 @@ private:
   std::vector<char> closed_; ///< [slaves] by the last `assemble`
   int status_changes_ = 0, switches_ = 0, moves_ = 0;
   std::vector<double> slave_positions_, master_positions_, multiplier_values_;
+  std::vector<double> master_begin_; ///< positions at the begin of the increment
   std::vector<double> state_in_, state_out_;
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
   // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes,
   // multipliers.
   std::vector<std::size_t> unknowns_;
-  std::size_t slave_dofs_ = 0;              ///< so many come first
-  std::vector<std::int64_t> dof_equations_; ///< [dofs of the mesh] -1: none
+  std::vector<double> signs_;  ///< of each: -1 if it is a mirror image's, that moves against its dof
+  std::size_t slave_dofs_ = 0; ///< so many come first
+  std::vector<std::int64_t> master_equations_; ///< [nodes of the mesh, images of the net][d]
+  std::vector<std::int64_t> dof_equations_;    ///< [dofs of the mesh] -1: none
   std::vector<std::int64_t> slave_equations_, multiplier_equations_, point_begin_, point_nodes_, places_;
   SparseMatrix tangent_;
   ContactFields accepted_;

@@ -50,7 +50,8 @@ bool Contact::cut_again(const Configuration& begin) {
   if (!cuts_again() || (begin.displacement == cut_at_.displacement && begin.motion == cut_at_.motion &&
                         begin.parameters == cut_at_.parameters))
     return false;
-  begin_ = cut_at_ = begin;
+  cut_at_ = begin;
+  master_begin_ = master_points(begin.displacement);
   points_ = cut(begin);
   number_unknowns();
   reset_points();

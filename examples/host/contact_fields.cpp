@@ -63,13 +63,14 @@ ContactFields Contact::fields(const Configuration& at) {
 
   // The forces on the slave points, one equation for each of their dofs, and none for the master.
   fields.node_forces.assign(slaves * d_, 0.0);
-  const std::vector<std::int64_t> none(std::max(dofs(), multiplier_count()), -1);
+  const std::vector<std::int64_t> none(std::max(master_equations_.size(), multiplier_count()), -1);
   std::vector<std::int64_t> equations(slaves * d_);
   for (std::size_t i = 0; i < equations.size(); ++i) equations[i] = static_cast<std::int64_t>(i);
   auto system = ents_struct<ents_system>();
   system.index_size = sizeof(int);
   system.slave_nodes = count(), system.slave_equations = equations.data();
-  system.master_nodes = mesh_->node_count(), system.master_equations = none.data();
+  auto net = ents_struct<ents_combination>();
+  set_master(system, net, none);
   system.multiplier_equations = none.data();
   system.rows = static_cast<std::int64_t>(equations.size());
   system.residual = fields.node_forces.data();

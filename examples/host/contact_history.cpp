@@ -23,6 +23,7 @@ bool fields_fit(const std::map<std::string, std::vector<double>>& theirs,
 
 void Contact::begin_increment(const Configuration& begin) {
   begin_ = begin;
+  master_begin_ = master_points(begin.displacement);
   at_ = begin_at_;
   pressure_ = accepted_.pressure;
   traction_ = accepted_.traction;
@@ -39,8 +40,7 @@ void Contact::gather(std::int64_t segment, std::vector<double>& positions) const
     for (std::size_t i = 0; i < d_; ++i) {
       const auto at =
           static_cast<std::size_t>(master_.connectivity[static_cast<std::size_t>(segment) * m_ + a]) * d_ + i;
-      positions[a * d_ + i] =
-          master_.rigid ? master_.positions[at] : mesh_->coordinates[at] + begin_.displacement[at];
+      positions[a * d_ + i] = master_begin_[at];
     }
 }
 

@@ -81,17 +81,25 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   if (const std::string segment = contact.model.value("segment", ""); is_smoothed(segment)) {
     check_sizes(scene, *master.model, static_cast<std::size_t>(master.model->layout().nodes),
                 contact.master_where);
-    master.connectivity = smoothed_nodes(library, segment, found->second, contact.master_where);
+    SmoothedSurface surface = smoothed_surface(library, segment, mesh, found->second, contact);
+    master.connectivity = std::move(surface.connectivity);
+    master.net = std::move(surface.net);
   } else {
+    if (contact.straight_ends || !contact.mirror.empty())
+      throw InputError(contact.master_where +
+                       ": \"ends\" and \"mirror\" are for smoothed segments; the model's " + "segment is " +
+                       segment);
     for (const Face& face : found->second) {
       check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
       master.connectivity.insert(master.connectivity.end(), face.nodes.begin(),
                                  face.nodes.begin() + face.count);
     }
   }
-  for (const std::int64_t node : master.connectivity)
+  const std::vector<double> points = master.net ? master.net->positions(mesh.coordinates) : mesh.coordinates;
+  for (const std::int64_t point : master.connectivity)
     for (const int axis : contact.surface_axes)
-      master.surface_coordinates.push_back(mesh.node(static_cast<int>(node))[static_cast<std::size_t>(axis)]);
+      master.surface_coordinates.push_back(
+          points[static_cast<std::size_t>(point) * d + static_cast<std::size_t>(axis)]);
   return master;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "control_net.hpp"
 #include "ents_library.hpp"
 #include "mesh.hpp"
 #include "scene.hpp"
@@ -18,8 +19,10 @@ struct Master {
   std::unique_ptr<EntsModel> model; ///< the library's model of one segment
   std::unique_ptr<EntsModel> base;  ///< the same without its height, null if it has none
   bool rigid = true;
-  std::vector<std::int64_t> connectivity;  ///< [segments][m] nodes: of `positions`, or of the mesh
-  std::vector<double> positions;           ///< rigid: [nodes][d], before the master moves
+  /// [segments][m] nodes: of `positions`, of the mesh, or points of `net`
+  std::vector<std::int64_t> connectivity;
+  std::unique_ptr<ControlNet> net; ///< of a deformable, smoothed master whose points are no nodes; else null
+  std::vector<double> positions;   ///< rigid: [nodes][d], before the master moves
   std::vector<double> surface_coordinates; ///< [segments][m][d-1], or empty: the model's own, else s = xi
   std::vector<double> direction;           ///< rigid, moved along a line: unit vector of its motion
   int body_node = -1; ///< rigid, moves and turns: the first of its two nodes in the mesh; -1: no such body

@@ -39,6 +39,12 @@ std::vector<double> Simulation::loads(double load_factor) const {
 
 bool Simulation::choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor) {
   if (!contact_) return true;
+  // The search refuses positions beyond 1e100; an iteration that diverges comes there.
+  if (std::any_of(at.displacement.begin(), at.displacement.end(),
+                  [](double u) { return !(std::abs(u) < 1e50); })) {
+    reason = "Newton's iteration diverges", step_factor = 0.5;
+    return false;
+  }
   const Stopwatch watch;
   const CpuStopwatch cpu;
   auto report = ents_struct<ents_report>();

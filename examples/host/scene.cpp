@@ -186,6 +186,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (master.has("faces")) {
     contact.master = master.at("faces").string();
     contact.master_where = master.at("faces").where();
+    read_ends(master, dimension, contact);
     if (master.has("surface_coordinates")) {
       const JsonValue axes = master.at("surface_coordinates");
       for (const JsonValue& item : axes.items()) {

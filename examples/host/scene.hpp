@@ -61,6 +61,13 @@ struct PeriodicSpec {
   std::string first, second, where;
 };
 
+/// A plane of symmetry, normal to an axis, that is a border of the master's faces.
+struct MirrorPlane {
+  int axis = 0;
+  double place = 0;
+  std::string where;
+};
+
 struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
@@ -73,6 +80,8 @@ struct ContactSpec {
   Path wear_factor; ///< of the model's wear coefficient, over the pressure at the begin of the increment; no
                     ///< points: 1
   std::string master, master_where; ///< deformable master: faces, each one segment
+  bool straight_ends = false;       ///< smoothed master: beyond free borders 2 x_0 - x_1, else x_0 again
+  std::vector<MirrorPlane> mirror;  ///< smoothed master
   std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction; ///< rigid master: unit vector of its motion
   Json model;                    ///< passed on to the library
@@ -188,6 +197,10 @@ const PartSpec* part_of_set(const Scene& scene, const std::string& set);
 /// The key "sampling" of a contact: a number, "cut" or {"cut": number}.
 /// @throws InputError naming the key
 void read_sampling(const JsonValue& value, ContactSpec& contact);
+
+/// The keys "ends" and "mirror" of a master on the faces of a body.
+/// @throws InputError naming the key
+void read_ends(JsonObject& master, int dimension, ContactSpec& contact);
 
 /// The key "exact".
 /// @param scene  all of it that is read before this key

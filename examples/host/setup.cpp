@@ -293,7 +293,9 @@ Sizes Simulation::sizes() const {
     sizes.slaves = contact_->slaves().size();
     sizes.master_segments = master.segments();
     sizes.master_dofs =
-        std::set<std::int64_t>(master.connectivity.begin(), master.connectivity.end()).size() *
+        (master.net ? master.net->nodes_of_mesh()
+                    : std::set<std::int64_t>(master.connectivity.begin(), master.connectivity.end()))
+            .size() *
         static_cast<std::size_t>(mesh_.dimension);
   }
   return sizes;

@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Smoothed segments over the faces of a body: which nodes each of them sees.
+// Smoothed segments over the faces of a body: control points, and what lies beyond its borders.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "ents_library.hpp"
+#include "control_net.hpp"
 #include "mesh.hpp"
+#include "scene.hpp"
 
 namespace host {
 
 /// Is it a basis over several faces: catmull_rom4, bspline4 on lines, catmull_rom16, bspline16 on
-/// quadrilaterals?
+/// quadrilaterals, bezier15 on triangles?
 bool is_smoothed(const std::string& segment);
 
-/// Nodes of smoothed segments, one on each face, by the library. Beyond a free end or border its own node
-/// stands in for the missing one (ENTS_ENDS_REPEATED), so that all control points are nodes and the equations
-/// of this program serve them as they serve any segment.
-/// @param where  for messages: faces that do not fit, or a mesh that is not regular
-/// @return [faces][4 or 16]
-std::vector<std::int64_t> smoothed_nodes(const EntsLibrary& library, const std::string& segment,
-                                         const std::vector<Face>& faces, const std::string& where);
+struct SmoothedSurface {
+  std::vector<std::int64_t> connectivity; ///< [faces][m] nodes of the mesh; with a net its points
+  std::unique_ptr<ControlNet> net;        ///< null: control points are nodes of the mesh
+};
+
+/// One segment on each face, by the library. Beyond a free end or border there is what `contact.ends` says;
+/// at a plane of symmetry the surface goes on as its mirror image does.
+/// @throws InputError for faces that do not fit, or planes that are none of their borders
+SmoothedSurface smoothed_surface(const EntsLibrary& library, const std::string& segment, const Mesh& mesh,
+                                 const std::vector<Face>& faces, const ContactSpec& contact);
 
 } // namespace host

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact: the library's elements in the host's equations.
+#include <algorithm>
+
+#include "contact.hpp"
+
+namespace host {
+namespace {
+
+std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
+
+} // namespace
+
+void Contact::number_unknowns() {
+  dof_equations_.assign(dofs(), -1);
+  for (auto* list : {&body_equations_, &point_begin_, &slave_equations_}) list->clear();
+  unknowns_.clear();
+  const auto add_node = [&](std::int64_t node) {
+    for (std::size_t dof = static_cast<std::size_t>(node) * d_, i = 0; i < d_; ++i, ++dof)
+      if (dof_equations_[dof] < 0) {
+        dof_equations_[dof] = stride(unknowns_.size());
+        unknowns_.push_back(dof);
+      }
+  };
+  point_nodes_.assign(points_.nodes.begin(), points_.nodes.end());
+  for (const std::int64_t node : point_nodes_) add_node(node);
+  slave_dofs_ = unknowns_.size();
+  const ControlNet* net = master_.net.get();
+  for (const std::int64_t node : net != nullptr ? net->nodes : master_.connectivity)
+    if (!master_.rigid) add_node(net != nullptr ? net->origin(node) : node);
+  if (master_.body_node >= 0) {
+    add_node(master_.body_node), add_node(master_.body_node + 1);
+    for (std::size_t i = 0; i < (d_ == 2 ? 3 : 6); ++i)
+      body_equations_.push_back(dof_equations_[static_cast<std::size_t>(master_.body_node) * d_ + i]);
+  }
+  // A mirror image's components along its planes are its node's; across they are unknowns of their own here,
+  // which stand for the same one of the mesh with the other sign.
+  signs_.assign(unknowns_.size(), 1.0);
+  master_equations_ = dof_equations_;
+  for (std::size_t k = 0; net != nullptr && k < net->images.size(); ++k)
+    for (std::size_t i = 0; i < d_; ++i) {
+      const std::size_t dof = static_cast<std::size_t>(net->images[k].node) * d_ + i;
+      if (net->images[k].sign[i] > 0 || dof_equations_[dof] < 0) {
+        master_equations_.push_back(dof_equations_[dof]);
+        continue;
+      }
+      master_equations_.push_back(stride(unknowns_.size()));
+      unknowns_.push_back(dof);
+      signs_.push_back(-1);
+    }
+  multiplier_equations_.resize(multiplier_count());
+  for (std::size_t j = 0; j < multiplier_count(); ++j) {
+    multiplier_equations_[j] = stride(unknowns_.size());
+    unknowns_.push_back(dofs() + j);
+  }
+  signs_.resize(unknowns_.size(), 1.0);
+  for (std::size_t k = 0; k <= points_.size(); ++k)
+    point_begin_.push_back(stride(k * points_.nodes_per_point));
+  for (const std::int64_t node : point_nodes_)
+    for (std::size_t i = 0; i < d_; ++i)
+      slave_equations_.push_back(dof_equations_[static_cast<std::size_t>(node) * d_ + i]);
+}
+
+void Contact::build_tangent() {
+  pattern_segment_ = at_.segment;
+  StencilGroup elements, open; // an element without a segment: the multipliers alone
+  const std::size_t q = points_.nodes_per_point;
+  // What each segment's points are made of: their nodes, or combinations of different numbers of nodes.
+  const ControlNet* net = master_.net.get();
+  std::vector<std::vector<std::int64_t>> nodes_of(master_.rigid ? 0 : master_.segments());
+  std::size_t most = 0;
+  for (std::size_t s = 0; s < nodes_of.size(); ++s) {
+    const std::int64_t* points = master_.connectivity.data() + s * m_;
+    nodes_of[s] = net != nullptr ? net->nodes_of(points, m_) : std::vector(points, points + m_);
+    most = std::max(most, nodes_of[s].size());
+  }
+  elements.dofs = static_cast<int>((q + most) * d_ + multipliers_ + body_equations_.size());
+  open.dofs = static_cast<int>(multipliers_);
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    StencilGroup& group = master_.rigid || at_.segment[k] >= 0 ? elements : open;
+    const auto add_node = [&](std::int64_t node) {
+      for (std::size_t i = 0; i < d_; ++i)
+        group.equations.push_back(
+            node < 0 ? -1 : static_cast<int>(master_equations_[static_cast<std::size_t>(node) * d_ + i]));
+    };
+    for (std::size_t a = 0; a < q && &group == &elements; ++a) add_node(point_nodes_[k * q + a]);
+    if (!master_.rigid && &group == &elements) {
+      const std::vector<std::int64_t>& of = nodes_of[static_cast<std::size_t>(at_.segment[k])];
+      for (std::size_t a = 0; a < most; ++a) add_node(a < of.size() ? of[a] : -1);
+    }
+    for (std::size_t j = 0; j < multipliers_; ++j)
+      group.equations.push_back(static_cast<int>(multiplier_equations_[k * multipliers_ + j]));
+    for (const std::int64_t equation : body_equations_) group.equations.push_back(static_cast<int>(equation));
+  }
+  const StencilGroup* const groups[] = {&elements, &open};
+  tangent_ =
+      pattern_of(static_cast<int>(unknowns_.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
+  if (points_.are_nodes() && net == nullptr)
+    places_.assign(points_.size() * (d_ * (m_ + 1) * (m_ + 1) + 1), 0);
+}
+
+std::int32_t Contact::add_elements(const ents_output& out, ents_system system, ents_report& report) {
+  static constexpr std::int64_t none[6] = {-1, -1, -1, -1, -1, -1};
+  if (master_.body_node >= 0) {
+    system.pose = &pose_;
+    if (system.body_equations == nullptr) system.body_equations = none;
+  }
+  const EntsLibrary& library = master_.model->library();
+  const ents_master_mesh where = mesh();
+  const ents_input in = input(where);
+  const std::int32_t status = library.assemble(master_.model->get(), 0, count(), &in, &out, &system, &report);
+  if (status < 0) throw JobError("contact: " + describe(library, status, report));
+  return status;
+}
+
+std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent,
+                               RigidCoupling* coupling, double& squared_force, ents_report& report) {
+  place(at);
+  std::vector<std::int32_t> flags(points_.size());
+  std::vector<double> force(unknowns_.size());
+  auto out = ents_struct<ents_output>();
+  out.wanted = ENTS_FLAGS;
+  out.flags = flags.data(), out.flags_stride = 1;
+  if (state_size_ > 0) {
+    out.wanted |= ENTS_STATE;
+    out.state_end = state_out_.data(), out.state_end_stride = stride(state_size_);
+  }
+  auto points = ents_struct<ents_combination>();
+  auto system = ents_struct<ents_system>();
+  system.index_size = sizeof(int);
+  system.slave_nodes = points_.are_nodes() ? count() : mesh_->node_count();
+  system.slave_equations = points_.are_nodes() ? slave_equations_.data() : dof_equations_.data();
+  if (points_.are_nodes()) {
+    if (!master_.net)
+      system.places = places_.data(), system.places_size = stride(places_.size() / points_.size());
+  } else {
+    points.points = count();
+    points.begin = point_begin_.data(), points.nodes = point_nodes_.data(),
+    points.weights = points_.weights.data();
+    system.slave = &points;
+  }
+  auto net = ents_struct<ents_combination>();
+  set_master(system, net, master_equations_);
+  system.multiplier_equations = multiplier_equations_.data();
+  if (!body_equations_.empty()) system.body_equations = body_equations_.data();
+  system.rows = stride(force.size());
+  system.residual = force.data();
+  if (want_tangent || coupling != nullptr) {
+    std::fill_n(tangent_.valuePtr(), tangent_.nonZeros(), 0.0);
+    system.row_begin = tangent_.outerIndexPtr(), system.columns = tangent_.innerIndexPtr();
+    system.values = tangent_.valuePtr();
+  }
+  const std::int32_t status = add_elements(out, system, report);
+  if (status != ENTS_OK) return status;
+  count_changes(flags);
+  if (system.values != nullptr) turn_images();
+  squared_force = 0;
+  for (std::size_t i = 0; i < slave_dofs_; ++i) squared_force += force[i] * force[i];
+  if (coupling != nullptr) {
+    coupling->column.assign(residual.size(), 0.0);
+    coupling->row.assign(residual.size(), 0.0);
+    couple(force, *coupling);
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) residual[unknowns_[i]] += signs_[i] * force[i];
+  return ENTS_OK;
+}
+
+void Contact::set_master(ents_system& system, ents_combination& points,
+                         const std::vector<std::int64_t>& equations) const {
+  system.master_nodes = master_.net ? master_.net->all_nodes() : mesh_->node_count();
+  system.master_equations = equations.data();
+  if (!master_.net) return;
+  points = master_.net->combination();
+  system.master = &points;
+}
+
+void Contact::turn_images() {
+  for (std::size_t i = 0; master_.net && i < unknowns_.size(); ++i)
+    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
+      tangent_.valuePtr()[at] *= signs_[i] * signs_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
+}
+
+void Contact::add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const {
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
+      if (const std::size_t j = unknowns_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
+          j < direction.size())
+        residual[unknowns_[i]] += tangent_.valuePtr()[at] * direction[j];
+}
+
+void Contact::count_changes(const std::vector<std::int32_t>& flags) {
+  status_changes_ = switches_ = moves_ = 0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    closed_[k] = (flags[k] & ENTS_FLAG_CONTACT) != 0;
+    const std::int64_t now =
+        closed_[k] == 0 ? -1 : 2 * at_.segment[k] + ((flags[k] & ENTS_FLAG_SLIP) != 0 ? 1 : 0);
+    status_changes_ += now != found_[k];
+    switches_ += (now < 0) != (found_[k] < 0);
+    moves_ += now >= 0 && found_[k] >= 0 && now / 2 != found_[k] / 2;
+    found_[k] = now;
+  }
+}
+
+// Only the relative position of slave and master counts: moving the master is moving all slave points back,
+// and the weights of a point's nodes add to one.
+void Contact::couple(const std::vector<double>& force, RigidCoupling& coupling) const {
+  coupling.force = coupling.diagonal = 0;
+  std::vector<double> direction(force.size(), 0.0);
+  for (std::size_t i = 0; i < slave_dofs_; ++i) direction[i] = master_.direction[i % d_];
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    coupling.force -= force[i] * direction[i];
+    for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at) {
+      const auto j = static_cast<std::size_t>(tangent_.innerIndexPtr()[at]);
+      const double value = tangent_.valuePtr()[at];
+      coupling.column[unknowns_[i]] -= value * direction[j];
+      coupling.row[unknowns_[j]] -= direction[i] * value;
+      coupling.diagonal += direction[i] * value * direction[j];
+    }
+  }
+}
+
+} // namespace host
