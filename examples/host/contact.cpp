@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "output/table.hpp"
@@ -52,7 +53,8 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   }
   wear_factor_ = spec.wear_factor;
   const bool turns = d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size();
-  for (std::size_t k = 0; k < points_.size() && (turns || !wear_factor_.points.empty()); ++k)
+  const bool varies = turns || !wear_factor_.points.empty() || master_.profile;
+  for (std::size_t k = 0; k < points_.size() && varies; ++k)
     for (const double value : {0.0, 1.0, turns ? std::abs(points_.place(k, mesh)[0]) : 1.0})
       slave_values_.push_back(value);
   number_unknowns();
@@ -221,6 +223,31 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   }
   if (at_.segment != before) move_history(report);
   return at_.segment != pattern_segment_;
+}
+
+void Contact::read_profile() {
+  profile_known_ = true;
+  std::map<std::int64_t, std::vector<std::size_t>> points; // of each segment
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (at_.segment[k] < 0)
+      throw JobError("\"enrichment\": \"gap_only\": the slave point near node " +
+                     std::to_string(points_.nodes[k * points_.nodes_per_point]) +
+                     " is over no segment of the master at the beginning; let the master reach farther");
+    points[at_.segment[k]].push_back(k);
+  }
+  std::vector<double> nodes(m_ * d_);
+  for (const auto& [segment, found] : points) {
+    gather(segment, nodes);
+    const std::size_t size = m_ * parameters_, first = static_cast<std::size_t>(segment) * size;
+    std::vector<double> coordinates, xi;
+    if (!master_.surface_coordinates.empty())
+      coordinates.assign(master_.surface_coordinates.data() + first,
+                         master_.surface_coordinates.data() + first + size);
+    for (const std::size_t k : found)
+      xi.insert(xi.end(), at_.xi.data() + k * parameters_, at_.xi.data() + (k + 1) * parameters_);
+    const SurfaceSample sample = sample_surface(*master_.profile, nodes, coordinates, xi);
+    for (std::size_t i = 0; i < found.size(); ++i) slave_values_[3 * found[i]] = -sample.height[i];
+  }
 }
 
 double Contact::largest_arm() const {

@@ -203,6 +203,9 @@ private:
   /// Mirror images move against their nodes: the signs of their unknowns go into the tangent.
   void turn_images();
   ents_input input(const ents_master_mesh& mesh) const;
+  /// The offsets of a master's profile, which each point keeps.
+  /// @throws JobError if a point is over no segment
+  void read_profile();
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
   std::int32_t add_elements(const ents_output& out, ents_system system, ents_report& report);
@@ -229,6 +232,7 @@ private:
   ents_pose pose_{}; ///< of a rigid body that turns, at present
   std::vector<std::int64_t> body_equations_;
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
+  bool profile_known_ = false;       ///< the offsets of a master's profile are in slave_values_
   std::vector<double> slave_values_; ///< [points][3], see ents_input; empty: none
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
   std::vector<double> bound_;   ///< parameters of the model at present

@@ -45,8 +45,16 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
   if (contact.model.contains("height") && !contact.model.at("height").is_null()) {
     Json base = contact.model;
     base["height"] = nullptr;
+    if (contact.gap_only) {
+      Json& law = base["contact"];
+      if (!law.contains("offset")) law["offset"] = 0; // where the elements read those of the profile
+      master.profile = std::move(master.model);
+      master.model =
+          std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
+    }
     for (const char* key : {"contact", "parameters"}) base.erase(key);
-    master.base = std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
+    if (!contact.gap_only)
+      master.base = std::make_unique<EntsModel>(library, base.dump(), scene.file.parent_path(), where(scene));
   }
   master.triangles = has_triangles(contact.model);
   master.rigid = !contact.rigid.empty() || contact.body;

@@ -18,6 +18,10 @@ namespace host {
 struct Master {
   std::unique_ptr<EntsModel> model; ///< the library's model of one segment
   std::unique_ptr<EntsModel> base;  ///< the same without its height, null if it has none
+  /// The embedded profile of Paggi and Reinoso (Mech. Adv. Mater. Struct. 27, 2020): `model` has no height;
+  /// the gap is that to the segment minus the height of this model under the point in the undeformed bodies.
+  /// The normal is the segment's. Null: the enriched geometry.
+  std::unique_ptr<EntsModel> profile;
   bool rigid = true;
   /// [segments][m] nodes: of `positions`, of the mesh, or points of `net`
   std::vector<std::int64_t> connectivity;

@@ -170,6 +170,8 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
     if (contact.equal_areas && (contact.sampling > 0 || contact.cut > 0))
       areas.fail("sampling points have areas of their own; leave it out");
   }
+  if (object.has("enrichment"))
+    contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
   if (object.has("wear_factor")) {
     const JsonValue table = object.at("wear_factor");
     for (const JsonValue& item : table.items()) {
@@ -220,6 +222,13 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   contact.model["master"] = contact.rigid.empty() && !contact.body ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
     model.fail("\"master\" contradicts the scene's master; leave it out here");
+  if (contact.gap_only) {
+    const char* of = find_json(contact.model, "/height").is_null() ? "a model with a \"height\""
+                     : contact.cut > 0                             ? "no \"sampling\": \"cut\""
+                     : contact.model.contains("parameters")        ? "a model without \"parameters\""
+                                                                   : nullptr;
+    if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
+  }
   object.finish();
   return contact;
 }

@@ -84,6 +84,7 @@ struct ContactSpec {
   std::vector<MirrorPlane> mirror;  ///< smoothed master
   std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction; ///< rigid master: unit vector of its motion
+  bool gap_only = false;         ///< the height changes the gap and nothing else, see Master::profile
   Json model;                    ///< passed on to the library
   std::string model_where;
 };

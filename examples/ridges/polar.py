@@ -5,6 +5,7 @@
 A rigid plane of ONE quad4 segment carries ridges as a height: flanks that rise by 10 degrees along x, and fall steeply behind. An elastic block
 lies on the flanks under a constant load; the plane is drawn away below it in each direction. What slides up a flank has to be lifted as well:
 the resistance depends on the direction, and has a part across it, although the friction on the flank, 0.2, does not.
+With "enrichment": "gap_only" the same height changes the gap alone: the normal is that of the plane, and so is the friction.
 
 Exact: a point on a plane with the unit normal n, pressed by N, slides along the tangent w of its way on the flank: the force on it is N (n - mu w).
 Exit status 1: a force differs by more than 0.5 %.
@@ -33,8 +34,9 @@ def exact(direction):
     return along, side
 
 
-def scene(direction):
+def scene(direction, enrichment):
     s = json.loads((HERE.parent / "scene.json").read_text())
+    s["contact"]["enrichment"] = enrichment
     d = math.radians(direction)
     # the plane moves against the slider
     s["contact"]["master"]["rigid_body"]["prescribed"] = [
@@ -42,12 +44,12 @@ def scene(direction):
     return s
 
 
-def solve(program, folder, direction):
+def solve(program, folder, direction, enrichment="full"):
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scene.json").write_text(json.dumps(scene(direction)))
+    (folder / "scene.json").write_text(json.dumps(scene(direction, enrichment)))
     done = subprocess.run([program, "run", folder / "scene.json", "--out", folder / "out"], capture_output=True, text=True)
     if done.returncode:
-        sys.exit(f"polar.py: direction {direction}: {done.stderr}")
+        sys.exit(f"polar.py: direction {direction}, {enrichment}: {done.stderr}")
     # force of the slider on the plane
     x, y, z = json.loads((folder / "out" / "result.json").read_text())["steps"][-1]["contact_force"]
     d = math.radians(direction)
@@ -56,7 +58,7 @@ def solve(program, folder, direction):
 
 def draw(rows, folder):
     data = folder / "polar.dat"
-    data.write_text("".join(f"{d} {a} {s} {ea} {es}\n" for d, a, s, ea, es in rows + rows[:1]))
+    data.write_text("".join(" ".join(str(x) for x in row) + "\n" for row in rows + rows[:1]))
     if not shutil.which("gnuplot"):
         print("polar.py: no picture: gnuplot is not installed")
         return
@@ -70,11 +72,13 @@ set polar; set angles degrees; set grid polar 30 lc rgb "#bbbbbb"; unset border;
 set rrange [0:0.45]; set rtics 0.1 font "sans,12"; set key bottom outside center horizontal
 set title "resistance / normal load, by direction of motion"
 plot "{folder}/exact.dat" using 1:2 with lines lw 2 lc rgb "#333333" title "exact", \
-     "{data}" using 1:2 with points pt 7 ps 1.4 lc rgb "#0072b2" title "ONE enriched quad4"
+     "{data}" using 1:2 with points pt 7 ps 1.4 lc rgb "#0072b2" title "ONE enriched quad4", \
+     "{data}" using 1:6 with points pt 6 ps 1.2 lc rgb "#777777" title "gap only"
 set rrange [0:0.25]
 set title "size of the side force / normal load"
 plot "{folder}/exact.dat" using 1:(abs($3)) with lines lw 2 lc rgb "#333333" title "exact", \
-     "{data}" using 1:(abs($3)) with points pt 7 ps 1.4 lc rgb "#d55e00" title "ONE enriched quad4"
+     "{data}" using 1:(abs($3)) with points pt 7 ps 1.4 lc rgb "#d55e00" title "ONE enriched quad4", \
+     "{data}" using 1:(abs($7)) with points pt 6 ps 1.2 lc rgb "#777777" title "gap only"
 """
     subprocess.run(["gnuplot"], input=script, text=True, check=True)
     print(picture)
@@ -86,13 +90,14 @@ def main():
     parser.add_argument("--out", default="out/ridges", type=pathlib.Path)
     arguments = parser.parse_args()
     rows, worst = [], 0.0
-    print(f"{'direction':>9}  {'along':>9}{'exact':>10}  {'side':>9}{'exact':>10}")
+    print(f"{'direction':>9}  {'along':>9}{'exact':>10}{'gap only':>10}  {'side':>9}{'exact':>10}{'gap only':>10}")
     for direction in range(0, 360, 15):
         along, side = solve(arguments.program, arguments.out / str(direction), direction)
         exact_along, exact_side = exact(direction)
         worst = max(worst, math.hypot(along - exact_along, side - exact_side) / math.hypot(exact_along, exact_side))
-        rows.append((direction, along, side, exact_along, exact_side))
-        print(f"{direction:>9}  {along:>9.6f}{exact_along:>10.6f}  {side:>9.6f}{exact_side:>10.6f}", flush=True)
+        plain, plain_side = solve(arguments.program, arguments.out / f"{direction}_gap_only", direction, "gap_only")
+        rows.append((direction, along, side, exact_along, exact_side, plain, plain_side))
+        print(f"{direction:>9}  {along:>9.6f}{exact_along:>10.6f}{plain:>10.6f}  {side:>9.6f}{exact_side:>10.6f}{plain_side:>10.6f}", flush=True)
     draw(rows, arguments.out)
     print(f"largest difference of a force {100 * worst:.3f} % (bound {100 * BOUND:g} %)")
     return int(not worst <= BOUND)
