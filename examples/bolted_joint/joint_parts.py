@@ -63,7 +63,6 @@ class Joint:
         return self.pitch / 4 - (radius - self.pitch_radius) * self.tan
 
 
-
 def tooth_compliances(joint, base, depth):
     """[bending, shear, inclination of the root, shear of the root]: E times the displacement along the axis per force along the axis and length of helix.
 
