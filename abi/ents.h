@@ -655,7 +655,7 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
 /* Sampling points of slave facets, so that texture between slave nodes is seen and a constant pressure gives every
  * slave node its exact share (Zavarise and De Lorenzis, IJNME 79, 2009). Arguments as of ents_tributary_areas, and
  *   per_direction  n, 1 .. 64: lines have n points, triangles and quadrilaterals n^2. Lines and quadrilaterals: Gauss and
- *                  Legendre's; triangles: the centroids of n^2 equal parts
+ *                  Legendre's; triangles: the centroids of n^2 equal parts; n = 1 on an axisymmetric line2: the centroid of the ring
  *   begin          [points + 1] out, points = facets * points of a facet, those of a facet one after the other
  *   point_nodes    [points * nodes of the facet] out
  *   weights        [points * nodes of the facet] out

@@ -56,6 +56,17 @@ template <class B> std::vector<Point> rule(int n) {
   }
 }
 
+// The shape functions of a ring's two nodes where the radius has its mean weight: one point in the middle
+// would not give them their shares, because N r is of degree 2.
+template <class B> auto shape_at_centroid(const std::int64_t* nodes, const double* positions) {
+  using namespace ENTS_ISA;
+  const double first = positions[2 * nodes[0]], last = positions[2 * nodes[1]];
+  const double xi[1] = {(last - first) / (3.0 * (first + last))};
+  Shape<double, 1, 2> N;
+  facet_density<B>(nodes, positions, 0.0, xi, N);
+  return N;
+}
+
 template <class B>
 Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const double* positions,
               double thickness, std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
@@ -70,6 +81,8 @@ Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const
         Shape<double, T, M> N;
         const double area =
             point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
+        if constexpr (B::dim == 2 && M == 2)
+          if (n == 1 && thickness == 0.0) N = shape_at_centroid<B>(connectivity + facet * M, positions);
         if (!(area > 0.0) || !(area < 1e300)) return Status::degenerate_segment;
         if (!writes) continue;
         for (int i = 0; i < M; ++i) {

@@ -253,9 +253,13 @@ void cut_in_plane(const Mesh& mesh, const std::vector<Face>& faces, const std::v
     const std::vector<double> cuts = cuts_of_line(now(0), now(1), borders);
     for (std::size_t i = 1; i < cuts.size(); ++i)
       for (const auto& [s, weight] : rule) {
-        const double half = 0.5 * (cuts[i] - cuts[i - 1]), xi = 0.5 * (cuts[i] + cuts[i - 1]) + half * s;
+        const double half = 0.5 * (cuts[i] - cuts[i - 1]), middle = 0.5 * (cuts[i] + cuts[i - 1]);
+        const double slope = 0.5 * (before(1)[0] - before(0)[0]);
+        const double radius = 0.5 * (before(0)[0] + before(1)[0]) + slope * (middle + half * s);
+        // One point of a ring: its centroid, because shape function times radius is of degree 2.
+        const bool ring = per_direction == 1 && geometry.axisymmetric && radius > 0;
+        const double xi = middle + half * (ring ? slope * half / (3 * radius) : s);
         const double first = 0.5 * (1 - xi), second = 0.5 * (1 + xi);
-        const double radius = first * before(0)[0] + second * before(1)[0];
         points.areas.push_back(0.5 * length * half * weight *
                                (geometry.axisymmetric ? 2 * std::numbers::pi * radius : geometry.thickness));
         points.nodes.insert(points.nodes.end(), face.nodes.begin(), face.nodes.begin() + 2);
