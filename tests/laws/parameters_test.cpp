@@ -123,7 +123,7 @@ protected:
     Setting s;
     s.text = scene.model();
     const mechanics::Model plain = model_of(scene, GetParam());
-    s.elements = draw(random, scene, plain, mechanics::samples(200), 0.05);
+    s.elements = draw(random, scene, plain, mechanics::samples(80), 0.05);
     s.text["height"] = height_with_names(basis.parameters());
     s.text["contact"] = law_with_names(GetParam());
     for (const Value& v : values) s.text["parameters"][v.name] = v.value;
