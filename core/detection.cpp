@@ -339,7 +339,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
   out.searched = true, out.behind_edge = false;
   out.segment = out.other = -1;
   // Segments whose search could not be completed; they are searched again when the others are known.
-  constexpr int most_doubts = 8, thorough = 10 * portable::search_budget; // for all of them
+  constexpr int most_doubts = 16, thorough = 10 * portable::search_budget;
   std::int64_t in_doubt[most_doubts];
   int doubts = 0, budget = portable::search_budget;
   portable::Target target;
@@ -391,10 +391,18 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
   if (status != Status::ok) return status;
   if (doubts > 0 && doubts <= most_doubts) {
     const int count = doubts;
+    const double far = reach;
+    // What is farther than the border does not matter to a slave between two segments, and is looked for
+    // last.
+    NearestBorder border;
+    if (out.segment < 0 && normal && nearest_border(plan, mesh, tree, slave, reach, border))
+      reach = border.at.distance;
     doubts = 0;
-    budget = std::max(portable::search_budget, thorough / count);
+    budget = thorough;
     for (int i = 0; i < count; ++i)
       if (const Status again = visit(in_doubt[i]); again != Status::ok) return again;
+    if (out.segment < 0 && reach < far) doubts = count;
+    reach = far;
   }
   const bool doubtful = doubts > 0;
   if (out.segment >= 0 && std::fabs(out.at.gap) > reach + out.at.tie)
