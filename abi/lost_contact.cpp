@@ -41,18 +41,19 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
   // Most have simply risen; this costs one projection. Without a law the segment has no border: the
   // projection may lie beyond its edges.
   if (base.element(base, element, result) == Status::ok && gap > plan.height_bound) return Lost::no;
-  // What is closest to the slave, a projection at any distance or a border, says on which side it is.
+  // What is closest to the slave, a projection at any distance or a border, says on which side it is. Where
+  // the border is known first, the search for a projection looks no farther.
   constexpr double anywhere = 1e100;
+  NearestBorder nearest{{}, -1};
+  // Self-contact: the closest border is the slave's own node.
+  const bool by_border = plan.projection == ProjectionKind::normal && found.own_node < 0 &&
+                         nearest_border(plan, mesh, tree, slave, anywhere, nearest);
   Detection far = found;
   far.segment = -1;
-  if (detect(plan, mesh, tree, slave, anywhere, far) != Status::ok) return Lost::beside;
-  const bool projected = far.segment >= 0;
-  // Self-contact: the closest border is the slave's own node.
-  if (plan.projection != ProjectionKind::normal || found.own_node >= 0)
-    return !projected ? Lost::beside : far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
-  NearestBorder nearest{{}, -1};
-  if (!nearest_border(plan, mesh, tree, slave, projected ? std::fabs(far.at.gap) : anywhere, nearest))
-    return projected && far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
+  if (detect(plan, mesh, tree, slave, by_border ? nearest.at.distance : anywhere, far) != Status::ok)
+    return Lost::beside;
+  if (far.segment >= 0) return far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
+  if (!by_border) return Lost::beside;
   double crack = 0.0;
   switch (side_of_border(plan, mesh, tree, slave, nearest, crack)) {
   case BorderSide::ahead:
