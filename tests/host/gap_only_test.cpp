@@ -61,22 +61,14 @@ TEST(GapOnly, HasTheNormalOfTheSegment) {
 }
 
 TEST(GapOnly, MistakesAreNamed) {
-  const auto message = [](const Json& json) -> std::string {
-    try {
-      test::scene_from(json);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(message(block(nullptr, "gap_only"))
+  EXPECT_NE(test::refusal(block(nullptr, "gap_only"))
                 .find("/contact/enrichment: \"gap_only\" needs a model with a \"height\""),
             std::string::npos);
   Json json = block({{"type", "constant"}, {"value", 0.1}}, "none");
-  EXPECT_NE(message(json).find("/contact/enrichment"), std::string::npos);
+  EXPECT_NE(test::refusal(json).find("/contact/enrichment"), std::string::npos);
   json["contact"]["enrichment"] = "gap_only";
   json["contact"]["model"]["parameters"] = {{"t", 0}};
-  EXPECT_NE(message(json).find("without \"parameters\""), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("without \"parameters\""), std::string::npos) << test::refusal(json);
 }
 
 } // namespace

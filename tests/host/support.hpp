@@ -35,6 +35,16 @@ inline Scene shipped_scene(const std::string& name, const std::function<void(Jso
 
 inline Scene scene_from(const Json& json) { return read_scene_text(json.dump(), "test.json"); }
 
+/// The message with which a scene is refused; empty: it is not.
+inline std::string refusal(const Json& json) {
+  try {
+    scene_from(json);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// One axis of a block with equal cells.
 inline Json axis(double from, double to, int divisions) {
   return {{"from", from}, {"pieces", {{{"to", to}, {"divisions", divisions}}}}};

@@ -437,28 +437,23 @@ TEST(Scenes, AHeightThatGivesWayToThePressureConvergesQuadratically) {
 }
 
 TEST(Scenes, AHistoryThatDoesNotFitIsRefused) {
-  const auto message = [](const Json& json) -> std::string {
-    try {
-      test::scene_from(json);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
   Json json = wave(0.2, 1, "implicit");
-  EXPECT_NE(message(json).find("/history is the distance slid"), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("/history is the distance slid"), std::string::npos)
+      << test::refusal(json);
   json["history"]["slid"] = {0, 1};
-  EXPECT_NE(message(json).find("there are 21 steps and 2 values"), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("there are 21 steps and 2 values"), std::string::npos)
+      << test::refusal(json);
   json["steps"]["values"] = {4, 4};
   json["history"]["slid"] = {2, 1};
-  EXPECT_NE(message(json).find("never falls"), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("never falls"), std::string::npos) << test::refusal(json);
   json["history"] = {{"slid", {0, 1}}, {"slide", {0, 1}}};
-  EXPECT_NE(message(json).find("no parameter \"slide\""), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("no parameter \"slide\""), std::string::npos) << test::refusal(json);
   json["history"] = {{"slid", {0, 1}}};
   json["exact"] = {{"type", "worn_cylinder"}, {"radius", 20}};
-  EXPECT_EQ(message(json), "");
+  EXPECT_EQ(test::refusal(json), "");
   json["contact"]["model"]["contact"]["wear"].erase("coefficient");
-  EXPECT_NE(message(json).find("a coefficient that is a number"), std::string::npos) << message(json);
+  EXPECT_NE(test::refusal(json).find("a coefficient that is a number"), std::string::npos)
+      << test::refusal(json);
 }
 
 } // namespace
