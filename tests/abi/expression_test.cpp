@@ -47,6 +47,7 @@ std::vector<double> all_numbers(const Height& height, const double* at) {
 }
 
 TEST(Expression, IsTheBuiltInHeight) {
+  double largest = 0.0;
   struct Pair {
     Height built_in, written;
   };
@@ -91,10 +92,13 @@ TEST(Expression, IsTheBuiltInHeight) {
         size[i] = std::max(size[i], std::fabs(a[i]));
       }
     }
-    for (std::size_t i = 0; i < numbers; ++i)
+    for (std::size_t i = 0; i < numbers; ++i) {
       EXPECT_LE(worst[i], 1e-13 * size[i]) << "number " << i << " of pair " << &pair - pairs.data();
+      if (worst[i] > 0.0) largest = std::max(largest, worst[i] / size[i]);
+    }
     EXPECT_EQ(pair.written.continuity(), Height::smooth);
   }
+  std::printf("%zu heights, largest relative difference %.2g\n", pairs.size(), largest);
 }
 
 // Expressions that use every function, and coordinates in every combination
