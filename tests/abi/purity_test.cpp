@@ -60,7 +60,7 @@ std::vector<Job> make_jobs(const std::vector<Model>& models, const std::vector<M
   return jobs;
 }
 
-constexpr int calls = static_cast<int>(samples(100000));
+constexpr int calls = static_cast<int>(samples(50000));
 
 TEST(Purity, ShuffledOrderGivesTheSameBits) {
   const std::vector<ModelKind> kinds = all_kinds();

@@ -117,7 +117,7 @@ TEST(SpecialValues, RandomCorruptions) {
   Random random(20260102);
   Tally tally;
   const std::vector<ModelKind> kinds = all_kinds();
-  while (tally.calls < samples(100000)) {
+  while (tally.calls < samples(50000)) {
     const ModelKind& kind = kinds[static_cast<std::size_t>(random.below(static_cast<int>(kinds.size())))];
     const Model model(text(kind));
     Results results(model.layout);
