@@ -19,9 +19,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double touching = 1e-9; // of the facets' size
-constexpr int most_attempts = 64; // to find a sample behind, for facets of two segments that may only touch
-constexpr int most_searches = 4;  // of these without a start
+constexpr double touching = 1e-9;   // of the facets' size
+constexpr int most_attempts = 64;   // to find a sample behind, for facets of two segments that may only touch
+constexpr int most_searches = 16;   // of a sample's projection without a start, per pair of segments
+constexpr int search_budget = 1000; // of one of these: what is far from simple is left to other samples
 
 struct Contact {
   bool touch = false;   // or intersect
@@ -115,7 +116,7 @@ public:
 
 private:
   struct Pair {
-    int attempts = 0;
+    int attempts = 0, searches = 0;
     Deepest worst;                         // xi on the pair's first segment
     std::unordered_set<std::int64_t> seen; // samples
   };
@@ -196,6 +197,11 @@ private:
       double start[2];
     };
     std::vector<Visit> waiting;
+    double within = 0.0; // no corner of a facet is farther from a facet that it touches
+    for (int k = 0; k < f_.corners(); ++k)
+      for (int l = 0; l < f_.corners(); ++l)
+        within = std::max(within,
+                          2.0 * (f_.point(cell, piece.corner[k]) - f_.point(other, there.corner[l])).norm());
     for (int k = 0; k < f_.corners(); ++k) {
       Visit visit{piece.corner[k][0], piece.corner[k][1], {}};
       f_.xi_of(there.corner[0][0], there.corner[0][1], visit.start);
@@ -209,15 +215,23 @@ private:
       if (!f_.known[k] || !pair.seen.insert(sample).second) continue;
       const double slave[3] = {f_.points[k].x(), f_.points[k].y(), f_.points[k].z()};
       SegmentProjection at;
-      const auto project = [&](const double* start) {
-        return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, c_.size,
-                             portable::search_budget, at);
+      const auto project = [&](const double* start, double limit, int budget = portable::search_budget) {
+        return plan_.project(plan_, slave, nodes.positions, nodes.surface_coordinates, start, limit, budget,
+                             at);
       };
-      if (!project(visit.start) &&
-          (visits >= f_.corners() || pair.attempts >= most_searches || !project(nullptr)))
+      if (!project(visit.start, c_.size) && (visits >= f_.corners() || ++pair.searches > most_searches ||
+                                             !project(nullptr, within, search_budget)))
         continue;
       if (!(at.gap < 0.0)) continue;
       if (-at.gap > pair.worst.depth) {
+        // From a start it may be the far side of a ridge: the closest point tells which side it is on, and
+        // none is behind what ends before it.
+        project(nullptr, -at.gap * (1.0 + 1e-9));
+        BorderPoint end;
+        if (!(-at.gap > pair.worst.depth) ||
+            plan_.border_point(plan_, slave, nodes.positions, nodes.surface_coordinates,
+                               -at.gap * (1.0 - 1e-9), end))
+          continue;
         Deepest& worst = pair.worst;
         worst.depth = -at.gap;
         double xi[2];

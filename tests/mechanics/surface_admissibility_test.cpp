@@ -520,6 +520,33 @@ TEST(SurfaceAdmissibility, PanelDNeighboursCross) {
   }
 }
 
+// A thread on two plates with a convex corner: where h > 0 they part, where h = -g < 0 they cross, and the
+// end of a root lies g (1 / cos(corner) - 1) behind the other plate at most. A point of a ridge has a normal
+// projection on the far side of the neighbour's ridge, from behind: it is no depth.
+TEST(SurfaceAdmissibility, PanelDThreadsCrossAtTheirRoots) {
+  const double corner = 0.4, root = 0.08;
+  MeshSurface surface =
+      extruded(polyline({-2.0 * std::cos(corner), -2.0 * std::sin(corner), 0.0, 0.0, 2.0, 0.0}), "quad4");
+  for (std::size_t i = 2; i < surface.positions.size(); i += 3) surface.positions[i] *= 3.0;
+  for (const double lead : {0.0, 0.1, 0.3}) {
+    surface.surface_coordinates.clear(); // along z, and how far round
+    for (const std::int64_t node : surface.connectivity) {
+      const double* x = &surface.positions[static_cast<std::size_t>(3 * node)];
+      surface.surface_coordinates.insert(surface.surface_coordinates.end(),
+                                         {2.0 * double(node / 2 - 1), x[2]});
+    }
+    const Model m =
+        model("quad4", {{"type", "sum"},
+                        {"of",
+                         {{{"type", "constant"}, {"value", 0.7 - root}},
+                          {{"type", "sine"}, {"amplitude", 0.7}, {"wave_vector", {lead, 1.0}}}}}});
+    const Checked r = check(m, surface, 0.0, 65);
+    EXPECT_TRUE(r.violates(ENTS_CHECK_CROSSING)) << lead;
+    const double exact = root * (1.0 / std::cos(corner) - 1.0);
+    EXPECT_NEAR(r.value[ENTS_CHECK_CROSSING], exact, (0.3 + lead) * exact) << lead;
+  }
+}
+
 // Heights that vanish on the edge and rise from it: neighbours overlap from the edge on where the slopes
 // leave no angle between them, and meet again where the heights have come down. h = a (1 - s^2): slope 2 a.
 TEST(SurfaceAdmissibility, PanelDNoAngleIsLeft) {
