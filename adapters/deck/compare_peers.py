@@ -35,6 +35,7 @@ WHY = {
     "punch1": "slave faces over edges of the master: ccx cuts them there",
     "punch2": "slave faces over edges of the master: ccx cuts them there",
     "thread": "slave faces that only partly lie on the master: ccx cuts them",
+    "beamcontact": "slave faces half beyond the edge of the master, where all of the pressure is: it acts where a face's points are",
     "bolt": "exponential law, far from d = 0: ccx's and Abaqus's are two laws",
 }
 
