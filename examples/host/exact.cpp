@@ -53,6 +53,18 @@ double westergaard_pressure(double full, double mean, double x, double wavelengt
   return rest > 0 ? 2 * mean * std::cos(pi * x / wavelength) / edge * std::sqrt(rest) : 0;
 }
 
+double westergaard_gap(double amplitude, double half_width, double x, double wavelength) {
+  const double S = std::abs(std::sin(pi * x / wavelength)), s = std::sin(pi * half_width / wavelength);
+  if (!(S > s)) return 0;
+  const double bent = s > 0 ? squared(s) * std::acosh(S / s) : 0;
+  return 2 * amplitude * (S * std::sqrt(squared(S) - squared(s)) - bent);
+}
+
+double westergaard_mean_gap(double amplitude, double part) {
+  if (part >= 1) return 0;
+  return amplitude * (1 - part + (part > 0 ? part * std::log(part) : 0));
+}
+
 double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus) {
   return std::numbers::sqrt2 * pi * contact_modulus * amplitude / wavelength;
 }
@@ -144,8 +156,19 @@ std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState&
     const EdgeBracket bracket = edge_bracket(state);
     const double sine = std::sin(pi * edge / exact.wavelength);
     const double exact_edge = westergaard_half_width(full, state.mean_pressure, 1);
+    double area = 0, gap = 0, off = 0;
+    for (std::size_t k = 0; k < state.area.size(); ++k) {
+      area += state.area[k], gap += state.area[k] * state.gap[k];
+      const double there = westergaard_gap(exact.amplitude, exact_edge * exact.wavelength, state.distance[k],
+                                           exact.wavelength);
+      off += state.area[k] * squared(state.gap[k] - there);
+    }
+    const double mean_gap = westergaard_mean_gap(exact.amplitude, state.mean_pressure / full);
     return {exact_quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
             exact_quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
+            mean_gap > 0.01 * exact.amplitude ? exact_quantity("mean gap", units.length, gap / area, mean_gap)
+                                              : Quantity{"mean gap", units.length, gap / area},
+            {"gap (rms of the difference, of the amplitude)", "", std::sqrt(off / area) / exact.amplitude},
             {"last closed node / lambda", "", bracket.closed / exact.wavelength},
             {"first open node / lambda", "", bracket.open / exact.wavelength}};
   }

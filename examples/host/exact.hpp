@@ -64,6 +64,16 @@ double westergaard_half_width(double full, double mean, double wavelength);
 /// Pressure at a distance x from a crest, for mean pressures below and above p*.
 double westergaard_pressure(double full, double mean, double x, double wavelength);
 
+/// Gap at a distance x from a crest where the contact has this half-width a, 0 within it. With S = sin(pi x /
+/// lambda), s = sin(pi a / lambda): 2 Delta (S sqrt(S^2 - s^2) - s^2 arcosh(S / s)), the integral of the
+/// imaginary part of the function whose real part is the pressure.
+double westergaard_gap(double amplitude, double half_width, double x, double wavelength);
+
+/// Mean of this gap over a wave: Delta (1 - P + P ln P), P = mean pressure / p* = s^2. The mean displacement
+/// is Delta less it, and the energy of an area p* Delta (P^2 / 4 - P^2 ln P / 2), because the pressure works
+/// on the change of the mean gap.
+double westergaard_mean_gap(double amplitude, double part);
+
 /// sqrt(2) pi E* Delta / lambda: the same for Delta cos(2 pi x / lambda) cos(2 pi y / lambda).
 double double_sine_full_contact(double amplitude, double wavelength, double contact_modulus);
 
@@ -76,6 +86,7 @@ struct SurfaceState {
   std::vector<char> closed;          ///< [slaves]
   std::vector<double> shear;         ///< [slaves] tangential traction on the master along x; in the plane
   std::vector<double> place;         ///< [slaves] reference x
+  std::vector<double> place_y;       ///< [slaves] and y
   std::vector<double> moved;         ///< [slaves] displacement along x
   std::vector<char> sticks;          ///< [slaves] closed and not slipping
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, this mesh's share

@@ -122,7 +122,60 @@ LayerContact ExactLayer::press(int points, double motion) const {
   return grid.layer.press(grid.gap - motion, stiffness > 0 ? 1 / stiffness : 0);
 }
 
-std::vector<Quantity> ExactLayer::compare(double motion, const SurfaceState& state) const {
+/// The force of a cell goes to the four slave points around it, bilinearly, as the nodes of a mesh would have
+/// it; beyond the outermost to these alone. The points form a grid, not necessarily an even one.
+std::vector<double> ExactLayer::pressure_at(const SurfaceState& state, const Cells& grid,
+                                            const LayerContact& exact) const {
+  struct Line {
+    std::vector<double> places; ///< of the points, each once
+    struct Share {
+      Eigen::Index before;
+      double next; ///< what the point after it has
+    };
+    Share share(double x) const {
+      const auto last = static_cast<Eigen::Index>(places.size()) - 1;
+      const auto above = std::upper_bound(places.begin(), places.end(), x) - places.begin();
+      if (above == 0 || above > last) return {above == 0 ? 0 : last - 1, above == 0 ? 0. : 1.};
+      const auto i = static_cast<std::size_t>(above);
+      return {above - 1, (x - places[i - 1]) / (places[i] - places[i - 1])};
+    }
+  };
+  const auto line = [&](const std::vector<double>& all) {
+    Line sorted{all};
+    std::sort(sorted.places.begin(), sorted.places.end());
+    const double same = 1e-9 * (sorted.places.back() - sorted.places.front());
+    const auto equal = [&](double a, double b) { return b - a <= same; };
+    sorted.places.erase(std::unique(sorted.places.begin(), sorted.places.end(), equal), sorted.places.end());
+    return sorted;
+  };
+  const Line x = line(state.place), y = line(state.place_y);
+  Eigen::ArrayXXd force = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(x.places.size()) + 1,
+                                                static_cast<Eigen::Index>(y.places.size()) + 1),
+                  area = force;
+  for (Eigen::Index j = 0; j < exact.pressure.cols(); ++j)
+    for (Eigen::Index i = 0; i < exact.pressure.rows(); ++i) {
+      const Line::Share u = x.share(box_.low[0] + grid.layer.x(i)),
+                        v = y.share(box_.low[1] + grid.layer.y(j));
+      for (const Eigen::Index a : {0, 1})
+        for (const Eigen::Index b : {0, 1}) {
+          const double part = (a == 1 ? u.next : 1 - u.next) * (b == 1 ? v.next : 1 - v.next);
+          force(u.before + a, v.before + b) += part * exact.pressure(i, j);
+          area(u.before + a, v.before + b) += part;
+        }
+    }
+  const auto index = [](const Line& of, double place) {
+    const Line::Share share = of.share(place);
+    return share.before + (share.next > 0.5 ? 1 : 0);
+  };
+  std::vector<double> pressure;
+  for (std::size_t k = 0; k < state.area.size(); ++k) {
+    const Eigen::Index a = index(x, state.place[k]), b = index(y, state.place_y[k]);
+    pressure.push_back(force(a, b) / area(a, b));
+  }
+  return pressure;
+}
+
+LayerAnswer ExactLayer::compare(double motion, const SurfaceState& state) const {
   constexpr int finest = 2048;
   int points = scene_->exact.points;
   LayerContact coarse = press(points / 2, motion), fine = press(points, motion);
@@ -147,17 +200,26 @@ std::vector<Quantity> ExactLayer::compare(double motion, const SurfaceState& sta
     if (state.closed[k]) closed += state.area[k];
   }
   const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
+  LayerAnswer answer{{}, pressure_at(state, cells(points), fine)};
+  double off = 0, squares = 0;
+  for (std::size_t k = 0; k < state.area.size(); ++k) {
+    off += state.area[k] * std::pow(state.pressure[k] - answer.pressure[k], 2);
+    squares += state.area[k] * std::pow(answer.pressure[k], 2);
+  }
   const std::string &unit = scene_->units.pressure, &length = scene_->units.length;
-  return {exact_quantity("mean pressure", unit, state.mean_pressure, fine.mean_pressure),
-          exact_quantity("contact fraction", "", closed / area, fine.fraction),
-          exact_quantity("contact fraction, estimated", "", state.contact_estimate, fine.fraction),
-          exact_quantity("peak pressure", unit, peak, fine.peak_pressure),
-          exact_quantity("mean gap", length, gap / area, fine.gap.mean()),
-          {"mean pressure, half the points", unit, coarse.mean_pressure},
-          {"contact fraction, half the points", "", coarse.fraction},
-          {"peak pressure, half the points", unit, coarse.peak_pressure},
-          {"points of the exact solution", "", static_cast<double>(points)},
-          {"change from half the points", "", change()}};
+  answer.quantities = {
+      exact_quantity("mean pressure", unit, state.mean_pressure, fine.mean_pressure),
+      exact_quantity("contact fraction", "", closed / area, fine.fraction),
+      exact_quantity("contact fraction, estimated", "", state.contact_estimate, fine.fraction),
+      exact_quantity("peak pressure", unit, peak, fine.peak_pressure),
+      exact_quantity("mean gap", length, gap / area, fine.gap.mean()),
+      {"pressure (rms of the difference, relative)", "", std::sqrt(off / squares)},
+      {"mean pressure, half the points", unit, coarse.mean_pressure},
+      {"contact fraction, half the points", "", coarse.fraction},
+      {"peak pressure, half the points", unit, coarse.peak_pressure},
+      {"points of the exact solution", "", static_cast<double>(points)},
+      {"change from half the points", "", change()}};
+  return answer;
 }
 
 } // namespace host

@@ -23,6 +23,12 @@ struct Box {
   double base() const { return up > 0 ? low[2] : high[2]; }
 };
 
+/// A step beside its exact solution.
+struct LayerAnswer {
+  std::vector<Quantity> quantities;
+  std::vector<double> pressure; ///< [slaves] exact: mean over the cells around each
+};
+
 class ExactLayer {
 public:
   /// @throws InputError naming the key of the scene that is not a layer's
@@ -32,7 +38,7 @@ public:
   /// the key "stiffness".
   /// @param motion  of the master along its direction
   /// @throws JobError if the iteration does not converge, or the refinement that the key "error" asks for
-  std::vector<Quantity> compare(double motion, const SurfaceState& state) const;
+  LayerAnswer compare(double motion, const SurfaceState& state) const;
 
 private:
   /// A grid of cells, and the gap before the master moves.
@@ -43,6 +49,8 @@ private:
   /// So many along the longer side; made when they are needed.
   const Cells& cells(int points) const;
   LayerContact press(int points, double motion) const;
+  std::vector<double> pressure_at(const SurfaceState& state, const Cells& grid,
+                                  const LayerContact& exact) const;
 
   const Scene* scene_;
   std::unique_ptr<EntsModel> model_;

@@ -305,14 +305,20 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   pressure.clip = 0.99;
   pressure.columns = static_cast<int>(columns.size()), pressure.rows = static_cast<int>(rows.size());
   pressure.values.assign(slaves, 0.0);
+  pictures::Map difference = pressure;
+  difference.title = "pressure - boundary elements";
+  difference.blank_zero = false, difference.palette = pictures::Map::Palette::diverging;
   for (std::size_t k = 0; k < slaves; ++k) {
     const auto at = static_cast<std::size_t>(rows.at(record.places[3 * k + 1]) * pressure.columns +
                                              columns.at(record.places[3 * k]));
     pressure.values[at] = record.fields.pressure[k];
+    if (!record.exact_pressure.empty())
+      difference.values[at] = record.fields.pressure[k] - record.exact_pressure[k];
   }
   pictures::Map height = height_map(simulation, *simulation.contact(), maps);
   if (!height.values.empty()) maps.maps.push_back(std::move(height));
   maps.maps.push_back(std::move(pressure));
+  if (!record.exact_pressure.empty()) maps.maps.push_back(std::move(difference));
   return maps;
 }
 

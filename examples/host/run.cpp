@@ -122,8 +122,12 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
   for (const double depth : record.fields.worn) record.worn_depth = std::max(record.worn_depth, depth);
   const SurfaceState state = surface_state(simulation, record);
   const ExactLayer* layer = simulation.exact_layer();
-  record.exact =
-      layer != nullptr ? layer->compare(simulation.now().motion, state) : compare_with_exact(scene, state);
+  if (layer == nullptr) {
+    record.exact = compare_with_exact(scene, state);
+    return;
+  }
+  LayerAnswer answer = layer->compare(simulation.now().motion, state);
+  record.exact = std::move(answer.quantities), record.exact_pressure = std::move(answer.pressure);
 }
 
 /// Of a rigid body that turns: moment, mean radius of its contact, and which way it turns.
@@ -242,6 +246,7 @@ SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
   for (std::size_t dof = 0; dof < loads.size(); ++dof) state.load[dof % d] += loads[dof];
   for (std::size_t k = 0; k < record.areas.size(); ++k) {
     state.place.push_back(record.places[k * d]);
+    state.place_y.push_back(record.places[k * d + 1]);
     state.moved.push_back(record.positions[k * d] - record.places[k * d]);
     state.shear.push_back(record.fields.traction[k * d]);
     state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);

@@ -49,6 +49,7 @@ struct StepRecord {
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
   std::vector<double> moment;        ///< [3], 2D [1] of these about a rigid body's reference point; or empty
   std::vector<Quantity> exact;
+  std::vector<double> exact_pressure; ///< [slaves] of boundary elements; or empty
   ContactFields fields;
   // Slave points may be others in the next step.
   std::vector<double> positions, places; ///< [slaves][d] current; in the reference configuration

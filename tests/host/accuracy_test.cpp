@@ -83,8 +83,13 @@ TEST(Accuracy, Hertz3d) {
 TEST(Accuracy, Westergaard) {
   const Json result = run_scene("westergaard");
   ASSERT_EQ(result.at("steps").size(), 10u);
-  for (const Json& step : result.at("steps"))
+  for (const Json& step : result.at("steps")) {
     EXPECT_LT(std::abs(relative_error(step, "mean pressure / p*")), 0.01);
+    EXPECT_LT(value(step, "gap (rms of the difference, of the amplitude)"), 1e-3);
+    if (step.at("mean_gap").get<double>() > 1e-5) { // a fiftieth of the amplitude
+      EXPECT_LT(std::abs(relative_error(step, "mean gap")), 0.015);
+    }
+  }
   EXPECT_NEAR(value(result.at("steps").back(), "mean pressure / p*"), 1, 1e-6); // up to full contact
   EXPECT_EQ(result.at("sizes").at("master_segments"), 1);
   expect_quadratic(result, 1);

@@ -38,12 +38,20 @@ TEST(BoundaryElements, Westergaard) {
     EXPECT_NEAR(contact.mean_pressure / mean, 1, 1e-12);
     EXPECT_NEAR(contact.peak_pressure / (2 * std::sqrt(mean * full)), 1, 1e-3);
     EXPECT_NEAR(contact.fraction_counted, 2 * half_width, 2. / n);
-    double squared = 0, exact_squared = 0;
+    double squared = 0, exact_squared = 0, gap_off = 0, mean_gap = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double x = std::min(layer.x(i), 1 - layer.x(i)), exact = westergaard_pressure(full, mean, x, 1);
       squared += std::pow(contact.pressure(i, 0) - exact, 2), exact_squared += exact * exact;
+      const double gap = westergaard_gap(amplitude, half_width, x, 1);
+      gap_off = std::max(gap_off, std::abs(contact.gap(i, 0) - gap)), mean_gap += gap / n;
     }
     EXPECT_LT(std::sqrt(squared / exact_squared), 1e-3);
+    EXPECT_LT(gap_off, 1e-4 * amplitude);
+    EXPECT_NEAR(mean_gap, westergaard_mean_gap(amplitude, share), 1e-6 * amplitude);
+    // Elastic energy: half the work of the pressure on the displacement, which the half-space knows up to its
+    // mean.
+    const double energy = 0.5 * (contact.pressure * layer.displacement(contact.pressure)).mean();
+    EXPECT_NEAR(energy / (full * amplitude), share * share * (0.25 - 0.5 * std::log(share)), 1e-4);
   }
   const LayerContact pressed = layer.press_with(1.5 * full, shape);
   EXPECT_EQ(pressed.fraction, 1);
