@@ -124,8 +124,9 @@ LayerContact ExactLayer::press(int points, double motion) const {
 
 /// The force of a cell goes to the four slave points around it, bilinearly, as the nodes of a mesh would have
 /// it; beyond the outermost to these alone. The points form a grid, not necessarily an even one.
-std::vector<double> ExactLayer::pressure_at(const SurfaceState& state, const Cells& grid,
-                                            const LayerContact& exact) const {
+std::vector<double> ExactLayer::pressure_at(const SurfaceState& state, const LayerTruth& truth) const {
+  const ElasticLayer& layer = cells(truth.points).layer;
+  const LayerContact& exact = truth.fine;
   struct Line {
     std::vector<double> places; ///< of the points, each once
     struct Share {
@@ -154,8 +155,7 @@ std::vector<double> ExactLayer::pressure_at(const SurfaceState& state, const Cel
                   area = force;
   for (Eigen::Index j = 0; j < exact.pressure.cols(); ++j)
     for (Eigen::Index i = 0; i < exact.pressure.rows(); ++i) {
-      const Line::Share u = x.share(box_.low[0] + grid.layer.x(i)),
-                        v = y.share(box_.low[1] + grid.layer.y(j));
+      const Line::Share u = x.share(box_.low[0] + layer.x(i)), v = y.share(box_.low[1] + layer.y(j));
       for (const Eigen::Index a : {0, 1})
         for (const Eigen::Index b : {0, 1}) {
           const double part = (a == 1 ? u.next : 1 - u.next) * (b == 1 ? v.next : 1 - v.next);
@@ -175,24 +175,29 @@ std::vector<double> ExactLayer::pressure_at(const SurfaceState& state, const Cel
   return pressure;
 }
 
-LayerAnswer ExactLayer::compare(double motion, const SurfaceState& state) const {
+double LayerTruth::change() const {
+  if (!(fine.mean_pressure > 0)) return 0;
+  return std::max(std::abs(coarse.mean_pressure / fine.mean_pressure - 1),
+                  std::abs(coarse.fraction / fine.fraction - 1));
+}
+
+LayerTruth ExactLayer::truth(double motion) const {
   constexpr int finest = 2048;
   int points = scene_->exact.points;
-  LayerContact coarse = press(points / 2, motion), fine = press(points, motion);
-  const auto change = [&] {
-    if (!(fine.mean_pressure > 0)) return 0.;
-    return std::max(std::abs(coarse.mean_pressure / fine.mean_pressure - 1),
-                    std::abs(coarse.fraction / fine.fraction - 1));
-  };
-  while (scene_->exact.error > 0 && change() > scene_->exact.error) {
+  LayerTruth truth{press(points / 2, motion), press(points, motion), points};
+  while (scene_->exact.error > 0 && truth.change() > scene_->exact.error) {
     if (2 * points > finest)
-      throw JobError("boundary elements: pressure and area still change by " + std::to_string(change()) +
-                     " from " + std::to_string(points / 2) + " to " + std::to_string(points) +
-                     " points; give a larger /exact/error, or a smoother surface");
+      throw JobError("boundary elements: pressure and area still change by " +
+                     std::to_string(truth.change()) + " from " + std::to_string(points / 2) + " to " +
+                     std::to_string(points) + " points; give a larger /exact/error, or a smoother surface");
     points *= 2;
-    coarse = std::move(fine);
-    fine = press(points, motion);
+    truth = {std::move(truth.fine), press(points, motion), points};
   }
+  return truth;
+}
+
+LayerAnswer ExactLayer::compare(const LayerTruth& truth, const SurfaceState& state) const {
+  const LayerContact &coarse = truth.coarse, &fine = truth.fine;
   double closed = 0, area = 0, gap = 0;
   for (std::size_t k = 0; k < state.area.size(); ++k) {
     area += state.area[k];
@@ -200,7 +205,7 @@ LayerAnswer ExactLayer::compare(double motion, const SurfaceState& state) const 
     if (state.closed[k]) closed += state.area[k];
   }
   const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
-  LayerAnswer answer{{}, pressure_at(state, cells(points), fine)};
+  LayerAnswer answer{{}, pressure_at(state, truth)};
   double off = 0, squares = 0;
   for (std::size_t k = 0; k < state.area.size(); ++k) {
     off += state.area[k] * std::pow(state.pressure[k] - answer.pressure[k], 2);
@@ -217,8 +222,8 @@ LayerAnswer ExactLayer::compare(double motion, const SurfaceState& state) const 
       {"mean pressure, half the points", unit, coarse.mean_pressure},
       {"contact fraction, half the points", "", coarse.fraction},
       {"peak pressure, half the points", unit, coarse.peak_pressure},
-      {"points of the exact solution", "", static_cast<double>(points)},
-      {"change from half the points", "", change()}};
+      {"points of the exact solution", "", static_cast<double>(truth.points)},
+      {"change from half the points", "", truth.change()}};
   return answer;
 }
 

@@ -23,7 +23,15 @@ struct Box {
   double base() const { return up > 0 ? low[2] : high[2]; }
 };
 
-/// A step beside its exact solution.
+/// The exact solution of a step, and the same with half the points.
+struct LayerTruth {
+  LayerContact coarse, fine;
+  int points = 0; ///< along the longer side
+  /// Of mean pressure and contact fraction from half the points, the larger, relative.
+  double change() const;
+};
+
+/// A step beside it.
 struct LayerAnswer {
   std::vector<Quantity> quantities;
   std::vector<double> pressure; ///< [slaves] exact: mean over the cells around each
@@ -34,11 +42,16 @@ public:
   /// @throws InputError naming the key of the scene that is not a layer's
   ExactLayer(const Scene& scene, const EntsLibrary& library, const Mesh& mesh, const DofMap& dofs);
 
-  /// A step against contact without friction at the same motion of the master: hard, or with the penalty of
+  /// Contact without friction at this motion of the master along its direction: hard, or with the penalty of
   /// the key "stiffness".
-  /// @param motion  of the master along its direction
   /// @throws JobError if the iteration does not converge, or the refinement that the key "error" asks for
-  LayerAnswer compare(double motion, const SurfaceState& state) const;
+  LayerTruth truth(double motion) const;
+
+  /// Exact pressures of the slave points: the mean over the cells around each.
+  std::vector<double> pressure_at(const SurfaceState& state, const LayerTruth& truth) const;
+
+  /// A step with the same motion beside it.
+  LayerAnswer compare(const LayerTruth& truth, const SurfaceState& state) const;
 
 private:
   /// A grid of cells, and the gap before the master moves.
@@ -49,8 +62,6 @@ private:
   /// So many along the longer side; made when they are needed.
   const Cells& cells(int points) const;
   LayerContact press(int points, double motion) const;
-  std::vector<double> pressure_at(const SurfaceState& state, const Cells& grid,
-                                  const LayerContact& exact) const;
 
   const Scene* scene_;
   std::unique_ptr<EntsModel> model_;

@@ -120,13 +120,14 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
   record.worn_slave = contact->worn_slave() * scene.symmetry_copies;
   record.worn_master = contact->worn_master() * scene.symmetry_copies;
   for (const double depth : record.fields.worn) record.worn_depth = std::max(record.worn_depth, depth);
+  record.motion = simulation.now().motion;
   const SurfaceState state = surface_state(simulation, record);
   const ExactLayer* layer = simulation.exact_layer();
   if (layer == nullptr) {
     record.exact = compare_with_exact(scene, state);
     return;
   }
-  LayerAnswer answer = layer->compare(simulation.now().motion, state);
+  LayerAnswer answer = layer->compare(layer->truth(record.motion), state);
   record.exact = std::move(answer.quantities), record.exact_pressure = std::move(answer.pressure);
 }
 

@@ -37,7 +37,8 @@ struct StepRecord {
   double value = 0;
   std::vector<IncrementRecord> increments;
   std::vector<std::string> cuts; ///< why the step was cut
-  double approach = 0;           ///< motion of the rigid master since first touch
+  double motion = 0;             ///< of the rigid master, from where the scene puts it
+  double approach = 0;           ///< the same since first touch
   double force = 0;              ///< on the rigid master, all symmetric copies
   double mean_pressure = 0;      ///< force / slave area
   double contact_fraction = 0;   ///< area of closed nodes / slave area

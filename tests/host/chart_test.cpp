@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stability maps: is the judge right, does it see what is wrong, and is nothing silently wrong?
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -185,6 +187,20 @@ TEST(Chart, LeavesPageAndData) {
   for (const Json& map : data.at("stability")) {
     const std::size_t points = map.at("x").at("values").size() * map.at("y").at("values").size();
     for (const Json& panel : map.at("panels")) EXPECT_EQ(panel.at("fate").size(), points);
+  }
+  for (const char* name : {"rough_pressure", "rough_area"}) { // against boundary elements
+    const auto work = std::find_if(data.at("work_precision").begin(), data.at("work_precision").end(),
+                                   [&](const Json& each) { return each.at("name") == name; });
+    ASSERT_NE(work, data.at("work_precision").end()) << name;
+    std::map<std::string, double> errors;
+    for (const Json& run : work->at("runs"))
+      if (run.contains("error") && run.at("error").is_number())
+        errors[run.at("way")] = run.at("error").get<double>();
+    EXPECT_EQ(errors.size(), work->at("runs").size()) << work->dump();
+    for (const auto& [way, error] : errors) EXPECT_TRUE(error > 0 && error < 1) << way << ": " << error;
+    if (std::string(name) == "rough_area") {
+      EXPECT_LT(errors["enriched, elastic layer"], errors["enriched, one segment"]);
+    }
   }
   std::ifstream stream(folder / "chart.html");
   std::stringstream page;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json,
 // chart.html and the pictures.
+#include <algorithm>
 #include <cstdio>
 
 #include "chart/chart_page.hpp"
@@ -101,7 +102,21 @@ std::filesystem::path scenes_folder(const std::filesystem::path& given) {
 std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& options) {
   std::vector<Work> works;
   const auto progress = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  for (const Problem& problem : work_problems(scenes_folder(options.scenes), options.quick))
+  std::vector<Problem> problems = work_problems(scenes_folder(options.scenes), options.quick);
+  for (Problem& problem : truth_problems(library, scenes_folder(options.scenes), options.quick))
+    problems.push_back(std::move(problem));
+  for (const std::string& name : options.only)
+    if (std::none_of(problems.begin(), problems.end(),
+                     [&](const Problem& problem) { return problem.name == name; })) {
+      std::string names;
+      for (const Problem& problem : problems) names += " " + problem.name;
+      throw InputError("--only: no scene is named \"" + name + "\"; these are:" + names);
+    }
+  std::erase_if(problems, [&](const Problem& problem) {
+    return !options.only.empty() &&
+           std::find(options.only.begin(), options.only.end(), problem.name) == options.only.end();
+  });
+  for (const Problem& problem : problems)
     works.push_back(measure(problem, library, options.quick ? 1 : 3,
                             options.quick ? [](const std::string&) {} : progress));
   return works;
@@ -120,7 +135,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
   const OutputFolder folder(options.out);
   const EntsLibrary library(common.library);
   const std::vector<Work> works = measure_all(library, options);
-  std::vector<Map> maps = stability_maps(options.quick);
+  std::vector<Map> maps = options.only.empty() ? stability_maps(options.quick) : std::vector<Map>{};
   const std::vector<WrongHeight> heights = wrong_heights(library);
 
   Table table;
@@ -166,9 +181,12 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
                      {"stability", "Stability maps", stability},
                      {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}},
                     library.version()));
-    write_text(options.out / "work_precision.svg",
-               work_picture({named(works, "wavy3d"), named(works, "elastic_master")},
-                            {Price::segments, Price::time}));
+    std::vector<const Work*> pictured{named(works, "wavy3d"), named(works, "elastic_master")};
+    if (!options.only.empty()) {
+      pictured.clear();
+      for (const Work& work : works) pictured.push_back(&work);
+    }
+    write_text(options.out / "work_precision.svg", work_picture(pictured, {Price::segments, Price::time}));
     if (options.pictures)
       for (const Map& map : maps)
         if (const pictures::Outcome outcome = draw(map, options.out); !outcome.problem.empty()) {

@@ -135,6 +135,8 @@ const char* color_of(Family family) {
   switch (family) { // Okabe and Ito 2008: told apart with any colour vision
   case Family::enriched:
     return "#0072b2";
+  case Family::layer:
+    return "#332288";
   case Family::sampled:
     return "#56b4e9";
   case Family::facets:
@@ -161,6 +163,9 @@ std::string marker(Family family, double x, double y, const std::string& title) 
   switch (family) {
   case Family::enriched:
     shape = "<circle cx=\"" + px(x) + "\" cy=\"" + px(y) + "\" r=\"5.5\"" + fill + ">";
+    break;
+  case Family::layer:
+    shape = polygon({{0, -5.5}, {5.2, -1.7}, {3.2, 4.4}, {-3.2, 4.4}, {-5.2, -1.7}});
     break;
   case Family::sampled:
     shape = polygon({{0, -6}, {6, 0}, {0, 6}, {-6, 0}});
@@ -214,14 +219,15 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
   std::map<std::pair<Family, std::size_t>, std::vector<const WorkRun*>> curves;
   for (const WorkRun& run : work.runs) {
     if (!charted(run)) continue;
-    const bool one = run.way.family == Family::enriched || run.way.family == Family::sampled;
+    const bool one = run.way.family == Family::enriched || run.way.family == Family::sampled ||
+                     run.way.family == Family::layer;
     curves[{run.way.family, one ? static_cast<std::size_t>(run.way.divisions) : run.way.level}].push_back(
         &run);
   }
   for (const auto& [key, runs] : curves)
     svg += polyline(runs, false, std::string("class=\"l\" stroke=\"") + color_of(key.first) + "\"");
   for (const Family family : {Family::facets, Family::smoothed, Family::on_facets, Family::on_smoothed,
-                              Family::sampled, Family::enriched})
+                              Family::sampled, Family::layer, Family::enriched})
     for (const WorkRun& run : work.runs)
       if (charted(run) && run.way.family == family)
         svg +=
@@ -249,8 +255,8 @@ std::string work_picture(const std::vector<const Work*>& works, const std::vecto
                     " " + std::to_string(height) + "\"><style>" + picture_style +
                     "</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
   double x = left;
-  for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed,
-                              Family::on_facets, Family::on_smoothed}) {
+  for (const Family family : {Family::enriched, Family::layer, Family::sampled, Family::facets,
+                              Family::smoothed, Family::on_facets, Family::on_smoothed}) {
     const std::string name = family_name(works, family);
     if (name.empty()) continue;
     svg += marker(family, x + 6, 18, "") + text(x + 17, 22.5, "start", name);

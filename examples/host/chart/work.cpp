@@ -58,6 +58,16 @@ Solution solution_of(const Problem& problem, const Simulation& simulation, const
         node.pressure += share * record.fields.pressure[k];
         for (std::size_t i = 0; i < d; ++i) node.traction[i] += share * record.fields.traction[k * d + i];
       }
+    if (problem.against) {
+      SurfaceState state;
+      for (const auto& [number, node] : nodes) {
+        state.place.push_back(simulation.mesh().node(number)[0]);
+        state.place_y.push_back(simulation.mesh().node(number)[1]);
+        state.area.push_back(node.area), state.pressure.push_back(node.pressure / node.area);
+      }
+      problem.against(record, state, solution.series);
+      continue;
+    }
     for (const auto& [number, node] : nodes) {
       std::array<double, 3> place{};
       std::copy_n(simulation.mesh().node(number).begin(), d, place.begin());
@@ -130,6 +140,8 @@ const char* word(Family family) {
   switch (family) {
   case Family::enriched:
     return "enriched, one segment";
+  case Family::layer:
+    return "enriched, elastic layer";
   case Family::sampled:
     return "enriched, sampling points";
   case Family::facets:
@@ -179,7 +191,9 @@ Scene scene_of(const Problem& problem, const Way& way) {
 
 Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
              const std::function<void(const std::string&)>& progress) {
-  Work work{problem, {}, segments_that_follow(library, scene_of(problem, problem.ways.front()), equal_error)};
+  Work work{problem, {}, 0};
+  if (!problem.against)
+    work.following = segments_that_follow(library, scene_of(problem, problem.ways.front()), equal_error);
   std::vector<Solution> solutions(problem.ways.size());
   std::vector<double> truth;
   for (std::size_t i = 0; i < problem.ways.size(); ++i)

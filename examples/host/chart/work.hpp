@@ -17,6 +17,7 @@ namespace host::chart {
 /// How the surface of the master is told to the library, and where the slave side sees it.
 enum class Family {
   enriched,    ///< one segment with the height
+  layer,       ///< the same on an elastic layer that is known at its surface only, instead of a meshed block
   sampled,     ///< the same, two sampling points per direction and slave face instead of the nodes
   facets,      ///< plain segments through points of the surface
   smoothed,    ///< Catmull-Rom segments through the same points, no height
@@ -71,7 +72,15 @@ struct Problem {
   /// Exact pressure at a place of the reference surface in a step, NaN in steps where nobody knows it; empty
   /// if not `exact`.
   std::function<double(const Scene&, const StepRecord&, const std::array<double, 3>&)> pressure;
+  /// Instead of it: adds what a step is compared by. The state is that of the slave nodes, to which forces of
+  /// sampling points have gone.
+  std::function<void(const StepRecord&, const SurfaceState& nodes, Series&)> against;
 };
+
+/// A measured rough surface, whose pressures and contact areas are held against boundary elements: errors of
+/// block, slave mesh and master together.
+std::vector<Problem> truth_problems(const EntsLibrary& library, const std::filesystem::path& scenes,
+                                    bool quick);
 
 /// The problems of the chart.
 /// @param scenes  the folder `examples`

@@ -144,6 +144,7 @@ MasterMaker master_of(const Way& way) {
   const int n = way.divisions;
   switch (way.family) {
   case Family::enriched:
+  case Family::layer:
   case Family::sampled:
     return {};
   case Family::facets:

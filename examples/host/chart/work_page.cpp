@@ -132,8 +132,8 @@ std::string tangent_table(const std::vector<Work>& works) {
 
 std::string legend_of(const Work& work) {
   std::string html = "<div class=\"key\">";
-  for (const Family family : {Family::enriched, Family::sampled, Family::facets, Family::smoothed,
-                              Family::on_facets, Family::on_smoothed}) {
+  for (const Family family : {Family::enriched, Family::layer, Family::sampled, Family::facets,
+                              Family::smoothed, Family::on_facets, Family::on_smoothed}) {
     const std::string name = family_name({&work}, family);
     if (name.empty()) continue;
     html += "<span><svg class=\"k\" viewBox=\"0 0 14 14\">" + marker(family, 7, 7, "") + "</svg>" + name +
