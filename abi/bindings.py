@@ -18,6 +18,7 @@ The header has to keep to its form: a comment in front of what it explains, or a
 begins with the array's shape ("[segments][m]"); results name their array and shape at their bit of `wanted`.
 
 exit status: 0 done; 1 the header has something that this program cannot translate; 2 wrong command line"""
+import math
 import pathlib
 import re
 import sys
@@ -31,6 +32,7 @@ FORTRAN = {"int32_t": ("integer(c_int32_t)", "0"), "int64_t": ("integer(c_int64_
            "char": ("character(kind=c_char)", "c_null_char"), "ents_height_function": ("type(c_funptr)", "c_null_funptr")}
 PYTHON = {"int32_t": "ctypes.c_int32", "int64_t": "ctypes.c_int64", "double": "ctypes.c_double", "char": "ctypes.c_char",
           "ents_height_function": "ctypes.c_void_p"}
+BYTES = {"int32_t": 4, "int64_t": 8, "double": 8, "char": 1}
 KINDS = {"int32_t": "int32", "int": "int32", "int64_t": "int64", "long": "int64", "double": "float64", "char": "char",
          "ents_height_function": "function", "function_pointer": "function"}
 
@@ -55,11 +57,12 @@ class Variable:
         self.shape = shape_of(self.comment)
 
     @property
+    def count(self):
+        return math.prod(self.extents)
+
+    @property
     def kind(self):
-        count = 1
-        for extent in self.extents:
-            count *= extent
-        return "pointer" if self.stars else KINDS[self.type] + (f"[{count}]" if self.extents else "")
+        return "pointer" if self.stars else KINDS[self.type] + (f"[{self.count}]" if self.extents else "")
 
 
 class Header:
@@ -139,13 +142,16 @@ def fortran_shape(header, struct, fields, field):
 def fortran_types(header):
     out = []
     for name, fields in header.structs.items():
+        pointers = sum(field.stars > 0 for field in fields)
+        size = str(sum(field.count * BYTES[field.type] for field in fields if not field.stars))
+        size += f" + {pointers}*pointer_bytes" if pointers else ""
         out.append(f"  type, bind(c) :: {name}")
         for field in fields:
             if field.stars:
                 comment = fortran_shape(header, name, fields, field)
                 out.append(f"    type(c_ptr) :: {field.name} = c_null_ptr" + (f" ! {comment}" if comment else ""))
             else:
-                kind, zero = FORTRAN[field.type]
+                kind, zero = FORTRAN[field.type] if field.name != "struct_size" else (FORTRAN[field.type][0], size)
                 extents = "(" + ", ".join(map(str, reversed(field.extents))) + ")" if field.extents else ""
                 out.append(f"    {kind} :: {field.name}{extents} = {zero}")
         out.append(f"  end type {name}\n")
@@ -160,7 +166,7 @@ def fortran_init(header):
 
 def fortran_init_procedures(header):
     return "\n\n".join(f"  subroutine init_{name[len('ents_'):]}(x)\n    type({name}), intent(out) :: x\n"
-                       f"    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)\n  end subroutine init_{name[len('ents_'):]}"
+                       f"    x = {name}()\n  end subroutine init_{name[len('ents_'):]}"
                        for name in header.structs)
 
 

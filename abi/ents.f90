@@ -6,9 +6,11 @@
 ! documents every argument (shape, unit, errors); tests compare constants, struct offsets and procedures. What Fortran changes:
 !   - arguments that may be null are type(c_ptr): c_loc of the array, of the zero-terminated text or of the struct, or c_null_ptr;
 !     other texts are character arrays that end with c_null_char: trim(path) // c_null_char;
-!   - types start zeroed and with null pointers; `call ents_init(x)` does the same again and sets x%struct_size;
+!   - a variable of a type starts with its struct_size, zeros and null pointers; so does what a constructor leaves out:
+!     in = ents_input(slave=c_loc(x), slave_stride=3); `call ents_init(x)` sets all components back;
 !   - arrays go into ents_input, ents_output ... as c_loc(array) of arrays with the target attribute; ENTS_XI | ENTS_GAP is
 !     ior(ENTS_XI, ENTS_GAP), or ENTS_XI + ENTS_GAP. A C array [m][d] is a Fortran array (d, m);
+!   - ents_tree_allocate and ents_state_allocate, which ents.h does not have, allocate arrays and fill them;
 !   - order of a segment's nodes, and which way its normal points: "Segments" at the top of ents.h, where nodes are counted from 0;
 !   - a model is a type(c_ptr); element numbers (`first`, report%element) and all indices are 0-based as in C;
 !   - a height function (ents_height_register) is a type(c_funptr): c_funloc of a bind(c) function with the arguments of
@@ -16,11 +18,11 @@
 !   - ents_string turns C texts (ents_status_text, layout%instruction_set) and report%message into Fortran's;
 !   - ents_version is called ents_library_version here: Fortran cannot tell it from the status value ENTS_VERSION.
 module ents
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_int8_t, c_associated, &
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_intptr_t, c_associated, &
     c_null_char, c_null_ptr, c_ptr
   implicit none
   public
-  private :: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_int8_t, c_associated, c_null_char, c_null_ptr, c_ptr
+  private :: c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, c_intptr_t, c_associated, c_null_char, c_null_ptr, c_ptr
 
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
@@ -108,8 +110,10 @@ module ents
   integer(c_int32_t), parameter :: ENTS_CHECK_OCCLUSION = 8
   integer(c_int32_t), parameter :: ENTS_CHECK_CROSSING = 9
 
+  integer, parameter, private :: pointer_bytes = bit_size(0_c_intptr_t)/8
+
   type, bind(c) :: ents_report
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 536
     integer(c_int32_t) :: status = 0
     integer(c_int64_t) :: element = 0
     real(c_double) :: step_factor = 0
@@ -117,7 +121,7 @@ module ents
   end type ents_report
 
   type, bind(c) :: ents_data
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 24 + 2*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: name = c_null_ptr ! a text that ends with c_null_char
     type(c_ptr) :: values = c_null_ptr ! (columns, rows)
@@ -126,7 +130,7 @@ module ents
   end type ents_data
 
   type, bind(c) :: ents_layout
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 64 + 1*pointer_bytes
     integer(c_int32_t) :: dimension = 0
     integer(c_int32_t) :: nodes = 0
     integer(c_int32_t) :: parameters = 0
@@ -146,7 +150,7 @@ module ents
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 24 + 3*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: segments = 0
     type(c_ptr) :: connectivity = c_null_ptr ! (m, segments), int64
@@ -156,7 +160,7 @@ module ents
   end type ents_master_mesh
 
   type, bind(c) :: ents_detection
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 24 + 7*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, count)
     real(c_double) :: reach = 0
@@ -170,7 +174,7 @@ module ents
   end type ents_detection
 
   type, bind(c) :: ents_input
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 88 + 11*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: slave_stride = 0
@@ -196,7 +200,7 @@ module ents
   end type ents_input
 
   type, bind(c) :: ents_output
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 176 + 20*pointer_bytes
     integer(c_int32_t) :: wanted = 0
     type(c_ptr) :: status = c_null_ptr ! (elements), int32
     integer(c_int64_t) :: status_stride = 0
@@ -242,7 +246,7 @@ module ents
   end type ents_output
 
   type, bind(c) :: ents_derivatives
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 8 + 5*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: gap = c_null_ptr ! (named_parameters, elements)
     type(c_ptr) :: energy = c_null_ptr ! (named_parameters, elements)
@@ -252,7 +256,7 @@ module ents
   end type ents_derivatives
 
   type, bind(c) :: ents_area
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 72
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: surface = 0
     real(c_double) :: counted = 0
@@ -265,7 +269,7 @@ module ents
   end type ents_area
 
   type, bind(c) :: ents_combination
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 16 + 3*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: points = 0
     type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64
@@ -274,14 +278,14 @@ module ents
   end type ents_combination
 
   type, bind(c) :: ents_pose
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 104
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: point(3) = 0
     real(c_double) :: turn(9) = 0
   end type ents_pose
 
   type, bind(c) :: ents_system
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 40 + 12*pointer_bytes
     integer(c_int32_t) :: index_size = 0
     type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
     type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
@@ -302,7 +306,7 @@ module ents
   end type ents_system
 
   type, bind(c) :: ents_surface
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 8 + 8*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: master = c_null_ptr ! (d, m)
     type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m)
@@ -315,7 +319,7 @@ module ents
   end type ents_surface
 
   type, bind(c) :: ents_admissibility
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 128
     integer(c_int32_t) :: samples = 0
     integer(c_int32_t) :: continuity = 0
     integer(c_int32_t) :: reserved = 0
@@ -332,7 +336,7 @@ module ents
   end type ents_admissibility
 
   type, bind(c) :: ents_surface_admissibility
-    integer(c_int32_t) :: struct_size = 0
+    integer(c_int32_t) :: struct_size = 1592 + 1*pointer_bytes
     integer(c_int32_t) :: samples = 0
     real(c_double) :: reach = 0
     real(c_double) :: kink = 0
@@ -351,7 +355,7 @@ module ents
     real(c_double) :: height_max = 0
   end type ents_surface_admissibility
 
-  ! Zero a struct and set its struct_size: call ents_init(input).
+  ! Set all components of a struct to what they are at the start: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
       init_derivatives, init_area, init_combination, init_pose, init_system, init_surface, init_admissibility, &
@@ -818,82 +822,114 @@ module ents
 
 contains
 
-  ! intent(out) gives the components their default values; transfer to bytes counts them.
-
   subroutine init_report(x)
     type(ents_report), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_report()
   end subroutine init_report
 
   subroutine init_data(x)
     type(ents_data), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_data()
   end subroutine init_data
 
   subroutine init_layout(x)
     type(ents_layout), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_layout()
   end subroutine init_layout
 
   subroutine init_master_mesh(x)
     type(ents_master_mesh), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_master_mesh()
   end subroutine init_master_mesh
 
   subroutine init_detection(x)
     type(ents_detection), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_detection()
   end subroutine init_detection
 
   subroutine init_input(x)
     type(ents_input), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_input()
   end subroutine init_input
 
   subroutine init_output(x)
     type(ents_output), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_output()
   end subroutine init_output
 
   subroutine init_derivatives(x)
     type(ents_derivatives), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_derivatives()
   end subroutine init_derivatives
 
   subroutine init_area(x)
     type(ents_area), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_area()
   end subroutine init_area
 
   subroutine init_combination(x)
     type(ents_combination), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_combination()
   end subroutine init_combination
 
   subroutine init_pose(x)
     type(ents_pose), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_pose()
   end subroutine init_pose
 
   subroutine init_system(x)
     type(ents_system), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_system()
   end subroutine init_system
 
   subroutine init_surface(x)
     type(ents_surface), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_surface()
   end subroutine init_surface
 
   subroutine init_admissibility(x)
     type(ents_admissibility), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_admissibility()
   end subroutine init_admissibility
 
   subroutine init_surface_admissibility(x)
     type(ents_surface_admissibility), intent(out) :: x
-    x%struct_size = size(transfer(x, [0_c_int8_t]), kind=c_int32_t)
+    x = ents_surface_admissibility()
   end subroutine init_surface_admissibility
+
+  ! The tree of a mesh's segments: `tree` gets the size of ents_tree_size and the contents of ents_tree_build. Returns their status.
+  function ents_tree_allocate(model, mesh, tree, report) result(status)
+    type(c_ptr), intent(in) :: model
+    type(ents_master_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(inout) :: tree(:)
+    type(ents_report), intent(inout) :: report
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: length
+    length = 0
+    status = ents_tree_size(model, mesh%segments, length, report)
+    if (status /= ENTS_OK) return
+    if (allocated(tree)) deallocate (tree)
+    allocate (tree(length))
+    status = ents_tree_build(model, mesh, tree, length, report)
+  end function ents_tree_allocate
+
+  ! States of `count` elements at the begin and at the end of an increment, (state_size, count) each, from ents_state_init. Returns
+  ! its status. The stride of both is size(begin, 1, c_int64_t).
+  function ents_state_allocate(model, count, begin, end, report) result(status)
+    type(c_ptr), intent(in) :: model
+    integer(c_int64_t), intent(in) :: count
+    real(c_double), allocatable, intent(inout) :: begin(:, :), end(:, :)
+    type(ents_report), intent(inout) :: report
+    integer(c_int32_t) :: status
+    type(ents_layout) :: layout
+    status = ents_model_layout(model, layout, report)
+    if (status /= ENTS_OK) return
+    if (allocated(begin)) deallocate (begin)
+    if (allocated(end)) deallocate (end)
+    allocate (begin(layout%state_size, max(count, 0_c_int64_t)))
+    status = ents_state_init(model, count, begin, size(begin, 1, c_int64_t), report)
+    if (status == ENTS_OK) end = begin
+  end function ents_state_allocate
 
   pure function string_from_characters(characters) result(string)
     character(kind=c_char), intent(in) :: characters(:)

@@ -15,7 +15,6 @@ module contact
   ! What the library is shown lives here: it keeps nothing but the model.
   type(c_ptr) :: model
   type(ents_report) :: report
-  type(ents_layout) :: sizes
   type(ents_combination), target :: smoothed ! control points of the master, from its nodes
   type(ents_master_mesh), target :: mesh
   type(ents_system), target :: system
@@ -36,13 +35,9 @@ contains
     slaves = slave_nodes
     masters = master_nodes
     slave_count = size(slaves)
-    call ents_init(report)
     call check(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, report))
     call check(ents_model_create(text, len(text, int64), c_null_ptr, c_null_ptr, 0_int64, model, report))
-    call ents_init(sizes)
-    call check(ents_model_layout(model, sizes, report))
     if (index(text, '"bspline4"') == 0) error stop "the model's segment has to be bspline4"
-    state_size = sizes%state_size
     call smooth_master(x)
     call start_history(x)
     call describe_equations(size(x))
@@ -52,7 +47,7 @@ contains
   subroutine smooth_master(x)
     real(real64), intent(in) :: x(:, :)
     integer(int64) :: facets(2, size(masters) - 1)
-    integer(int64) :: count, terms, length
+    integer(int64) :: count, terms
     integer :: i, j
     facets = chain(size(masters))
     call check(ents_smooth_size(line2, basis, ENTS_ENDS_REPEATED, size(facets, 2, int64), facets, &
@@ -60,37 +55,26 @@ contains
     allocate (segments(4, size(facets, 2)), begin(count + 1), of(terms), weights(terms), points(2, count))
     call check(ents_smooth(line2, basis, ENTS_ENDS_REPEATED, size(facets, 2, int64), facets, size(masters, kind=int64), &
       count, terms, segments, begin, of, weights, report))
-    call ents_init(smoothed)
-    smoothed%points = count
-    smoothed%begin = c_loc(begin)
-    smoothed%nodes = c_loc(of)
-    smoothed%weights = c_loc(weights)
+    smoothed = ents_combination(points=count, begin=c_loc(begin), nodes=c_loc(of), weights=c_loc(weights))
     call check(ents_combine(smoothed, 2, size(masters, kind=int64), x(:, masters), points, report))
     allocate (coordinates(4, size(segments, 2))) ! s is the undeformed x
     do j = 1, size(segments, 2)
       coordinates(:, j) = [(points(1, segments(i, j) + 1), i=1, 4)]
     end do
-    call ents_init(mesh)
-    mesh%segments = size(segments, 2, int64)
-    mesh%connectivity = c_loc(segments)
-    mesh%nodes = count
-    mesh%positions = c_loc(points)
-    mesh%surface_coordinates = c_loc(coordinates)
-    length = 0
-    call check(ents_tree_size(model, mesh%segments, length, report))
-    allocate (tree(length))
-    call check(ents_tree_build(model, mesh, tree, length, report))
+    mesh = ents_master_mesh(segments=size(segments, 2, int64), connectivity=c_loc(segments), nodes=count, &
+      positions=c_loc(points), surface_coordinates=c_loc(coordinates))
+    call check(ents_tree_allocate(model, mesh, tree, report))
   end subroutine smooth_master
 
   subroutine start_history(x)
     real(real64), intent(in) :: x(:, :)
     integer(int64) :: facets(2, size(slaves) - 1)
-    allocate (areas(slave_count), xi(slave_count), segment(slave_count), state_begin(state_size, slave_count))
+    allocate (areas(slave_count), xi(slave_count), segment(slave_count))
     slave_now = x(:, slaves)
     facets = chain(size(slaves))
     call check(ents_tributary_areas(line2, size(facets, 2, int64), facets, slave_count, slave_now, 1d0, areas, report))
-    call check(ents_state_init(model, slave_count, state_begin, state_size, report))
-    state_end = state_begin
+    call check(ents_state_allocate(model, slave_count, state_begin, state_end, report))
+    state_size = size(state_begin, 1, int64)
     segment = -1
     xi = 0
     points_begin = points
@@ -104,16 +88,10 @@ contains
     master_equations = equations(masters)
     rows = [(int(n, int64)*dofs, n=0, dofs)]
     columns = [((int(i, int64), i=0, dofs - 1), n=1, dofs)]
-    call ents_init(system)
-    system%index_size = 8
-    system%master = c_loc(smoothed)
-    system%slave_nodes = slave_count
-    system%slave_equations = c_loc(slave_equations)
-    system%master_nodes = size(masters, kind=int64)
-    system%master_equations = c_loc(master_equations)
-    system%rows = dofs
-    system%row_begin = c_loc(rows)
-    system%columns = c_loc(columns)
+    system = ents_system(index_size=8, master=c_loc(smoothed), &
+      slave_nodes=slave_count, slave_equations=c_loc(slave_equations), &
+      master_nodes=size(masters, kind=int64), master_equations=c_loc(master_equations), &
+      rows=int(dofs, int64), row_begin=c_loc(rows), columns=c_loc(columns))
   end subroutine describe_equations
 
   ! R is added to r, K to the transposed matrix k(column, row). False: the step is too large, k and r are not to be used.
@@ -127,23 +105,11 @@ contains
     slave_now = now(:, slaves)
     call check(ents_combine(smoothed, 2, size(masters, kind=int64), now(:, masters), points, report))
     call check(ents_tree_refit(model, mesh, tree, size(tree, kind=int64), report))
-    call ents_init(detection)
-    detection%slave = c_loc(slave_now)
-    detection%reach = reach
-    detection%segment = c_loc(segment)
-    detection%xi = c_loc(xi)
-    call ents_init(input)
-    input%area = c_loc(areas)
-    input%area_stride = 1
-    input%state_begin = c_loc(state_begin)
-    input%state_begin_stride = state_size
-    input%positions_begin = c_loc(points_begin)
-    call ents_init(output)
-    output%wanted = ior(ENTS_STATE, ENTS_FLAGS)
-    output%state_end = c_loc(state_end)
-    output%state_end_stride = state_size
-    output%flags = c_loc(flags)
-    output%flags_stride = 1
+    detection = ents_detection(slave=c_loc(slave_now), reach=reach, segment=c_loc(segment), xi=c_loc(xi))
+    input = ents_input(area=c_loc(areas), area_stride=1, state_begin=c_loc(state_begin), state_begin_stride=state_size, &
+      positions_begin=c_loc(points_begin))
+    output = ents_output(wanted=ENTS_STATE + ENTS_FLAGS, state_end=c_loc(state_end), state_end_stride=state_size, &
+      flags=c_loc(flags), flags_stride=1)
     system%residual = c_loc(r)
     system%values = c_loc(k)
     ok = ents_iterate(model, mesh, tree, size(tree, kind=int64), 0_int64, slave_count, detection, input, c_loc(output), &

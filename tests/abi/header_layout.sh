@@ -37,10 +37,7 @@ program layout
 FORTRAN
   for struct in $structs; do echo "  type($struct), target :: x_$struct"; done
   for name in $constants; do echo "  call number(\"$name\", $name)"; done
-  for struct in $structs; do
-    echo "  call ents_init(x_$struct)"
-    echo "  call number(\"$struct\", x_$struct%struct_size)"
-  done
+  for struct in $structs; do echo "  call number(\"$struct\", x_$struct%struct_size)"; done
   printf '%s\n' "$fields" | while read -r struct field; do
     echo "  call field(\"$struct%$field\", &"
     echo "    c_loc(x_$struct), c_loc(x_$struct%$field), &"

@@ -15,12 +15,9 @@ program first
   integer(c_int32_t) :: status
   integer :: i
 
-  call ents_init(report)
-  call ents_init(in)
-  in%slave = c_loc(slave); in%master = c_loc(master)
-  call ents_init(out)
-  out%wanted = ENTS_GAP + ENTS_RESIDUAL + ENTS_TANGENT
-  out%gap = c_loc(gap); out%residual = c_loc(residual); out%tangent = c_loc(tangent)
+  in = ents_input(slave=c_loc(slave), master=c_loc(master))
+  out = ents_output(wanted=ENTS_GAP + ENTS_RESIDUAL + ENTS_TANGENT, &
+    gap=c_loc(gap), residual=c_loc(residual), tangent=c_loc(tangent))
 
   status = ents_model_create(text, len(text, c_int64_t), c_null_ptr, c_null_ptr, 0_c_int64_t, model, report)
   if (status == ENTS_OK) status = ents_evaluate(model, 0_c_int64_t, 1_c_int64_t, in, out, report)

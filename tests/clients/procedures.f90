@@ -132,8 +132,12 @@ contains
     call expect(index(ents_string(ents_library_version()), ".") > 1, "library_version")
     output%wanted = ENTS_GAP
     output%gap = c_loc(text)
+    output%struct_size = 0
     call ents_init(output)
     call expect(output%wanted == 0 .and. .not. c_associated(output%gap), "ents_init zeroes")
+    call expect(output%struct_size > 0, "ents_init sets the size")
+    output = ents_output(wanted=ENTS_GAP, gap=c_loc(text))
+    call expect(output%wanted == ENTS_GAP .and. c_associated(output%gap) .and. output%gap_stride == 0, "a constructor")
   end subroutine check_texts
 
   subroutine check_evaluate()
@@ -168,10 +172,19 @@ contains
 
   subroutine check_state()
     real(c_double) :: state(layout%state_size + 1, 2)
+    real(c_double), allocatable :: begin(:, :), end(:, :)
+    integer :: i
     state = -7
     call expect(ents_state_init(model, 2_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_OK, "state_init")
     call expect(all(same(state(layout%state_size + 1, :), -7d0)), "state_init keeps to state_size")
     call expect(ents_state_init(model, -1_c_int64_t, state, size(state, 1, c_int64_t), report) == ENTS_BAD_COUNT, "count < 0")
+    do i = 1, 2 ! the second time they are there
+      call expect(ents_state_allocate(model, 2_c_int64_t, begin, end, report) == ENTS_OK, "state_allocate")
+      call expect(all(shape(begin) == [layout%state_size, 2]) .and. all(shape(end) == shape(begin)), "the sizes of both states")
+      call expect(all(same(begin, state(:layout%state_size, :))) .and. all(same(end, begin)), "both are those of state_init")
+    end do
+    call expect(ents_state_allocate(model, -1_c_int64_t, begin, end, report) == ENTS_BAD_COUNT, "state_allocate: count < 0")
+    call expect(ents_state_allocate(c_null_ptr, 1_c_int64_t, begin, end, report) == ENTS_NULL_ARGUMENT, "state_allocate: no model")
     call check_transfer(state(:, 1))
     call check_augment()
   end subroutine check_state
@@ -275,7 +288,24 @@ contains
     call expect(result%segment(ENTS_CHECK_JUMP + 1) == 0 .and. result%other(ENTS_CHECK_JUMP + 1) == 1, "segments, from 0")
     call expect(same(result%xi(1, ENTS_CHECK_JUMP + 1), 1d0) .and. same(result%point(3, ENTS_CHECK_JUMP + 1), 0.25d0), "place")
     call expect(btest(result%violated, ENTS_CHECK_CROSSING) .and. all(violations == result%violated), "bits of conditions")
+    call check_tree(mesh)
   end subroutine check_whole_surface
+
+  subroutine check_tree(mesh)
+    type(ents_master_mesh), intent(in) :: mesh
+    real(c_double), allocatable :: tree(:)
+    integer(c_int64_t) :: length
+    integer :: i
+    length = 0
+    call expect(ents_tree_size(model, mesh%segments, length, report) == ENTS_OK .and. length > 0, "tree_size")
+    do i = 1, 2 ! the second time it is there
+      call expect(ents_tree_allocate(model, mesh, tree, report) == ENTS_OK .and. size(tree, kind=c_int64_t) == length, "its size")
+      call expect(ents_tree_refit(model, mesh, tree, length, report) == ENTS_OK, "tree_refit finds a tree of this surface")
+      tree = 0
+      call expect(ents_tree_refit(model, mesh, tree, length, report) == ENTS_BAD_STATE, "tree_refit finds no tree")
+    end do
+    call expect(ents_tree_allocate(c_null_ptr, mesh, tree, report) == ENTS_NULL_ARGUMENT, "tree_allocate: no model")
+  end subroutine check_tree
 
   ! A height map from the caller's memory: samples equal to 1/2 make a flat surface at 1/2.
   subroutine check_data()

@@ -1,6 +1,7 @@
 #!/bin/sh
-# slide.sh MODEL PROGRAM ...: examples/slide prints the same forces in every language, whatever the number of segments: the history of friction
-# goes with a slave node from segment to segment. No model, or one that does not exist: an exit status that is not 0.
+# slide.sh MODEL PROGRAM ...: examples/slide, the folder of MODEL, prints the same forces in every language, whatever the number of
+# segments: the history of friction goes with a slave node from segment to segment. No model, or one that does not exist: an exit status
+# that is not 0. Its README says how many lines the programs have.
 set -eu
 model=$1
 shift
@@ -17,4 +18,7 @@ for program; do
   ! "$program" >/dev/null 2>&1 || { echo "$program without a model does not fail" >&2; exit 1; }
   ! "$program" "$scratch/none" >/dev/null 2>&1 || { echo "$program with a model that does not exist does not fail" >&2; exit 1; }
 done
+lines() { grep -vcE '^ *(!|/\*|\*|$)' "$(dirname "$model")/$1"; }
+said="$(lines slide.c) in C, $(lines slide.f90) in Fortran"
+grep -q "^comments: $said\.$" "$(dirname "$model")/README.md" || { echo "slide: lines without comments: $said; the README says another" >&2; exit 1; }
 echo "$# programs print the same forces on 1, 7, 50 and 333 segments"
