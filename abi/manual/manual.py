@@ -65,7 +65,10 @@ EXPAND_ONLY_PREDEF = YES
 PREDEFINED = ENTS_API=
 WARN_IF_UNDOCUMENTED = NO
 """
-CSS = """.wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }
+CSS = """.wy-nav-content { max-width: 980px; }
+.wy-table-responsive table td, .wy-table-responsive table th { white-space: normal; }
+.formula { overflow-x: auto; margin-bottom: 24px; }
+@media (max-width: 480px) { .rst-content table.docutils td, .rst-content table.docutils th { padding: 6px !important; } }
 .rst-content .highlight-text pre, .rst-content .highlight-python pre, .rst-content .highlight-none pre,
 .rst-content .highlight-json pre { white-space: pre-wrap !important; }
 """
@@ -84,8 +87,27 @@ def mathml(text):
 
     def one(match):
         element = next(drawn).replace("\n", " ")
-        return f"\n<p>{element}</p>\n" if match[1] else element
+        return f'\n<div class="formula">{element}</div>\n' if match[1] else element
     return re.sub(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", one, text, flags=re.S)
+
+
+def markdown(text):
+    """A text of the Python package: lines with a name and two blanks become a list, indented lines code, the rest paragraphs."""
+    def escape(part):
+        return re.sub(r"(`[^`]*`)|([\\*_\[\]<>#~])", lambda m: m[1] or "\\" + m[2], part.strip())
+
+    out, listed = [], False
+    for line in (text or "").splitlines():
+        entry = re.match(r"(\w[\w, .]*?)  +(\S.*)", line)
+        code = line.startswith("    ") and not listed
+        if entry:
+            out += ([] if listed else [""]) + [f"- `{entry[1]}` {escape(entry[2])}"]
+        elif line.strip() and not code and out and out[-1] and listed == line.startswith(" "):
+            out[-1] += " " + escape(line)
+        else:
+            out += [line] if code or not line.strip() else ["", escape(line)]
+        listed = bool(entry) or listed and line.startswith(" ")
+    return "\n".join(out)
 
 
 def python_reference():
@@ -97,11 +119,11 @@ def python_reference():
                 continue
             methods = {m.name: m for m in node.body if isinstance(m, ast.FunctionDef)}
             parameters = ast.unparse(methods["__init__"].args).removeprefix("self").lstrip(", ") if "__init__" in methods else ""
-            out.append(f"## {node.name}\n\n```python\nents.{node.name}({parameters})\n```\n\n```text\n{ast.get_docstring(node)}\n```\n")
+            out.append(f"## {node.name}\n\n```python\nents.{node.name}({parameters})\n```\n\n{markdown(ast.get_docstring(node))}\n")
             for method in methods.values():
                 if not method.name.startswith("_"):
                     parameters = ast.unparse(method.args).removeprefix("self").lstrip(", ")
-                    out.append(f"### {node.name}.{method.name}\n\n```python\n{method.name}({parameters})\n```\n\n```text\n{ast.get_docstring(method) or ''}\n```\n")
+                    out.append(f"### {node.name}.{method.name}\n\n```python\n{method.name}({parameters})\n```\n\n{markdown(ast.get_docstring(method))}\n")
     return "\n".join(out)
 
 
