@@ -1,6 +1,6 @@
 #!/bin/sh
 # debian.sh CPACK BUILD SCRATCH FIRST SLIDE: the Debian packages of BUILD, installed in a fresh Debian, without the sources and the build.
-#   1. lintian, where it is installed, finds no error
+#   1. CPack warns if nobody is named as maintainer; lintian, where it is installed, finds no error
 #   2. without a compiler: ents-host solves the scan and draws its picture, the Python module computes the bits of C, Hertz is right
 #   3. with compilers: C, C++ (find_package) and Fortran programs, built from libents-dev alone, print what FIRST and SLIDE of BUILD print
 #   4. ents-ccx builds CalculiX with the adapter, and a job of it gives the forces of ents-host
@@ -26,6 +26,8 @@ inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C DEB
 must() { "$@" >"$log" 2>&1 || { tail -n 40 "$log" >&2; echo "debian.sh: failed: $*" >&2; exit 1; }; }
 
 must "$cpack" -G DEB --config "$build/CPackConfig.cmake" -B "$scratch/packages"
+case $(dpkg-deb -f "$(ls "$scratch"/packages/libents1_*.deb)" Maintainer) in *example.org*) nobody=1 ;; *) nobody=0 ;; esac
+[ "$(grep -c 'no real maintainer' "$log" || true)" -eq $nobody ] || { echo "debian.sh: CPack's warning of a maintainer who is nobody" >&2; exit 1; }
 if command -v lintian >/dev/null; then
   lintian --allow-root --tag-display-limit 0 "$scratch"/packages/*.deb >"$scratch/lintian" 2>&1 || true
   ! grep '^E: ' "$scratch/lintian" || { echo "debian.sh: lintian finds errors" >&2; exit 1; }
