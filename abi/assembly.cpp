@@ -319,14 +319,14 @@ extern "C" {
 
 int32_t ents_assemble(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, const ents_system* system, ents_report* report) {
-  return ents::at_the_door(
+  return ents::entry_point(
       report, [&] { return ents::assemble(model, first, count, input, output, system, report); });
 }
 
 int32_t ents_iterate(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                      int64_t first, int64_t count, const ents_detection* detection, const ents_input* input,
                      const ents_output* output, const ents_system* system, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     return ents::iterate(model, mesh, tree, size, first, count, detection, input, output, system, report);
   });
 }

@@ -149,7 +149,7 @@ extern "C" {
 
 int32_t ents_model_bind(const ents_model* model, const double* parameters, const ents_data* fields,
                         int64_t field_count, ents_model** bound, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (const std::int32_t status = ents::check_any_handle(model, report); status != ENTS_OK) return status;
     if (!bound) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'bound' is null");
     return ents::bind_model(*model, parameters, fields, field_count, bound, report);
@@ -157,7 +157,7 @@ int32_t ents_model_bind(const ents_model* model, const double* parameters, const
 }
 
 int32_t ents_parameter_place(const ents_model* model, const char* name, int64_t* place, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (const std::int32_t status = ents::check_any_handle(model, report); status != ENTS_OK) return status;
     if (!name || !place)
       return ents::report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null",
@@ -173,7 +173,7 @@ int32_t ents_parameter_place(const ents_model* model, const char* name, int64_t*
 }
 
 int32_t ents_field_size(const ents_model* model, const char* name, int64_t* size, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_any_handle(model, report), index = 0;
     if (status != ENTS_OK) return status;
     if (!size) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'size' is null");
@@ -186,7 +186,7 @@ int32_t ents_field_size(const ents_model* model, const char* name, int64_t* size
 
 int32_t ents_field_init(const ents_model* model, const char* name, const double* samples, double* block,
                         int64_t size, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     ents::FieldLayout layout;
     std::int32_t index = 0;
     if (const std::int32_t status = ents::check_block(model, name, block, size, layout, index, report);
@@ -204,7 +204,7 @@ int32_t ents_field_init(const ents_model* model, const char* name, const double*
 
 int32_t ents_field_sample(const ents_model* model, const char* name, const double* block, int64_t size,
                           int64_t count, const double* s, double* height, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     ents::FieldLayout layout;
     std::int32_t index = 0;
     if (const std::int32_t status = ents::check_block(model, name, block, size, layout, index, report);

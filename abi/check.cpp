@@ -46,7 +46,7 @@ void set(double& value, double (&xi)[2], const ents::Worst& worst) {
 extern "C" int32_t ents_model_check(const ents_model* model, const double* master,
                                     const double* surface_coordinates, ents_admissibility* result,
                                     ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_handle(model, report);
     if (status != ENTS_OK) return status;
     if (!master) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'master' is null");

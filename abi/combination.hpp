@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The caller's points that are linear combinations of nodes, at the door.
+// The caller's points that are linear combinations of nodes: their arguments are checked here.
 #pragma once
 
 #include "abi/handle.hpp"

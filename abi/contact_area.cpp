@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
 #include "core/tributary.hpp"
@@ -244,7 +244,7 @@ extern "C" int32_t ents_contact_area(const char* facet, int64_t facets, const in
                                      const double* gap, const double* pressure, double modulus,
                                      ents_area* area, ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     const FloatingPointGuard guard;
     std::int32_t status = ENTS_OK;
     ents_area copy;

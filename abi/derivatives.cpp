@@ -71,7 +71,7 @@ std::int32_t differentiate(const ElementCall& call, std::int64_t e, const ents_d
 extern "C" int32_t ents_parameter_derivatives(const ents_model* model, int64_t first, int64_t count,
                                               const ents_input* input, const ents_derivatives* derivatives,
                                               ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_handle(model, report);
     if (status != ENTS_OK) return status;
     ents_derivatives copy;

@@ -221,7 +221,7 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
 extern "C" {
 
 int32_t ents_tree_size(const ents_model* model, int64_t segments, int64_t* size, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const std::int32_t status = ents::check_handle(model, report);
     if (status != ENTS_OK) return status;
     if (!size) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'size' is null");
@@ -236,19 +236,19 @@ int32_t ents_tree_size(const ents_model* model, int64_t segments, int64_t* size,
 
 int32_t ents_tree_build(const ents_model* model, const ents_master_mesh* mesh, double* tree, int64_t size,
                         ents_report* report) {
-  return ents::at_the_door(
+  return ents::entry_point(
       report, [&] { return ents::make_tree(model, mesh, tree, size, ents::build_tree, false, report); });
 }
 
 int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, double* tree, int64_t size,
                         ents_report* report) {
-  return ents::at_the_door(
+  return ents::entry_point(
       report, [&] { return ents::make_tree(model, mesh, tree, size, ents::refit_tree, true, report); });
 }
 
 int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,
                     int64_t first, int64_t count, const ents_detection* detection, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard
         guard; // to compare with a signalling NaN may trap: even to ask whether this is a tree
     ents::DetectionCall call;

@@ -136,8 +136,8 @@ struct ElementCall {
   // Name the entry that a kernel refused, or how deep the slave is.
   std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;
 
-  // What an element's status makes of that of the call: negative ends it; of the recoverable ones the first
-  // is told.
+  // The status of the call from that of an element: a negative one ends the call; of those > 0 the first is
+  // reported.
   std::int32_t settle(std::int32_t outcome, std::int64_t e, std::int32_t& result, ents_report* report) const {
     if (outcome < 0) return report && report->status == outcome ? outcome : explain(outcome, e, report);
     if (outcome > 0 && result == ENTS_OK) result = explain(outcome, e, report);

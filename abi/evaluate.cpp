@@ -173,7 +173,7 @@ extern "C" {
 
 int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, const ents_input* input,
                       const ents_output* output, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard guard;
     const ents::PlainCall call = ents::evaluate_plain_call(model, first, count, input, output, report);
     if (call.plain && call.done == ~std::uint64_t{0} >> (ents::PairBlock::most - count))
@@ -184,7 +184,7 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
 
 int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents_surface* surface,
                               ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_handle(model, report);
     if (status != ENTS_OK) return status;
     ents_surface copy;

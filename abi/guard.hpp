@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floating-point environment at the door: inside, rounding is to nearest, nothing traps and denormal
+// The floating-point environment of a call: inside, rounding is to nearest, nothing traps and denormal
 // numbers count; outside, everything is as the caller left it, sticky flags included. Reading the control
 // word is cheap, writing it is not, so it is written only when it must change.
 #pragma once

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 #include "abi/patch.hpp"
 #include "core/height_binding.hpp"
 #include "core/plan.hpp"

@@ -2,12 +2,12 @@
 #include <string>
 #include <string_view>
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 #include "abi/height_registry.hpp"
 
 extern "C" int32_t ents_height_register(const char* name, int32_t dimension, ents_height_function function,
                                         void* user_data, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (!name) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'name' is null");
     if (dimension < 1 || dimension > 2)
       return ents::report_message(

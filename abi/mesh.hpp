@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The caller's master surface at the door.
+// The caller's master surface: its arguments are checked here.
 #pragma once
 
 #include "abi/handle.hpp"

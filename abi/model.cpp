@@ -84,7 +84,7 @@ extern "C" {
 const char* ents_version(void) { return ENTS_LIBRARY_VERSION; }
 
 int32_t ents_check_contract(int32_t major, int32_t minor, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (major == ENTS_CONTRACT_MAJOR && minor >= 0 && minor <= ENTS_CONTRACT_MINOR)
       return ents::report_ok(report);
     return ents::report_message(
@@ -96,7 +96,7 @@ int32_t ents_check_contract(int32_t major, int32_t minor, ents_report* report) {
 
 int32_t ents_model_create(const char* text, int64_t length, const char* directory, const ents_data* data,
                           int64_t data_count, ents_model** model, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (!model) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
     *model = nullptr;
     if (!text) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'text' is null");
@@ -118,7 +118,7 @@ int32_t ents_model_create(const char* text, int64_t length, const char* director
 }
 
 int32_t ents_model_create_from_file(const char* path, ents_model** model, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (!model) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'model' is null");
     *model = nullptr;
     if (!path) return ents::report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'path' is null");
@@ -127,7 +127,7 @@ int32_t ents_model_create_from_file(const char* path, ents_model** model, ents_r
 }
 
 int32_t ents_model_destroy(ents_model** model, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (!model || !*model) return ents::report_ok(report);
     if (const std::int32_t status = ents::check_any_handle(*model, report); status != ENTS_OK) return status;
     *const_cast<volatile std::uint64_t*>(&(*model)->magic) =
@@ -139,7 +139,7 @@ int32_t ents_model_destroy(ents_model** model, ents_report* report) {
 }
 
 int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_any_handle(model, report);
     if (status != ENTS_OK) return status;
     ents_layout copy;

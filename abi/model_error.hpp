@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What reading a model throws; caught at the door and turned into a status and a report.
+// What reading a model throws; the entry point catches it and turns it into a status and a report.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 
 namespace ents {
 

@@ -199,7 +199,7 @@ void add_body(int dim, const ents_pose& pose, const double* y, const double* res
 extern "C" {
 
 int32_t ents_pose_init(int32_t dimension, ents_pose* pose, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_dimension(dimension, report);
     if (status != ENTS_OK) return status;
     ents_pose copy;
@@ -214,7 +214,7 @@ int32_t ents_pose_init(int32_t dimension, ents_pose* pose, ents_report* report) 
 
 int32_t ents_pose_move(int32_t dimension, const double* translation, const double* spin, ents_pose* pose,
                        ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard guard;
     return ents::move(dimension, translation, spin, pose, report);
   });
@@ -222,7 +222,7 @@ int32_t ents_pose_move(int32_t dimension, const double* translation, const doubl
 
 int32_t ents_pose_to_body(int32_t dimension, const ents_pose* pose, int64_t count, const double* positions,
                           double* in_body, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard guard;
     return ents::change_frame(dimension, pose, count, positions, "positions", in_body, "in_body", true,
                               report);
@@ -231,7 +231,7 @@ int32_t ents_pose_to_body(int32_t dimension, const ents_pose* pose, int64_t coun
 
 int32_t ents_pose_to_space(int32_t dimension, const ents_pose* pose, int64_t count, const double* in_body,
                            double* vectors, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard guard;
     return ents::change_frame(dimension, pose, count, in_body, "in_body", vectors, "vectors", false, report);
   });
@@ -240,7 +240,7 @@ int32_t ents_pose_to_space(int32_t dimension, const ents_pose* pose, int64_t cou
 int32_t ents_pose_element(int32_t dimension, const ents_pose* pose, const double* slave,
                           const double* residual, const double* tangent, double* body_residual,
                           double* body_tangent, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     std::int32_t status = ents::check_dimension(dimension, report);
     ents_pose copy;
     const ents_pose* known =

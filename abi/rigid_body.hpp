@@ -3,7 +3,7 @@
 // point.
 #pragma once
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 
 namespace ents {
 

@@ -107,7 +107,7 @@ extern "C" {
 int32_t ents_tributary_areas(const char* facet, int64_t facets, const int64_t* connectivity, int64_t nodes,
                              const double* positions, double thickness, double* areas, ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     const FloatingPointGuard guard;
     const Facets f = {
         facet ? facet_named(facet) : nullptr, facets, nodes, connectivity, positions, thickness};
@@ -128,7 +128,7 @@ int32_t ents_sampling_points(const char* facet, int32_t per_direction, int64_t f
                              double thickness, int64_t* begin, int64_t* point_nodes, double* weights,
                              double* areas, ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     const FloatingPointGuard guard;
     const Facets f = {
         facet ? facet_named(facet) : nullptr, facets, nodes, connectivity, positions, thickness};
@@ -155,7 +155,7 @@ int32_t ents_sampling_points(const char* facet, int32_t per_direction, int64_t f
 int32_t ents_combine(const ents_combination* combination, int32_t dimension, int64_t nodes,
                      const double* positions, double* points, ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     ents_combination c;
     std::int32_t status = check_combination(combination, "combination", c, report);
     if (status != ENTS_OK) return status;

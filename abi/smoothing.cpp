@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "abi/door.hpp"
+#include "abi/entry_point.hpp"
 #include "abi/guard.hpp"
 #include "core/smoothing.hpp"
 
@@ -107,7 +107,7 @@ int32_t ents_smooth_size(const char* facet, const char* basis, int32_t ends, int
                          const int64_t* connectivity, int64_t nodes, int64_t* points, int64_t* terms,
                          ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     const FloatingPointGuard guard;
     if (!points || !terms)
       return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null",
@@ -126,7 +126,7 @@ int32_t ents_smooth(const char* facet, const char* basis, int32_t ends, int64_t 
                     int64_t* segment_points, int64_t* begin, int64_t* point_nodes, double* weights,
                     ents_report* report) {
   using namespace ents;
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     const FloatingPointGuard guard;
     const struct {
       const char* name;

@@ -29,7 +29,7 @@ extern "C" {
 
 int32_t ents_state_init(const ents_model* model, int64_t count, double* state, int64_t stride,
                         ents_report* report) {
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     if (const std::int32_t status = check_blocks(model, count, state, stride, "state", report);
         status != ENTS_OK)
       return status;
@@ -45,7 +45,7 @@ int32_t ents_state_init(const ents_model* model, int64_t count, double* state, i
 
 int32_t ents_state_augment(const ents_model* model, int64_t count, double* state_begin, int64_t begin_stride,
                            const double* state_end, int64_t end_stride, ents_report* report) {
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     std::int32_t status = check_blocks(model, count, state_begin, begin_stride, "state_begin", report);
     if (status == ENTS_OK) status = check_blocks(model, count, state_end, end_stride, "state_end", report);
     if (status != ENTS_OK) return status;
@@ -74,7 +74,7 @@ int32_t ents_state_transfer(const ents_model* model, const double* old_master,
                             const double* old_surface_coordinates, const double* new_master,
                             const double* new_surface_coordinates, const double* state, double* moved,
                             ents_report* report) {
-  return at_the_door(report, [&] {
+  return entry_point(report, [&] {
     if (const std::int32_t status = check_handle(model, report); status != ENTS_OK) return status;
     if (!model->model.patch.empty())
       return report_status(report, ENTS_BAD_STATE, -1,

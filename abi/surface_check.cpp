@@ -86,5 +86,5 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller,
 
 extern "C" int32_t ents_surface_check(const ents_model* model, const ents_master_mesh* mesh,
                                       ents_surface_admissibility* result, ents_report* report) {
-  return ents::at_the_door(report, [&] { return ents::check(model, mesh, result, report); });
+  return ents::entry_point(report, [&] { return ents::check(model, mesh, result, report); });
 }

@@ -124,7 +124,7 @@ extern "C" int32_t ents_wear_collect(const ents_model* model, int64_t first, int
                                      const ents_input* input, double thickness, double* state,
                                      int64_t state_stride, const char* name, double* block, int64_t size,
                                      double* volume, ents_report* report) {
-  return ents::at_the_door(report, [&] {
+  return ents::entry_point(report, [&] {
     if (const std::int32_t status = ents::check_any_handle(model, report); status != ENTS_OK) return status;
     const ents::FloatingPointGuard guard;
     return ents::collect_wear(*model, first, count, input, thickness, state, state_stride, name, block, size,

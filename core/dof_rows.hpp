@@ -2,7 +2,7 @@
 // Numbers of an element's dofs, made and read a register at a time where one element has registers of its
 // own. The operations for a dof are those of expand(), so the bits are the same.
 //
-// A register is slow to read where its numbers have been written in other pieces; hence the copies in DofRow.
+// DofRow copies, so that a register is read as it was written: this avoids a store-forwarding stall.
 #pragma once
 
 #include <cstring>

@@ -50,8 +50,8 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   Target t;
   if (!set_target<D>(plan, in.slave, t)) return Status::grazing_ray;
 
-  // start: that of a history in contact, else the caller's, else the whole segment: a slave that is open may
-  // be over another flank by now
+  // The iteration starts from the state of an element in contact, else from the caller's start, else it
+  // searches the whole segment, since an open slave may have moved over another flank.
   Projection<B, H> p;
   FoundProjection at{};
   const double* start = in.start;

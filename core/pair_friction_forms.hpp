@@ -35,7 +35,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     }
   }
 
-  // With a height, in parts that compilers digest.
+  // With a height, not inlined: this shortens compilation.
   template <class Part> static ENTS_INLINE void in_part(Part&& part) {
     if constexpr (H)
       apart(part);

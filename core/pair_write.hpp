@@ -183,7 +183,7 @@ template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* co
   }
 }
 
-// number(k) of each lane k. (A register is slow to read where its numbers have been written one by one.)
+// number(k) of each lane k, without memory: a register read after writing its numbers one by one would stall.
 template <int W, class Number, int... k>
 ENTS_INLINE Lanes<W> each_lane(Number&& number, std::integer_sequence<int, k...>) {
   return Lanes<W>(typename VectorOf<W>::Numbers{number(k)...}, 0);

@@ -56,7 +56,7 @@ struct CheckOptions {
 int check_command(const CommonOptions& common, const CheckOptions& options);
 
 struct ChartOptions {
-  std::filesystem::path out;     ///< empty: only the terminal is told
+  std::filesystem::path out;     ///< empty: results go to the terminal only
   std::filesystem::path scenes;  ///< the folder examples; empty: found from the program's folder
   bool quick = false;            ///< a few points of each map, a few runs of each scene
   std::vector<std::string> only; ///< names of scenes: no others, and no maps; empty: all

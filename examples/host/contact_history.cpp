@@ -32,7 +32,7 @@ void Contact::begin_increment(const Configuration& begin) {
   closed_.assign(points_.size(), 0);
   for (std::size_t k = 0; k < points_.size(); ++k) closed_[k] = accepted_.pressure[k] != 0;
   auto report = ents_struct<ents_report>();
-  move_history(report); // what could not be moved is told when segments are chosen
+  move_history(report); // what could not be moved is reported by the next search
 }
 
 void Contact::gather(std::int64_t segment, std::vector<double>& positions) const {

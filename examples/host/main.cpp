@@ -184,7 +184,7 @@ int run_program(int argc, char** argv) {
                   "of every Newton iteration, and\n"
                   "its last two reductions. A step that fails is cut into parts; steps too small end the run "
                   "with exit code 1;\n"
-                  "what was solved before is told and written all the same.\n\n"
+                  "the steps solved before are reported and written.\n\n"
                   "Friction: slip begins where \"traction\", per area of the surface, reaches mu times the "
                   "pressure. A penalty leaves a gap g\n"
                   "at which the force on the slave node is another one: tangential over normal force is mu / "
@@ -349,7 +349,7 @@ int run_program(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN); // a file that the shell's limit cuts off is told as one on a full disk
+  std::signal(SIGXFSZ, SIG_IGN); // a file beyond the shell's limit gets the message of a full disk
   const int code = run_program(argc, argv);
   // Answers that never arrived shall not look like success.
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_assemble with residuals and tangents that somebody else computes: an adapter, or automatic
+// ents_assemble with residuals and tangents that other code computes: an adapter, or automatic
 // differentiation.
 #pragma once
 

@@ -55,7 +55,7 @@ void add_cylinder(const JsonValue& value, const std::string& segment, RigidBodyS
                middle = (23 * std::cos(step / 2) + std::cos(1.5 * step)) / 24,
                of_nodes = smooth ? radius * 3 / (knot + 2 * middle) : radius;
   const int before = smooth ? 1 : 0, rows = along + 1 + 2 * before, wide = smooth ? 4 : 2;
-  const double turn = outside ? 1 : -1; // the normal points at somebody who sees the nodes go round leftwards
+  const double turn = outside ? 1 : -1; // seen from the tip of the normal, nodes go round counter-clockwise
   for (int row = 0; row < rows; ++row)
     for (int k = 0; k < around; ++k) {
       const double angle = turn * k * step;

@@ -114,7 +114,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   std::unique_ptr<StepFailure> failure;
   try {
     records = solve(simulation, observer, plan);
-  } catch (const StepFailure& caught) { // what was solved before is told all the same
+  } catch (const StepFailure& caught) { // steps that were solved before are reported, too
     failure = std::make_unique<StepFailure>(caught);
     records = failure->solved;
   }
@@ -134,7 +134,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     for (const std::string& problem : problems) std::printf("%s\n", problem.c_str());
     if (!options.out.empty() && files.problem().empty()) std::printf("%s\n", files.names().c_str());
   }
-  std::fflush(stdout); // before what is told on stderr
+  std::fflush(stdout); // before messages on stderr
   note_without_contact(scene, records);
   for (const std::string& message : {failure ? std::string(failure->what()) : std::string(), files.problem()})
     if (!message.empty()) std::fprintf(stderr, "ents-host: %s\n", message.c_str());

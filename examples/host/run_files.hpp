@@ -10,8 +10,8 @@
 
 namespace host {
 
-/// A file that cannot be written does not end the run, which may have taken hours: it is told at once, and
-/// the command fails when everything else is done.
+/// A file that cannot be written does not end the run, which may have taken hours: ents-host prints a message
+/// and fails when everything else is done.
 ///
 /// checkpoint.json is that of the last step, checkpoint_before.json the one before it. Once files of the VTU
 /// series could not be written, checkpoint_before.json stays that of the last step before them: a run that is

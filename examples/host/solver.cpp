@@ -22,7 +22,7 @@ using Matrix = SparseSystem::Matrix;
 
 /// CHOLMOD opens OpenMP regions of its own, whose threads wait for each other longer than they work on the
 /// matrices of these scenes (westergaard: half the wall time without them). This program does not link with
-/// OpenMP; whoever brought it along is asked.
+/// OpenMP, but a library that it loads may; that one is asked to use one thread.
 void keep_to_this_thread() {
   if (void* function = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))
     reinterpret_cast<void (*)(int)>(function)(0);

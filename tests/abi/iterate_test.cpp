@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_iterate and ents_assemble at the door: what is the caller's stays so, what is said is what is done.
+// Arguments of ents_iterate and ents_assemble: the caller's input stays unchanged, the report says what was
+// done.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -207,8 +208,8 @@ TEST(Iterate, RefusesBeforeItWrites) {
   EXPECT_EQ(it.iterate(nullptr), ENTS_OK) << it.report.message;
 }
 
-// They are the caller's to have: an older one's detection ends before them, and nothing is read beyond it. A
-// slave that is lost is told all the same.
+// An older caller's ents_detection ends before the flags, and nothing is read beyond its end. A slave that is
+// lost is reported nevertheless.
 TEST(Iterate, FlagsOfTheDetectionAreOptional) {
   for (const bool older : {false, true}) {
     Iteration it(model_text(penalty), {0.5, -0.01, 2.0, -0.2});

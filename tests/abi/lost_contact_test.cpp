@@ -283,7 +283,7 @@ TEST(LostContact, UnknownBitsOfPermittedAreRefused) {
   EXPECT_NE(std::strstr(slave.report.message, "detection.permitted"), nullptr) << slave.report.message;
 }
 
-// All slaves are written, whoever is lost, and no element is evaluated.
+// All slaves are written, whichever of them is lost, and no element is evaluated.
 TEST(LostContact, IterateEndsBeforeItEvaluates) {
   const Sheet sheet(2);
   const Model model(text_of(2, coulomb));

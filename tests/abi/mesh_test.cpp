@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole master surfaces at the door: elements gathered from a mesh are those of the caller's own arrays;
+// Whole master surfaces as arguments: elements gathered from a mesh are those of the caller's own arrays;
 // mistakes have names.
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_surface_check at the door: mistakes have names, what is not asked for is not written, the same bits
+// Arguments of ents_surface_check: mistakes have names, what is not asked for is not written, the same bits
 // twice, also for a host that traps. What the numbers mean is tested in tests/mechanics.
 #include <gtest/gtest.h>
 

@@ -249,8 +249,8 @@ TEST_F(Check, AModelWithoutContactHasNoKernel) {
   EXPECT_EQ(result(model, "", 0).at("instruction_set"), nullptr);
 }
 
-// Ten micrometres on a segment of ten lengths: right with "length_unit" 1e-6, and a speck in its corner
-// without.
+// Ten micrometres on a segment of ten lengths: right with "length_unit" 1e-6; without it the map
+// covers 1e-6 of the segment.
 TEST_F(Check, AMapThatCoversLessThanTheSegmentsIsAWarning) {
   {
     std::ofstream file(folder_ / "map.txt");

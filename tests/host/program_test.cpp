@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host as typed in a shell: what goes wrong is told before work is lost, and by its name.
+// ents-host as typed in a shell: it names a mistake before hours of work are lost.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -124,7 +124,8 @@ TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
   }
 }
 
-// An --out that is no folder is told before anything is computed: with a scene of hours it would be too late.
+// ents-host names an --out that is no folder before it computes: at the end of a long run it would be too
+// late.
 TEST_F(Program, AnOutputFolderThatCannotBeIsToldFirst) {
   const std::string scene = write("small.json", small()), file = write_text("afile", "");
   const std::string model = write("model.json", {{"segment", "line2"}});
@@ -453,8 +454,8 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
 }
 
-// A forgotten "length_unit" leaves a speck of a map: said before the run, whose result looks like a master
-// that faces away.
+// Without "length_unit" a map covers a small part of the segment: ents-host warns before the run, whose
+// result looks like that of a master with reversed normals.
 TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
   write_text("profile.txt", "# Channel: z\n# Width: 4 mm\n# Height: 1 mm\n# Value units: m\n"
                             "1e-5 2e-5 3e-5 4e-5 5e-5 4e-5 3e-5 2e-5 1e-5 1e-5\n");

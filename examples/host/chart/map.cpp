@@ -10,8 +10,8 @@
 namespace host::chart {
 namespace {
 
-/// All panels of one point. The judge walks once per surface and projection, and only if somebody delivered
-/// anything.
+/// All panels of one point. The independent minimiser runs once per surface and projection, and only if a
+/// method has a result.
 void fill_point(Map& map, std::size_t point, const EntsLibrary& library) {
   const double x = map.x.values[point % map.x.values.size()], y = map.y.values[point / map.x.values.size()];
   for (const SurfaceKind surface : map.surfaces)

@@ -206,7 +206,7 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
       run.failure = error.what();
     }
   };
-  WorkRun warm = work.runs.front(); // whoever comes first pays for cold memory: nobody's price
+  WorkRun warm = work.runs.front(); // the first run is slow because memory is cold: it is not counted
   solve_way(problem, library, warm);
   if (!problem.exact) { // the truth comes first
     first_solution(work.runs.size() - 1);

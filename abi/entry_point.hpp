@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every entry point does at the door: sizes of structs, the caller's report, and exceptions, none of
-// which passes.
+// What every function of ents.h does with its arguments before and after its work: it checks the sizes of
+// structs, fills the caller's report, and turns exceptions into statuses.
 #pragma once
 
 #include <cstddef>
@@ -113,7 +113,7 @@ template <class Struct> void give_back(Struct& filled, Struct* caller) noexcept 
 }
 
 // Run an entry point's body; what it throws becomes a status.
-template <class Body> std::int32_t at_the_door(ents_report* report, Body&& body) noexcept {
+template <class Body> std::int32_t entry_point(ents_report* report, Body&& body) noexcept {
   if (!report_usable(report)) return ENTS_STRUCT_SIZE;
   try {
     return body();
