@@ -11,7 +11,7 @@ if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_LIBRARY_ARCHITECTURE OR ENTS_SANITIZE)
 endif()
 set(libdir lib/${CMAKE_LIBRARY_ARCHITECTURE})
 set(private ${libdir}/ents) # ents-host looks for ../lib/libents.so beside its own folder, and for adapters there
-# The same variables as Debian's own tools; without them an address that is nobody's, and a warning whenever packages are made.
+# The same variables as Debian's own tools; without them an address that is nobody's, and CPack warns.
 set(nobody "the ents authors <ents@example.org>")
 set(maintainer "${nobody}")
 if(DEFINED ENV{DEBFULLNAME} AND DEFINED ENV{DEBEMAIL})
@@ -115,11 +115,17 @@ set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz) # that of Debian; the library is 40 % smaller than with gzip
+set(warnings "")
 if(ENTS_MAINTAINER STREQUAL nobody)
-  file(WRITE ${generated}/maintainer.cmake "message(WARNING \"The packages name no real maintainer (${nobody}), to whom their users could \"
-  \"write. Before you give them away, configure with -DENTS_MAINTAINER=\\\"NAME <ADDRESS>\\\".\")\n")
-  set(CPACK_PRE_BUILD_SCRIPTS ${generated}/maintainer.cmake)
+  string(APPEND warnings "message(WARNING \"The packages name no real maintainer (${nobody}), to whom their users could write. \"
+  \"Before you give them away, configure with -DENTS_MAINTAINER=\\\"NAME <ADDRESS>\\\".\")\n")
 endif()
+if(ENTS_INSTRUCTION_SETS STREQUAL "native")
+  string(APPEND warnings "message(WARNING \"The library has the fast kernels of this machine's processor only; on others it is slower. \"
+  \"Before you give it away, configure with -DENTS_INSTRUCTION_SETS=all.\")\n")
+endif()
+file(WRITE ${generated}/warnings.cmake "${warnings}")
+set(CPACK_PRE_BUILD_SCRIPTS ${generated}/warnings.cmake)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL ${components})
