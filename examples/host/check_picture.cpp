@@ -45,7 +45,7 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
   picture.columns = surface.d == 2 ? static_cast<int>(std::clamp(each, 5., 801.))
                                    : static_cast<int>(std::clamp(std::sqrt(each), 3., 161.));
   picture.rows = surface.d == 2 ? 1 : picture.columns;
-  picture.title = places.empty() ? "Enriched surface: nothing found" : "Enriched surface and where it fails";
+  picture.title = places.empty() ? "Enriched surface: admissible" : "Enriched surface and where it fails";
   picture.subtitle =
       std::to_string(surface.segments()) + (surface.segments() == 1 ? " segment" : " segments");
   if (segments.size() < surface.segments())
