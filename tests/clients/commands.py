@@ -23,6 +23,7 @@ LONG = {  # a part of a command: why it is not run
     "host_chart_test": "tests of this build", "host_crash_test": "tests of this build", "promises_test": "tests of this build",
     "host_friction_test": "tests of this build", "adapters_scenes_table": "half an hour",
     "mutations.py": "minutes", "compare_peers.py": "a test of its own", "curved.py": "half an hour", "_block.py": "tests of their own",
+    "joint.py": "bolted_joint_test.py runs it with --quick", "torque.py": "minutes",
     "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "gallery.sh": "minutes",
     "setup.sh": "builds", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
@@ -71,7 +72,7 @@ def commands_of(file):
         elif line.startswith("    ") and not fenced:
             found.append(line.split("   #")[0].split(" # ")[0].strip())
     found += [re.sub(r"\s+", " ", code) for code in re.findall(r"`([^`]+)`", file.read_text())]
-    return [c for c in found if re.match(r"(build/bin/|/usr/bin/python3 |python3 adapters/|python3 tests/|sh (adapters|examples|tests)/)\S*", c)
+    return [c for c in found if re.match(r"(build/bin/|/usr/bin/python3 |python3 (adapters|examples|tests)/|sh (adapters|examples|tests)/)\S*", c)
             and (" " in c or "_test" in c)]
 
 

@@ -5,22 +5,26 @@ listings   a fenced block of code is a part, unchanged, of a file that its READM
 links      relative links name files, and headings of READMEs
 commands   programs, files, and tests that a command names exist: a filter of tests that matches none is a mistake
 heights    the library accepts every height of the top README
+models     the library accepts every model of a README, {"segment": ...
+python     the indented Python of adapters/python/README.md prints a number
 size       the top README has at most 160 lines; its lines of prose have at most 120 characters
 
 BUILD has bin/ with the programs and CTestTestfile.cmake; ENTS_LIBRARY names libents.so. Exit status 3: no NumPy.
 """
 import functools
 import json
+import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 sys.path.insert(0, str(root / "adapters" / "python"))
 mistakes = []
-counts = dict.fromkeys(["READMEs", "listings", "links", "commands", "filters", "heights"], 0)
+counts = dict.fromkeys(["READMEs", "listings", "links", "commands", "filters", "heights", "models", "python"], 0)
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 RUN_ELSEWHERE = {"adapters/README.md": "python"}  # python_test.py runs this block
 
@@ -149,6 +153,26 @@ def check_top(file):
             mistakes.append(f"README.md: {height}: {error}")
 
 
+def check_models(file):
+    import ents
+    text = "\n".join(line[4:] if line.startswith("    ") else "" for line in file.read_text().splitlines())
+    for start in re.finditer(r'^\{"segment"', text, re.M):
+        counts["models"] += 1
+        try:
+            ents.Model(json.JSONDecoder().raw_decode(text[start.start():])[0])
+        except (ValueError, ents.Error) as error:
+            mistakes.append(f"{file.relative_to(root)}: a model: {error}")
+
+
+def check_python(file):
+    code = re.search(r"(?m)^    import ents\n(?:    .*\n)+", file.read_text())
+    program = textwrap.dedent(code[0]) if code else "raise SystemExit('there is none')"
+    done = subprocess.run([sys.executable, "-B", "-c", program], env=dict(os.environ, PYTHONPATH=sys.path[0]), capture_output=True, text=True)
+    counts["python"] += 1
+    if done.returncode or not re.fullmatch(r"-?[0-9.]+\n", done.stdout):
+        mistakes.append(f"{file.relative_to(root)}: its Python: {done.stdout}{done.stderr}")
+
+
 FOLDERS = ("core", "abi", "adapters", "examples", "tests")  # and nothing of a build
 
 
@@ -160,6 +184,9 @@ targets = "\n".join(path.read_text() for path in sources("CMakeLists.txt"))
 for readme in sources("README.md"):
     check_readme(readme)
 check_top(root / "README.md")
+for readme in sources("README.md"):
+    check_models(readme)
+check_python(root / "adapters" / "python" / "README.md")
 print(", ".join(f"{count} {what}" for what, count in counts.items()))
 if min(count for what, count in counts.items() if what != "filters") == 0 or mistakes:
     print("\n".join(mistakes) or "nothing was checked of one kind", file=sys.stderr)

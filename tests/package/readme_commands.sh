@@ -1,7 +1,7 @@
 #!/bin/sh
 # readme_commands.sh ROOT PREFIX SCRATCH EXPECTED_FIRST SLIDE_C: the commands of README.md and examples/slide/README.md that compile a
 # program against an installed library, run as they stand there with PREFIX put in. EXPECTED_FIRST prints what `first` has to print; SLIDE_C
-# is slide of the build.
+# is slide of the build. The lines of C in core/README.md compile.
 set -eu
 root=$1 prefix=$2 scratch=$3 expected_first=$4 slide=$5
 rm -rf "$scratch"
@@ -31,4 +31,14 @@ run() { # README, program, arguments of the program
 }
 run README.md first
 run examples/slide/README.md slide model.json
+
+lines=$(sed -n '/^    ents_detect(/,/^$/s/^    //p' "$root/core/README.md")
+[ -n "$lines" ] || { echo "core/README.md has no lines of C" >&2; exit 1; }
+{
+  echo '#include "ents.h"'
+  echo 'void lines(const ents_model *model, ents_master_mesh mesh, double *tree, int64_t size, int64_t count, int64_t d,'
+  echo '           ents_detection detection, ents_input input, ents_report report) {'
+  printf '%s\n}\n' "$lines"
+} >core.c
+cc -std=c99 -Wall -Werror -Wno-unused-but-set-parameter -fsyntax-only -I "$prefix/include" core.c
 echo "4 programs are built by the commands of the READMEs"
