@@ -259,7 +259,7 @@ void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tan
     *at(out->energy, out->energy_stride, e) = area * (-0.5 * lambda[0] * lambda[0] / plan->law.stiffness);
 }
 
-// As the element kernel, but for the start: nobody sets one where there is no segment.
+// As the element kernel, but without `start`, which elements without a segment do not have.
 std::int32_t ElementCall::check_open(std::int64_t e) const {
   const double *area = at(in->area, in->area_stride, e),
                *lambda = at(in->multiplier, in->multiplier_stride, e);

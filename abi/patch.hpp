@@ -33,7 +33,7 @@ struct ElementSizes {
 ElementSizes sizes_of(const Plan& plan, const Patch& patch);
 
 // The last number of every state of the ABI, after those of the kernels: 1 + the segment that the slave was
-// on, 0 where nobody knows.
+// on, 0 where that is unknown.
 inline bool is_segment_number(double number) { return 0.0 * number == 0.0; } // finite
 inline std::int64_t segment_of_state(const Plan& plan, const double* state) {
   return static_cast<std::int64_t>(state[plan.state.size]) - 1;

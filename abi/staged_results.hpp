@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tangents and residuals that no cache holds. An element per lane, they would be written to memory a piece
 // here and a piece there; so they are written block by block to a place that a cache does hold, and copied
-// from there. While one block is computed the one before is copied, a few lines at a time: the memory takes
-// them as fast as they come, and nobody waits.
+// from there. While one block is computed the one before is copied, a few cache lines at a time, so that the
+// latency of streaming stores is hidden.
 #pragma once
 
 #include <algorithm>

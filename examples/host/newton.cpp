@@ -217,7 +217,7 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
       motion = (-force_error - row.dot(step)) / stiffness;
       step += motion * follow;
     }
-    // A pivot may be so small that nobody called it zero.
+    // A pivot may be small without being zero, and the step not finite.
     ok = std::isfinite(motion) && step.allFinite();
     if (ok) next.motion += motion;
     const std::size_t dofs = next.displacement.size();

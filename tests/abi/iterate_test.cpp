@@ -321,8 +321,8 @@ TEST(Iterate, ASlaveWithoutASegmentHoldsItsMultipliers) {
     }
 }
 
-// What an element without a segment has by way of inputs is looked at as those of all others; but for its
-// start, which nobody has set.
+// Inputs of elements without a segment are checked as those of all others, but for their start, which is
+// not set.
 TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   const struct {

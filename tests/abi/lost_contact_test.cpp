@@ -124,7 +124,7 @@ TEST(LostContact, IsToldOfEverySlaveThatDoesNotRise) {
   for (const int c : count) EXPECT_GT(c, samples(4000) / 50);
 }
 
-// A texture goes on beyond the edge as nobody knows: a slave that is not above its crests has not risen.
+// How a texture goes on beyond the edge is unknown: a slave that is not above its crests has not risen.
 TEST(LostContact, ATextureCountsWithItsGreatestHeight) {
   Random random(43);
   int lost = 0, open = 0;

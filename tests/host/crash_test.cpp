@@ -113,7 +113,7 @@ protected:
     }
     return last;
   }
-  /// All that a run leaves is what a run leaves that nobody stopped.
+  /// The files of this run are those of a run that was not stopped.
   void expect_whole(const fs::path& folder, const std::string& what) const {
     EXPECT_EQ(parse_json_file(folder / "result.json").at("fingerprint"), fingerprint_) << what;
     for (const auto& [name, bytes] : series_)

@@ -351,8 +351,8 @@ TEST(SurfaceAdmissibility, PanelBTheMiddleOfATriangle) {
     EXPECT_NEAR(c.other_xi[ENTS_CHECK_OCCLUSION][a], 0.25 * c.point[ENTS_CHECK_OCCLUSION][a], rounding);
 }
 
-// A textured square that no ray meets at less than 3 degrees lies in nobody's shadow, its own facets' least
-// of all.
+// A textured square that no ray meets at less than 3 degrees lies in no shadow, not of its own facets
+// either.
 TEST(SurfaceAdmissibility, PanelBNoFalseShadows) {
   Random random(5);
   int lit = 0;
