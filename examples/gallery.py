@@ -70,14 +70,17 @@ def label(entry):
 
 
 def solve(host, entry, folder):
-    """Run one scene: (rows, failures, title of the scene)."""
+    """Run one scene, or the program of an entry that takes several runs: (rows, failures, title of the scene)."""
     name, variant = label(entry), entry.get("variant")
     file = HERE / entry["scene"] / "scene.json"
     if not file.is_file():
         problem(f"\"scene\": \"{entry['scene']}\": there is no {file}")
     title = json.loads(file.read_text())["title"]
     begin = time.monotonic()
-    done = subprocess.run([host, "run", file, "--out", folder, *(["--variant", variant] if variant else [])], capture_output=True, text=True, check=False)
+    command = [host, "run", file, *(["--variant", variant] if variant else [])]
+    if "program" in entry:
+        command = [sys.executable, "-B", HERE / entry["scene"] / entry["program"], host]
+    done = subprocess.run([*command, "--out", folder], capture_output=True, text=True, check=False)
     seconds = f"{time.monotonic() - begin:.1f}"
     said = (done.stderr.strip() or done.stdout.strip()).splitlines() or ["nothing was printed"]
     if "fails" in entry:

@@ -55,6 +55,24 @@ class Gallery(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn('no step has an exact "largest pressure"', done.stderr)
 
+    def test_a_program_of_several_runs(self):
+        program = self.folder / "program.py"
+        entry = {"scene": "slope", "program": str(program), "checks": [{"quantity": "speed", "exact": "one", "bound": 0.02}]}
+        text = f"""import sys; sys.path.insert(0, {str(EXAMPLES)!r}); import runs
+arguments = runs.arguments("", "none")
+runs.solve(arguments.program, runs.TOP / "examples/slope/scene.json", arguments.out / "slope")
+runs.write_result(arguments.out, [[runs.quantity("speed", 1.0, 1.0)], [runs.quantity("speed", SPEED, 1.0)]])
+"""
+        for speed, status in (("0.99", 0), ("0.97", 1)):
+            program.write_text(text.replace("SPEED", speed))
+            done = self.run_gallery([entry])
+            self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIn("MISSED slope: speed differs by 3 %", done.stderr)
+        program.write_text("import sys; sys.exit('out of speed')")
+        done = self.run_gallery([entry])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("MISSED slope: out of speed", done.stderr)
+
     def test_a_quantity_that_is_not_there(self):
         done = self.run_gallery([{"scene": "slope", "checks": [{"quantity": "speed", "exact": "none", "bound": 1}]}])
         self.assertEqual(done.returncode, 1)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the programs of several runs share: their command line, runs of ents-host, and results as gallery.py reads them."""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+TOP = pathlib.Path(__file__).resolve().parents[1]
+
+
+def arguments(document, name):
+    """NAME.py [ENTS-HOST] [--out FOLDER]; the folder is there when this returns."""
+    parser = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", nargs="?", type=pathlib.Path, default=TOP / "build/bin/ents-host")
+    parser.add_argument("--out", default=pathlib.Path("out") / name, type=pathlib.Path)
+    found = parser.parse_args()
+    found.out.mkdir(parents=True, exist_ok=True)
+    return found
+
+
+def solve(program, scene, folder, *options):
+    """Result of a scene: a file, or a dictionary, which is written into the folder. Ends the program if it is not solved."""
+    if isinstance(scene, dict):
+        folder.mkdir(parents=True, exist_ok=True)
+        file = folder / "scene.json"
+        file.write_text(json.dumps(scene))
+    else:
+        file = scene
+    done = subprocess.run([program, "run", file, "--out", folder, *options], capture_output=True, text=True, check=False)
+    if done.returncode:
+        sys.exit(f"{folder}: {done.stderr.strip() or done.stdout.strip()}")
+    return json.loads((folder / "result.json").read_text())
+
+
+def quantity(name, value, exact):
+    """A computed number beside its exact value. If that is zero, only an absolute bound can be checked."""
+    return {"name": name, "value": value, "exact": exact, "relative_error": value / exact - 1 if exact else None}
+
+
+def write_result(folder, steps):
+    """FOLDER/result.json: for each step a list of quantities."""
+    (folder / "result.json").write_text(json.dumps({"steps": [{"exact": step} for step in steps]}, indent=1))
+
+
+def draw(script, picture):
+    """Run gnuplot, if it is there."""
+    if not shutil.which("gnuplot"):
+        print(f"no picture {picture}: gnuplot is not installed")
+        return
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    print(picture)
