@@ -31,6 +31,9 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records);
 /// Exact quantities of every step; empty text if the scene has none.
 std::string exact_table(const std::vector<StepRecord>& records);
 
+/// rho_e of all segments of the master, where they are now.
+vtu::Grid master_grid(Simulation& simulation);
+
 /// What writes the parts of one step for the VTU series: "bulk", "slave" and "surface" (the enriched master),
 /// then their list. Each may fail on its own, as Series::add; the arguments have to live as long.
 std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The VTU series of a run.
+#include <algorithm>
 #include <cmath>
 
 #include "result.hpp"
@@ -93,14 +94,39 @@ vtu::Grid surface_grid(Simulation& simulation) {
   return grid;
 }
 
-/// rho_e of all segments of a rigid body, where it is now.
-vtu::Grid body_grid(Simulation& simulation) {
+/// Nodes or control points of the master, where they are now; those of a rigid body in its own frame.
+std::vector<double> present_points(const Simulation& simulation, const Master& master) {
+  const auto d = static_cast<std::size_t>(simulation.mesh().dimension);
+  std::vector<double> points = master.rigid ? master.positions : simulation.mesh().coordinates;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!master.rigid)
+      points[i] += simulation.now().displacement[i];
+    else if (master.body_node < 0)
+      points[i] += simulation.now().motion * master.direction[i % d];
+  return master.net ? master.net->positions(points) : points;
+}
+
+/// Divisions of a segment along each direction: plain segments are drawn as they are, others as smooth as so
+/// many cells allow.
+std::size_t divisions_of(const Master& master, std::size_t d) {
+  const ents_layout& layout = master.model->layout();
+  const bool plain = layout.nodes == (d == 2 ? 2 : master.triangles ? 3 : 4) && !master.base;
+  if (plain) return 1;
+  const std::size_t segments = std::max<std::size_t>(master.segments(), 1);
+  if (d == 2) return std::clamp<std::size_t>(8000 / segments, 2, 200);
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(40000. / static_cast<double>(segments))),
+                                 2, 24);
+}
+
+/// rho_e of all segments, where they are now.
+vtu::Grid segments_grid(Simulation& simulation) {
   const Contact& contact = *simulation.contact();
   const Master& master = contact.master();
   const auto d = static_cast<std::size_t>(simulation.mesh().dimension),
              m = static_cast<std::size_t>(master.model->layout().nodes);
-  const std::size_t n = d == 2 ? 200 : 24;
-  const std::vector<double> xi = even_grid(static_cast<int>(d) - 1, n, master.triangles);
+  const std::size_t n = divisions_of(master, d);
+  const std::vector<double> xi = even_grid(static_cast<int>(d) - 1, n, master.triangles),
+                            points = present_points(simulation, master);
   vtu::Grid grid;
   grid.dimension = static_cast<int>(d);
   vtu::Cells cells;
@@ -111,13 +137,13 @@ vtu::Grid body_grid(Simulation& simulation) {
     std::vector<double> nodes, coordinates;
     for (std::size_t a = 0; a < m; ++a)
       for (std::size_t i = 0; i < d; ++i)
-        nodes.push_back(master.positions[static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i]);
+        nodes.push_back(points[static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i]);
     if (!master.surface_coordinates.empty())
       coordinates.assign(master.surface_coordinates.begin() + static_cast<std::ptrdiff_t>(s * m * (d - 1)),
                          master.surface_coordinates.begin() +
                              static_cast<std::ptrdiff_t>((s + 1) * m * (d - 1)));
     SurfaceSample sample = sample_surface(*master.model, nodes, coordinates, xi);
-    contact.to_space(sample.point);
+    if (master.body_node >= 0) contact.to_space(sample.point);
     const auto first = static_cast<std::int64_t>(grid.points.size() / d),
                row = static_cast<std::int64_t>(n + 1);
     grid.points.insert(grid.points.end(), sample.point.begin(), sample.point.end());
@@ -134,32 +160,14 @@ vtu::Grid body_grid(Simulation& simulation) {
   return grid;
 }
 
-/// Plain segments as they are.
-vtu::Grid segments_grid(const Simulation& simulation, const Master& master) {
-  const Mesh& mesh = simulation.mesh();
-  const auto d = static_cast<std::size_t>(mesh.dimension);
-  const auto m = static_cast<std::size_t>(master.model->layout().nodes);
-  vtu::Grid grid;
-  grid.dimension = mesh.dimension;
-  vtu::Cells cells;
-  cells.type = d == 2 ? vtu::Cell::line : master.triangles ? vtu::Cell::triangle : vtu::Cell::quad;
-  cells.nodes_per_cell = d == 2 ? 2 : master.triangles ? 3 : 4;
-  const auto corners = static_cast<std::size_t>(cells.nodes_per_cell);
-  for (std::size_t s = 0; s < master.segments(); ++s)
-    for (std::size_t a = 0; a < corners; ++a) {
-      cells.connectivity.push_back(static_cast<std::int64_t>(s * corners + a));
-      for (std::size_t i = 0; i < d; ++i) {
-        const std::size_t dof = static_cast<std::size_t>(master.connectivity[s * m + a]) * d + i;
-        grid.points.push_back(master.rigid
-                                  ? master.positions[dof] + simulation.now().motion * master.direction[i]
-                                  : mesh.coordinates[dof] + simulation.now().displacement[dof]);
-      }
-    }
-  grid.cells.push_back(std::move(cells));
-  return grid;
-}
-
 } // namespace
+
+vtu::Grid master_grid(Simulation& simulation) {
+  const Master& master = simulation.contact()->master();
+  return master.rigid && master.body_node < 0 && master.segments() == 1 && !master.triangles
+             ? surface_grid(simulation)
+             : segments_grid(simulation);
+}
 
 std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation,
                                                  const StepRecord& record) {
@@ -169,12 +177,7 @@ std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation
   std::vector<std::function<void()>> parts{part("bulk", [&] { return bulk_grid(simulation); })};
   if (simulation.contact() != nullptr) {
     parts.push_back(part("slave", [&] { return slave_grid(simulation, record); }));
-    parts.push_back(part("surface", [&] {
-      const Master& master = simulation.contact()->master();
-      if (master.body_node >= 0) return body_grid(simulation);
-      return master.rigid && master.segments() == 1 && !master.triangles ? surface_grid(simulation)
-                                                                         : segments_grid(simulation, master);
-    }));
+    parts.push_back(part("surface", [&] { return master_grid(simulation); }));
   }
   parts.push_back([&series] { series.write_list(); });
   return parts;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "result.hpp"
 #include "support.hpp"
 
 namespace host {
@@ -117,6 +118,32 @@ TEST(SmoothedMaster, StraightEndsReachTheBorder) {
   EXPECT_EQ(last_step(even("bezier15", "straight", "tet4")).contact_fraction, 1);
   EXPECT_EQ(last_step(even("catmull_rom16", "repeated")).contact_fraction, 1);
   EXPECT_LT(last_step(even("bspline16", "repeated")).contact_fraction, 0.99);
+}
+
+// What ParaView shows is the surface that the slave nodes touch, with its height, where the body has moved.
+TEST(SmoothedMaster, ItsPictureIsTheSurfaceOfTheContact) {
+  for (const char* segment : {"bspline4", "catmull_rom4", "bspline16"}) {
+    const bool solid = std::string(segment).ends_with("16");
+    const Scene read = test::scene_from(scene({segment, solid, false}));
+    Simulation simulation(read, &test::library());
+    const ContactFields fields = solve(simulation, {}).back().fields;
+    const std::vector<double> shown = master_grid(simulation).points;
+    const std::size_t d = solid ? 3 : 2;
+    int touching = 0;
+    for (std::size_t k = 0; k < fields.closed.size(); ++k) {
+      if (!fields.closed[k]) continue;
+      double nearest = 1;
+      for (std::size_t p = 0; p < shown.size(); p += d) {
+        double squares = 0;
+        for (std::size_t i = 0; i < d; ++i) squares += std::pow(shown[p + i] - fields.point[k * d + i], 2);
+        nearest = std::min(nearest, std::sqrt(squares));
+      }
+      // half a diagonal of a cell: 2 / 20 / 200 along a line, 2 / 6 / 24 and 2 / 8 / 24 in space
+      EXPECT_LT(nearest, solid ? 0.011 : 0.0006) << segment << ", slave " << k;
+      ++touching;
+    }
+    EXPECT_GT(touching, 2) << segment;
+  }
 }
 
 // A checkpoint goes on to the same bits: friction's anchors are on segments whose points are combinations.
