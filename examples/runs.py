@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the programs of several runs share: their command line, runs of ents-host, and results as gallery.py reads them."""
 import argparse
+import base64
 import json
 import pathlib
+import re
 import shutil
+import struct
 import subprocess
 import sys
 
@@ -37,6 +40,21 @@ def solve(program, scene, folder, *options):
 def quantity(name, value, exact):
     """A computed number beside its exact value. If that is zero, only an absolute bound can be checked."""
     return {"name": name, "value": value, "exact": exact, "relative_error": value / exact - 1 if exact else None}
+
+
+def surface_points(folder, step, part="surface", displaced=False):
+    """Points of a part of a step, from the files for ParaView: [(x, y, z)]."""
+    text = (folder / f"result_{part}_{step:04d}.vtu").read_text()
+
+    def vectors(start):
+        data = base64.b64decode(re.search(r'format="binary">([^<]*)<', text[start:])[1])
+        size = struct.unpack("<Q", data[:8])[0]
+        values = struct.unpack(f"<{size // 8}d", data[8:8 + size])
+        return [values[i:i + 3] for i in range(0, len(values), 3)]
+    points = vectors(text.index("<Points>"))
+    if displaced:
+        points = [[a + b for a, b in zip(x, u)] for x, u in zip(points, vectors(text.index('Name="displacement')))]
+    return points
 
 
 def write_result(folder, steps):
