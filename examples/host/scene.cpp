@@ -352,12 +352,13 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
         if (component < 0) stiffness.fail("stiffnesses are >= 0");
       spring.finish();
     }
-  if (object.has("periodic"))
-    for (const JsonValue& item : object.at("periodic").items()) {
-      const auto pair = item.items();
-      if (pair.size() != 2) item.fail("a pair of opposite sides is expected");
-      scene.periodic.push_back({pair[0].string(), pair[1].string(), item.where()});
-    }
+  for (const auto& [key, sides] : {std::pair{"periodic", &scene.periodic}, {"tied", &scene.tied}})
+    if (object.has(key))
+      for (const JsonValue& item : object.at(key).items()) {
+        const auto pair = item.items();
+        if (pair.size() != 2) item.fail("a pair of sides is expected");
+        sides->push_back({pair[0].string(), pair[1].string(), item.where()});
+      }
   if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
   scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
   read_steps(object.at("steps"), scene);

@@ -56,7 +56,7 @@ struct SpringSpec {
   std::vector<double> stiffness; ///< [dimension], force / length / reference area, >= 0
 };
 
-/// Opposite sides with the same displacement.
+/// Opposite sides with the same displacement, or sides of two bodies that are glued.
 struct PeriodicSpec {
   std::string first, second, where;
 };
@@ -172,6 +172,7 @@ struct Scene {
   std::vector<TractionSpec> tractions;
   std::vector<SpringSpec> springs;
   std::vector<PeriodicSpec> periodic;
+  std::vector<PeriodicSpec> tied; ///< their nodes lie in the same places
   std::optional<ContactSpec> contact;
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
   Control control = Control::load_factor;

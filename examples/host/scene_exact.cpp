@@ -137,6 +137,8 @@ ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
   }
   object.finish();
   if (!scene.contact) value.fail("the exact solutions are for contact");
+  if (!scene.tied.empty() && exact.type != Type::uniform_pressure)
+    value.fail("the exact solutions are of bodies of one material; with /tied leave \"exact\" out");
   check_formulation(exact.type, word, scene);
   check_bodies(exact, value, scene);
   return exact;

@@ -72,6 +72,37 @@ std::vector<std::pair<int, int>> opposite_nodes(const Mesh& mesh, const Periodic
   return pairs;
 }
 
+/// Pairs of nodes of two sides that lie in the same places.
+std::vector<std::pair<int, int>> glued_nodes(const Mesh& mesh, const PeriodicSpec& spec) {
+  const std::vector<int>& first = find_nodes(mesh, spec.first, spec.where);
+  const std::vector<int>& second = find_nodes(mesh, spec.second, spec.where);
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  double size = 0;
+  for (const int node : first)
+    for (std::size_t i = 0; i < d; ++i)
+      size = std::max(size, std::abs(mesh.node(node)[i] - mesh.node(first.front())[i]));
+  const double tolerance = 1e-9 * size;
+  std::vector<std::pair<double, int>> sorted; // along x
+  for (const int node : first) sorted.emplace_back(mesh.node(node)[0], node);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::pair<int, int>> pairs;
+  for (const int node : second) {
+    auto at = std::lower_bound(sorted.begin(), sorted.end(), std::pair{mesh.node(node)[0] - tolerance, 0});
+    const auto differs = [&](int other) {
+      double largest = 0;
+      for (std::size_t i = 0; i < d; ++i)
+        largest = std::max(largest, std::abs(mesh.node(node)[i] - mesh.node(other)[i]));
+      return largest > tolerance;
+    };
+    while (at != sorted.end() && at->first <= mesh.node(node)[0] + tolerance && differs(at->second)) ++at;
+    if (first.size() != second.size() || at == sorted.end() || differs(at->second))
+      throw InputError(spec.where + ": sides that are tied have the same nodes, and " + spec.second +
+                       " has others than " + spec.first);
+    pairs.emplace_back(node, at->second);
+  }
+  return pairs;
+}
+
 /// Of the displacements along a layer, which are zero.
 const Path layer_path;
 
@@ -156,6 +187,8 @@ void Simulation::build_equations() {
   const std::size_t total = static_cast<std::size_t>(mesh_.node_count()) * d;
   for (const PeriodicSpec& spec : scene_->periodic)
     for (const auto& [node, owner] : opposite_nodes(mesh_, spec)) dofs_->tie(node, owner);
+  for (const PeriodicSpec& spec : scene_->tied)
+    for (const auto& [node, owner] : glued_nodes(mesh_, spec)) dofs_->tie(node, owner);
   for (const SupportSpec& support : scene_->supports)
     for (const int node : find_nodes(mesh_, support.nodes, support.where + "/nodes"))
       for (std::size_t i = 0; i < d; ++i)

@@ -107,6 +107,70 @@ double tube_error(const std::string& element, int divisions) {
   return simulation.now().displacement[static_cast<std::size_t>(node) * 2] / exact - 1;
 }
 
+/// Two layers on each other, glued, whose sides cannot bulge.
+Json layers(bool solid) {
+  Json scene{{"dimension", solid ? 3 : 2},
+             {"materials",
+              {{"soft", {{"law", "linear_elastic"}, {"young", 10}, {"poisson", 0.3}}},
+               {"hard", {{"law", "linear_elastic"}, {"young", 700}, {"poisson", 0.2}}}}},
+             {"steps", {{"control", "load_factor"}, {"values", {1}}}}};
+  if (!solid) scene["formulation"] = "plane_strain";
+  const std::string up = solid ? "z" : "y";
+  for (const bool above : {false, true}) {
+    Json part{{"name", above ? "coat" : "base"},
+              {"material", above ? "hard" : "soft"},
+              {"element", solid ? "hex8" : "quad4"},
+              {"x", axis(0, 0.7, 3)},
+              {"y", axis(0, 1.1, 2)}};
+    part[up] = above ? axis(2, 2.5, 1) : axis(0, 2, 2);
+    scene["parts"].push_back(part);
+    for (const std::string side : {"x", "y"})
+      for (const std::string end : {"_min", "_max"})
+        if (side != up)
+          scene["supports"].push_back(
+              {{"nodes", part["name"].get<std::string>() + "." + side + end}, {side, 0}});
+  }
+  scene["supports"].push_back({{"nodes", "base." + up + "_min"}, {up, 0}});
+  scene["supports"].push_back({{"nodes", "coat." + up + "_max"}, {up, -0.01}});
+  scene["tied"] = Json::array({Json::array({"base." + up + "_max", "coat." + up + "_min"})});
+  return scene;
+}
+
+TEST(TiedBodies, ShareTheirDisplacementAsLayersDo) {
+  for (const bool solid : {false, true}) {
+    const Scene scene = test::scene_from(layers(solid));
+    Simulation simulation(scene, nullptr);
+    solve(simulation, {});
+    const auto compliance = [&](std::size_t part, double height) {
+      const Material& m = scene.parts[part].setup.material;
+      return height / (m.lambda() + 2 * m.mu());
+    };
+    const double soft = compliance(0, 2), hard = compliance(1, 0.5), expected = -0.01 * soft / (soft + hard);
+    const std::size_t d = solid ? 3 : 2;
+    const Mesh& mesh = simulation.mesh();
+    for (const char* side : {solid ? "base.z_max" : "base.y_max", solid ? "coat.z_min" : "coat.y_min"})
+      for (const int node : mesh.node_sets.at(side))
+        EXPECT_NEAR(simulation.now().displacement[static_cast<std::size_t>(node) * d + d - 1], expected,
+                    1e-13);
+  }
+}
+
+TEST(TiedBodies, HaveTheSameNodes) {
+  for (const bool apart : {false, true}) {
+    Json json = layers(false);
+    json["parts"][1][apart ? "y" : "x"] = apart ? axis(2.001, 2.5, 1) : axis(0, 0.7, 4);
+    const Scene scene = test::scene_from(json);
+    try {
+      Simulation simulation(scene, nullptr);
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("/tied/0: sides that are tied have the same nodes"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Tube, ConvergesAtSecondOrder) {
   for (const char* element : {"quad4", "tri3"}) {
     const double coarse = tube_error(element, 8), medium = tube_error(element, 16),
