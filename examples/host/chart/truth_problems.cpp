@@ -59,7 +59,7 @@ std::vector<Problem> truth_problems(const EntsLibrary& library, const std::files
     return std::vector<std::pair<std::string, Json>>{{"/parts/0/x/pieces/0/divisions", n},
                                                      {"/parts/0/y/pieces/0/divisions", n}};
   };
-  const std::vector<int> blocks = quick ? std::vector<int>{8} : std::vector<int>{14, 28, 56},
+  const std::vector<int> blocks = quick ? std::vector<int>{8} : std::vector<int>{14, 28},
                          layers = quick ? std::vector<int>{32} : std::vector<int>{32, 64, 128, 256};
   for (const int n : blocks)
     p.levels.push_back({std::to_string((n + 1) * (n + 1)) + " slave nodes, block", divided(n)});
@@ -75,7 +75,7 @@ std::vector<Problem> truth_problems(const EntsLibrary& library, const std::files
   }
   for (std::size_t level = blocks.size(); level < p.levels.size(); ++level)
     p.ways.push_back({Family::layer, 1, level});
-  for (const int n : quick ? std::vector<int>{64} : std::vector<int>{64, 128, 256, 512})
+  for (const int n : quick ? std::vector<int>{64} : std::vector<int>{64, 128})
     p.ways.push_back({Family::facets, n, quick ? p.levels.size() - 1 : p.levels.size() - 2});
 
   const auto truth = std::make_shared<Truth>(library, p.scene, quick ? 64 : 1024);
