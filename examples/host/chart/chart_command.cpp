@@ -201,7 +201,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
       std::printf("%s: %s\n", work.problem.name.c_str(), work.problem.quantity.c_str());
       for (const std::string& line : advice(work, advised_errors)) std::printf("  %s\n", line.c_str());
     }
-    std::printf("\n%s", table.text().c_str());
+    if (!maps.empty()) std::printf("\n%s", table.text().c_str());
     Table wrong_table;
     wrong_table.column("Fig. 4").column("wrong because").column("ents_surface_check").column("on the way");
     for (const WrongHeight& row : heights) wrong_table.row({row.panel, row.what, row.check, row.running});
