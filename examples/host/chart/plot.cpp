@@ -248,21 +248,34 @@ std::string work_svg(const Work& work, Price price) {
 }
 
 std::string work_picture(const std::vector<const Work*>& works, const std::vector<Price>& columns) {
-  const int width = panel_width * static_cast<int>(columns.size()), legend = 34;
-  const int height = panel_height * static_cast<int>(works.size()) + legend;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(width) +
-                    "\" height=\"" + std::to_string(height) + "\" viewBox=\"0 0 " + std::to_string(width) +
-                    " " + std::to_string(height) + "\"><style>" + picture_style +
-                    "</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>";
+  const int width = panel_width * static_cast<int>(columns.size());
+  constexpr int line_height = 20;
+  int legend = 34;
+  std::string key;
   double x = left;
+  const auto place_for = [&](std::size_t letters) { // of the next entry of the legend
+    const double needed = 48 + 6.6 * static_cast<double>(letters);
+    if (x + needed > width && x > left) x = left, legend += line_height;
+    const double at = x;
+    x += needed;
+    return at;
+  };
   for (const Family family : {Family::enriched, Family::layer, Family::sampled, Family::facets,
                               Family::smoothed, Family::on_facets, Family::on_smoothed}) {
     const std::string name = family_name(works, family);
     if (name.empty()) continue;
-    svg += marker(family, x + 6, 18, "") + text(x + 17, 22.5, "start", name);
-    x += 48 + 6.6 * static_cast<double>(name.size());
+    const double at = place_for(name.size());
+    key += marker(family, at + 6, legend - 16, "") + text(at + 17, legend - 11.5, "start", name);
   }
-  svg += line(x, 18, x + 26, 18, "class=\"f\"") + text(x + 36, 22.5, "start", "Pareto front");
+  const std::string front = "Pareto front";
+  const double at = place_for(front.size() + 4);
+  key += line(at, legend - 16, at + 26, legend - 16, "class=\"f\"") +
+         text(at + 36, legend - 11.5, "start", front);
+  const int height = panel_height * static_cast<int>(works.size()) + legend;
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(width) +
+                    "\" height=\"" + std::to_string(height) + "\" viewBox=\"0 0 " + std::to_string(width) +
+                    " " + std::to_string(height) + "\"><style>" + picture_style +
+                    "</style><rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>" + key;
   for (std::size_t j = 0; j < works.size(); ++j)
     for (std::size_t i = 0; i < columns.size(); ++i)
       svg += "<g transform=\"translate(" + std::to_string(panel_width * static_cast<int>(i)) + " " +

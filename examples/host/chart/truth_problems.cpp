@@ -71,7 +71,7 @@ std::vector<Problem> truth_problems(const EntsLibrary& library, const std::files
   };
   for (std::size_t level = 0; level < blocks.size(); ++level) {
     p.ways.push_back({Family::enriched, 1, level});
-    if (level + 1 < blocks.size() || quick) p.ways.push_back({Family::sampled, 1, level});
+    if (level + 1 < blocks.size()) p.ways.push_back({Family::sampled, 1, level});
   }
   for (std::size_t level = blocks.size(); level < p.levels.size(); ++level)
     p.ways.push_back({Family::layer, 1, level});
