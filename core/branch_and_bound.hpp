@@ -362,13 +362,23 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
         }
       }
     }
-  if (!all.inside) all.attempt(box.c, p);
-  if (!is_flat<B> || H) {
-    const double rim = plan.border; // as on_segment()
-    for (int a = 0; a < T; ++a) {
-      box.c[a] = B::simplex ? 0.5 : 0.0;
-      box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
+  const double rim = plan.border; // as on_segment()
+  for (int a = 0; a < T; ++a) {
+    box.c[a] = B::simplex ? 0.5 : 0.0;
+    box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
+  }
+  // Most plain neighbours of the segment that has the projection are excluded as a whole.
+  if (int half; !H && !is_flat<B> && collapsed < 0 && limit < no_limit) {
+    double towards[T];
+    if (judge(box, all, p, half, towards) == Verdict::drop) {
+      best.evaluations = all.evaluations;
+      return all.result;
     }
+  }
+  double centre[T];
+  domain_centre<B>(centre);
+  if (!all.inside) all.attempt(centre, p);
+  if (!is_flat<B> || H) {
     if (collapsed >= 0) { // short of the collapsed edge, where there is no normal
       constexpr double left_out = 100.0 * next_to_collapsed_edge<false>;
       const int normal = collapsed % 2 == 0;
