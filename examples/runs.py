@@ -42,19 +42,20 @@ def quantity(name, value, exact):
     return {"name": name, "value": value, "exact": exact, "relative_error": value / exact - 1 if exact else None}
 
 
-def surface_points(folder, step, part="surface", displaced=False):
-    """Points of a part of a step, from the files for ParaView: [(x, y, z)]."""
+def vtu_values(folder, step, part, array, code="d"):
+    """Numbers of an array of a part of a step, from the files for ParaView; code: "d", or "q" for whole numbers."""
     text = (folder / f"result_{part}_{step:04d}.vtu").read_text()
+    data = base64.b64decode(re.search(rf'Name="{array}[^>]*format="binary">([^<]*)<', text)[1])
+    size = struct.unpack("<Q", data[:8])[0]
+    return struct.unpack(f"<{size // 8}{code}", data[8:8 + size])
 
-    def vectors(start):
-        data = base64.b64decode(re.search(r'format="binary">([^<]*)<', text[start:])[1])
-        size = struct.unpack("<Q", data[:8])[0]
-        values = struct.unpack(f"<{size // 8}d", data[8:8 + size])
-        return [values[i:i + 3] for i in range(0, len(values), 3)]
-    points = vectors(text.index("<Points>"))
+
+def vtu_points(folder, step, part="surface", displaced=False):
+    """Points of a part of a step: [(x, y, z)]."""
+    x = vtu_values(folder, step, part, "Points")
     if displaced:
-        points = [[a + b for a, b in zip(x, u)] for x, u in zip(points, vectors(text.index('Name="displacement')))]
-    return points
+        x = [a + b for a, b in zip(x, vtu_values(folder, step, part, "displacement"))]
+    return [x[i:i + 3] for i in range(0, len(x), 3)]
 
 
 def write_result(folder, steps):

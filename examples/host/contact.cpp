@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "output/table.hpp"
 
@@ -36,7 +37,6 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   normal_stiffness_ = stiffness_of(spec.model, "normal");
   tangential_stiffness_ = stiffness_of(spec.model, "friction");
   sliding_ = parameter_of(find_json(spec.model, "/contact/wear/sliding"));
-  if (master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
   if (cut_.per_direction > 0) {
     cut_at_.displacement.assign(dofs(), 0.0);
     master_begin_ = master_points(cut_at_.displacement);
@@ -59,6 +59,9 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
       slave_values_.push_back(value);
   number_unknowns();
   master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
+  refuse_self_contact(spec);
+  // Without the height both sides of a sheet are equally far from every slave.
+  if (!has_two_sides(spec) && master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
   // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
   // elements behind them.
   std::vector<double> nodes(m_ * d_);
@@ -69,6 +72,45 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   }
 
   reset_points();
+}
+
+void Contact::refuse_self_contact(const ContactSpec& spec) const {
+  if (master_.rigid) return;
+  const std::set<std::int64_t> of_master =
+      master_.net ? master_.net->nodes_of_mesh()
+                  : std::set<std::int64_t>(master_.connectivity.begin(), master_.connectivity.end());
+  for (const int node : points_.nodes)
+    if (of_master.count(node) != 0)
+      throw InputError(spec.slave_where +
+                       ": slave and master faces share nodes, and a node would find its own "
+                       "segments; divide the surface into two sets that do not meet");
+}
+
+bool Contact::has_two_sides(const ContactSpec& spec) const {
+  std::set<std::vector<std::int64_t>> known;
+  std::vector<std::size_t> second;
+  for (std::size_t s = 0; s < master_.segments(); ++s) {
+    std::vector<std::int64_t> nodes(master_.connectivity.begin() + stride(s * m_),
+                                    master_.connectivity.begin() + stride((s + 1) * m_));
+    std::sort(nodes.begin(), nodes.end());
+    if (!known.insert(std::move(nodes)).second) second.push_back(s);
+  }
+  const std::vector<double> xi = even_grid(static_cast<int>(parameters_), 4, master_.triangles);
+  std::vector<double> nodes(m_ * d_), coordinates;
+  for (const std::size_t s : second) {
+    gather(stride(s), nodes);
+    const std::size_t size = m_ * parameters_;
+    if (!master_.surface_coordinates.empty())
+      coordinates.assign(master_.surface_coordinates.begin() + stride(s * size),
+                         master_.surface_coordinates.begin() + stride((s + 1) * size));
+    for (const double height : sample_surface(*master_.model, nodes, coordinates, xi).height)
+      if (!(height > 0))
+        throw InputError(spec.model_where +
+                         ": two segments of the master have the same nodes, a sheet without "
+                         "thickness, and on which side of it a slave is cannot be told; give "
+                         "it a \"height\" above 0: half its thickness");
+  }
+  return !second.empty();
 }
 
 void Contact::reset_points() {

@@ -176,6 +176,11 @@ private:
   std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
   std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
   void number_unknowns();
+  /// @throws InputError where slave nodes are nodes of the master
+  void refuse_self_contact(const ContactSpec& spec) const;
+  /// Have two segments the same nodes: is the master a sheet without thickness, but for its height?
+  /// @throws InputError where the height is none
+  bool has_two_sides(const ContactSpec& spec) const;
   /// The slave points of a cut in this configuration.
   SlavePoints cut(const Configuration& at);
   /// Arrays over the slave points, for points that have been nowhere yet.

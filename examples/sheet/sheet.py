@@ -118,11 +118,11 @@ def draw(folder, rows):
     (folder / "force.dat").write_text("".join(" ".join(str(x) for x in row) + "\n" for row in rows))
     middle_step = len(rows) // 2
     for name in ("strip", "explicit"):
-        points = runs.surface_points(folder / name, middle_step)
+        points = runs.vtu_points(folder / name, middle_step)
         (folder / f"{name}.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in points))
-    ring = runs.surface_points(folder / "strip", middle_step, "slave")
+    ring = runs.vtu_points(folder / "strip", middle_step, "slave")
     (folder / "ring.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in ring))
-    bulk = runs.surface_points(folder / "strip", middle_step, "bulk", displaced=True)
+    bulk = runs.vtu_points(folder / "strip", middle_step, "bulk", displaced=True)
     columns = len(bulk[:2 * 401]) // 2
     outline = bulk[:columns] + bulk[columns:2 * columns][::-1] + bulk[:1]
     (folder / "outline.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in outline))

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thin things: a sheet whose two sides have the same nodes, and a surface that would touch itself.
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace host {
+namespace {
+
+/// A block above or below a rigid sheet at y = 0, far enough to be open, whatever the order of the sheet's
+/// sides.
+Json beside_a_sheet(bool below, bool bottom_first, const Json& height) {
+  Json scene{{"dimension", 2},
+             {"formulation", "plane_strain"},
+             {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 1000}, {"poisson", 0.3}}}}},
+             {"parts",
+              {{{"name", "b"},
+                {"material", "m"},
+                {"element", "quad4"},
+                {"x", test::axis(-1, 1, 5)},
+                {"y", below ? test::axis(-1.2, -0.2, 2) : test::axis(0.2, 1.2, 2)}}}},
+             {"steps", {{"control", "load_factor"}, {"values", {0.4, 1}}}}};
+  scene["supports"] = {{{"nodes", below ? "b.y_min" : "b.y_max"}, {"x", 0}, {"y", below ? 0.16 : -0.16}}};
+  const Json up{{0, 1}, {1, 2}}, down{{1, 0}, {2, 1}};
+  Json sides = bottom_first ? down : up;
+  for (const Json& side : bottom_first ? up : down) sides.push_back(side);
+  scene["contact"] = {
+      {"slave", below ? "b.y_max" : "b.y_min"},
+      {"master", {{"rigid_body", {{"nodes", {{-2, 0}, {0.1, 0}, {2, 0}}}, {"segments", sides}}}}},
+      {"model",
+       {{"segment", "line2"},
+        {"height", height},
+        {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}}}}}};
+  return scene;
+}
+
+// The height is half the thickness, 0.05: the block is open 0.086 away from the surface, then 0.01 deep in
+// it.
+TEST(ThinSheet, EachSideIsFound) {
+  for (const bool below : {false, true})
+    for (const bool bottom_first : {false, true}) {
+      const Scene scene =
+          test::scene_from(beside_a_sheet(below, bottom_first, {{"type", "constant"}, {"value", 0.05}}));
+      Simulation simulation(scene, &test::library());
+      const std::vector<StepRecord> steps = solve(simulation, {});
+      EXPECT_EQ(steps[0].peak_pressure, 0) << below << bottom_first;
+      EXPECT_EQ(steps[1].contact_fraction, 1) << below << bottom_first;
+      const double force = steps[1].contact_force[1]; // on the sheet
+      EXPECT_GT(below ? force : -force, 5) << below << bottom_first;
+    }
+}
+
+std::string refusal(const Json& json) {
+  const Scene scene = test::scene_from(json);
+  try {
+    Simulation simulation(scene, &test::library());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ThinSheet, WithoutThicknessIsRefused) {
+  for (const Json& height : {Json(), Json{{"type", "constant"}, {"value", 0}},
+                             Json{{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1}}}})
+    EXPECT_NE(refusal(beside_a_sheet(false, false, height))
+                  .find("/contact/model: two segments of the master have the same nodes"),
+              std::string::npos)
+        << height;
+}
+
+TEST(ThinSheet, ASurfaceThatTouchesItselfIsRefused) {
+  Json scene = beside_a_sheet(false, false, Json());
+  scene["contact"]["model"].erase("height");
+  for (const char* slave : {"b.y_min", "b.x_min"}) { // the same faces, and faces that meet them in a corner
+    scene["contact"]["slave"] = slave;
+    scene["contact"]["master"] = {{"faces", "b.y_min"}};
+    EXPECT_NE(refusal(scene).find("/contact/slave: slave and master faces share nodes"), std::string::npos)
+        << slave;
+  }
+}
+
+} // namespace
+} // namespace host
