@@ -10,8 +10,8 @@
 #include "abi/equations.hpp"
 #include "abi/guard.hpp"
 #include "abi/moved_state.hpp"
-#include "core/needs.hpp"
-#include "core/pair_kernels.hpp"
+#include "core/element/pair_kernels.hpp"
+#include "core/model/needs.hpp"
 
 namespace ents {
 

@@ -3,7 +3,7 @@
 
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
-#include "core/admissibility.hpp"
+#include "core/admissibility/admissibility.hpp"
 
 namespace ents {
 

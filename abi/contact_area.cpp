@@ -12,7 +12,7 @@
 #include "abi/entry_point.hpp"
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
-#include "core/tributary.hpp"
+#include "core/slave/tributary.hpp"
 
 namespace ents {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole master surfaces: the tree and the detection.
-#include "core/detection.hpp"
+#include "core/search/detection.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace ents {
 
@@ -25,49 +26,19 @@ struct Array {
   std::int64_t size; // of one element
 };
 
-Array output_array(const ents_model& model, const ents_output& out, int bit) noexcept {
+Array output_array(const ents_model& model, const ents_output& out, int bit_number) noexcept {
   const Plan& plan = model.plan;
   const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs,
-                     n = all - plan.multipliers;
-  switch (1 << bit) {
-  case ENTS_XI:
-    return {"xi", out.xi, out.xi_stride, t};
-  case ENTS_GAP:
-    return {"gap", out.gap, out.gap_stride, 1};
-  case ENTS_NORMAL_GAP:
-    return {"normal_gap", out.normal_gap, out.normal_gap_stride, 1};
-  case ENTS_NORMAL:
-    return {"normal", out.normal, out.normal_stride, d};
-  case ENTS_POINT:
-    return {"point", out.point, out.point_stride, d};
-  case ENTS_GAP_GRADIENT:
-    return {"gap_gradient", out.gap_gradient, out.gap_gradient_stride, n};
-  case ENTS_GAP_HESSIAN:
-    return {"gap_hessian", out.gap_hessian, out.gap_hessian_stride, n * n};
-  case ENTS_XI_GRADIENT:
-    return {"xi_gradient", out.xi_gradient, out.xi_gradient_stride, t * n};
-  case ENTS_XI_HESSIAN:
-    return {"xi_hessian", out.xi_hessian, out.xi_hessian_stride, t * n * n};
-  case ENTS_ENERGY:
-    return {"energy", out.energy, out.energy_stride, 1};
-  case ENTS_PRESSURE:
-    return {"pressure", out.pressure, out.pressure_stride, 1};
-  case ENTS_RESIDUAL:
-    return {"residual", out.residual, out.residual_stride, all};
-  case ENTS_TANGENT:
-    return {"tangent", out.tangent, out.tangent_stride, (all - 1) * leading_dimension(model, out) + all};
-  case ENTS_STATE:
-    return {"state_end", out.state_end, out.state_end_stride, model.sizes.state};
-  case ENTS_FLAGS:
-    return {"flags", out.flags, out.flags_stride, 1};
-  case ENTS_ITERATIONS:
-    return {"iterations", out.iterations, out.iterations_stride, 1};
-  case ENTS_TRACTION:
-    return {"traction", out.traction, out.traction_stride, d};
-  case ENTS_SLIP:
-    return {"slip", out.slip, out.slip_stride, 1};
+                     n = all - plan.multipliers, states = model.sizes.state,
+                     tangent = (all - 1) * leading_dimension(model, out) + all;
+  switch (bit_number) {
+#define ENTS_CASE(bit, public_name, name, field, type, size)                                                 \
+  case bit:                                                                                                  \
+    return {#field, out.field, out.field##_stride, size};
+    ENTS_RESULTS(ENTS_CASE)
+#undef ENTS_CASE
   default:
-    return {"age", out.age, out.age_stride, 1};
+    return {};
   }
 }
 
@@ -115,28 +86,15 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   return ENTS_OK;
 }
 
-constexpr int input_arrays = 8, start_array = 3;
-Array input_array(const ents_model& model, const ents_input& in, int index) noexcept {
+// f(array) of each input
+template <class F> void for_each_input(const ents_model& model, const ents_input& in, F&& f) {
   const Plan& plan = model.plan;
-  const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes;
-  switch (index) {
-  case 0:
-    return {"slave", in.slave, in.slave_stride, d};
-  case 1:
-    return {"master", in.master, in.master_stride, m * d};
-  case 2:
-    return {"surface_coordinates", in.surface_coordinates, in.surface_coordinates_stride, m * t};
-  case start_array:
-    return {"start", in.start, in.start_stride, t};
-  case 4:
-    return {"area", in.area, in.area_stride, 1};
-  case 5:
-    return {"state_begin", in.state_begin, in.state_begin_stride, model.sizes.state};
-  case 6:
-    return {"multiplier", in.multiplier, in.multiplier_stride, plan.multipliers};
-  default:
-    return {"slave_values", in.slave_values, in.slave_values_stride, slave_value::count};
-  }
+  const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes,
+                     states = model.sizes.state, multipliers = plan.multipliers,
+                     slave_values = slave_value::count;
+#define ENTS_ARRAY(field, size) f(Array{#field, in.field, in.field##_stride, size});
+  ENTS_INPUT_ARRAYS(ENTS_ARRAY)
+#undef ENTS_ARRAY
 }
 
 std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64_t count,
@@ -177,14 +135,12 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
             check_stride("input", {"segment", in.segment, in.segment_stride, 1}, 1, last, report);
         status != ENTS_OK)
       return status;
-  if (last > 0)
-    for (int i = 0; i < input_arrays; ++i) {
-      const Array a = input_array(model, in, i);
-      if (!a.data || a.stride == 0) continue;
-      if (const std::int32_t status = check_stride("input", a, a.size, last, report); status != ENTS_OK)
-        return status;
-    }
-  return ENTS_OK;
+  std::int32_t status = ENTS_OK;
+  for_each_input(model, in, [&](const Array& a) {
+    if (last > 0 && status == ENTS_OK && a.data && a.stride != 0)
+      status = check_stride("input", a, a.size, last, report);
+  });
+  return status;
 }
 
 } // namespace
@@ -298,16 +254,13 @@ std::int32_t ElementCall::evaluate_open(std::int64_t e, const Wanted& also) cons
 }
 
 ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) const {
-  return {at(in->slave, in->slave_stride, e),
-          in->mesh ? nodes.positions : at(in->master, in->master_stride, e),
-          in->mesh ? nodes.surface_coordinates
-                   : at(in->surface_coordinates, in->surface_coordinates_stride, e),
-          at(in->start, in->start_stride, e),
-          at(in->area, in->area_stride, e),
-          at(in->state_begin, in->state_begin_stride, e),
-          at(in->multiplier, in->multiplier_stride, e),
-          at(in->slave_values, in->slave_values_stride, e),
-          start_first};
+  ElementInput element;
+#define ENTS_ARRAY(field, size) element.field = at(in->field, in->field##_stride, e);
+  ENTS_INPUT_ARRAYS(ENTS_ARRAY)
+#undef ENTS_ARRAY
+  if (in->mesh) element.master = nodes.positions, element.surface_coordinates = nodes.surface_coordinates;
+  element.start_first = start_first;
+  return element;
 }
 
 std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* report) const {
@@ -334,16 +287,17 @@ std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* repor
 
 std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {
   const long long number = e;
-  if (status == ENTS_NON_FINITE)
-    for (int i = 0; i < input_arrays; ++i) {
-      if (i == start_array && in->mesh && segment(e) < 0) continue;
-      const Array a = input_array(*model, *in, i);
+  if (status == ENTS_NON_FINITE) {
+    std::int32_t told = ENTS_OK;
+    for_each_input(*model, *in, [&](const Array& a) {
+      if (told != ENTS_OK || (std::strcmp(a.name, "start") == 0 && in->mesh && segment(e) < 0)) return;
       const double* v = at(static_cast<const double*>(a.data), a.stride, e);
-      const std::int64_t k = first_non_finite(v, a.size);
-      if (k >= 0)
-        return report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
+      if (const std::int64_t k = first_non_finite(v, a.size); k >= 0)
+        told = report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
                               static_cast<long long>(k), number, std::isnan(v[k]) ? "NaN" : "infinite");
-    }
+    });
+    if (told != ENTS_OK) return told;
+  }
   if (status == ENTS_BAD_VALUE && in->area && *at(in->area, in->area_stride, e) < 0.0)
     return report_message(report, status, e, "input.area of element %lld is negative", number);
   if (status == ENTS_BAD_VALUE)

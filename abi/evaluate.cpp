@@ -20,14 +20,9 @@ static_assert(static_cast<int>(Status::out_of_range) == ENTS_OUT_OF_RANGE);
 static_assert(static_cast<int>(Status::non_finite) == ENTS_NON_FINITE);
 static_assert(static_cast<int>(Status::bad_value) == ENTS_BAD_VALUE);
 static_assert(static_cast<int>(Status::bad_state) == ENTS_BAD_STATE);
-static_assert(want::xi == ENTS_XI && want::gap == ENTS_GAP && want::normal_gap == ENTS_NORMAL_GAP);
-static_assert(want::normal == ENTS_NORMAL && want::point == ENTS_POINT);
-static_assert(want::gap_gradient == ENTS_GAP_GRADIENT && want::gap_hessian == ENTS_GAP_HESSIAN);
-static_assert(want::xi_gradient == ENTS_XI_GRADIENT && want::xi_hessian == ENTS_XI_HESSIAN);
-static_assert(want::energy == ENTS_ENERGY && want::pressure == ENTS_PRESSURE);
-static_assert(want::residual == ENTS_RESIDUAL && want::tangent == ENTS_TANGENT && want::state == ENTS_STATE);
-static_assert(want::flags == ENTS_FLAGS && want::iterations == ENTS_ITERATIONS);
-static_assert(want::traction == ENTS_TRACTION && want::slip == ENTS_SLIP && want::age == ENTS_AGE);
+#define ENTS_SAME(bit, public_name, name, field, type, size) static_assert(want::name == public_name);
+ENTS_RESULTS(ENTS_SAME)
+#undef ENTS_SAME
 static_assert(flag::contact == ENTS_FLAG_CONTACT && flag::outside == ENTS_FLAG_OUTSIDE);
 static_assert(flag::far_side == ENTS_FLAG_FAR_SIDE && flag::searched == ENTS_FLAG_SEARCHED);
 static_assert(flag::stick == ENTS_FLAG_STICK && flag::slip == ENTS_FLAG_SLIP);
@@ -44,27 +39,16 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
       return known ? explain_segment(*plan, mesh, outcome, s, report) : refuse_segment(e, report);
     }
   }
-  const ElementOutput results = {out->wanted | also.wanted,
-                                 at(out->xi, out->xi_stride, e),
-                                 at(out->gap, out->gap_stride, e),
-                                 at(out->normal_gap, out->normal_gap_stride, e),
-                                 at(out->normal, out->normal_stride, e),
-                                 at(out->point, out->point_stride, e),
-                                 at(out->gap_gradient, out->gap_gradient_stride, e),
-                                 at(out->gap_hessian, out->gap_hessian_stride, e),
-                                 at(out->xi_gradient, out->xi_gradient_stride, e),
-                                 at(out->xi_hessian, out->xi_hessian_stride, e),
-                                 at(out->energy, out->energy_stride, e),
-                                 at(out->pressure, out->pressure_stride, e),
-                                 also.residual ? also.residual : at(out->residual, out->residual_stride, e),
-                                 also.tangent ? also.tangent : at(out->tangent, out->tangent_stride, e),
-                                 at(out->state_end, out->state_end_stride, e),
-                                 also.tangent ? plan->dofs : leading_dimension(*model, *out),
-                                 also.flags ? also.flags : at(out->flags, out->flags_stride, e),
-                                 at(out->iterations, out->iterations_stride, e),
-                                 at(out->traction, out->traction_stride, e),
-                                 at(out->slip, out->slip_stride, e),
-                                 at(out->age, out->age_stride, e)};
+  ElementOutput results;
+  results.wanted = out->wanted | also.wanted;
+#define ENTS_ARRAY(bit, public_name, name, field, type, size)                                                \
+  results.field = at(out->field, out->field##_stride, e);
+  ENTS_RESULTS(ENTS_ARRAY)
+#undef ENTS_ARRAY
+  results.tangent_leading_dimension = leading_dimension(*model, *out);
+  if (also.residual) results.residual = also.residual;
+  if (also.tangent) results.tangent = also.tangent, results.tangent_leading_dimension = plan->dofs;
+  if (also.flags) results.flags = also.flags;
   const bool follows = state_follows(e);
   bool open;
   ElementOutput nothing = results;

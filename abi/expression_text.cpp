@@ -11,7 +11,7 @@
 #include "abi/json_check.hpp"
 #include "abi/model_error.hpp"
 #include "abi/number_text.hpp"
-#include "core/expression.hpp"
+#include "core/height/expression.hpp"
 
 namespace ents {
 

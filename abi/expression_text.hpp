@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/height_tree.hpp"
+#include "core/height/height_tree.hpp"
 
 namespace ents {
 

@@ -7,8 +7,8 @@
 
 #include "abi/entry_point.hpp"
 #include "abi/patch.hpp"
-#include "core/height_binding.hpp"
-#include "core/plan.hpp"
+#include "core/height/height_binding.hpp"
+#include "core/model/plan.hpp"
 
 namespace ents {
 

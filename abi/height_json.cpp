@@ -14,8 +14,8 @@
 #include "abi/map_json.hpp"
 #include "abi/model_error.hpp"
 #include "abi/spectral_json.hpp"
-#include "core/height_binding.hpp"
-#include "core/thread.hpp"
+#include "core/height/height_binding.hpp"
+#include "core/height/thread.hpp"
 
 namespace ents {
 
@@ -62,23 +62,38 @@ private:
   std::uint8_t bound_to_[4] = {};
 };
 
-Height read_sine(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "amplitude", "wave_vector"}, {"phase"});
-  BoundNumbers numbers(sources);
-  const double amplitude = numbers.read(value.at("amplitude"), member(path, "amplitude"), 0);
-  const std::vector<double> wave_vector = read_surface_vector(value, path, "wave_vector", sources);
-  const double phase =
-      value.contains("phase") ? numbers.read(value.at("phase"), member(path, "phase"), 1) : 0.0;
-  return numbers.bind(Height::sine(amplitude, wave_vector, phase));
-}
-
-Height read_gaussian(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "amplitude", "center", "width"}, {});
-  BoundNumbers numbers(sources);
-  const double amplitude = numbers.read(value.at("amplitude"), member(path, "amplitude"), 0);
-  const std::vector<double> center = numbers.read_vector_of(value.at("center"), member(path, "center"), 1);
-  return numbers.bind(
-      Height::gaussian(amplitude, center, read_double(value, path, "width", Range::positive)));
+// A formula: what its table says
+template <template <class> class Formula>
+Height read_formula(HeightKind kind, const json& value, const std::string& path,
+                    const HeightSources& sources) {
+  std::vector<std::string_view> required = {"type"}, optional;
+  for (const FormulaNumber& number : Formula<double>::table)
+    (number.required() ? required : optional).emplace_back(number.key);
+  check_keys(value, path, required, optional);
+  BoundNumbers bound(sources);
+  std::vector<double> numbers;
+  std::int32_t slot = 0;
+  for (const FormulaNumber& number : Formula<double>::table) {
+    const std::string at = member(path, number.key);
+    const bool here = value.contains(number.key);
+    if (number.kind == FormulaNumber::vector) {
+      std::vector<double> vector = number.named ? bound.read_vector_of(value.at(number.key), at, slot)
+                                                : read_surface_vector(value, path, number.key, sources);
+      vector.resize(2, 0.0);
+      numbers.insert(numbers.end(), vector.begin(), vector.end());
+    } else if (!here) {
+      numbers.push_back(number.otherwise);
+    } else if (number.named) {
+      numbers.push_back(bound.read(value.at(number.key), at, slot));
+    } else {
+      const Range range = number.kind == FormulaNumber::positive ? Range::positive : Range::any;
+      numbers.push_back(read_double(value, path, number.key, range));
+    }
+    if (number.named) slot += number.count();
+  }
+  static_assert(count_numbers(Formula<double>::table) <= most_formula_numbers);
+  static_assert(count_numbers(Formula<double>::table, true) <= 4, "see HeightNode::bound_to");
+  return bound.bind(Height::formula(kind, sources.dimension, std::move(numbers)));
 }
 
 Height read_field(const json& value, const std::string& path, const HeightSources& sources) {
@@ -252,12 +267,12 @@ Height read_window_of(const json& value, const std::string& path, const HeightSo
   return read_window(value, path, sources, read_inner(value, path, sources, depth));
 }
 
-Height read_constant(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "value"}, {});
-  BoundNumbers numbers(sources);
-  const double number = numbers.read(value.at("value"), member(path, "value"), 0);
-  return numbers.bind(Height::constant(sources.dimension, number));
-}
+#define ENTS_READER(member, Formula)                                                                         \
+  Height read_##member(const json& value, const std::string& path, const HeightSources& sources) {           \
+    return read_formula<Formula>(HeightKind::member, value, path, sources);                                  \
+  }
+ENTS_FORMULA_HEIGHTS(ENTS_READER)
+#undef ENTS_READER
 
 // depth: level of this height, 1 for the outermost.
 Height read_at_depth(const json& value, const std::string& path, const HeightSources& sources,
@@ -269,23 +284,24 @@ Height read_at_depth(const json& value, const std::string& path, const HeightSou
     Flat flat;     // a height without others inside
     Nested nested; // one of others
     bool combined; // a sum or product to the library
-  } types[] = {{"constant", read_constant, nullptr, false},
-               {"sine", read_sine, nullptr, false},
-               {"polynomial", read_polynomial, nullptr, false},
-               {"gaussian", read_gaussian, nullptr, false},
-               {"map", read_map_height, nullptr, false},
-               {"thread", read_thread, nullptr, false},
-               {"field", read_field, nullptr, false},
-               {"callback", read_callback, nullptr, false},
-               {"expression", read_expression, nullptr, false},
-               {"roughness", read_roughness, nullptr, false},
-               {"fourier", read_fourier, nullptr, true},
-               {"weierstrass", read_weierstrass, nullptr, true},
-               {"sum", nullptr, read_sum, false},
-               {"product", nullptr, read_product, false},
-               {"scale", nullptr, read_scale, false},
-               {"shift", nullptr, read_shift, false},
-               {"window", nullptr, read_window_of, false}};
+  } types[] = {
+#define ENTS_ROW(member, Formula) {Formula<double>::type, read_##member, nullptr, false},
+      ENTS_FORMULA_HEIGHTS(ENTS_ROW)
+#undef ENTS_ROW
+          {"polynomial", read_polynomial, nullptr, false},
+      {"map", read_map_height, nullptr, false},
+      {"thread", read_thread, nullptr, false},
+      {"field", read_field, nullptr, false},
+      {"callback", read_callback, nullptr, false},
+      {"expression", read_expression, nullptr, false},
+      {"roughness", read_roughness, nullptr, false},
+      {"fourier", read_fourier, nullptr, true},
+      {"weierstrass", read_weierstrass, nullptr, true},
+      {"sum", nullptr, read_sum, false},
+      {"product", nullptr, read_product, false},
+      {"scale", nullptr, read_scale, false},
+      {"shift", nullptr, read_shift, false},
+      {"window", nullptr, read_window_of, false}};
   std::vector<std::string_view> names;
   for (const auto& type : types) names.emplace_back(type.type);
   const auto& type = types[read_type(value, path, names)];

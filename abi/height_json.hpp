@@ -9,7 +9,7 @@
 
 #include "abi/json_check.hpp"
 #include "abi/model_json.hpp"
-#include "core/height_tree.hpp"
+#include "core/height/height_tree.hpp"
 
 namespace ents {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/fingerprint.hpp"
+#include "core/model/fingerprint.hpp"
 
 namespace ents {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/height_tree.hpp"
+#include "core/height/height_tree.hpp"
 #include "ents.h"
 
 namespace ents {

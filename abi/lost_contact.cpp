@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/behind_edge.hpp"
+#include "core/search/behind_edge.hpp"
 
 namespace ents {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "abi/height_json.hpp"
-#include "core/height_map.hpp"
+#include "core/height/height_map.hpp"
 
 namespace ents {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "abi/handle.hpp"
-#include "core/detection.hpp"
+#include "core/search/detection.hpp"
 
 namespace ents {
 

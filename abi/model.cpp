@@ -8,8 +8,8 @@
 #include "abi/element_block.hpp"
 #include "abi/guard.hpp"
 #include "abi/model_json.hpp"
-#include "core/needs.hpp"
-#include "core/pair_kernels.hpp"
+#include "core/element/pair_kernels.hpp"
+#include "core/model/needs.hpp"
 
 namespace ents {
 

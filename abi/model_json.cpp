@@ -12,8 +12,8 @@
 #include "abi/json_text.hpp"
 #include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
-#include "core/flattening.hpp"
-#include "core/height_binding.hpp"
+#include "core/height/height_binding.hpp"
+#include "core/law/flattening.hpp"
 
 namespace ents {
 

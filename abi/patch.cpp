@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/segment_tree.hpp"
+#include "core/search/segment_tree.hpp"
 
 namespace ents {
 

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/plan.hpp"
+#include "core/model/plan.hpp"
+#include "core/search/detection.hpp"
 
 namespace ents {
 

@@ -6,8 +6,8 @@
 
 #include "abi/combination.hpp"
 #include "abi/guard.hpp"
-#include "core/sampling.hpp"
-#include "core/tributary.hpp"
+#include "core/slave/sampling.hpp"
+#include "core/slave/tributary.hpp"
 
 namespace ents {
 

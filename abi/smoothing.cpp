@@ -5,7 +5,7 @@
 
 #include "abi/entry_point.hpp"
 #include "abi/guard.hpp"
-#include "core/smoothing.hpp"
+#include "core/smoothing/smoothing.hpp"
 
 namespace ents {
 

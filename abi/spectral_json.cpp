@@ -9,9 +9,9 @@
 #include "abi/json_check.hpp"
 #include "abi/json_tree.hpp"
 #include "abi/model_error.hpp"
-#include "core/expression.hpp"
-#include "core/roughness.hpp"
-#include "core/transcendental.hpp"
+#include "core/height/expression.hpp"
+#include "core/height/roughness.hpp"
+#include "core/numbers/transcendental.hpp"
 
 namespace ents {
 

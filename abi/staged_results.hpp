@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "abi/element_block.hpp"
-#include "core/pair_kernels.hpp"
-#include "core/past_caches.hpp"
+#include "core/element/pair_kernels.hpp"
+#include "core/numbers/past_caches.hpp"
 
 namespace ents {
 

@@ -6,8 +6,8 @@
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
 #include "abi/mesh.hpp"
-#include "core/admissibility.hpp"
-#include "core/surface_admissibility.hpp"
+#include "core/admissibility/admissibility.hpp"
+#include "core/admissibility/surface_admissibility.hpp"
 
 namespace ents {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "abi/json_text.hpp"
-#include "core/height.hpp"
+#include "core/height/height.hpp"
 #include "model_errors.hpp"
 
 namespace {

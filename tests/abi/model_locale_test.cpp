@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "abi/surface_file.hpp"
-#include "core/height.hpp"
+#include "core/height/height.hpp"
 #include "model_errors.hpp"
 
 namespace {

@@ -16,7 +16,7 @@
 #include <cstring>
 
 #define ENTS_ISA differentiation
-#include "core/pair.hpp"
+#include "core/tangent/pair_tangent.hpp"
 #include "differentiated.hpp"
 
 namespace ents::differentiation {
@@ -111,7 +111,7 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
   }
 
   template <class X>
-  static void surface(const SineHeight& sine, const S (&y)[M][D], const X (&xi)[T], const Functions<X>& shape,
+  static void surface(const Sine<double>& sine, const S (&y)[M][D], const X (&xi)[T], const Functions<X>& shape,
                       At<X>& at) {
     S rho[D];
     sum(shape.n, y, rho);
@@ -129,14 +129,14 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
     }
   }
 
-  static void height(const SineHeight& p, const double (&xi)[T], At<double>& at) {
+  static void height(const Sine<double>& p, const double (&xi)[T], At<double>& at) {
     double turns = p.phase, sine, cosine;
     for (int a = 0; a < T; ++a) turns += p.wave_vector[a] * xi[a];
     sin_cos_turns(turns, 0.0, sine, cosine);
     at.h = p.amplitude * sine;
     for (int a = 0; a < T; ++a) at.h1[a] = (two_pi * p.wave_vector[a] * p.amplitude) * cosine;
   }
-  static void height(const SineHeight& p, const S (&xi)[T], At<S>& at) {
+  static void height(const Sine<double>& p, const S (&xi)[T], At<S>& at) {
     S turns = p.wave_vector[0] * xi[0] + p.phase;
     if constexpr (T == 2) turns += p.wave_vector[1] * xi[1];
     double sine, cosine;

@@ -104,7 +104,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
     friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
     if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
   } else {
-    pair.template residual<false>(residual);
+    pair_residual<false>(pair, residual);
     if (wants_tangent) count_tangent<PairTangent<B, H, false, Counted>>(plan, pair);
   }
   return static_cast<double>(Counted::operations);

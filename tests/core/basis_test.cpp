@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/basis.hpp"
+#include "core/surface/basis.hpp"
 #include "worst.hpp"
 
 namespace {

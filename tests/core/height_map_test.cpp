@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Height maps: exact at the samples, C2 at every knot, period and edge, cubic within a cell, and of fourth
 // order in the sample spacing.
-#include "core/height_map.hpp"
+#include "core/height/height_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/height_tree.hpp"
+#include "core/height/height_tree.hpp"
 #include "worst.hpp"
 
 namespace {

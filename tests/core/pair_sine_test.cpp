@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sine along an iteration: moved from point to point it stays the sine, and every lane moves as the number
 // alone.
-#include "core/pair_sine.hpp"
+#include "core/height/moving_height.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using namespace ents;
 using namespace ents::ENTS_ISA;
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr SineHeight sine = {0.75, {1.0, 0.0}, 0.0625};
+constexpr Sine<double> sine = {0.75, {1.0, 0.0}, 0.0625};
 
 // As an iteration goes: from a first point by steps that are far, next to it, at the border of both, tiny,
 // none.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random roughness: the spectrum of its samples is the one asked for, by direct sums instead of the fast
 // transform that made them.
-#include "core/roughness.hpp"
+#include "core/height/roughness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <complex>
 #include <cstdint>
 
-#include "core/height_tree.hpp"
+#include "core/height/height_tree.hpp"
 #include "worst.hpp"
 
 namespace {

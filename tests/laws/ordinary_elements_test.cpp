@@ -1,5 +1,5 @@
 // Ordinary elements, that is nearly all, are evaluated by kernels of their own, many at once, compiled for
-// several instruction sets (core/pair.hpp). Nothing of that may show: the bits of an element do not depend on
+// several instruction sets (core/projection/pair.hpp). Nothing of that may show: the bits of an element do not depend on
 // its neighbours in the call, on the length of the call or on the processor; and the kernels that take the
 // elements one by one say the same.
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "abi/handle.hpp"
-#include "core/pair_kernels.hpp"
+#include "core/element/pair_kernels.hpp"
 #include "law_elements.hpp"
 #include "samples.hpp"
 #include "worst.hpp"
@@ -28,7 +28,7 @@ void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
   ents::Plan& plan = const_cast<ents_model*>(model.handle())->plan;
   const ents::Model& m = model.handle()->model;
   plan.pairs = kernels ? ents::block_kernel_of(m, plan.height != nullptr, *kernels) : nullptr;
-  plan.block_results = plan.pairs ? std::int32_t{ents::PairBlock::results} : 0;
+  plan.block_results = plan.pairs ? std::int32_t{ents::want::block} : 0;
 }
 
 struct Case {

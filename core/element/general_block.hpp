@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Blocks of elements of any law and tangent under normal projection (those of penalty and power law with the
+// consistent tangent have a faster kernel: pair_kernel.hpp), one element or one per lane. An element that
+// needs care is left to evaluate_element().
+#pragma once
+
+#include "core/element/general_element.hpp"
+#include "core/element/pair_kernel.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class S, int D> ENTS_INLINE Vec<double, D> vector_of_lane(const Vec<S, D>& v, int k) {
+  Vec<double, D> one;
+  for (int c = 0; c < D; ++c) one.set(c, lane(v[c], k));
+  return one;
+}
+// The rays of shadow projections of elements from `first` on; false where there is none: the slave is at the
+// emitter, or far from it.
+template <int D, class S>
+ENTS_INLINE Truth<S> set_rays(const Plan& plan, const PairBlock& block, std::int64_t first, Ray<S, D>& ray) {
+  for (int c = 0; c < D; ++c) ray.e[c] = S(plan.ray[c]);
+  ray.inverse_distance = S(0.0);
+  if (plan.projection != ProjectionKind::shadow_point) return ray.inverse_distance <= 0.0;
+  for (int c = 0; c < D; ++c)
+    ray.e[c] = ray.e[c] - of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
+                 return block.slave[(first + k) * block.slave_stride + c];
+               });
+  const S length = square_root(dot(ray.e, ray.e));
+  ray.inverse_distance = unchecked_inverse(length);
+  ray.e = ray.inverse_distance * ray.e;
+  return both(length > 1.0 / safe_magnitude, length < safe_magnitude);
+}
+
+// Tangents of the elements first + k whose bit is set in `contact`, of the nodes' dofs.
+template <class B, bool H, class S>
+ENTS_NOINLINE void write_matrices(const Plan& plan, const PairBlock& block, const TangentSum<B, H, S>& sum,
+                                  std::uint32_t contact, std::int64_t first) {
+  constexpr int W = width_of<S>, D = B::dim, N = dof_count<B, false>;
+  const bool rigid = node_dofs(plan) == D;
+  const auto place = [&](int k) { return block.tangent + (first + k) * block.tangent_stride; };
+  if constexpr (W == 1) {
+    sum.write(place(0), block.leading, rigid);
+  } else {
+    if (N <= 15 && !rigid) { // few entries: all lanes at once
+      double nowhere[N * N], *out[W];
+      for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? place(k) : nowhere;
+      if constexpr (N <= 15) write_tangent<D>(sum, out, block.leading, contact, nullptr);
+      return;
+    }
+    for (int k = 0; k < W; ++k) {
+      if (!(contact >> k & 1)) continue;
+      TangentSum<B, H, double> one;
+      one.take(sum, k);
+      one.write(place(k), block.leading, rigid);
+    }
+  }
+}
+
+// Law, friction and what is asked for, of projected elements from `first` on; bit k: element first + k needed
+// no care and is written.
+template <class B, bool H, class S>
+ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& block, std::uint32_t known,
+                                          Pair<B, H, S>& p, const Ray<S, B::dim>* ray, std::int64_t first) {
+  constexpr int D = B::dim, N = dof_count<B, false>, W = width_of<S>;
+  const GeneralInputs<B, H, S> in(plan, block, first);
+  p.arrive();
+  ContactPoint<B, H, S> at(p);
+  at.ray = ray;
+  const auto measured = at.measure(plan);
+  Truth<S> fine = both(both(p.ordinary, at.safe), p.is_regular(measured, !ray));
+  if (plan.multipliers > 0) fine = both(fine, p.area > 0.0);
+  at.press(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset);
+  S size = p.area * (absolute(at.law.force) + at.law.stiffness);
+  if (in.has_wear) {
+    size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid);
+    fine = both(fine, at.solved);
+  }
+  S own = S(0.0);
+  for (const S& lambda : in.multiplier) own = own + absolute(lambda);
+  fine = both(fine, both(size < safe_magnitude, own < safe_magnitude));
+  fine = both(fine, p.ordinary); // friction has its say in it
+  fine =
+      without(fine, both(p.contact, both(at.gap < 0.0, p.is_deep(plan, measured,
+                                                                 ray ? at.gap * square_root(measured.area2_e)
+                                                                     : measured.across))));
+  const std::uint32_t done = known & bits_of(fine), contact = done & bits_of(p.contact);
+  if (!done) return 0;
+  if constexpr (W == 1)
+    if (block.rest && !write_rest(plan, block, p)) return 0;
+
+  const int n = node_dofs(plan);
+  if (contact && (block.wanted & (want::residual | want::tangent))) B::template shape<2>(p.xi, p.projector.N);
+  if (block.wanted & want::residual) {
+    S r[N];
+    if (contact) at.residual(plan, r);
+    for (int k = 0; k < W; ++k)
+      if (contact >> k & 1)
+        for (int i = 0; i < n; ++i) block.residual[(first + k) * block.residual_stride + i] = lane(r[i], k);
+  }
+  if (contact && (block.wanted & want::tangent)) {
+    TangentSum<B, H, S> sum;
+    const auto weights = weights_of_tangent(plan, at);
+    sum.evaluate(plan, at, weights);
+    const Vec<S, D> covector = ray ? sum.covector_of(at, weights) : Vec<S, D>::zero();
+    write_matrices(plan, block, sum, contact, first);
+    for (int k = 0; k < W; ++k) {
+      if (!(contact >> k & 1)) continue;
+      double* to = block.tangent + (first + k) * block.tangent_stride;
+      if (plan.projection == ProjectionKind::shadow_point) {
+        double dg[N];
+        for (int i = 0; i < N; ++i) dg[i] = lane(sum.dg[i], k);
+        add_turning_ray(vector_of_lane(covector, k),
+                        Ray<double, D>{vector_of_lane(ray->e, k), lane(ray->inverse_distance, k)},
+                        lane(at.gap, k), dg, n, to, block.leading);
+      }
+      if constexpr (W == 1)
+        if (plan.multipliers > 0)
+          MultiplierEquations<B, H>{plan, at, in.multiplier}.write_tangent(&sum, n, to, block.leading);
+      if (plan.law.symmetrised) symmetrise(plan.dofs, to, block.leading);
+    }
+  }
+  for (int k = 0; k < W; ++k)
+    if ((done & ~contact) >> k & 1) write_zeros(block, first + k, plan.dofs);
+  if constexpr (W == 1)
+    if (plan.multipliers > 0) {
+      const MultiplierEquations<B, H> equations{plan, at, in.multiplier};
+      if (block.wanted & want::residual)
+        equations.write_residual(block.residual + first * block.residual_stride + n);
+      if ((block.wanted & want::tangent) && !contact)
+        equations.write_tangent(nullptr, n, block.tangent + first * block.tangent_stride, block.leading);
+    }
+  if (block.wanted & beside_forces) {
+    const SmallResults<B, true, S> small(at);
+    for (int k = 0; k < W; ++k)
+      if (done >> k & 1) small.write(plan, block, k, first + k);
+  }
+  return done;
+}
+
+template <class B, bool H>
+ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  constexpr int D = B::dim, T = D - 1;
+  const double* start = start_of<B, H>(plan, block, e);
+  if (!start || !has_sound_values(block, e)) return false;
+  PairNodes<B, double> nodes;
+  set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
+               coordinates_of(plan, block, e), nodes);
+  double from[T];
+  for (int a = 0; a < T; ++a) from[a] = start[a];
+  Pair<B, H, double> p(nodes, from);
+  p.area = block.area ? block.area[e * block.area_stride] : 1.0;
+  Ray<double, D> ray;
+  if (plan.projection == ProjectionKind::normal) {
+    p.project();
+    return write_general<B, H, double>(plan, block, 1, p, nullptr, e) != 0;
+  }
+  if (!set_rays(plan, block, e, ray)) return false;
+  p.project_along(ray.e);
+  return write_general<B, H, double>(plan, block, 1, p, &ray, e) != 0;
+}
+
+// Lanes where their arrays of numbers stay within the nearest caches.
+template <class B> inline constexpr int general_width = dof_count<B, false> <= 30 ? block_width<B> : 1;
+
+// Bit k: element first + k was ordinary and is written.
+template <class B, bool H>
+std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::int32_t count) {
+  std::uint64_t done = 0;
+  std::int32_t k = 0;
+#if defined(ENTS_HAS_LANES)
+  if constexpr (constexpr int W = general_width<B>; W > 1)
+    for (; k + W <= count && plan.multipliers == 0; k += W) {
+      const std::int64_t e = block.first + k;
+      const PairLanes<B, H, false, W> in(plan, block, e);
+      std::uint32_t known = in.known;
+      for (int i = 0; i < W && (block.state_begin || block.slave_values); ++i)
+        if ((block.state_begin &&
+             !is_finite(block.state_begin + (e + i) * block.state_begin_stride, plan.state.size)) ||
+            !has_sound_values(block, e + i))
+          known &= ~(1u << i);
+      Pair<B, H, Lanes<W>> p(in.nodes, in.xi);
+      p.area = in.area;
+      Ray<Lanes<W>, B::dim> ray;
+      const bool shadow = plan.projection != ProjectionKind::normal;
+      if (shadow) {
+        known &= bits_of(set_rays(plan, block, e, ray));
+        p.project_along(ray.e);
+      } else {
+        p.project();
+      }
+      done |= std::uint64_t{write_general<B, H, Lanes<W>>(plan, block, known, p, shadow ? &ray : nullptr, e)}
+              << k;
+    }
+#endif
+  for (; k < count; ++k) done |= std::uint64_t{evaluate_general_one<B, H>(plan, block, block.first + k)} << k;
+  return done;
+}
+
+} // namespace ents::ENTS_ISA

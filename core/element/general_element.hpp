@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One element of any law, projection and tangent at a projection that has been found: what it may be refused
+// for, and all of its results.
+#pragma once
+
+#include "core/element/general_inputs.hpp"
+#include "core/element/pair_results.hpp"
+#include "core/projection/projection.hpp"
+#include "core/projection/target.hpp"
+#include "core/tangent/tangent_sum.hpp"
+
+namespace ents::ENTS_ISA {
+
+// Dofs of the nodes; those of multipliers come after them.
+ENTS_INLINE int node_dofs(const Plan& plan) { return plan.dofs - plan.multipliers; }
+
+// Results of multiplier dofs: lambda_n [F/L^2], then lambda_a [F/L] with friction.
+template <class B, bool H> struct MultiplierEquations {
+  static constexpr int T = B::dim - 1;
+  const Plan& plan;
+  const ContactPoint<B, H, double>& at;
+  const double* multiplier;
+
+  ENTS_INLINE void write_residual(double* out) const {
+    const double area = at.pair.area;
+    out[0] = at.pair.contact ? -area * at.law_gap : -area / plan.law.stiffness * multiplier[0];
+    for (int a = 1; a < plan.multipliers; ++a)
+      out[a] = (at.friction.force[a - 1] - area * multiplier[a]) / plan.law.friction_stiffness;
+  }
+
+  // Rows and columns of the multipliers; n: dofs of the nodes. sum: of an element in contact, or null.
+  ENTS_INLINE void write_tangent(const TangentSum<B, H, double>* sum, int n, double* out,
+                                 std::int64_t leading) const {
+    const int count = plan.multipliers;
+    const double area = at.pair.area;
+    const auto& f = at.friction;
+    for (int e = 0; e < count; ++e) {
+      for (int i = 0; i < n; ++i) out[(n + e) * leading + i] = out[i * leading + n + e] = 0.0;
+      for (int k = 0; k < count; ++k) out[(n + e) * leading + n + k] = 0.0;
+    }
+    double* column = out + n * leading;
+    if (sum)
+      for (int i = 0; i < n; ++i) column[i] = out[i * leading + n] = -area * sum->dg[i];
+    else
+      column[n] = -area / plan.law.stiffness;
+    if (count == 1) return;
+    const double rate = 1.0 / plan.law.friction_stiffness;
+    const bool rubs = sum && f.active;
+    for (int b = 0; b < T; ++b) {
+      double* by_multiplier = out + (n + 1 + b) * leading;
+      for (int a = 0; a < T; ++a) {
+        double d = 0.0; // dt_a / dlambda_b
+        if (rubs) {
+          d = a == b ? area : 0.0;
+          if (f.slip) d = f.limit / f.norm * (d - area * f.direction[a] * f.raised[b]);
+          for (int i = 0; i < n; ++i) by_multiplier[i] += sum->x[a][i] * d;
+        }
+        by_multiplier[n + 1 + a] = rate * (d - (a == b ? area : 0.0));
+      }
+    }
+    if (!rubs) return;
+    for (int a = 0; a < T; ++a) {
+      for (int i = 0; i < n; ++i) out[i * leading + n + 1 + a] = rate * sum->P[a][i];
+      if (f.slip) { // the limit follows the pressure, that is lambda_n
+        const double d = f.direction[a] * f.by_pressure * area;
+        for (int i = 0; i < n; ++i) column[i] += sum->x[a][i] * d;
+        column[n + 1 + a] = rate * d;
+      }
+    }
+  }
+
+  // No entry of these rows and columns is larger.
+  ENTS_INLINE double bound(const TangentSum<B, H, double>& sum) const {
+    const auto& f = at.friction;
+    if (!f.active) return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
+    const double rate = 1.0 / plan.law.friction_stiffness;
+    double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
+    if (f.slip)
+      by_multiplier +=
+          at.pair.area * sum_of_absolutes(f.direction) * (sum_of_absolutes(f.raised) + f.by_pressure);
+    for (int a = 0; a < T; ++a) {
+      bound += rate * sum_of_absolutes(sum.P[a]);
+      nodes += sum_of_absolutes(sum.x[a]);
+    }
+    return bound + by_multiplier * (nodes + rate);
+  }
+};
+
+// What the tangent of an element in contact is the sum of.
+template <class B, bool H, class S>
+ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const ContactPoint<B, H, S>& at) {
+  Weights<S, B::dim - 1> sum;
+  const bool friction = plan.law.has_friction();
+  sum.by_gap = at.pair.area * at.law.stiffness;
+  sum.stiff = true;
+  sum.by_slid = plan.law.wear.on ? at.pair.area * at.wear.by_slid : S(0.0);
+  sum.wears = plan.law.wear.on;
+  sum.push = at.pair.area * at.law.force;
+  for (int a = 0; a < B::dim - 1; ++a) sum.force[a] = friction ? at.friction.force[a] : S(0.0);
+  sum.second_gap = plan.tangent != TangentKind::first_variation;
+  sum.small_gap = plan.tangent == TangentKind::small_gap;
+  sum.second_xi = friction && plan.tangent == TangentKind::consistent;
+  sum.force_changes = friction;
+  return sum;
+}
+
+// (K + K^T) / 2
+ENTS_INLINE void symmetrise(int n, double* out, std::int64_t leading) {
+  for (int j = 0; j < n; ++j)
+    for (int i = j + 1; i < n; ++i)
+      out[j * leading + i] = out[i * leading + j] = 0.5 * (out[j * leading + i] + out[i * leading + j]);
+}
+
+template <class B, bool H> struct GeneralElement {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>;
+  const Plan& plan;
+  const ElementInput& in;
+  const ElementOutput& out;
+  const FoundProjection& found;
+  ContactPoint<B, H, double>& at;
+  const MultiplierEquations<B, H> multipliers{plan, at, in.multiplier};
+  const bool element = (out.wanted & want::element) != 0;
+  // flags are those of the element; alone, or with kinematics, they refuse nothing
+  const bool judged = element || ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
+  std::int32_t more_flags = 0;
+
+  bool wants(std::int32_t bits) const { return (out.wanted & bits) != 0; }
+
+  Status evaluate() {
+    auto& pair = at.pair;
+    const bool shadow = at.ray != nullptr;
+    pair.area = in.area ? *in.area : 1.0;
+    pair.arrive();
+    auto measured = at.measure(plan);
+    if (pair.is_regular(measured, !shadow)) { // then the bits are those of a block
+      B::template shape<2>(pair.xi, pair.projector.N);
+    } else {
+      if (!pair.arrive_by_nodes(geometry(), shadow || found.escaped ? nullptr : found.f2))
+        return Status::degenerate_segment;
+      measured = at.measure(plan, true);
+    }
+    if (!(measured.area2_e > degenerate_size * degenerate_size * measured.area2))
+      return Status::degenerate_segment;
+    if (shadow && !(ray_enters())) return Status::grazing_ray;
+    if (!(absolute(at.gap) < largest_ingredient) || !(max_norm(pair.xi) < 1e15)) return Status::out_of_range;
+    pair.outside = pair.outside || found.escaped;
+    const bool far_side = !shadow && !minimum_of(pair.projector.f2, pair.projector.metric);
+    if (far_side) more_flags |= flag::far_side;
+    if (found.searched) more_flags |= flag::searched;
+
+    const PairBlock block = block_of(in, out, nullptr, 0);
+    const GeneralInputs<B, H, double> begin(plan, block, 0);
+    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(), begin.offset);
+    if (element && !at.solved) return Status::out_of_range;
+    if (!judged) pair.contact = false;
+    if (pair.contact && element) {
+      if (far_side) return Status::singular_projection;
+      if (found.ambiguous) return Status::ambiguous_projection;
+      if (!at.safe) return Status::grazing_ray; // a ray from behind would push the slave further in
+      const double deepest = plan.penetration_limit > 0.0
+                                 ? plan.penetration_limit
+                                 : (B::simplex ? 1.0 : 2.0) * square_root(measured.size2);
+      if (-at.gap > deepest) return Status::deep_penetration;
+    }
+    if (at.friction.active && !(determinant(pair.projector.metric) > 0.0)) {
+      if (element) return Status::degenerate_segment;
+      at.friction.set_none();
+    }
+    const bool forces = pair.contact && wants(want::residual | want::tangent);
+    const bool varies =
+        wants(want::xi_gradient | want::xi_hessian | want::gap_hessian) || (forces && at.friction.active) ||
+        (pair.contact && wants(want::tangent) && plan.tangent != TangentKind::first_variation);
+    if (varies && !shadow && !projection_varies()) return Status::singular_projection;
+    return write();
+  }
+
+  // Gradients and Hessians of an element of a block, which is at its projection.
+  Status evaluate_variations() {
+    B::template shape<2>(at.pair.xi, at.pair.projector.N);
+    at.measure(plan);
+    at.law = {0.0, 0.0, 0.0, false};
+    at.pair.contact = false;
+    at.friction.set_none();
+    return at.ray || projection_varies() ? write() : Status::singular_projection;
+  }
+
+private:
+  Geometry<B> geometry() const {
+    Geometry<B> g;
+    g.set(in.slave, in.master);
+    g.surface_coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
+    g.height = plan.height;
+    return g;
+  }
+  // Is the ray out of the tangent plane?
+  bool ray_enters() const {
+    const Vec<double, D> m = normal_of_tangents(at.pair.projector.s.e);
+    const double det = dot(m, at.ray->e);
+    return det * det > 1e-20 * dot(m, m);
+  }
+  bool projection_varies() const {
+    const auto& p = at.pair.projector;
+    const double metric = determinant(p.metric);
+    const double det =
+        plan.tangent == TangentKind::small_gap && !at.friction.active && !wants(want::kinematics)
+            ? metric
+            : determinant(p.f2);
+    return metric > 0.0 && absolute(det) > 1e-10 * metric;
+  }
+
+  // May every force and small result be computed without leaving the range of double precision?
+  bool law_in_range() const {
+    const double area = at.pair.area;
+    double size = area * (absolute(at.law.force) + at.law.stiffness);
+    if (plan.law.wear.on) size += area * (absolute(at.wear.by_slid) + at.wear.slid + absolute(at.wear.lost));
+    double tangential = at.friction.active ? sum_of_absolutes(at.friction.force) : 0.0;
+    size += tangential;
+    if (plan.multipliers > 0) { // they come back in the residual, over a stiffness
+      size +=
+          area * (1.0 + absolute(at.law_gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.stiffness));
+      for (int a = 1; a < plan.multipliers; ++a) tangential += area * absolute(in.multiplier[a]);
+      if (plan.multipliers > 1) size += tangential / plan.law.friction_stiffness;
+    }
+    return size < largest_ingredient;
+  }
+
+  Weights<double, T> none() const {
+    Weights<double, T> sum{};
+    sum.small_gap = plan.tangent == TangentKind::small_gap;
+    return sum;
+  }
+
+  // Matrices that are wanted, one after the other: f(weights, where it goes, its leading dimension, is it the
+  // tangent)
+  template <class F> Status for_each_matrix(F&& f) const {
+    const int n = node_dofs(plan);
+    if (at.pair.contact && wants(want::tangent))
+      if (const Status s = f(weights_of_tangent(plan, at), out.tangent, out.tangent_leading_dimension, true);
+          s != Status::ok)
+        return s;
+    if (wants(want::gap_hessian) && plan.tangent != TangentKind::first_variation) {
+      Weights<double, T> sum = none();
+      sum.push = 1.0, sum.second_gap = true;
+      if (const Status s = f(sum, out.gap_hessian, n, false); s != Status::ok) return s;
+    }
+    for (int a = 0; a < T && wants(want::xi_hessian); ++a) {
+      Weights<double, T> sum = none();
+      sum.force[a] = 1.0, sum.second_xi = true;
+      if (const Status s = f(sum, out.xi_hessian + a * n * n, n, false); s != Status::ok) return s;
+    }
+    return Status::ok;
+  }
+
+  // First all that may leave the range of numbers, then everything is written.
+  Status write() const {
+    const int n = node_dofs(plan);
+    const bool rigid = n == D;
+    TangentSum<B, H, double> sum;
+    SmallResults<B, true, double> small(at);
+    small.more_flags = more_flags;
+    small.escaped = found.escaped;
+    if (element && !(law_in_range() && small_in_range(small))) return Status::out_of_range;
+    double residual[N];
+    const bool has_residual = at.pair.contact && wants(want::residual);
+    if (has_residual) {
+      at.residual(plan, residual);
+      if (!(sum_of_absolutes(residual) < largest_result)) return Status::out_of_range;
+    }
+    int matrices = 0;
+    if (const Status s =
+            for_each_matrix([&](const Weights<double, T>& weights, double*, std::int64_t, bool is_tangent) {
+              ++matrices;
+              sum.evaluate(plan, at, weights);
+              const double bound =
+                  sum.bound() + (is_tangent && plan.multipliers > 0 ? multipliers.bound(sum) : 0.0);
+              return bound < largest_result ? Status::ok : Status::out_of_range;
+            });
+        s != Status::ok)
+      return s;
+
+    for_each_matrix(
+        [&](const Weights<double, T>& weights, double* to, std::int64_t leading, bool is_tangent) {
+          if (matrices > 1) sum.evaluate(plan, at, weights);
+          sum.write(to, leading, rigid);
+          if (at.ray)
+            add_turning_ray(TangentSum<B, H, double>::covector_of(at, weights), *at.ray, at.gap, sum.dg, n,
+                            to, leading);
+          if (is_tangent && plan.multipliers > 0) multipliers.write_tangent(&sum, n, to, leading);
+          if (is_tangent && plan.law.symmetrised) symmetrise(plan.dofs, to, leading);
+          return Status::ok;
+        });
+    if (wants(want::gap_gradient | want::xi_gradient)) {
+      sum.evaluate_first(at);
+      for (int i = 0; i < n && wants(want::gap_gradient); ++i) out.gap_gradient[i] = sum.dg[i];
+      for (int a = 0; a < T && wants(want::xi_gradient); ++a)
+        for (int i = 0; i < n; ++i) out.xi_gradient[a * n + i] = sum.x[a][i];
+    }
+    if (wants(want::gap_hessian) && plan.tangent == TangentKind::first_variation)
+      for (int i = 0; i < n * n; ++i) out.gap_hessian[i] = 0.0;
+    write_forces(residual);
+    small.write(plan, block_of(in, out, in.start, out.wanted), 0, 0);
+    return Status::ok;
+  }
+
+  void write_forces(const double (&residual)[N]) const {
+    const int n = node_dofs(plan);
+    if (wants(want::residual)) {
+      for (int i = 0; i < n; ++i) out.residual[i] = at.pair.contact ? residual[i] : 0.0;
+      if (plan.multipliers > 0) multipliers.write_residual(out.residual + n);
+    }
+    if (wants(want::tangent) && !at.pair.contact) {
+      const std::int64_t leading = out.tangent_leading_dimension;
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) out.tangent[j * leading + i] = 0.0;
+      if (plan.multipliers > 0) multipliers.write_tangent(nullptr, n, out.tangent, leading);
+    }
+  }
+
+  // The same of what has divisions by areas and stiffnesses: written here first
+  bool small_in_range(const SmallResults<B, true, double>& small) const {
+    double numbers[D + 2 + largest_state] = {};
+    PairBlock here =
+        block_of(in, out, in.start, out.wanted & (want::traction | want::energy | want::slip | want::state));
+    here.traction = numbers, here.energy = numbers + D, here.slip = numbers + D + 1,
+    here.state_end = numbers + D + 2;
+    small.write(plan, here, 0, 0);
+    return sum_of_absolutes(numbers) < largest_result;
+  }
+};
+
+// The ray of an element; false: the slave is at the emitter.
+template <int D> ENTS_INLINE bool set_ray(const Plan& plan, const double* slave, Ray<double, D>& ray) {
+  Target t;
+  if (!set_target<D>(plan, slave, t)) return false;
+  ray = {ray_of<D>(t), t.inverse_distance};
+  return true;
+}
+
+// An element that a block has projected: RestKernel
+template <class B, bool H>
+bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput& out,
+                   const ProjectedElement& projected) {
+  constexpr int D = B::dim, T = D - 1;
+  PairNodes<B, double> nodes;
+  set_nodes<H>(plan, in.slave, in.master,
+               in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
+  double xi[T];
+  for (int a = 0; a < T; ++a) xi[a] = projected.xi[a];
+  Pair<B, H, double> pair(nodes, xi);
+  pair.area = projected.area;
+  pair.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
+  pair.arrive();
+  ContactPoint<B, H, double> at(pair);
+  Ray<double, D> ray;
+  if (plan.projection != ProjectionKind::normal) {
+    if (!set_ray(plan, in.slave, ray)) return false;
+    at.ray = &ray;
+  }
+  const FoundProjection found{};
+  return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations() == Status::ok;
+}
+
+template <class B, bool H>
+Status finish_element(const Plan& plan, const ElementInput& in, const ElementOutput& out,
+                      const FoundProjection& found) {
+  constexpr int D = B::dim, T = D - 1;
+  PairNodes<B, double> nodes;
+  set_nodes<H>(plan, in.slave, in.master,
+               in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
+  double xi[T];
+  for (int a = 0; a < T; ++a) xi[a] = found.xi[a];
+  Pair<B, H, double> pair(nodes, xi);
+  pair.evaluations = found.evaluations;
+  pair.area = 1.0;
+  pair.ordinary = true; // read by the friction law; no block kernel has decided it here
+  ContactPoint<B, H, double> at(pair);
+  Ray<double, D> ray;
+  if (plan.projection != ProjectionKind::normal) {
+    if (!set_ray(plan, in.slave, ray)) return Status::grazing_ray;
+    at.ray = &ray;
+  }
+  return GeneralElement<B, H>{plan, in, out, found, at}.evaluate();
+}
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an element of any law, or each lane's, begins the increment with: its state and its multipliers.
+#pragma once
+
+#include "core/element/pair_inputs.hpp"
+#include "core/law/contact_point.hpp"
+
+namespace ents::ENTS_ISA {
+
+// number(k) of element, or lane, k
+template <class S, class Number> ENTS_INLINE S of_each(Number&& number) {
+  if constexpr (std::is_same_v<S, double>)
+    return number(0);
+  else
+    return each_lane<width_of<S>>(number);
+}
+
+ENTS_INLINE bool has_sound_values(const PairBlock& block, std::int64_t e) {
+  return check_slave_values(element_at(block.slave_values, block.slave_values_stride, e)) == Status::ok;
+}
+
+// What an element, or each lane's, is evaluated from.
+template <class B, bool H, class S> struct GeneralInputs {
+  static constexpr int D = B::dim, T = D - 1;
+  S anchor[T], history, multiplier[1 + T];
+  S offset; // of the gap, beside the law's own
+  bool has_multiplier, has_wear;
+  WornState<S, T> worn;
+
+  ENTS_INLINE GeneralInputs(const Plan& plan, const PairBlock& block, std::int64_t first) {
+    const auto state = [&](int k) ENTS_LAMBDA_INLINE {
+      return element_at(block.state_begin, block.state_begin_stride, first + k);
+    };
+    history = S(0.0);
+    for (S& x : anchor) x = S(0.0);
+    for (S& x : multiplier) x = S(0.0);
+    if (plan.state.anchor_at >= 0 && block.state_begin) {
+      history = of_each<S>(
+          [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
+      for (int a = 0; a < T; ++a)
+        anchor[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return state(k)[plan.state.anchor_at + a]; });
+    }
+    const int count = plan.law.has_friction() ? 1 + T : 1;
+    has_multiplier = plan.law.multiplier_is_dof() || (plan.law.multiplier_in_state() && block.state_begin);
+    for (int i = 0; has_multiplier && i < count; ++i)
+      multiplier[i] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
+        return plan.law.multiplier_is_dof()
+                   ? element_at(block.multiplier, block.multiplier_stride, first + k)[i]
+                   : state(k)[plan.state.multiplier_at + i];
+      });
+    const auto own = [&](int i, double otherwise) ENTS_LAMBDA_INLINE {
+      return !block.slave_values ? S(otherwise) : of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
+        return block.slave_values[(first + k) * block.slave_values_stride + i];
+      });
+    };
+    offset = own(slave_value::offset, 0.0);
+    has_wear = plan.law.wear.on;
+    if (!has_wear) return;
+    worn.factor = own(slave_value::wear, 1.0), worn.sliding_factor = own(slave_value::sliding, 1.0);
+    worn.depth = worn.pressure = worn.seen = S(0.0);
+    for (S& x : worn.anchor) x = S(0.0);
+    if (!block.state_begin) return;
+    const auto number = [&](std::int32_t i) ENTS_LAMBDA_INLINE {
+      return of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return state(k)[plan.state.wear_at + i]; });
+    };
+    worn.depth = number(StateLayout::worn_slave) + number(StateLayout::worn_master);
+    worn.pressure = number(StateLayout::worn_pressure);
+    worn.seen = of_each<S>(
+        [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
+    for (int a = 0; a < T; ++a) worn.anchor[a] = number(StateLayout::worn_anchor + a);
+  }
+
+  // As ContactPoint::press() takes them
+  ENTS_INLINE const S* multipliers() const { return has_multiplier ? multiplier : nullptr; }
+  ENTS_INLINE const WornState<S, T>* worn_or_null() const { return has_wear ? &worn : nullptr; }
+};
+
+} // namespace ents::ENTS_ISA

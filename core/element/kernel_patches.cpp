@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/element/kernel.hpp"
+
+namespace ents::ENTS_ISA {
+const KernelSet& catmull_rom16_kernels() { return kernels_of<CatmullRom16>; }
+const KernelSet& bspline16_kernels() { return kernels_of<BSpline16>; }
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/element/kernel.hpp"
+
+namespace ents::ENTS_ISA {
+const KernelSet& tri3_kernels() { return kernels_of<Tri3>; }
+const KernelSet& tri6_kernels() { return kernels_of<Tri6>; }
+} // namespace ents::ENTS_ISA

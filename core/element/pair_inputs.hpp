@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What ordinary elements of a call begin with: positions, and where the projection starts, from the host's
+// arrays to numbers of one element or of one per lane.
+#pragma once
+
+#include "core/tangent/pair_tangent.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class T> ENTS_INLINE T* element_at(T* data, std::int64_t stride, std::int64_t e) {
+  return data ? data + stride * e : nullptr;
+}
+
+ENTS_INLINE bool is_finite(const double* numbers, int count) {
+  double zero = 0.0;
+  for (int i = 0; i < count; ++i) zero += 0.0 * numbers[i];
+  return zero == 0.0;
+}
+
+ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride
+                                   : plan.surface_coordinates;
+}
+
+// The nodes of one element, seen from its slave.
+template <bool H, class B>
+ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* master,
+                           const double* coordinates, PairNodes<B, double>& nodes) {
+  constexpr int D = B::dim;
+  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + D * i) - vec_at<D>(slave);
+  nodes.has_coordinates = H && coordinates;
+  if (nodes.has_coordinates)
+    for (int i = 0; i < (D - 1) * B::nodes; ++i) nodes.coordinates[i] = coordinates[i];
+  nodes.height = plan.height;
+}
+
+// What an element starts from, as evaluate_element() has it. Null: the whole segment has to be searched, or
+// an input is wrong that would not be noticed later.
+template <class B, bool H>
+ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  if constexpr (!H)
+    if (block.surface_coordinates && !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * B::nodes))
+      return nullptr;
+  const double* start = element_at(block.start, block.start_stride, e);
+  if (start && !is_finite(start, B::dim - 1)) return nullptr;
+  if (block.state_begin) {
+    const double* state = block.state_begin + e * block.state_begin_stride;
+    if (state[StateLayout::tag_at] != plan.state.tag || !is_finite(state, plan.state.size)) return nullptr;
+    const double history = state[StateLayout::history_at];
+    if (history == 2.0 || history == 3.0)
+      return block.start_first && start ? start : state + StateLayout::xi_at;
+    if (history != 0.0 && history != 1.0) return nullptr;
+  }
+  return start;
+}
+
+// The anchor in the state, and whether there is one.
+template <int T>
+ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, std::int64_t e,
+                                    double& history) {
+  static const double none[T] = {};
+  const double* state = element_at(block.state_begin, block.state_begin_stride, e);
+  history = state && state[StateLayout::history_at] >= 2.0 ? 1.0 : 0.0;
+  return state ? state + plan.state.anchor_at : none;
+}
+
+#if defined(ENTS_HAS_LANES)
+// `size` numbers of each of W elements will be read soon.
+template <int W> ENTS_INLINE void prefetch(const double* from, std::int64_t stride, std::int64_t size) {
+  constexpr std::int64_t line = 64 / sizeof(double);
+  const std::int64_t all = (W - 1) * stride + size;
+  if (all <= 2 * W * size) {
+    for (std::int64_t i = 0; i < all; i += line) __builtin_prefetch(from + i);
+  } else {
+    for (int k = 0; k < W; ++k)
+      for (std::int64_t i = 0; i < size; i += line) __builtin_prefetch(from + k * stride + i);
+  }
+}
+
+// Inputs of W elements from e on.
+template <class B, bool H, bool F, int W> struct PairLanes {
+  static constexpr int D = B::dim, T = D - 1;
+  using S = Lanes<W>;
+  PairNodes<B, S> nodes;
+  S xi[T], area;
+  S anchor[T], history; // friction: that of the state, and 1 where there is one
+  std::uint32_t known;  // bit k: element e + k has a start
+
+  ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
+    prefetch_inputs(plan, block, e + 2 * W);
+    const double* from[W];
+    const auto rows = [&](const double* data, std::int64_t stride) ENTS_LAMBDA_INLINE {
+      for (int k = 0; k < W; ++k) from[k] = data + (e + k) * stride;
+    };
+    S x[D], y[D * B::nodes];
+    rows(block.slave, block.slave_stride);
+    read_lanes<W>(from, x);
+    rows(block.master, block.master_stride);
+    read_lanes<W>(from, y);
+    for (int i = 0; i < B::nodes; ++i)
+      for (int c = 0; c < D; ++c) nodes.y[i][c] = y[D * i + c] - x[c];
+    nodes.has_coordinates = H && coordinates_of(plan, block, e);
+    if (nodes.has_coordinates) {
+      for (int k = 0; k < W; ++k) from[k] = coordinates_of(plan, block, e + k);
+      read_lanes<W>(from, nodes.coordinates);
+    }
+    nodes.height = plan.height;
+    area = block.area ? read_lanes<W>(block.area + e * block.area_stride, block.area_stride) : S(1.0);
+    known = (1u << W) - 1;
+    if constexpr (!H)
+      if (block.surface_coordinates)
+        for (int k = 0; k < W; ++k)
+          if (!is_finite(coordinates_of(plan, block, e + k), T * B::nodes)) known &= ~(1u << k);
+    if (block.start) {
+      if constexpr (T == 1) {
+        xi[0] = read_lanes<W>(block.start + e * block.start_stride, block.start_stride);
+      } else {
+        rows(block.start, block.start_stride);
+        read_lanes<W>(from, xi);
+      }
+      known &= bits_of(are_finite(xi));
+    }
+    if (block.state_begin) {
+      rows(block.state_begin, block.state_begin_stride);
+      read_states(plan, block, from);
+    } else {
+      if (!block.start) known = 0;
+      history = S(0.0);
+      for (S& x_0 : anchor) x_0 = S(0.0);
+    }
+    if (known != (1u << W) - 1) { // others begin anywhere
+      double begin[W];
+      for (int k = 0; k < W; ++k) begin[k] = known >> k & 1 ? 1.0 : 0.0;
+      const Truth<S> has_start = load<S>(begin) > 0.5;
+      for (S& x_0 : xi) x_0 = select(has_start, x_0, S(0.0));
+    }
+  }
+
+private:
+  template <int Count> static ENTS_INLINE Truth<S> are_finite(const S (&numbers)[Count]) {
+    S zero = 0.0 * numbers[0];
+    for (int i = 1; i < Count; ++i) zero = zero + 0.0 * numbers[i];
+    return zero >= 0.0;
+  }
+  // As start_of() has it
+  ENTS_INLINE void read_states(const Plan& plan, const PairBlock& block, const double* const (&from)[W]) {
+    S state[F ? StateLayout::xi_at + 2 * T + 1 : StateLayout::xi_at + T];
+    read_lanes<W>(from, state);
+    const auto is = [](const S& a, double b) ENTS_LAMBDA_INLINE { return both(a >= b, a <= b); };
+    const S& last = state[StateLayout::history_at];
+    const Truth<S> touched = either(is(last, 2.0), is(last, 3.0)),
+                   free = either(is(last, 0.0), is(last, 1.0));
+    const bool first = block.start_first && block.start;
+    known &= bits_of(
+        both(both(is(state[StateLayout::tag_at], plan.state.tag), are_finite(state)), either(touched, free)));
+    if (!block.start) known &= bits_of(touched);
+    if (!first)
+      for (int a = 0; a < T; ++a)
+        xi[a] = block.start ? select(touched, state[StateLayout::xi_at + a], xi[a])
+                            : state[StateLayout::xi_at + a];
+    if constexpr (F) {
+      history = select(touched, S(1.0), S(0.0));
+      for (int a = 0; a < T; ++a) anchor[a] = state[StateLayout::xi_at + T + a];
+    }
+  }
+  // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight
+  // ends with every page.
+  static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
+    const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
+      if (data) prefetch<W>(data + e * stride, stride, size);
+    };
+    soon(block.slave, block.slave_stride, D);
+    soon(block.master, block.master_stride, D * B::nodes);
+    soon(block.surface_coordinates, block.surface_coordinates_stride, T * B::nodes);
+    soon(block.start, block.start_stride, T);
+    soon(block.area, block.area_stride, 1);
+    soon(block.state_begin, block.state_begin_stride, plan.state.size);
+  }
+};
+#endif
+
+} // namespace ents::ENTS_ISA

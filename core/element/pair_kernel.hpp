@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ordinary elements of a call: a block of up to 64, each written or left to evaluate_element().
+#pragma once
+
+#include <cstring>
+
+#include "core/element/general_element.hpp"
+#include "core/element/pair_kernels.hpp"
+#include "core/element/pair_results.hpp"
+#include "core/tangent/pair_reduced_friction.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <bool F, bool Rigid, class B, bool H, class S>
+using TangentOf = std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
+
+inline constexpr std::int32_t beside_forces = want::block & ~want::forces;
+
+// Gap, force and friction at the projection.
+template <bool F, class B, bool H, class S>
+ENTS_INLINE void press(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p, PairFriction<B, H, S>& f,
+                       const S (&anchor)[B::dim - 1], const S& history) {
+  p.arrive();
+  p.press(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
+  if constexpr (F) f.evaluate(plan.law, p, anchor, history, -(p.area * p.per_gap * p.gap));
+}
+// Shape functions come as late as here, with as many derivatives as are asked for.
+template <bool F, bool Rigid, class B, bool H, class S>
+ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
+  if constexpr (!Rigid) B::template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
+  if constexpr (F)
+    friction_residual<Rigid>(p, f, (p.area * p.per_gap) * p.gap_vector, out);
+  else
+    pair_residual<Rigid>(p, out);
+}
+template <bool F, bool Rigid, class B, bool H, class S>
+ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const PairFriction<B, H, S>& f,
+                         TangentOf<F, Rigid, B, H, S>& out) {
+  if constexpr (!Rigid) B::template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
+  if constexpr (F)
+    out.evaluate(plan, p, f);
+  else
+    out.evaluate(plan, p);
+}
+
+// The `rest` of a block of one element at its projection
+template <class B, bool H>
+ENTS_INLINE bool write_rest(const Plan& plan, const PairBlock& block, const Pair<B, H, double>& p) {
+  ProjectedElement at{};
+  for (int a = 0; a < B::dim - 1; ++a) at.xi[a] = p.xi[a];
+  const auto& sine = p.projector.sine;
+  at.sine[0] = sine.turns, at.sine[1] = sine.h, at.sine[2] = sine.slope;
+  at.area = p.area;
+  return plan.rest(plan, *block.one, *block.rest, at);
+}
+
+// An element that is clearly open
+ENTS_INLINE void write_open(const PairBlock& block, std::int64_t e) {
+  if (block.wanted & want::flags) block.flags[e * block.flags_stride] = 0;
+}
+// An element that is open
+ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
+  if (block.wanted & forces_only) return;
+  if (block.wanted & want::residual)
+    for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
+  if (!(block.wanted & want::tangent)) return;
+  double* tangent = block.tangent + e * block.tangent_stride;
+  const std::int64_t columns = block.leading == N ? 1 : N,
+                     length = block.leading == N ? std::int64_t{N} * N : N;
+  for (std::int64_t j = 0; j < columns; ++j)
+    std::memset(tangent + j * block.leading, 0, sizeof(double) * static_cast<std::size_t>(length));
+}
+
+// Residual and tangent of an element in contact.
+template <bool F, bool Rigid, class B, bool H>
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, double>& p,
+                              const PairFriction<B, H, double>& f, std::int64_t e) {
+  constexpr int N = dof_count<B, Rigid>;
+  if (block.wanted & want::residual) {
+    double of_dofs[N];
+    residual<F, Rigid>(p, f, of_dofs);
+    double* r = block.residual + e * block.residual_stride;
+    for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
+  }
+  if (block.wanted & want::tangent) {
+    TangentOf<F, Rigid, B, H, double> t;
+    tangent<F, Rigid>(plan, p, f, t);
+    double* k = block.tangent + e * block.tangent_stride;
+    if constexpr (N <= 15)
+      write_tangent<B::dim>(t, k, block.leading);
+    else
+      write_long_tangent<B::dim>(t, k, block.leading);
+  }
+}
+
+// Of segments of many dofs out of line, where a call costs nothing beside it: compilers take long over long
+// functions.
+template <bool F, bool Rigid, class... Arguments>
+ENTS_NOINLINE void write_forces_apart(Arguments&... arguments) {
+  write_forces<F, Rigid>(arguments...);
+}
+template <bool F, class B, class... Arguments>
+ENTS_INLINE void write_forces_of(bool rigid, Arguments&... arguments) {
+  if constexpr (dof_count < B, false >> 30) {
+    if (rigid)
+      write_forces_apart<F, true>(arguments...);
+    else
+      write_forces_apart<F, false>(arguments...);
+  } else {
+    if (rigid)
+      write_forces<F, true>(arguments...);
+    else
+      write_forces<F, false>(arguments...);
+  }
+}
+
+template <class B, bool H, bool F>
+ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  constexpr int D = B::dim, T = D - 1;
+  const double* start = start_of<B, H>(plan, block, e);
+  if (!start) return false;
+  PairNodes<B, double> nodes;
+  set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
+               coordinates_of(plan, block, e), nodes);
+  double from[T];
+  for (int a = 0; a < T; ++a) from[a] = start[a];
+  Pair<B, H, double> p(nodes, from);
+  PairFriction<B, H, double> f;
+  p.area = block.area ? block.area[e * block.area_stride] : 1.0;
+  double anchor[T] = {}, history = 0.0;
+  if constexpr (F) {
+    const double* at = anchor_of<T>(plan, block, e, history);
+    for (int a = 0; a < T; ++a) anchor[a] = at[a];
+  }
+  if (block.wanted & forces_only && p.has_area() && p.is_clearly_open(plan)) {
+    write_open(block, e);
+    return true;
+  }
+  p.project();
+  press<F>(plan, block.wanted, p, f, anchor, history);
+  if (!p.ordinary || (block.rest && !write_rest(plan, block, p))) return false;
+  if (!p.contact)
+    write_zeros(block, e, plan.dofs);
+  else
+    write_forces_of<F, B>(plan.dofs == D, plan, block, p, f, e);
+  if (block.wanted & beside_forces) SmallResults<B, F, double>(p, f).write(plan, block, 0, e);
+  return true;
+}
+
+#if defined(ENTS_HAS_LANES)
+// Both projections at once.
+template <class B, bool H, int W>
+ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) {
+  constexpr int D = B::dim, T = D - 1;
+  using S = Twice<Lanes<W>>;
+  PairNodes<B, S> nodes;
+  for (int i = 0; i < B::nodes; ++i)
+    for (int c = 0; c < D; ++c) nodes.y[i][c] = {a.nodes.y[i][c], b.nodes.y[i][c]};
+  nodes.has_coordinates = a.nodes.has_coordinates;
+  if (nodes.has_coordinates)
+    for (int i = 0; i < T * B::nodes; ++i)
+      nodes.coordinates[i] = {a.nodes.coordinates[i], b.nodes.coordinates[i]};
+  nodes.height = a.nodes.height;
+  S xi[T];
+  for (int i = 0; i < T; ++i) xi[i] = {a.xi[i], b.xi[i]};
+  Pair<B, H, S> p(nodes, xi);
+  p.project();
+  for (int i = 0; i < T; ++i) a.xi[i] = p.xi[i].low, b.xi[i] = p.xi[i].high;
+  a.evaluations = p.evaluations.low, b.evaluations = p.evaluations.high;
+  a.ordinary = p.ordinary.low, b.ordinary = p.ordinary.high;
+  const auto& sine = p.projector.sine;
+  a.projector.sine = {sine.turns.low, sine.h.low, sine.slope.low};
+  b.projector.sine = {sine.turns.high, sine.h.high, sine.slope.high};
+}
+
+// Residuals and tangents of the elements e + k whose bit is set in `contact`.
+template <bool F, bool Rigid, class B, bool H, int W>
+ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p,
+                              const PairFriction<B, H, Lanes<W>>& f, std::int64_t e, std::uint32_t contact) {
+  constexpr int N = dof_count<B, Rigid>;
+  using S = Lanes<W>;
+  double nowhere[N * N];
+  const auto places = [&](double* first, std::int64_t stride, double*(&out)[W]) {
+    for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? first + (e + k) * stride : nowhere;
+  };
+  if (block.wanted & want::residual) {
+    S r[N];
+    residual<F, Rigid>(p, f, r);
+    double* out[W];
+    places(block.residual, block.residual_stride, out);
+    write_lanes<N>(out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+  }
+  if (block.wanted & want::tangent) {
+    TangentOf<F, Rigid, B, H, S> t;
+    tangent<F, Rigid>(plan, p, f, t);
+    double* out[W];
+    places(block.tangent, block.tangent_stride, out);
+    using Tangent = TangentOf<F, Rigid, B, H, S>;
+    if constexpr (Tangent::one_by_one && N >= W) {
+      TangentOf<F, Rigid, B, H, double> one[W];
+      t.hand_out_lanes(one);
+      for (int k = 0; k < W; ++k) {
+        copy_beside(block.last, N * N);
+        if (contact >> k & 1) write_tangent<B::dim>(one[k], out[k], block.leading);
+      }
+    } else if constexpr (N <= 12)
+      write_tangent<B::dim>(t, out, block.leading, contact, block.last);
+    else
+      write_long_tangent<B::dim>(t, out, block.leading, contact, block.last);
+  }
+}
+
+// W projected elements from e on, those with a bit in `far` clearly open; bit k: element e + k was ordinary
+// and is written.
+template <class B, bool H, bool F, int W>
+ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block,
+                                           const PairLanes<B, H, F, W>& in, Pair<B, H, Lanes<W>>& p,
+                                           std::uint32_t far, std::int64_t e) {
+  constexpr int D = B::dim;
+  using S = Lanes<W>;
+  PairFriction<B, H, S> f;
+  press<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  const std::uint32_t done = in.known & (bits_of(p.ordinary) | far);
+  if (!done) return 0;
+  const std::uint32_t contact = done & bits_of(p.contact) & ~far;
+  if (contact) write_forces_of<F, B>(plan.dofs == D, plan, block, p, f, e, contact);
+  for (int k = 0; k < W; ++k)
+    if ((done & ~contact) >> k & 1) write_zeros(block, e + k, plan.dofs);
+  if (block.wanted & beside_forces) {
+    const SmallResults<B, F, S> small(p, f);
+    for (int k = 0; k < W; ++k) {
+      if (far >> k & 1)
+        write_open(block, e + k);
+      else if (done >> k & 1)
+        small.write(plan, block, k, e + k);
+    }
+  }
+  return done;
+}
+#endif
+
+// Bit k: element first + k was ordinary and is written.
+template <class B, bool H, bool F>
+std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int32_t count) {
+  std::uint64_t done = 0;
+  std::int32_t k = 0;
+#if defined(ENTS_HAS_LANES)
+  if constexpr (1 < block_width<B>)
+    for (constexpr int W = block_width<B>; k + W <= count;) {
+      constexpr std::uint32_t all = (1u << W) - 1;
+      const auto far_of = [&](const PairLanes<B, H, F, W>& lanes,
+                              const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
+        return block.wanted & forces_only
+                   ? lanes.known & bits_of(both(pair.has_area(), pair.is_clearly_open(plan)))
+                   : 0u;
+      };
+      // a line's few numbers leave registers free for two projections at once
+      constexpr bool in_pairs = std::is_same_v<B, Line2> && H;
+      const bool two = in_pairs && k + 2 * W <= count;
+      const std::int64_t e = block.first + k;
+      const PairLanes<B, H, F, W> a(plan, block, e);
+      Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
+      p.area = a.area;
+      const std::uint32_t far = far_of(a, p);
+      if (far == all) {
+        for (int i = 0; i < W; ++i) write_open(block, e + i);
+        done |= std::uint64_t{all} << k;
+        k += W;
+        continue;
+      }
+      if (two) {
+        const PairLanes<B, H, F, W> b(plan, block, e + W);
+        Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
+        q.area = b.area;
+        if constexpr (in_pairs) project_both(p, q);
+        done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, b, q, far_of(b, q), e + W)}
+                << (k + W);
+      } else {
+        p.project();
+      }
+      done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, a, p, far, e)} << k;
+      k += two ? 2 * W : W;
+    }
+#endif
+  for (; k < count; ++k) done |= std::uint64_t{pair_of_one<B, H, F>(plan, block, block.first + k)} << k;
+  return done;
+}
+
+} // namespace ents::ENTS_ISA

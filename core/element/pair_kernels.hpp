@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The compiled kernels of ordinary elements (pair.hpp). They exist once per instruction set; the bits of
+// their results are the same.
+#pragma once
+
+#include "core/model/plan.hpp"
+
+namespace ents {
+
+// Beside the results in PairBlock::wanted: residual and tangent of elements in contact are all that is looked
+// at, and ENTS_FLAG_CONTACT. Of others nothing is written but their flags, and an element that is clearly
+// open is not projected.
+inline constexpr std::int32_t forces_only = 1 << 30;
+static_assert((want::all & forces_only) == 0);
+
+struct PairKernelsOfBasis {
+  PairKernel of[2][2];   // [enriched][friction], of penalty and power law with the consistent tangent
+  PairKernel general[2]; // [enriched], of any law and tangent
+};
+struct PairKernels {
+  const char* instruction_set;
+  const PairKernelsOfBasis& (*of_basis)(Basis);
+  void (*copy_past_caches)(const double* from, std::int64_t count, double* to); // see past_caches.hpp
+  ExternalHeight::Jets expression_jets;                                         // see expression.hpp
+};
+namespace portable {
+extern const PairKernels pair_kernels;
+}
+#ifdef ENTS_HAS_AVX2
+namespace avx2 {
+extern const PairKernels pair_kernels;
+}
+#endif
+#ifdef ENTS_HAS_AVX512
+namespace avx512 {
+extern const PairKernels pair_kernels;
+}
+#endif
+
+// That for blocks of elements of a model.
+PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels);
+
+// Those of the best instruction set of this processor.
+const PairKernels& best_pair_kernels();
+
+} // namespace ents

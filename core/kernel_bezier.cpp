@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "core/kernel.hpp"
-
-namespace ents::ENTS_ISA {
-const KernelSet& bezier15_kernels() { return kernels_of<Bezier15>; }
-} // namespace ents::ENTS_ISA

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "core/kernel.hpp"
-
-namespace ents::ENTS_ISA {
-const KernelSet& catmull_rom16_kernels() { return kernels_of<CatmullRom16>; }
-const KernelSet& bspline16_kernels() { return kernels_of<BSpline16>; }
-} // namespace ents::ENTS_ISA

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contact laws per area: the normal force from a potential W(g) or a multiplier, and the limit of friction.
+//
+//   penalty               W = eps g^2 / 2                             g < 0
+//   power                 p = c (-g)^m                                g < 0, m a multiple of 1/2, >= 1
+//   exponential           p = p0 / (e - 1) u (e^u - 1), u = 1 - g / c0, g < c0 (pressure p0 at g = 0)
+//   augmented             W = (<p>^2 - lambda^2) / (2 eps), p = lambda - eps g; lambda in the state (Uzawa)
+//   augmented_multiplier  the same with lambda as a dof (Alart and Curnier 1991, semi-smooth Newton)
+//   multiplier            lambda as a dof, no augmentation; eps only decides the active set
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "core/numbers/elementary.hpp"
+
+namespace ents {
+
+enum class NormalKind : std::int32_t {
+  none,
+  penalty,
+  power,
+  exponential,
+  augmented,
+  augmented_multiplier,
+  multiplier
+};
+
+enum class FrictionKind : std::int32_t {
+  none,
+  coulomb, // |t| <= min(mu p, shear limit)
+  rough    // no slip
+};
+
+// Archard's wear, dw = k p ds: see wear.hpp.
+struct Wear {
+  bool on = false;
+  double coefficient = 0.0; // k [L^2/F]
+  double implicit =
+      1.0; // weight of the pressure at the end of the increment: 1 implicit, 1/2 trapezoidal, 0 explicit
+  double slave = 1.0;   // part of the depth that the slave surface loses, the master surface loses the rest
+  double sliding = 0.0; // [L] per increment, beside and perpendicular to that of the slave on the master
+};
+
+// A part of the height that gives way to the pressure: see flattening.hpp.
+struct Flattening {
+  std::uint8_t parameter = 0;         // 1 + index of its scale; 0: none
+  double pressure = 0.0, least = 0.0; // [F/L^2]; the scale that is left under any pressure
+};
+
+// Derivatives of a law's numbers by the parameter of a differentiation (parameter_rates.hpp)
+struct LawRates {
+  double normal = 0.0, friction = 0.0, wear = 0.0, sliding = 0.0, offset = 0.0;
+};
+
+// Numbers that hold for one slave node: ents_input.slave_values
+namespace slave_value {
+enum : std::int32_t {
+  offset,
+  wear,
+  sliding,
+  count
+}; // added to the law's offset; factors of k and of `sliding`
+}
+
+struct ContactLaw {
+  NormalKind normal = NormalKind::none;
+  double stiffness = 0.0;          // eps [F/L^3]; power: c [F/L^(2+m)]
+  std::int32_t twice_exponent = 2; // 2 m (power)
+  double pressure = 0.0;           // p0 [F/L^2] (exponential)
+  double clearance = 0.0;          // c0 [L] (exponential)
+  FrictionKind friction = FrictionKind::none;
+  double friction_coefficient = 0.0; // mu
+  double friction_stiffness = 0.0;   // eps_t [F/L^3]
+  double shear_limit = 0.0;          // [F/L^2]; 0: none
+  bool symmetrised = false;          // tangent (K + K^T) / 2
+  bool has_offset = false;
+  double offset = 0.0; // [L] added to the gap that the law sees: > 0 a clearance, < 0 a coating
+  Wear wear;
+  Flattening flattening;
+  LawRates rates;
+
+  constexpr bool has_friction() const { return friction != FrictionKind::none; }
+  // Is the force W' = (W'/g) g with a finite W'/g?
+  constexpr bool force_has_slope() const {
+    return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on && !has_offset;
+  }
+  // Does it read numbers of the slave node (SlaveValues)?
+  constexpr bool has_slave_values() const { return wear.on || has_offset; }
+  constexpr bool multiplier_in_state() const { return normal == NormalKind::augmented; }
+  constexpr bool multiplier_is_dof() const {
+    return normal == NormalKind::augmented_multiplier || normal == NormalKind::multiplier;
+  }
+};
+
+namespace ENTS_ISA {
+
+// A number of the law; for dual numbers with its derivative
+template <class S> ENTS_INLINE S law_number(double value, double rate) {
+  if constexpr (std::is_same_v<S, Dual<double>>)
+    return S(value, rate);
+  else
+    return S(value);
+}
+
+// What a slipping element keeps is a little less than the limit, so that the next increment, which begins
+// there, begins inside of it whatever rounding does to xi: or equal elements would stick here and slip there.
+inline constexpr double rounding_of_xi = 4e-15, rounding_of_limit = 1e-13;
+// The part of xi - xi_0 that is left as elastic slip: L / |t|
+template <int T>
+ENTS_INLINE double kept_elastic_slip(double limit, double trial_norm, const double (&moved)[T]) {
+  double longest = absolute(moved[0]);
+  if (T == 2 && absolute(moved[T - 1]) > longest) longest = absolute(moved[T - 1]);
+  const double kept = limit / trial_norm * (1.0 - rounding_of_limit) - rounding_of_xi / longest;
+  return kept > 0.0 ? kept : 0.0;
+}
+// The part of L that a multiplier takes along. force_of_xi: of a unit of xi
+ENTS_INLINE double kept_multiplier(double limit, double force_of_xi) {
+  const double kept = 1.0 - rounding_of_limit - rounding_of_xi * force_of_xi / limit;
+  return kept > 0.0 ? kept : 0.0;
+}
+
+} // namespace ENTS_ISA
+} // namespace ents

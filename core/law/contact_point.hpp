@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An element at its projection, for every law and both projections: covectors of gap and xi, normal force,
+// friction.
+//
+//   delta g = c . p,  delta xi^a = onto^a . p          c = n_e (normal projection), n_e / (n_e . e) (shadow)
+//   with p = delta x_s - delta rho_e (- g delta e where the ray turns with the slave); under normal
+//   projection delta xi^a = M^ab f_b
+#pragma once
+
+#include "core/law/pair_friction.hpp"
+#include "core/law/wear.hpp"
+
+namespace ents::ENTS_ISA {
+
+// The direction of a shadow projection.
+template <class S, int D> struct Ray {
+  Vec<S, D> e;
+  S inverse_distance; // 1 / |emitter - x_s|; 0 for a fixed direction
+};
+
+// Coefficients on the slave of c . delta e, e the unit vector from the slave to the emitter.
+template <class S, int D> ENTS_INLINE Vec<S, D> variation_of_ray(const Vec<S, D>& c, const Ray<S, D>& ray) {
+  Vec<S, D> v = (-ray.inverse_distance) * c;
+  add_scaled(v, ray.inverse_distance * dot(c, ray.e), ray.e);
+  return v;
+}
+
+template <class B, bool H, class S> struct ContactPoint {
+  static constexpr int D = B::dim, T = D - 1;
+  using V = Vec<S, D>;
+  Pair<B, H, S>& pair;            // its projector is at xi
+  const Ray<S, D>* ray = nullptr; // shadow projection
+  S gap, normal_gap, law_gap;     // the last with the offset
+  V normal, c, onto[T];           // n_e; onto: shadow
+  NormalForce<S> law;             // 0 where there is no contact
+  Truth<S> safe;                  // has the ray a frame, and does it enter the surface from the front?
+  PairFriction<B, H, S> friction;
+  WearOfIncrement<S, D> wear; // if the law has it
+  Truth<S> solved;            // was its pressure found?
+
+  ENTS_INLINE explicit ContactPoint(Pair<B, H, S>& at) : pair(at) {}
+
+  // Gap and normal; by_nodes: the surface is complete
+  ENTS_INLINE typename Pair<B, H, S>::Measured measure(const Plan& plan, bool by_nodes = false) {
+    const auto& area = pair.projector.s.area;
+    const auto at = by_nodes ? pair.measure_at(plan, true, area * area, false) : pair.measure(plan, true);
+    gap = normal_gap = pair.gap;
+    normal = c = pair.normal;
+    safe = gap <= gap;
+    if (ray) set_frame();
+    return at;
+  }
+
+  // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; history: 1 where
+  // there is an anchor; worn: null without wear; offset: of the slave node.
+  ENTS_INLINE void press(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
+                         const WornState<S, T>* worn, const S& offset) {
+    const S none(0.0), lambda = multiplier ? multiplier[0] : none;
+    law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
+    if (worn) {
+      set_slid(plan.law, *worn, pair.xi, pair.projector.s.e, wear);
+      law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
+    } else {
+      solved = gap <= gap;
+      law = normal_force(plan.law, law_gap, lambda);
+    }
+    Truth<S> outside = pair.outside;
+    if (plan.multipliers > 0) { // a slave without area holds them at zero
+      const Truth<S> held = pair.area <= 0.0;
+      pair.area = select(held, S(1.0), pair.area);
+      outside = either(outside, held);
+    }
+    pair.contact = without(law.contact, outside);
+    const S held_energy = plan.law.multiplier_is_dof()
+                              ? -(0.5 * multiplier[0] * multiplier[0] * (1.0 / plan.law.stiffness))
+                              : none;
+    law.energy = select(outside, held_energy, law.energy);
+    law.force = select(pair.contact, law.force, none);
+    law.stiffness = select(pair.contact, law.stiffness, none);
+    if (worn) {
+      wear.by_slid = select(pair.contact, wear.by_slid, none);
+      wear.lost = select(outside, none, wear.lost);
+    }
+    pair.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
+    if (plan.law.has_friction())
+      friction.evaluate(plan.law, pair, anchor, history, -(pair.area * law.force),
+                        multiplier ? multiplier + 1 : nullptr);
+    else
+      friction.set_none();
+  }
+
+  // The variation of ds at fixed xi is sum_b form_of_slope<b>(wear.moved[b] m), that by xi:
+  ENTS_INLINE void slid_by_xi(S (&by_xi)[T]) const {
+    const auto& s = pair.projector.s;
+    for (int a = 0; a < T; ++a) {
+      Vec<S, D> along = s.e[a];
+      for (int b = 0; b < T; ++b) add_scaled(along, wear.moved[b], s.e2[symmetric_index(a, b)]);
+      by_xi[a] = dot(wear.m, along);
+    }
+  }
+
+  // The covector whose work is that of both forces under a shadow projection, W' c + t_a onto^a of an area.
+  ENTS_INLINE V covector(const S& push, const S (&force)[T]) const {
+    V sum = push * c;
+    for (int a = 0; a < T; ++a) add_scaled(sum, force[a], onto[a]);
+    return sum;
+  }
+
+  // R = A W' dg + t_a dxi^a. Shape functions and their derivatives are there.
+  ENTS_INLINE void residual(const Plan& plan, S (&out)[dof_count<B, false>]) const {
+    const bool friction_too = plan.law.has_friction();
+    V push = (pair.area * law.force) * c;
+    // in the same roundings as those laws' own kernel
+    if (!ray && plan.law.force_has_slope()) push = (pair.area * pair.per_gap) * pair.gap_vector;
+    if (!ray && friction_too) {
+      friction_residual<false>(pair, friction, push, out);
+      return;
+    }
+    for (int a = 0; a < T && friction_too; ++a) add_scaled(push, friction.force[a], onto[a]);
+    Form<B, S> f;
+    form_of_p<B, H>(pair.projector.s, push, f);
+    expand_to_dofs<B, false, parts_of_p<H>>(f, pair.projector.N, out);
+    if (ray) {
+      const V turn = variation_of_ray(push, *ray);
+      for (int i = 0; i < D; ++i) out[i] = out[i] - gap * turn[i];
+    }
+  }
+
+private:
+  ENTS_INLINE void set_frame() {
+    const Truth<S> frame = ray_frame(pair.projector.s.e, ray->e, onto, c);
+    safe = both(frame, dot(normal, ray->e) > 1e-6);
+    gap = dot(c, pair.projector.s.d);
+  }
+};
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Coulomb friction with return mapping on the enriched surface, one element or one per lane.
+//
+// The elastic slip is counted from an anchor xi_0, a point of the master surface kept in the state: a rigid
+// motion of the element does not move it, and no vector has to be rotated. Covariant tangential force, per
+// element, work-conjugate to delta xi^a:
+//   trial  t_a = A (lambda_a + eps_t A_ab (xi^b - xi_0^b)),  A_ab = rho_e,a . rho_e,b
+//   stick  |t| = sqrt(t_a A^ab t_b) <= L,  slip  t_a = L m_a, m_a = t_a / |t|,  L = min(mu p A, shear limit
+//   A)
+//
+//   R = A W' dg + t_a dxi^a,   dxi^a = M^ab f_b,  M = F_,xixi^-1
+//   K = A W'/g D2F* [+ law] + dxi^a dt_a + t_a D2xi^a
+// with, y = - M t and ' the derivative along y (theory section 3),
+//   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
+// All but the last expansion to dofs happens in the reduced space of forms.hpp.
+#pragma once
+
+#include "core/tangent/pair_tangent.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class B, bool H, class S> struct PairFriction {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  Truth<S> active, slip, at_shear_limit;
+  S moved[T];           // xi - xi_0; 0 where there is no friction
+  S stretch[T];         // A^ab t_b / (eps_t A) of the trial: that of the elastic slip, and of the multiplier
+  S force[T];           // t_a
+  S scale;              // eps_t A
+  S norm;               // |t| of the trial
+  S limit, by_pressure; // L, dL / d(p A)
+  S direction[T], raised[T];
+
+  // history: 1 where the element was in contact; pressure_force: p A; multiplier: lambda_a [F/L], or null
+  ENTS_INLINE void evaluate(const ContactLaw& law, Pair<B, H, S>& pair, const S (&anchor)[T],
+                            const S& history, const S& pressure_force, const S* multiplier = nullptr) {
+    const auto& metric = pair.projector.metric;
+    active = both(pair.contact, history > 0.0);
+    scale = law.friction_stiffness * pair.area;
+    S lowered[T], far = scale / safe_magnitude;
+    for (int a = 0; a < T; ++a) {
+      moved[a] = select(active, pair.xi[a] - anchor[a], S(0.0));
+      far = far + 1e-6 * absolute(moved[a]);
+    }
+    pair.ordinary = both(pair.ordinary, far < 1.0);
+    for (int a = 0; a < T; ++a) {
+      stretch[a] = moved[a];
+      lowered[a] = metric[symmetric_index(a, 0)] * moved[0];
+      if constexpr (T == 2) lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * moved[1];
+    }
+    if (multiplier) add_multiplier(law, metric, multiplier, lowered);
+    S norm2 = stretch[0] * lowered[0];
+    if constexpr (T == 2) norm2 = norm2 + stretch[1] * lowered[1];
+    norm = scale * square_root(norm2);
+    by_pressure = law_number<S>(law.friction_coefficient, law.rates.friction);
+    limit = by_pressure * pressure_force;
+    if (law.multiplier_is_dof()) { // one that pulls leaves no friction
+      const Truth<S> presses = pressure_force > 0.0;
+      limit = select(presses, limit, S(0.0));
+      by_pressure = select(presses, by_pressure, S(0.0));
+    }
+    at_shear_limit = limit < limit; // none
+    if (law.shear_limit > 0.0) {
+      const S most = law.shear_limit * pair.area;
+      at_shear_limit = most < limit;
+      limit = select(at_shear_limit, most, limit);
+      by_pressure = select(at_shear_limit, S(0.0), by_pressure);
+    }
+    // a negative area, which is refused later, has a negative limit, and no direction at norm 0
+    slip = both(both(active, norm > limit), norm > 0.0);
+    if (law.friction == FrictionKind::rough) slip = limit < limit;
+    at_shear_limit = both(at_shear_limit, slip);
+    const S q = scale / select(slip, norm, S(1.0));
+    for (int a = 0; a < T; ++a) {
+      direction[a] = q * lowered[a];
+      raised[a] = q * stretch[a];
+      force[a] = select(slip, limit * direction[a], scale * lowered[a]);
+    }
+  }
+
+  // No friction.
+  ENTS_INLINE void set_none() {
+    const S zero(0.0);
+    active = slip = at_shear_limit = zero < zero;
+    for (int a = 0; a < T; ++a) moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
+    scale = norm = limit = by_pressure = zero;
+  }
+
+private:
+  ENTS_INLINE void add_multiplier(const ContactLaw& law, const S (&metric)[K], const S* multiplier,
+                                  S (&lowered)[T]) {
+    S inverse[K], own[T];
+    const double compliance = 1.0 / law.friction_stiffness;
+    invert_with(metric, unchecked_inverse(determinant(metric)), inverse);
+    for (int a = 0; a < T; ++a) own[a] = select(active, compliance * multiplier[a], S(0.0));
+    for (int a = 0; a < T; ++a) {
+      lowered[a] = lowered[a] + own[a];
+      S raised_own = inverse[symmetric_index(a, 0)] * own[0];
+      if constexpr (T == 2) raised_own = raised_own + inverse[symmetric_index(a, 1)] * own[1];
+      stretch[a] = stretch[a] + select(active, raised_own, S(0.0));
+    }
+  }
+};
+
+// R = A W' dg + t_a dxi^a; push: A W' n_e
+template <bool Rigid, class B, bool H, class S>
+ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+                                   const Vec<S, B::dim>& push, S (&out)[dof_count<B, Rigid>]) {
+  constexpr int T = B::dim - 1;
+  const auto& p = pair.projector;
+  Form<B, S> force, f[T];
+  form_of_p<B, H>(p.s, push, force);
+  if constexpr (!H)
+    for (auto& v : force.a) v = Vec<S, B::dim>::zero();
+  for (auto& v : force.a2.of) v = Vec<S, B::dim>::zero();
+  forms_of_f(p.s, f);
+  S inverse[symmetric_size<T>];
+  invert(p.f2, determinant(p.f2), inverse);
+  for (int b = 0; b < T; ++b) {
+    S raised = inverse[symmetric_index(0, b)] * friction.force[0];
+    if constexpr (T == 2) raised = raised + inverse[symmetric_index(1, b)] * friction.force[1];
+    add_form<parts_of_f<B, H>>(force, raised, f[b]);
+  }
+  expand_to_dofs<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
+}
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/model/plan.hpp"
+
+#include "core/element/kernel_table.hpp"
+#include "core/element/pair_kernels.hpp"
+#include "core/element/parameter_kernels.hpp"
+#include "core/law/flattening.hpp"
+#include "core/model/fingerprint.hpp"
+#include "core/model/needs.hpp"
+
+namespace ents {
+
+namespace {
+
+const KernelSet& kernels_of(Basis basis) {
+  switch (basis) {
+  case Basis::line2:
+    return portable::line2_kernels();
+  case Basis::line3:
+    return portable::line3_kernels();
+  case Basis::catmull_rom4:
+    return portable::catmull_rom4_kernels();
+  case Basis::bspline4:
+    return portable::bspline4_kernels();
+  case Basis::tri3:
+    return portable::tri3_kernels();
+  case Basis::tri6:
+    return portable::tri6_kernels();
+  case Basis::quad4:
+    return portable::quad4_kernels();
+  case Basis::quad8:
+    return portable::quad8_kernels();
+  case Basis::quad9:
+    return portable::quad9_kernels();
+  case Basis::catmull_rom16:
+    return portable::catmull_rom16_kernels();
+  case Basis::bspline16:
+    return portable::bspline16_kernels();
+  case Basis::bezier15:
+    break;
+  }
+  return portable::bezier15_kernels();
+}
+
+} // namespace
+
+PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
+  const ContactLaw& law = model.law;
+  const PairKernelsOfBasis& of = kernels.of_basis(model.basis);
+  return has_fast_kernel(law, model.projection, model.tangent) ? of.of[enriched][law.has_friction()]
+                                                               : of.general[enriched];
+}
+
+const PairKernels& best_pair_kernels() {
+#if defined(ENTS_HAS_AVX2) || defined(ENTS_HAS_AVX512)
+  __builtin_cpu_init();
+#endif
+#ifdef ENTS_HAS_AVX512
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+    return avx512::pair_kernels;
+#endif
+#ifdef ENTS_HAS_AVX2
+  if (__builtin_cpu_supports("avx2")) return avx2::pair_kernels;
+#endif
+  return portable::pair_kernels;
+}
+
+StateLayout make_state_layout(const Model& model) {
+  const ContactLaw& law = model.law;
+  const std::int32_t parameters = basis_entry(model.basis).parameters;
+  StateLayout s{-1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
+  if (law.has_friction()) {
+    s.anchor_at = s.size;
+    s.slip_at = s.anchor_at + parameters;
+    s.size = s.slip_at + 1;
+  }
+  if (law.multiplier_in_state()) {
+    s.multiplier_at = s.size;
+    s.size += law.has_friction() ? 1 + parameters : 1;
+  }
+  if (law.wear.on) {
+    s.wear_at = s.size;
+    s.size += StateLayout::worn_anchor + parameters;
+  }
+  constexpr double ents = 1701737587.0; // the four letters
+  const auto basis = static_cast<std::int32_t>(model.basis), normal = static_cast<std::int32_t>(law.normal),
+             friction = static_cast<std::int32_t>(law.friction);
+  s.tag = ents * 65536.0 + (((StateLayout::version * 32 + basis) * 16 + normal) * 4 + friction) +
+          (law.wear.on ? 32768.0 : 0.0);
+  return s;
+}
+
+namespace {
+
+// What the boxes of a tree depend on, beside the positions.
+double make_surface_stamp(const Model& model) {
+  Fingerprint print;
+  print.add(static_cast<double>(model.basis));
+  print.add(model.border);
+  print.add(model.height.fingerprint());
+  for (const double s : model.surface_coordinates) print.add(s);
+  return print.number();
+}
+
+} // namespace
+
+namespace {
+
+Plan make(const Model& model, bool enriched) {
+  const BasisEntry& basis = basis_entry(model.basis);
+  const KernelSet& kernels = kernels_of(model.basis);
+  Plan plan{};
+  plan.element = kernels.element[enriched];
+  plan.finish = kernels.finish[enriched];
+  plan.rest = kernels.rest[enriched];
+  plan.pairs = block_kernel_of(model, enriched, best_pair_kernels());
+  plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
+  plan.surface = kernels.surface[enriched];
+  plan.transfer = kernels.transfer[enriched];
+  plan.project = kernels.project[enriched];
+  plan.border_point = kernels.border_point[enriched];
+  plan.box = kernels.box[enriched];
+  plan.by_parameter = parameter_kernels(model.basis).rates;
+  plan.coordinates = parameter_kernels(model.basis).coordinates;
+  plan.height = enriched ? &model.height.root() : nullptr;
+  plan.height_nodes = enriched ? static_cast<std::int32_t>(model.height.nodes().size()) : 0;
+  plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
+  for (std::int32_t a = 0; a < 2; ++a)
+    plan.feature_length[a] = a < basis.parameters ? model.height.feature_length(a) : Height::unbounded;
+  plan.height_bound = enriched ? model.height.bound() : 0.0;
+  plan.surface_stamp = make_surface_stamp(model);
+  plan.projection = model.projection;
+  plan.tangent = model.tangent;
+  for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
+  plan.law = model.law;
+  plan.penetration_limit = model.penetration_limit;
+  plan.border = model.border;
+  plan.hull_spread = kernels.hull_spread(model.border);
+  plan.dimension = basis.parameters + 1;
+  plan.nodes = basis.nodes;
+  plan.parameters = basis.parameters;
+  plan.simplex = basis.simplex;
+  plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
+  plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
+  plan.state = make_state_layout(model);
+  if (enriched && model.law.flattening.parameter != 0) {
+    plan.unflattened = plan.element;
+    plan.element = evaluate_flattened;
+    plan.pairs = nullptr;
+    plan.block_results = 0;
+  }
+  return plan;
+}
+
+} // namespace
+
+// A height that is zero everywhere, and stays so, is none: the plain segment, to the last bit.
+Plan make_plan(const Model& model) {
+  return make(model, model.height.bound() > 0.0 || model.height.varies());
+}
+Plan make_base_plan(const Model& model) { return make(model, false); }
+
+} // namespace ents

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/projection/segment_projection.hpp"
+
+namespace ents::ENTS_ISA {
+ENTS_SEARCH(Bezier15)
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/projection/segment_projection.hpp"
+
+namespace ents::ENTS_ISA {
+ENTS_SEARCH(Quad4)
+ENTS_SEARCH(Quad8)
+ENTS_SEARCH(Quad9)
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One segment as part of a surface of many: its best projection, and a box around it.
+#pragma once
+
+#include "core/projection/border.hpp"
+#include "core/projection/branch_and_bound.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class B, bool H>
+bool project_on_segment(const Plan& plan, const double* slave, const double* master,
+                        const double* surface_coordinates, const double* start, double limit, int budget,
+                        SegmentProjection& out) {
+  constexpr int D = B::dim, T = D - 1;
+  out.ambiguous = false;
+  Geometry<B> g;
+  g.set(slave, master);
+  g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
+  g.height = plan.height;
+  Target t;
+  if (!set_target<D>(plan, slave, t)) return false;
+  Projection<B, H> p;
+  if (start) {
+    for (int a = 0; a < T; ++a) p.xi[a] = clamp(start[a], -far_outside, far_outside);
+    if (project(g, t, p) != Found::yes) return false;
+    if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) return false;
+  } else {
+    const Search s = search<B, H>(g, t, plan, p, limit, budget);
+    out.ambiguous = s.ambiguous;
+    if (s.found != Found::yes) return false;
+  }
+  if (!on_segment<B>(p.xi, plan.border)) return false;
+  const double size = square_root(dot(p.s.a[0], p.s.a[0]));
+  out.beyond = beyond_segment<B>(p.xi) * size;
+  out.rank = rank(t, p) + out.beyond;
+  out.tie = tie_size * size;
+  if (!(out.rank < limit)) return false;
+  if (t.kind == ProjectionKind::normal) {
+    const Vec<double, D> m = normal_of_tangents(p.s.e);
+    const double length = square_root(dot(m, m));
+    if (!(length > 0.0)) return false;
+    out.gap = dot(p.s.d, m) / length;
+  } else {
+    out.gap = dot(p.s.d, ray_of<D>(t));
+  }
+  for (int a = 0; a < T; ++a) out.xi[a] = p.xi[a];
+  for (int k = 0; k < D; ++k) out.point[k] = slave[k] - p.s.d[k];
+  return true;
+}
+
+// The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes:
+// with c the centre of that box, rho - c = sum_i N_i (x_i - c).
+template <class B> double hull_spread(double border) {
+  constexpr int T = B::dim - 1, parts = T == 1 ? 64 : 16;
+  const double low = B::simplex ? -border : -1.0 - border, high = 1.0 + border;
+  const double half = 0.5 * (high - low) / parts;
+  double most = 1.0;
+  for (int j = 0; j < (T == 1 ? 1 : parts); ++j)
+    for (int i = 0; i < parts; ++i) {
+      const double centre[2] = {low + (2 * i + 1) * half, low + (2 * j + 1) * half};
+      if (B::simplex && centre[0] + centre[1] - 2.0 * half > high) continue;
+      Ball xi[T];
+      for (int a = 0; a < T; ++a) xi[a] = {centre[a], half};
+      Shape<Ball, T, B::nodes> N;
+      B::template shape<0>(xi, N);
+      double sum = 0.0;
+      for (const Ball& n : N.n) sum += magnitude(n);
+      most = greater(most, sum);
+    }
+  return most;
+}
+
+// Largest |h| on the segment and its border.
+template <class B> ENTS_NOINLINE double height_range(const Plan& plan, const double* surface_coordinates) {
+  constexpr int T = B::dim - 1;
+  Ball s[T], xi[T];
+  for (Ball& x : xi) x = B::simplex ? Ball(0.5, 0.5 + plan.border) : Ball(0.0, 1.0 + plan.border);
+  const double* c = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
+  for (int a = 0; a < T; ++a) {
+    s[a] = xi[a];
+    if (!c) continue;
+    double least = c[a], most = c[a];
+    for (int i = 1; i < B::nodes; ++i) {
+      least = lesser(least, c[T * i + a]);
+      most = greater(most, c[T * i + a]);
+    }
+    s[a] = {0.5 * (least + most), 0.5 * (most - least) * plan.hull_spread};
+  }
+  return magnitude(evaluate_height<T>(*plan.height, s).h);
+}
+
+template <class B, bool H>
+void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low,
+                 double* high) {
+  constexpr int D = B::dim;
+  double centre[D], half[D], size = 0.0;
+  for (int k = 0; k < D; ++k) {
+    double least = master[k], most = master[k];
+    for (int i = 1; i < B::nodes; ++i) {
+      least = lesser(least, master[D * i + k]);
+      most = greater(most, master[D * i + k]);
+    }
+    centre[k] = 0.5 * (least + most);
+    half[k] = 0.5 * (most - least) * plan.hull_spread;
+    size += half[k];
+  }
+  double margin = 1e-9 * size; // ties, and rays along an edge
+  if constexpr (H) {
+    double height = plan.height_bound;
+    if (!(height < 0.1 * size)) height = lesser(height, height_range<B>(plan, surface_coordinates));
+    margin += height < no_bound ? height : no_bound;
+  }
+  for (int k = 0; k < D; ++k) {
+    low[k] = centre[k] - half[k] - margin;
+    high[k] = centre[k] + half[k] + margin;
+  }
+}
+
+#define ENTS_SEARCH(B)                                                                                       \
+  template Search search<B, false>(const Geometry<B>&, const Target&, const Plan&, Projection<B, false>&,    \
+                                   double, int);                                                             \
+  template Search search<B, true>(const Geometry<B>&, const Target&, const Plan&, Projection<B, true>&,      \
+                                  double, int);                                                              \
+  template bool project_on_segment<B, false>(const Plan&, const double*, const double*, const double*,       \
+                                             const double*, double, int, SegmentProjection&);                \
+  template bool project_on_segment<B, true>(const Plan&, const double*, const double*, const double*,        \
+                                            const double*, double, int, SegmentProjection&);                 \
+  template bool closest_border_point<B, false>(const Plan&, const double*, const double*, const double*,     \
+                                               double, BorderPoint&);                                        \
+  template bool closest_border_point<B, true>(const Plan&, const double*, const double*, const double*,      \
+                                              double, BorderPoint&);                                         \
+  template void segment_box<B, false>(const Plan&, const double*, const double*, double*, double*);          \
+  template void segment_box<B, true>(const Plan&, const double*, const double*, double*, double*);           \
+  template double hull_spread<B>(double);
+
+} // namespace ents::ENTS_ISA

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "core/segment_projection.hpp"
-
-namespace ents::ENTS_ISA {
-ENTS_SEARCH(Bezier15)
-} // namespace ents::ENTS_ISA

@@ -1,7 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "core/segment_projection.hpp"
-
-namespace ents::ENTS_ISA {
-ENTS_SEARCH(CatmullRom16)
-ENTS_SEARCH(BSpline16)
-} // namespace ents::ENTS_ISA

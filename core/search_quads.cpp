@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "core/segment_projection.hpp"
-
-namespace ents::ENTS_ISA {
-ENTS_SEARCH(Quad4)
-ENTS_SEARCH(Quad8)
-ENTS_SEARCH(Quad9)
-} // namespace ents::ENTS_ISA

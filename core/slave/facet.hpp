@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A facet of a slave surface: the area that belongs to a natural coordinate.
+#pragma once
+
+#include <cstdint>
+
+#include "core/numbers/vec.hpp"
+#include "core/surface/basis.hpp"
+
+namespace ents::ENTS_ISA {
+
+// Shape functions at xi, and area per natural area there; in 2D times the thickness, or the full turn about
+// the second axis where that is 0.
+template <class B>
+double facet_density(const std::int64_t* nodes, const double* positions, double thickness,
+                     const double (&xi)[B::dim - 1], Shape<double, B::dim - 1, B::nodes>& N) {
+  constexpr int D = B::dim, T = D - 1, M = B::nodes;
+  B::template shape<1>(xi, N);
+  Vec<double, D> a[T];
+  for (int k = 0; k < T; ++k) {
+    a[k] = Vec<double, D>::zero();
+    for (int i = 0; i < M; ++i) {
+      Vec<double, D> y;
+      for (int c = 0; c < D; ++c) y[c] = positions[D * nodes[i] + c] - positions[D * nodes[0] + c];
+      add_scaled(a[k], N.d1[k][i], y);
+    }
+  }
+  const Vec<double, D> m = normal_of_tangents(a);
+  double density = square_root(dot(m, m));
+  if constexpr (D == 2) {
+    double radius = 0.0;
+    for (int i = 0; i < M; ++i) radius += N.n[i] * positions[D * nodes[i]];
+    density *= thickness > 0.0 ? thickness : 6.283185307179586 * radius;
+  }
+  return density;
+}
+
+// Calls f with a null pointer to the basis of a facet; bad_value for the smoothed bases, which have no facet
+// of their own.
+template <class Result, class F> Result with_facet(Basis basis, Result otherwise, F&& f) {
+  switch (basis) {
+  case Basis::line2:
+    return f(static_cast<Line2*>(nullptr));
+  case Basis::line3:
+    return f(static_cast<Line3*>(nullptr));
+  case Basis::tri3:
+    return f(static_cast<Tri3*>(nullptr));
+  case Basis::tri6:
+    return f(static_cast<Tri6*>(nullptr));
+  case Basis::quad4:
+    return f(static_cast<Quad4*>(nullptr));
+  case Basis::quad8:
+    return f(static_cast<Quad8*>(nullptr));
+  case Basis::quad9:
+    return f(static_cast<Quad9*>(nullptr));
+  default:
+    return otherwise;
+  }
+}
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The master nodes of an ordinary element and the segment rho through them, contracted once to a polynomial
+// of xi: what a projection evaluates again and again are its coefficients, fewer than nodes times shape
+// functions.
+//
+//   quad4                     bilinear; a_1 x a_2 is linear in xi
+//   line3, tri6, quad8, quad9 quadratic in each direction (tri6: in all)
+//   smoothed                  cubic in each direction; Bezier triangles: of degree four
+#pragma once
+
+#include "core/height/height_rate.hpp"
+#include "core/height/moving_height.hpp"
+#include "core/numbers/polynomial.hpp"
+#include "core/surface/surface.hpp"
+
+namespace ents::ENTS_ISA {
+
+// Positions are relative to the slave node.
+template <class B, class S> struct PairNodes {
+  static constexpr int T = B::dim - 1;
+  Vec<S, B::dim> y[B::nodes];
+  S coordinates[(B::dim - 1) * B::nodes];
+  bool has_coordinates;     // else s = xi
+  const HeightNode* height; // enriched
+  // Of dual numbers, whose derivatives are those by a parameter: 1 + its index (parameter_rates.hpp)
+  std::int32_t parameter = 0;
+
+  // `sine` moves there
+  template <int Order>
+  ENTS_INLINE void evaluate_height(const S (&xi)[T], const Shape<S, T, B::nodes>& N, SineAt<S>& sine,
+                                   HeightJet<T, S>& h) const {
+    const auto height_at = [&](const S(&s)[T]) ENTS_LAMBDA_INLINE {
+      if constexpr (std::is_same_v<S, Dual<double>>)
+        return height_with_rate(*height, parameter, s);
+      else
+        return move_height<is_flat<B>>(sine, *height, s);
+    };
+    if (has_coordinates) {
+      evaluate_height_by_xi<B, Order>(height_at, coordinates, xi, N, h);
+    } else { // number by number: as a whole it would go through memory
+      const HeightJet<T, S> jet = height_at(xi);
+      h.h = jet.h;
+      for (int a = 0; a < T; ++a) h.h1[a] = jet.h1[a];
+      for (int k = 0; k < symmetric_size<T>; ++k) h.h2[k] = jet.h2[k];
+    }
+  }
+  // `at`, in `d` its derivative along a direction
+  ENTS_INLINE void height_along(const S (&xi)[T], const S (&direction)[T], const HeightJet<T, S>& at,
+                                HeightJet<T, Dual<S>>& h) const {
+    if (!has_coordinates) {
+      h = jet_along(*height, xi, direction, at);
+      return;
+    }
+    Dual<S> moving[T];
+    for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
+    Shape<Dual<S>, T, B::nodes> N;
+    B::template shape<2>(moving, N);
+    const auto height_at = [&](const Dual<S>(&s)[T])
+                               ENTS_LAMBDA_INLINE { return ents::ENTS_ISA::evaluate_height(*height, s); };
+    evaluate_height_by_xi<B, 2>(height_at, coordinates, moving, N, h);
+  }
+};
+
+// m = normal_of_tangents(a) and its derivatives
+template <class S, int D> struct AreaVector { Vec<S, D> m, m1[D - 1], m2[symmetric_size<D - 1>]; };
+
+// of a segment that bends in any way
+template <class B, class S> struct BentArea {
+  static constexpr int D = B::dim, T = D - 1;
+  static constexpr bool linear_area = false; // m_,ab = 0?
+  template <bool H> static ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) {
+    v.m = normal_of_tangents(s.a);
+    if constexpr (T == 1) {
+      v.m1[0] = normal_of_tangents(s.a2);
+      const Vec<S, D> third[1] = {s.a3[0]};
+      v.m2[0] = normal_of_tangents(third);
+    } else {
+      v.m1[0] = cross(s.a2[0], s.a[1]) + cross(s.a[0], s.a2[1]);
+      v.m1[1] = cross(s.a2[1], s.a[1]) + cross(s.a[0], s.a2[2]);
+      v.m2[0] = S(2.0) * cross(s.a2[0], s.a2[1]);
+      v.m2[1] = cross(s.a2[0], s.a2[2]);
+      v.m2[2] = S(2.0) * cross(s.a2[1], s.a2[2]);
+      unroll<3>([&](auto k) ENTS_LAMBDA_INLINE {
+        if constexpr (B::third[k]) v.m2[k] = v.m2[k] + cross(s.a3[k], s.a[1]);
+        if constexpr (B::third[k + 1]) v.m2[k] = v.m2[k] + cross(s.a[0], s.a3[k + 1]);
+      });
+    }
+  }
+};
+
+// c_kj of nodes y[j][i]: of the i-th function of xi_1 and the j-th of xi_2
+template <class F, class S, int N, int M>
+ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M]) {
+  Vec<S, 3> along[N][M];
+  for (int j = 0; j < N; ++j) F::template powers<S>(y[j], along[j]);
+  for (int i = 0; i < M; ++i) {
+    Vec<S, 3> column[N], powers[M];
+    for (int j = 0; j < N; ++j) column[j] = along[j][i];
+    F::template powers<S>(column, powers);
+    for (int k = 0; k < M; ++k) c[k][i] = powers[k];
+  }
+}
+
+// rho - x_s and its derivatives. Every basis has
+//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the
+//   height needs it thirds            rho_,abc third_rates       how they change along y, y^d rho_,abcd
+template <class B, class S> struct Rho;
+
+template <class F, class S>
+requires(F::degree > 1) struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
+  using B = LineBasis<F>;
+  using V = Vec<S, 2>;
+  V c[F::degree + 1];
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { F::template powers<S>(nodes.y, c); }
+
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
+    if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
+    V d[4];
+    divide_by_powers<F::degree, 3>(c, xi[0], d);
+    s.d = -d[0];
+    s.a[0] = d[1];
+    s.a2[0] = d[2] + d[2];
+    if constexpr (Order > 2) s.a3[0] = F::degree > 2 ? S(6.0) * d[3] : V::zero();
+  }
+  ENTS_INLINE void thirds(const S (&)[1], V (&a3)[1]) const { a3[0] = S(6.0) * c[3]; }
+  ENTS_INLINE void third_rates(const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
+};
+
+template <class B, int Degree, class S> struct RhoInSpace : BentArea<B, S> {
+  using V = Vec<S, 3>;
+  using Powers = SurfacePolynomial<Degree, B::simplex, S>;
+  Powers p;
+
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
+    if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
+    typename Powers::template Derivatives<Order> d;
+    p.differentiate(xi, d);
+    s.d = -d.of[0][0];
+    s.a[0] = d.of[1][0];
+    s.a[1] = d.of[0][1];
+    s.a2[0] = d.of[2][0] + d.of[2][0];
+    s.a2[1] = d.of[1][1];
+    s.a2[2] = d.of[0][2] + d.of[0][2];
+    if constexpr (Order > 2) set_thirds(d, s.a3);
+  }
+  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const {
+    typename Powers::template Derivatives<3> d;
+    p.differentiate(xi, d);
+    set_thirds(d, a3);
+  }
+  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
+    typename Powers::template Derivatives<4> d;
+    p.differentiate(xi, d);
+    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3],
+                         S(24.0) * d.of[0][4]};
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      constexpr bool by_1 = Powers::has(4 - k.value, k), by_2 = Powers::has(3 - k.value, k + 1);
+      rate[k] = by_1 ? y[0] * fourth[k] : by_2 ? y[1] * fourth[k + 1] : V::zero();
+      if constexpr (by_1 && by_2) add_scaled(rate[k], y[1], fourth[k + 1]);
+    });
+  }
+
+private:
+  template <class D> static ENTS_INLINE void set_thirds(const D& d, V (&a3)[4]) {
+    constexpr double factor[4] = {6.0, 2.0, 2.0, 6.0};
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (Powers::has(3 - k.value, k))
+        a3[k] = S(factor[k]) * d.of[3 - k][k];
+      else
+        a3[k] = V::zero();
+    });
+  }
+};
+
+template <class F, class Numbering, class S>
+requires(F::degree > 1) struct Rho<TensorBasis<F, Numbering>, S>
+    : RhoInSpace<TensorBasis<F, Numbering>, F::degree, S> {
+  using B = TensorBasis<F, Numbering>;
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
+    Vec<S, 3> y[F::count][F::count];
+    for (int k = 0; k < B::nodes; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes.y[k];
+    tensor_powers<F, S>(y, this->p.c);
+  }
+};
+
+// a quad9 whose centre node follows from the others
+template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, 2, S> {
+  ENTS_INLINE explicit Rho(const PairNodes<Quad8, S>& nodes) {
+    using N = CornersMidsidesCentre;
+    Vec<S, 3> y[3][3], corners = nodes.y[0], sides = nodes.y[4];
+    for (int k = 0; k < 8; ++k) y[N::j[k]][N::i[k]] = nodes.y[k];
+    for (int k = 1; k < 4; ++k) {
+      corners = corners + nodes.y[k];
+      sides = sides + nodes.y[k + 4];
+    }
+    y[2][2] = S(0.5) * sides - S(0.25) * corners;
+    tensor_powers<Quadratic1D, S>(y, this->p.c);
+  }
+};
+
+template <class S> struct Rho<Tri6, S> : RhoInSpace<Tri6, 2, S> {
+  ENTS_INLINE explicit Rho(const PairNodes<Tri6, S>& nodes) {
+    const auto& y = nodes.y;
+    auto& c = this->p.c;
+    const S two(2.0), four(4.0);
+    c[0][0] = y[0];
+    c[0][1] = four * (y[3] - y[0]) - (y[1] - y[0]);
+    c[1][0] = four * (y[5] - y[0]) - (y[2] - y[0]);
+    c[0][2] = two * ((y[0] - y[3]) + (y[1] - y[3]));
+    c[2][0] = two * ((y[0] - y[5]) + (y[2] - y[5]));
+    c[1][1] = four * ((y[0] - y[3]) + (y[4] - y[5]));
+  }
+};
+
+// With differences D_1, D_2 of neighbouring points along xi_1, xi_2: c_kj = 4! / (j! k! (4 - j - k)!) D_1^j
+// D_2^k b
+template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
+  ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) {
+    auto& c = this->p.c;
+    for (int n = 0; n < Bezier15::nodes; ++n) c[Bezier15::power[n][2]][Bezier15::power[n][1]] = nodes.y[n];
+    for (int order = 1; order <= 4; ++order)
+      for (int k = 0; k <= 4 - order; ++k)
+        for (int j = 4 - k; j >= order; --j) c[k][j] = c[k][j] - c[k][j - 1];
+    for (int order = 1; order <= 4; ++order)
+      for (int j = 0; j <= 4 - order; ++j)
+        for (int k = 4 - j; k >= order; --k) c[k][j] = c[k][j] - c[k - 1][j];
+    constexpr double factorial[5] = {1.0, 1.0, 2.0, 6.0, 24.0};
+    for (int k = 0; k <= 4; ++k)
+      for (int j = k == 0; j <= 4 - k; ++j)
+        c[k][j] = S(24.0 / (factorial[j] * factorial[k] * factorial[4 - j - k])) * c[k][j];
+  }
+};
+
+template <class S> struct Rho<Quad4, S> {
+  static constexpr bool linear_area = true;
+  Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
+  ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
+    const auto& y = nodes.y;
+    const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0],
+                    difference_2 = y[2] - y[3];
+    const S quarter(0.25);
+    c = quarter * (sum_1 + sum_2);
+    c1 = quarter * (difference_1 + difference_2);
+    c2 = quarter * (sum_2 - sum_1);
+    c12 = quarter * (difference_2 - difference_1);
+  }
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N,
+                            Surface<Quad4, H, S>& s) const {
+    if (H && nodes.has_coordinates) Quad4::shape<2>(xi, N);
+    s.a[0] = c1;
+    s.a[1] = c2;
+    add_scaled(s.a[0], xi[1], c12);
+    add_scaled(s.a[1], xi[0], c12);
+    s.d = -c;
+    add_scaled(s.d, -xi[0], c1);
+    add_scaled(s.d, -xi[1], s.a[1]);
+    s.a2[0] = s.a2[2] = Vec<S, 3>::zero();
+    s.a2[1] = c12;
+  }
+  template <bool H> ENTS_INLINE void area_vector(const Surface<Quad4, H, S>& s, AreaVector<S, 3>& v) const {
+    v.m = cross(s.a[0], s.a[1]);
+    v.m1[0] = cross(c1, c12); // + xi_2 c12 x c12
+    v.m1[1] = cross(c12, c2);
+  }
+};
+
+} // namespace ents::ENTS_ISA

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The enriched surface rho_e = rho + h n and its derivatives by xi, seen from the slave node.
+//
+// Everything follows from three identities of a surface with tangents a_1, a_2, dual tangents a^1, a^2
+// and unit normal n (D stands for a variation by the dofs or for a derivative by xi):
+//   D n  = - a^k (n . D a_k)                                            from n . a_k = 0
+//   DD'n = - n (Dn . D'n) - a^k (Dn . D'a_k + D'n . Da_k + n . DD'a_k)  the same, once more
+// They replace the projector formulae of theory section 2; the two agree term by term.
+#pragma once
+
+#include "core/height/height.hpp"
+#include "core/surface/basis.hpp"
+
+namespace ents::ENTS_ISA {
+
+// At a fold, on a collapsed edge or where all nodes coincide rounding leaves tangents of about 1e-16 of the
+// segment's size and of its distance, whose normal points anywhere. The smallest that still have a normal:
+inline constexpr double degenerate_size = 1e-12;     // relative to the size of the segment
+inline constexpr double degenerate_distance = 2e-15; // relative to its distance from the slave node
+
+// One contact element's geometry. Positions are relative to the slave node: what matters (gap, tangents)
+// is then computed from differences, whatever the distance to the host's origin.
+template <class B> struct Geometry {
+  static constexpr int D = B::dim, T = D - 1;
+  Vec<double, D> y[B::nodes];        // x_i - x_s
+  const double* surface_coordinates; // [nodes][T] or null: s = xi
+  const HeightNode* height;          // null: plain segment
+  double smallest_area2;             // of the tangents, squared: below it there is no normal
+
+  ENTS_INLINE void set(const double* slave, const double* master) {
+    for (int i = 0; i < B::nodes; ++i)
+      for (int k = 0; k < D; ++k) y[i][k] = master[D * i + k] - slave[k];
+    double size2 = 0.0; // three nodes say how large a segment is
+    for (int i = 1; i < (B::nodes < 3 ? B::nodes : 3); ++i) {
+      const Vec<double, D> r = y[i] - y[0];
+      size2 += dot(r, r);
+    }
+    const double rounding2 = degenerate_distance * degenerate_distance * dot(y[0], y[0]);
+    const double smallest2 = degenerate_size * degenerate_size * size2 + rounding2;
+    smallest_area2 = (T == 2 ? smallest2 * (size2 + rounding2) : smallest2) + 1e-200;
+  }
+};
+
+// h and its derivatives by xi
+template <class S, int T> using HeightByXi = HeightJet<T, S>;
+
+// Surface at one xi. H: enriched or plain. Order 1: tangents; 2: curvatures, too.
+template <class B, bool H, class S> struct Surface {
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  using V = Vec<S, D>;
+
+  V a[T], a2[K], a3[T == 1 ? 1 : 4]; // rho_,a rho_,ab rho_,abc (only where the basis has them)
+  V n;                               // unit normal of rho
+  V dual[T];                         // a^k
+  S dual_metric[K];                  // a^k . a^l
+  S area;                            // |a| or |a_1 x a_2|
+  V n1[T];                           // n_,a (H, bent basis)
+  HeightJet<T, S> height;            // by xi (H)
+
+  V d;     // x_s - rho_e
+  V e[T];  // rho_e,a
+  V e2[K]; // rho_e,ab
+};
+
+// h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
+template <class B, int Order, class Height, class S, class C>
+ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, const S (&xi)[B::dim - 1],
+                                       const Shape<S, B::dim - 1, B::nodes>& N,
+                                       HeightJet<B::dim - 1, S>& out) {
+  constexpr int T = B::dim - 1, K = symmetric_size<T>;
+  if (!coordinates) {
+    out = height(xi);
+    return;
+  }
+  S s[T], s1[T][T], s2[K][T]; // s, s_,a, s_,ab
+  const C* c = coordinates;
+  C relative[is_range<S> ? T * B::nodes : 1];
+  if constexpr (is_range<S>) { // sum N_i = 1: of differences, or the ranges of N_i would grow with the
+                               // distance from s = 0
+    for (int i = 0; i < T * B::nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
+    c = relative;
+  }
+  for (int t = 0; t < T; ++t) {
+    s[t] = N.n[0] * c[t];
+    for (int i = 1; i < B::nodes; ++i) s[t] = s[t] + N.n[i] * c[T * i + t];
+    for (int a = 0; a < T; ++a) {
+      s1[a][t] = N.d1[a][0] * c[t];
+      for (int i = 1; i < B::nodes; ++i) s1[a][t] = s1[a][t] + N.d1[a][i] * c[T * i + t];
+    }
+    if constexpr (Order > 1)
+      unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+        if constexpr (B::second[k]) {
+          s2[k][t] = N.d2[k][0] * c[t];
+          for (int i = 1; i < B::nodes; ++i) s2[k][t] = s2[k][t] + N.d2[k][i] * c[T * i + t];
+        }
+      });
+  }
+  if constexpr (is_range<S>)
+    for (int t = 0; t < T; ++t) s[t] = s[t] + coordinates[t];
+  const HeightJet<T, S> j = height(s);
+  out.h = j.h;
+  for (int a = 0; a < T; ++a) {
+    out.h1[a] = j.h1[0] * s1[a][0];
+    if constexpr (T == 2) out.h1[a] = out.h1[a] + j.h1[1] * s1[a][1];
+  }
+  if constexpr (Order > 1)
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      constexpr int a = k / 2, b = (k + 1) / 2; // 11, 12, 22
+      S v = j.h2[0] * (s1[a][0] * s1[b][0]);
+      if constexpr (T == 2)
+        v = v + j.h2[1] * (s1[a][0] * s1[b][1] + s1[a][1] * s1[b][0]) + j.h2[2] * (s1[a][1] * s1[b][1]);
+      if constexpr (B::second[k])
+        for (int t = 0; t < T; ++t) v = v + j.h1[t] * s2[k][t];
+      out.h2[k] = v;
+    });
+}
+
+// sum_i w_i y_i
+template <class S, int D, int M>
+ENTS_INLINE Vec<S, D> combine(const S (&w)[M], const Vec<double, D> (&y)[M]) {
+  Vec<S, D> v;
+  for (int k = 0; k < D; ++k) {
+    v[k] = w[0] * y[0][k];
+    for (int i = 1; i < M; ++i) v[k] = v[k] + w[i] * y[i][k];
+  }
+  return v;
+}
+
+// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface
+// is complete but for it.
+template <int Order, class B, bool H, class S>
+ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1],
+                                  Shape<S, B::dim - 1, B::nodes>& N, Surface<B, H, S>& s) {
+  constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+  // the curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc
+  constexpr bool bent = H && !is_flat<B>;
+  constexpr int basis_order = bent || is_range<S> ? Order + 1 : Order;
+  B::template shape<basis_order>(xi, N);
+  s.d = -combine(N.n, g.y);
+  for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g.y);
+  if constexpr (basis_order > 1)
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::second[k]) s.a2[k] = combine(N.d2[k], g.y);
+    });
+  if constexpr (basis_order > 2)
+    unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::third[k]) s.a3[k] = combine(N.d3[k], g.y);
+    });
+  if constexpr (is_range<S>) narrow<basis_order, B>(xi, s);
+
+  const Vec<S, D> m = normal_of_tangents(s.a);
+  const S area2 = dot(m, m);
+  S metric[K];
+  if constexpr (H) {
+    metric[0] = dot(s.a[0], s.a[0]);
+    if constexpr (T == 2) {
+      metric[1] = dot(s.a[0], s.a[1]);
+      metric[2] = dot(s.a[1], s.a[1]);
+    }
+  }
+  if constexpr (!H) {
+    for (int a = 0; a < T; ++a) s.e[a] = s.a[a];
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (Order > 1 && B::second[k])
+        s.e2[k] = s.a2[k];
+      else
+        s.e2[k] = Vec<S, D>::zero();
+    });
+  }
+  if (!(value_of(area2) > g.smallest_area2)) return false;
+  s.area = square_root(area2);
+  s.n = (1.0 / s.area) * m;
+
+  if constexpr (H) {
+    invert(metric, area2, s.dual_metric);
+    for (int a = 0; a < T; ++a) {
+      s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
+      if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
+    }
+    const auto height_at = [&](const S(&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
+    evaluate_height_by_xi<B, Order>(height_at, g.surface_coordinates, xi, N, s.height);
+    const auto& h = s.height;
+    add_scaled(s.d, -h.h, s.n);
+    if constexpr (bent) {
+      for (int a = 0; a < T; ++a) s.n1[a] = Vec<S, D>::zero();
+      unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
+        unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
+          if constexpr (B::second[symmetric_index(a, k)])
+            add_scaled(s.n1[a], -dot(s.n, s.a2[symmetric_index(a, k)]), s.dual[k]);
+        });
+      });
+    }
+    for (int a = 0; a < T; ++a) {
+      s.e[a] = s.a[a];
+      add_scaled(s.e[a], h.h1[a], s.n);
+      if constexpr (bent) add_scaled(s.e[a], h.h, s.n1[a]);
+    }
+    if constexpr (Order > 1)
+      unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+        constexpr int a = k / 2, b = (k + 1) / 2;
+        s.e2[k] = h.h2[k] * s.n;
+        if constexpr (B::second[k]) s.e2[k] = s.e2[k] + s.a2[k];
+        if constexpr (bent) {
+          add_scaled(s.e2[k], h.h1[a], s.n1[b]);
+          add_scaled(s.e2[k], h.h1[b], s.n1[a]);
+          Vec<S, D> n2 = -dot(s.n1[a], s.n1[b]) * s.n;
+          unroll<T>([&](auto c) ENTS_LAMBDA_INLINE {
+            S t = S(0.0);
+            if constexpr (B::second[symmetric_index(b, c)]) t = t + dot(s.n1[a], s.a2[symmetric_index(b, c)]);
+            if constexpr (B::second[symmetric_index(a, c)]) t = t + dot(s.n1[b], s.a2[symmetric_index(a, c)]);
+            if constexpr (B::third[a + b + c]) t = t + dot(s.n, s.a3[a + b + c]);
+            add_scaled(n2, -t, s.dual[c]);
+          });
+          add_scaled(s.e2[k], h.h, n2);
+        }
+      });
+  }
+  return true;
+}
+
+// Unit normal and |area| of rho_e; false where rho_e has no tangent plane.
+template <class B, bool H, class S>
+ENTS_INLINE bool enriched_normal(const Surface<B, H, S>& s, Vec<S, B::dim>& normal) {
+  if constexpr (!H) {
+    normal = s.n;
+  } else {
+    const Vec<S, B::dim> m = normal_of_tangents(s.e);
+    const S area2 = dot(m, m);
+    const double base = value_of(s.area);
+    if (!(value_of(area2) > degenerate_size * degenerate_size * base * base)) return false;
+    normal = (1.0 / square_root(area2)) * m;
+  }
+  return true;
+}
+
+} // namespace ents::ENTS_ISA

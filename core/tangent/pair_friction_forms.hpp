@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The forms (forms.hpp) of which the tangent of Coulomb friction is the sum of products, with, y = - M t and
+// ' the derivative along y (theory section 3),
+//   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
+//   x_a = dxi^a = M^ab f_b,  Y_a = - f'_a + (F'_ab - (A W'/g) F_,ab) x_b / 2,  dt_a,  Z_a = z'_a + (A W'/g)
+//   z_a
+// The derivative along y of a form's expansion is the expansion of another form, for delta X' = - y^k delta
+// a_k and delta a_k' = y^l delta a_kl; only third derivatives of the basis ask for an expansion of their own.
+#pragma once
+
+#include "core/law/pair_friction.hpp"
+#include "core/tangent/pair_drift.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D, K = symmetric_size<T>;
+  static constexpr bool turns = H && !Rigid;          // w, Z: dofs of the master
+  static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
+  // of f and of its rate, of z and of its rate
+  static constexpr int parts = parts_of_f<B, H>, parts_of_rate = is_flat<B> ? parts : parts | on_curvatures;
+  static constexpr int parts_of_z = on_position | on_tangents,
+                       parts_of_z_rate = is_flat<B> ? parts_of_z : parts_of_z | on_curvatures;
+  using Drift = PairDrift<B, H, S>;
+
+  // M and y
+  static ENTS_INLINE void set_direction(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+                                        S (&inverse)[K], S (&y)[T]) {
+    const auto& f2 = pair.projector.f2;
+    invert(f2, determinant(f2), inverse);
+    for (int a = 0; a < T; ++a) {
+      S sum = inverse[symmetric_index(a, 0)] * friction.force[0];
+      if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * friction.force[1];
+      y[a] = -sum;
+    }
+  }
+
+  // With a height, not inlined: this shortens compilation.
+  template <class Part> static ENTS_INLINE void in_part(Part&& part) {
+    if constexpr (H)
+      apart(part);
+    else
+      part();
+  }
+  template <class Part> static ENTS_NOINLINE void apart(Part&& part) { part(); }
+
+  // x_a; value: f
+  static ENTS_INLINE void set_x(const Form<B, Dual<S>> (&f)[T], const S (&inverse)[K], Form<B, S> (&value)[T],
+                                Form<B, S> (&x)[T]) {
+    for (int a = 0; a < T; ++a) value_of_form<parts>(f[a], value[a]);
+    for (int a = 0; a < T; ++a) {
+      set_form<parts>(x[a], inverse[symmetric_index(a, 0)], value[0]);
+      if constexpr (T == 2) add_form<parts>(x[a], inverse[symmetric_index(a, 1)], value[1]);
+    }
+  }
+
+  // dt_a = by_xi[a][c] x_c + sum_b towards[a][b] . D(rho_e,b) + slips_a dL, where D is at fixed xi. With w =
+  // moved, u = stretch, n_a the direction of the trial t_a = scale (A_ab w^b + multiplier) and m = u / |u|,
+  //   stick  dt_a = scale D(A_ab w^b)
+  //   slip   t_a = L n_a,  dn_a = (D(A_ab w^b) - n_a m^b (D(A_bc w^c) - D(A_bc) u^c / 2)) / |u|
+  // Without a multiplier u = w, and what is subtracted becomes n_a (m_c dxi^c + m^b w^c D(A_bc) / 2).
+  struct ChangeOfForce {
+    S by_xi[T][T], slips[T];
+    Vec<S, D> towards[T][T];
+
+    ENTS_INLINE ChangeOfForce(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+                              bool multipliers) {
+      const auto& surface = pair.projector.s;
+      const auto& metric = pair.projector.metric;
+      const auto& w = friction.moved;
+      const S none(0.0);
+      const S ratio = select(friction.slip,
+                             friction.scale * (friction.limit / select(friction.slip, friction.norm, S(1.0))),
+                             select(friction.active, friction.scale, none));
+      S m[T];
+      for (int a = 0; a < T; ++a) {
+        slips[a] = select(friction.slip, friction.direction[a], none);
+        m[a] = select(friction.slip, friction.raised[a], none);
+      }
+      // (A_ab w^b)_,c at fixed w and |u|_,c, with W = w^b rho_e,b
+      Vec<S, D> W = w[0] * surface.e[0];
+      if constexpr (T == 2) add_scaled(W, w[1], surface.e[1]);
+      S along[T];
+      for (int c = 0; c < T; ++c) {
+        along[c] = slips[c];
+        for (int a = 0; a < T; ++a) by_xi[a][c] = metric[symmetric_index(a, c)];
+        if constexpr (H || !is_flat<B>) {
+          Vec<S, D> bend = w[0] * surface.e2[symmetric_index(0, c)];
+          if constexpr (T == 2) add_scaled(bend, w[1], surface.e2[symmetric_index(1, c)]);
+          for (int a = 0; a < T; ++a) {
+            by_xi[a][c] = dot(surface.e[a], bend) + dot(W, surface.e2[symmetric_index(a, c)]) + by_xi[a][c];
+            if (!multipliers) along[c] = along[c] + m[a] * dot(surface.e[a], bend);
+          }
+        }
+      }
+      for (int a = 0; a < T; ++a)
+        for (int b = 0; b < T; ++b) towards[a][b] = (ratio * w[b]) * surface.e[a];
+      if (multipliers) {
+        S v[T]; // w - u / 2
+        for (int a = 0; a < T; ++a) v[a] = w[a] - 0.5 * friction.stretch[a];
+        Vec<S, D> V = v[0] * surface.e[0], U = m[0] * surface.e[0];
+        if constexpr (T == 2) add_scaled(V, v[1], surface.e[1]), add_scaled(U, m[1], surface.e[1]);
+        if constexpr (H || !is_flat<B>)
+          for (int c = 0; c < T; ++c)
+            for (int a = 0; a < T; ++a) {
+              const auto& bend = surface.e2[symmetric_index(a, c)];
+              along[c] = along[c] + (m[a] * dot(bend, V) + v[a] * dot(bend, U));
+            }
+        for (int a = 0; a < T; ++a)
+          for (int b = 0; b < T; ++b) {
+            add_scaled(towards[a][b], -(ratio * slips[a] * m[b]), V);
+            add_scaled(towards[a][b], -(ratio * slips[a] * v[b]), U);
+          }
+      } else {
+        for (int a = 0; a < T; ++a)
+          for (int b = 0; b < T; ++b) add_scaled(towards[a][b], -(ratio * slips[a] * m[b]), W);
+      }
+      for (int a = 0; a < T; ++a) {
+        for (int c = 0; c < T; ++c) by_xi[a][c] = ratio * (by_xi[a][c] - slips[a] * along[c]);
+        towards[a][a] = towards[a][a] + ratio * W;
+      }
+    }
+
+    // sum_b towards[a][b] . D(rho_e,b)
+    ENTS_INLINE void add_to(int a, const Surface<B, H, S>& surface, Form<B, S>& f) const {
+      unroll<T>([&](auto b) ENTS_LAMBDA_INLINE { add_slope<b.value>(surface, towards[a][b], f); });
+    }
+    template <int I>
+    static ENTS_INLINE void add_slope(const Surface<B, H, S>& surface, const Vec<S, D>& c, Form<B, S>& f) {
+      if constexpr (!H) {
+        f.a[I] = f.a[I] + c;
+      } else {
+        Form<B, S> of;
+        form_of_slope<I, B, H>(surface, c, of);
+        for (int k = 0; k < T; ++k) f.a[k] = f.a[k] + of.a[k];
+        if constexpr (!is_flat<B>)
+          unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
+            constexpr int at = symmetric_index(k, I);
+            if constexpr (B::second[at]) f.a2[at] = f.a2[at] + of.a2[at];
+          });
+      }
+    }
+  };
+
+  // dL of the penalty and the power law
+  static ENTS_INLINE void form_of_limit(const Plan& plan, const Pair<B, H, S>& pair,
+                                        const PairFriction<B, H, S>& friction, Form<B, S>& limit) {
+    const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
+    form_of_p<B, H>(pair.projector.s,
+                    (-friction.by_pressure * (exponent * pair.area * pair.per_gap)) * pair.normal, limit);
+  }
+
+  // Y_a but for what changes by third derivatives, and P = dt_a or, if Joined, Y_a + dt_a
+  template <bool Joined>
+  static ENTS_INLINE void set_Y_and_P(int a, const Drift& drift, const S& stiffness,
+                                      const Form<B, Dual<S>> (&f)[T], const Form<B, S> (&x)[T],
+                                      const ChangeOfForce& change, const Form<B, S>& limit, Form<B, S>& Y,
+                                      Form<B, S>& P) {
+    const auto& p = drift.p;
+    Form<B, S> rate;
+    set_form_rate<parts>(f[a], drift.y, rate);
+    set_form<parts_of_rate>(Y, S(-1.0), rate);
+    if constexpr (Joined) set_form<parts_of_rate>(P, S(-1.0), rate);
+    for (int c = 0; c < T; ++c) {
+      const int k = symmetric_index(a, c);
+      const S half = 0.5 * (drift.f2[k] - stiffness * p.f2[k]);
+      add_form<parts>(Y, half, x[c]);
+      if constexpr (Joined)
+        add_form<parts>(P, half + change.by_xi[a][c], x[c]);
+      else if (c == 0)
+        set_form<parts>(P, change.by_xi[a][c], x[c]);
+      else
+        add_form<parts>(P, change.by_xi[a][c], x[c]);
+    }
+    change.add_to(a, p.s, P);
+    add_form<parts_of_p<H>>(P, change.slips[a], limit);
+  }
+
+  static constexpr bool by_third =
+      H && !Rigid && Drift::bend_changes; // do forms of second derivatives change?
+  // d2: y^c N_,abc
+  static ENTS_INLINE void set_shape_rates(const S (&xi)[T], const S (&y)[T], Shape<S, T, B::nodes>& of) {
+    B::template shape<3>(xi, of);
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (B::second[k])
+        for (int i = 0; i < B::nodes; ++i) {
+          if constexpr (T == 1)
+            of.d2[k][i] = y[0] * of.d3[0][i];
+          else if constexpr (!B::third[k])
+            of.d2[k][i] = y[1] * of.d3[k + 1][i];
+          else if constexpr (!B::third[k + 1])
+            of.d2[k][i] = y[0] * of.d3[k][i];
+          else
+            of.d2[k][i] = y[0] * of.d3[k][i] + y[1] * of.d3[k + 1][i];
+        }
+    });
+  }
+  // - value of the part on second derivatives, whose expansion changes by third ones
+  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Shape<S, T, B::nodes>& rates,
+                                         DofArray<S, N>& from) {
+    DofArray<S, N> of;
+    expand_to_dofs<B, Rigid, on_curvatures>(value, rates, of);
+    for_each_dof(
+        from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
+  }
+  // y^b N_,ab
+  static ENTS_INLINE void set_slope_rates(int a, const Shape<S, T, B::nodes>& N, const S (&y)[T],
+                                          S (&change)[B::nodes]) {
+    for (int i = 0; i < B::nodes; ++i)
+      if constexpr (T == 1)
+        change[i] = y[0] * N.d2[0][i];
+      else if constexpr (!B::second[0])
+        change[i] = y[1 - a] * N.d2[1][i];
+      else
+        change[i] = y[0] * N.d2[a][i] + y[1] * N.d2[a + 1][i];
+  }
+  // The rate of w_a
+  static ENTS_INLINE void expand_turn_rate(int a, const Drift& drift, DofArray<S, N>& w1) {
+    S change[B::nodes];
+    set_slope_rates(a, drift.p.N, drift.y, change);
+    DofArray<S, N> now, turned;
+    expand_to_nodes<B>(change, drift.p.s.n, now);
+    expand_to_nodes<B>(drift.p.N.d1[a], derivative_of(drift.s.n), turned);
+    for_each_dof(
+        w1, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
+  }
+
+  static ENTS_INLINE void set_Z(const Form<B, Dual<S>>& moving_z, const Drift& drift, const S& stiffness,
+                                Form<B, S>& z, Form<B, S>& Z) {
+    value_of_form<parts_of_z>(moving_z, z);
+    set_form_rate<parts_of_z>(moving_z, drift.y, Z);
+    add_form<parts_of_z>(Z, stiffness, z);
+  }
+};
+
+} // namespace ents::ENTS_ISA

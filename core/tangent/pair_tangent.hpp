@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Residual and tangent of the frictionless element with a penalty or power law: see pair.hpp.
+#pragma once
+
+#include "core/projection/pair.hpp"
+#include "core/tangent/dof_rows.hpp"
+#include "core/tangent/pair_forms.hpp"
+#include "core/tangent/pair_write.hpp"
+
+namespace ents::ENTS_ISA {
+
+// out = R: A W' dg
+template <bool Rigid, class B, bool H, class S>
+ENTS_INLINE void pair_residual(const Pair<B, H, S>& pair, S (&out)[dof_count<B, Rigid>]) {
+  Form<B, S> f;
+  form_of_p<B, H>(pair.projector.s, (pair.area * pair.per_gap) * pair.gap_vector, f);
+  expand_to_dofs<B, Rigid, parts_of_p<H>>(f, pair.projector.N, out);
+}
+
+// Of g g^T = A (W'' - W'/g) dg dg^T = (m - 1) A W'/g dg dg^T, where the law is not linear
+template <class B, bool H, class S>
+ENTS_INLINE void form_of_g(const Plan& plan, const Pair<B, H, S>& pair, Form<B, S>& g) {
+  const S root = square_root(pair.area * pair.per_gap);
+  form_of_p<B, H>(pair.projector.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal,
+                  g);
+}
+// False: the law is linear, and g zero.
+template <bool Rigid, class B, bool H, class S>
+ENTS_INLINE bool set_g(const Plan& plan, const Pair<B, H, S>& pair, DofArray<S, dof_count<B, Rigid>>& g) {
+  if (plan.law.twice_exponent > 2) {
+    Form<B, S> form;
+    form_of_g(plan, pair, form);
+    expand_to_dofs<B, Rigid, parts_of_p<H>>(form, pair.projector.N, g);
+    return true;
+  }
+  for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
+  return false;
+}
+
+// K = s s^T I - sum_a v_a v_a^T + sum_a (w_a z_a^T + z_a w_a^T) [ + g g^T ]
+template <class B, bool H, bool Rigid, class S> struct PairTangent {
+  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
+  static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
+  static constexpr bool symmetric = true, has_rest = false, one_by_one = !turns;
+  static constexpr int products = turns ? 3 * T : T; // that an entry is the sum of
+  S weights[1][M];                                   // s
+  DofArray<S, N> v[T];
+  DofArray<S, N> w[turns ? T : 1], z[turns ? T : 1];
+  DofArray<S, N> g; // where the law is not linear
+  bool curved_law;
+
+  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
+    const auto& p = pair.projector;
+    const S stiffness = pair.area * pair.per_gap, root = square_root(stiffness);
+    weights[0][0] = root;
+    if constexpr (!Rigid)
+      for (int i = 0; i < B::nodes; ++i) weights[0][i + 1] = -(root * p.N.n[i]);
+
+    // f F^-1 f = sum v v with F = C C^T, v = C^-1 f
+    constexpr int parts = parts_of_f<B, H>;
+    Form<B, S> f[T];
+    forms_of_f(p.s, f);
+    const S c11 = square_root(p.f2[0]);
+    if constexpr (T == 2) {
+      const S q = root / square_root(p.f2[0] * determinant(p.f2));
+      set_form<parts>(f[1], q * p.f2[0], f[1]);
+      add_form<parts>(f[1], -(q * p.f2[1]), f[0]);
+    }
+    set_form<parts>(f[0], root / c11, f[0]);
+    for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(f[a], p.N, v[a]);
+
+    if constexpr (turns) {
+      Form<B, S> zf[T];
+      forms_of_z<B>(p.s, zf);
+      const Vec<S, D> n = stiffness * p.s.n; // w_a = n . delta a_a
+      for (int a = 0; a < T; ++a) {
+        expand_to_dofs<B, Rigid, on_position | on_tangents>(zf[a], p.N, z[a]);
+        expand_to_nodes<B>(p.N.d1[a], n, w[a]);
+      }
+    }
+    curved_law = set_g<Rigid>(plan, pair, g);
+  }
+
+  // Each lane's to one[lane]
+  template <class One, int W>
+  requires(!turns) ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
+    hand_out_tangent(
+        *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.v; });
+  }
+
+  // k + all but the weights and g g^T; row(array) is the array's entry of the row
+  template <class R, class Row> ENTS_INLINE R add_products(R k, Row&& row, int j) const {
+    for (int a = 0; a < T; ++a) k = k - row(v[a]) * R(v[a][j]);
+    if constexpr (turns)
+      for (int a = 0; a < T; ++a) k = k + (row(w[a]) * R(z[a][j]) + row(z[a]) * R(w[a][j]));
+    return k;
+  }
+  template <class R, class Row> ENTS_INLINE R add_rest(R k, Row&&, int) const { return k; }
+};
+
+} // namespace ents::ENTS_ISA
