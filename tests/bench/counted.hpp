@@ -2,7 +2,7 @@
 #pragma once
 
 #define ENTS_ISA counted
-#include "core/pair_reduced_friction.hpp"
+#include "core/tangent/pair_reduced_friction.hpp"
 
 namespace ents::counted {
 

@@ -2,7 +2,7 @@
 // where the compiler can, which is what equal bits on every machine cost; and without any computation.
 #if defined(ENTS_BENCH_FUSED)
 #define ENTS_ISA fused
-#include "core/pair_table.hpp"
+#include "core/element/pair_table.hpp"
 #endif
 
 #include "block_kernel.hpp"

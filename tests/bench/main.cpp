@@ -14,6 +14,7 @@
 #include "cases.hpp"
 #include "detection.hpp"
 #include "differentiation.hpp"
+#include "laws.hpp"
 #include "limits.hpp"
 #include "peers.hpp"
 #include "roofline.hpp"
@@ -27,7 +28,7 @@ constexpr char summary_cases[] = "/((plain|enriched)/(R|RK)|(plain|enriched)_cou
 
 void print_help() {
   std::puts(R"(usage: ents-bench [--summary] [--benchmark_...]
-       ents-bench --detection[=N] | --roofline | --limits | --savings
+       ents-bench --detection[=N] | --roofline | --limits | --savings | --laws
        ents-bench --assembly | --differentiation | --peers | --streaming[=N]
 
 Times contact elements through the C ABI, one thread. Every case has a name BASIS/VARIANT/LEVEL/CALL:
@@ -47,6 +48,8 @@ Counters: ns_per_element; surface_evaluations, the mean number that the projecti
   --roofline                      flop rate and store bandwidth of this machine; flops and bytes of elements, percent of the limits
   --limits                        time of a call beside the times of its kernel, its chain of operations, its stores, its arithmetic
   --savings                       cost of what a scene may not need: height, friction, a master that deforms ...
+  --laws                          R + K of every normal law, friction, kind of tangent and patch beside the penalty element; one hard
+                                  element among 64; second variations beside R + K
   --streaming[=N]                 array calls of 100, 1000 .. N elements (1000000 if not given; up to 4 GB): cost with results in main memory
                                   beside the floor of its stores, with results in the same places, with these copied, and its growth
   --assembly                      ents_assemble on quad4 surfaces of 10^2 .. 10^6 segments
@@ -141,6 +144,10 @@ int main(int argc, char** argv) {
     }
     if (argument == "--limits") {
       bench::run_limits(std::cout);
+      return 0;
+    }
+    if (argument == "--laws") {
+      bench::run_laws(std::cout);
       return 0;
     }
     if (argument == "--savings") {
