@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "abi/model_error.hpp"
-#include "core/projection/ball.hpp"
 #include "core/height/expression_steps.hpp"
+#include "core/projection/ball.hpp"
 
 namespace {
 

@@ -111,8 +111,8 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
   }
 
   template <class X>
-  static void surface(const Sine<double>& sine, const S (&y)[M][D], const X (&xi)[T], const Functions<X>& shape,
-                      At<X>& at) {
+  static void surface(const Sine<double>& sine, const S (&y)[M][D], const X (&xi)[T],
+                      const Functions<X>& shape, At<X>& at) {
     S rho[D];
     sum(shape.n, y, rho);
     for (int a = 0; a < T; ++a) sum(shape.d1[a], y, at.a[a]);

@@ -46,7 +46,7 @@ TimedElements::TimedElements(const char* basis, const Timed& timed) {
       throw std::runtime_error(text.dump() + ": wrong elements");
   for (std::size_t i = 0; i < at.xi.size(); ++i)
     elements_.start[i] = at.xi[i] + (random.coin() ? 1e-2 : -1e-2);
-  if (text["contact"].contains("friction")) set_anchors(random, timed.contact);
+  if (text["contact"].contains("friction")) set_anchors(random, timed.contact, text.contains("patch"));
 
   const std::int64_t d = layout_.dimension, n = layout_.dofs, nodes = n - layout_.multipliers;
   input_.struct_size = sizeof input_;
@@ -80,14 +80,15 @@ void TimedElements::prepare_assembly() {
 }
 
 // In contact before, at points so far from the starts that some elements stick and some slip; or open before.
-void TimedElements::set_anchors(mechanics::Random& random, bool contact) {
+void TimedElements::set_anchors(mechanics::Random& random, bool contact, bool patch) {
   const std::size_t size = static_cast<std::size_t>(layout_.state_size),
                     t = static_cast<std::size_t>(layout_.parameters);
   states_.resize(size * count);
   check(ents_state_init(model_->handle(), count, states_.data(), layout_.state_size, &report_));
   for (std::size_t e = 0; e < count; ++e) {
     double* state = &states_[e * size];
-    state[1] = contact ? 2.0 : 1.0; // stick, open; then age, xi, anchor, slip
+    state[1] = contact ? 2.0 : 1.0;   // stick, open; then age, xi, anchor, slip
+    if (patch) state[size - 1] = 1.0; // on its first segment
     for (std::size_t a = 0; a < t; ++a) {
       state[3 + a] = elements_.start[e * t + a];
       state[3 + t + a] = elements_.start[e * t + a] + random.uniform(-0.03, 0.03);

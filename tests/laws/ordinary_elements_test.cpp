@@ -1,7 +1,7 @@
 // Ordinary elements, that is nearly all, are evaluated by kernels of their own, many at once, compiled for
-// several instruction sets (core/projection/pair.hpp). Nothing of that may show: the bits of an element do not depend on
-// its neighbours in the call, on the length of the call or on the processor; and the kernels that take the
-// elements one by one say the same.
+// several instruction sets (core/projection/pair.hpp). Nothing of that may show: the bits of an element do
+// not depend on its neighbours in the call, on the length of the call or on the processor; and the kernels
+// that take the elements one by one say the same.
 #include <gtest/gtest.h>
 
 #include <array>
