@@ -115,7 +115,7 @@ std::uint64_t Assembly::evaluate_block(const ElementCall& call, std::int64_t fir
   block.tangent = tangents, block.tangent_stride = std::int64_t{plan_.dofs} * plan_.dofs;
   block.leading = plan_.dofs;
   block.flags = flags, block.flags_stride = 1;
-  return plan_.pairs(plan_, block, static_cast<std::int32_t>(count));
+  return ents::evaluate_block(plan_, block, static_cast<std::int32_t>(count));
 }
 
 std::int32_t Assembly::add(std::int64_t first, std::int64_t count) {

@@ -94,7 +94,7 @@ PlainCall evaluate_plain_call(const ents_model* model, std::int64_t first, std::
     for (std::int64_t e = first; e < first + count; ++e)
       if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size])) return {};
   const PairBlock block = pair_block(*model, *in, *out, first);
-  const std::uint64_t done = model->plan.pairs(model->plan, block, static_cast<std::int32_t>(count));
+  const std::uint64_t done = evaluate_block(model->plan, block, static_cast<std::int32_t>(count));
   for (std::int64_t k = 0; k < count; ++k) {
     if ((done >> k & 1) == 0) continue;
     if (out->status) out->status[(first + k) * out->status_stride] = ENTS_OK;

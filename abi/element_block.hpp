@@ -3,6 +3,7 @@
 #pragma once
 
 #include "abi/element_call.hpp"
+#include "core/element/block.hpp"
 
 namespace ents {
 

@@ -116,7 +116,7 @@ std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count
     for (std::int64_t k = 0; k < size && in->state_begin; ++k) follow = follow && state_follows(first + k);
     if (staged) staged->redirect(here);
     const bool tried = in_blocks && follow && (!in->mesh || gather_block(first, size, nodes, here));
-    if (tried) done = plan->pairs(*plan, here, static_cast<std::int32_t>(size));
+    if (tried) done = evaluate_block(*plan, here, static_cast<std::int32_t>(size));
     if (staged) staged->keep(first, size, done);
     for (std::int64_t k = 0; k < size; ++k) {
       if ((done >> k & 1) != 0) {

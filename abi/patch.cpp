@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/element/block.hpp"
 #include "core/search/segment_tree.hpp"
 
 namespace ents {
@@ -139,6 +140,27 @@ private:
     return Status::ok;
   }
 
+  // By the block kernel, which is the fastest: is the slave still on the segment of before, next to where it
+  // was? False: nothing is known.
+  bool follow(Detection& found, double deepest) const {
+    SegmentNodes nodes;
+    if (!plan_.pairs || gather(plan_, mesh_, before(), nodes) != Status::ok) return false;
+    ElementInput here = in_;
+    here.master = nodes.positions, here.surface_coordinates = nodes.surface_coordinates;
+    double xi[2] = {}, gap = 0.0;
+    std::int32_t flags = 0;
+    ElementOutput look{};
+    look.wanted = want::xi | want::gap | want::flags;
+    look.xi = xi, look.gap = &gap, look.flags = &flags;
+    if (plan_.pairs(plan_, block_of(here, look, found.at.xi, look.wanted), 1) == 0 ||
+        (flags & flag::outside) != 0 || !(std::fabs(gap) <= deepest))
+      return false;
+    found.segment = before();
+    found.at.gap = gap;
+    for (int t = 0; t < plan_.parameters; ++t) found.at.xi[t] = xi[t];
+    return true;
+  }
+
   // The segment of before while the slave is on it; else the best of all; where none is within reach, the
   // nearest: the slave is open there, or too deep.
   Status choose(Detection& found) {
@@ -146,9 +168,10 @@ private:
     found.segment = in_contact() ? before() : -1;
     if (in_contact()) {
       for (int t = 0; t < plan_.parameters; ++t) found.at.xi[t] = in_.state_begin[StateLayout::xi_at + t];
-      if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found);
-          status != Status::ok)
-        return status;
+      if (!follow(found, deepest))
+        if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found);
+            status != Status::ok)
+          return status;
       if (found.segment >= 0) {
         segment_ = found.segment;
         return Status::ok;
@@ -256,7 +279,7 @@ Status evaluate_segment(const Plan& plan, const ElementInput& in, const ElementO
   ElementOutput rest = out;
   rest.wanted &= ~plan.block_results;
   if (rest.wanted != 0) block.one = &in, block.rest = &rest;
-  return plan.pairs(plan, block, 1) != 0 ? Status::ok : plan.element(plan, in, out);
+  return evaluate_block(plan, block, 1) != 0 ? Status::ok : plan.element(plan, in, out);
 }
 
 ElementSizes sizes_of(const Plan& plan, const Patch& patch) {

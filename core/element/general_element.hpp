@@ -7,6 +7,7 @@
 #include "core/element/pair_results.hpp"
 #include "core/projection/projection.hpp"
 #include "core/projection/target.hpp"
+#include "core/tangent/symmetrised.hpp"
 #include "core/tangent/tangent_sum.hpp"
 
 namespace ents::ENTS_ISA {
@@ -102,13 +103,6 @@ ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const Co
   sum.second_xi = friction && plan.tangent == TangentKind::consistent;
   sum.force_changes = friction;
   return sum;
-}
-
-// (K + K^T) / 2
-ENTS_INLINE void symmetrise(int n, double* out, std::int64_t leading) {
-  for (int j = 0; j < n; ++j)
-    for (int i = j + 1; i < n; ++i)
-      out[j * leading + i] = out[i * leading + j] = 0.5 * (out[j * leading + i] + out[i * leading + j]);
 }
 
 template <class B, bool H> struct GeneralElement {

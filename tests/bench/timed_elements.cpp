@@ -46,7 +46,8 @@ TimedElements::TimedElements(const char* basis, const Timed& timed) {
       throw std::runtime_error(text.dump() + ": wrong elements");
   for (std::size_t i = 0; i < at.xi.size(); ++i)
     elements_.start[i] = at.xi[i] + (random.coin() ? 1e-2 : -1e-2);
-  if (text["contact"].contains("friction")) set_anchors(random, timed.contact, text.contains("patch"));
+  const bool friction = text["contact"].contains("friction"), patch = text.contains("patch");
+  if (friction || patch) set_states(random, timed.contact, friction, patch);
 
   const std::int64_t d = layout_.dimension, n = layout_.dofs, nodes = n - layout_.multipliers;
   input_.struct_size = sizeof input_;
@@ -80,7 +81,7 @@ void TimedElements::prepare_assembly() {
 }
 
 // In contact before, at points so far from the starts that some elements stick and some slip; or open before.
-void TimedElements::set_anchors(mechanics::Random& random, bool contact, bool patch) {
+void TimedElements::set_states(mechanics::Random& random, bool contact, bool friction, bool patch) {
   const std::size_t size = static_cast<std::size_t>(layout_.state_size),
                     t = static_cast<std::size_t>(layout_.parameters);
   states_.resize(size * count);
@@ -91,7 +92,7 @@ void TimedElements::set_anchors(mechanics::Random& random, bool contact, bool pa
     if (patch) state[size - 1] = 1.0; // on its first segment
     for (std::size_t a = 0; a < t; ++a) {
       state[3 + a] = elements_.start[e * t + a];
-      state[3 + t + a] = elements_.start[e * t + a] + random.uniform(-0.03, 0.03);
+      if (friction) state[3 + t + a] = elements_.start[e * t + a] + random.uniform(-0.03, 0.03);
     }
   }
 }

@@ -53,7 +53,7 @@ public:
   static constexpr std::int64_t count = 64, singles = 16;
 
 private:
-  void set_anchors(mechanics::Random& random, bool contact, bool patch);
+  void set_states(mechanics::Random& random, bool contact, bool friction, bool patch);
   void set_system();
   void check(std::int32_t status) const {
     if (status != ENTS_OK) throw std::runtime_error(report_.message);
