@@ -51,6 +51,8 @@ Json Simulation::checkpoint() const {
             {"displacement", now_.displacement},
             {"multiplier", now_.multiplier},
             {"rate", rate_}};
+  if (scene_->contact && scene_->contact->body)
+    json["body"] = {{"rotation", now_.rotation}, {"turned", now_.turned}};
   if (contact_) {
     const ContactHistory history = contact_->history();
     json["contact"] = {{"segment", history.at.segment},
@@ -84,6 +86,17 @@ void Simulation::restore(const Json& checkpoint) {
   const std::vector<double> rate = object.at("rate").numbers();
   if (!rate.empty() && rate.size() != now_.displacement.size())
     object.at("rate").fail("the checkpoint is of another scene: so many numbers are not expected");
+  if (scene_->contact && scene_->contact->body) {
+    JsonObject body(object.at("body"));
+    at.rotation = body.at("rotation").numbers();
+    at.turned = body.at("turned").numbers();
+    const std::size_t d = static_cast<std::size_t>(mesh_.dimension), turns = d == 2 ? 1 : 3;
+    if (at.turned.size() != (at.rotation.empty() ? 0 : turns) ||
+        (!at.rotation.empty() && at.rotation.size() != d * d))
+      object.at("body").fail(
+          "the checkpoint is of another scene: a rotation of so many numbers is not expected");
+    body.finish();
+  }
   if (contact_) {
     JsonObject contact(object.at("contact"));
     ContactHistory history;
@@ -126,6 +139,7 @@ std::string Simulation::fingerprint() const {
   hash.add_all(now_.displacement);
   hash.add_all(now_.multiplier);
   hash.add_all(rate_);
+  hash.add_all(now_.rotation);
   for (const double value : {now_.motion, now_.force, now_.load_factor}) hash.add(&value, sizeof value);
   if (contact_) {
     const ContactHistory history = contact_->history();

@@ -15,6 +15,9 @@ struct Configuration {
   double force = 0;       ///< on the rigid master along its direction, this mesh's share [F]
   double load_factor = 0; ///< of supports and tractions
   std::vector<double> parameters; ///< values of the contact model's, in alphabetical order; empty: none
+  // Of a rigid body that turns, at the begin of the increment; empty: it has not turned yet.
+  std::vector<double> rotation; ///< [d][d] row by row, its columns are the body's axes
+  std::vector<double> turned;   ///< [3], 2D [1] what its turns were
 };
 
 } // namespace host

@@ -159,22 +159,6 @@ std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<doub
   return position;
 }
 
-// The displacements of a body's second node are its turns, of which one may differ from zero: the rotation
-// vector, and its changes are the spin.
-ents_pose Contact::pose_at(const Configuration& at) const {
-  const EntsLibrary& library = master_.model->library();
-  auto pose = ents_struct<ents_pose>();
-  auto report = ents_struct<ents_report>();
-  const double* moved = at.displacement.data() + static_cast<std::size_t>(master_.body_node) * d_;
-  std::array<double, 3> point = master_.reference;
-  for (std::size_t i = 0; i < d_; ++i) point[i] += moved[i];
-  const auto d = static_cast<std::int32_t>(d_);
-  if (library.pose_init(d, &pose, &report) != ENTS_OK ||
-      library.pose_move(d, point.data(), moved + d_, &pose, &report) != ENTS_OK)
-    throw JobError("the rigid body: " + describe(library, report.status, report));
-  return pose;
-}
-
 void Contact::place(const Configuration& at) {
   bind(at);
   slave_positions_.resize(points_.size() * d_);

@@ -155,6 +155,9 @@ public:
   /// Those that stayed closed on another segment.
   int moves() const { return moves_; }
 
+  /// An increment ends here: how a rigid body that turns lies then.
+  void keep_rotation(Configuration& at) const;
+
   /// The increment is accepted: what the last `assemble` left becomes the history.
   void accept(const Configuration& at);
 
@@ -218,6 +221,10 @@ private:
   void put_in_space(const Configuration& at, ContactFields& fields) const;
   /// Where a rigid body is that moves and turns.
   ents_pose pose_at(const Configuration& at) const;
+  /// What it has turned since the begin of the increment: a rotation vector in space, 2D one angle.
+  std::array<double, 3> spin(const Configuration& at) const;
+  /// From columns for the spin to columns for the displacements of the body's second node.
+  void columns_of_turns(const Configuration& at);
   /// Nodes [m][d] of a segment at the begin of the increment. A rigid master's are in its own frame.
   void gather(std::int64_t segment, std::vector<double>& positions) const;
   /// History of the elements as seen from their segments.

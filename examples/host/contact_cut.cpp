@@ -4,19 +4,6 @@
 
 namespace host {
 
-void Contact::see_from_master(const Configuration& at, std::vector<double>& positions) {
-  for (std::size_t i = 0; master_.translates() && i < positions.size(); ++i)
-    positions[i] -= at.motion * master_.direction[i % d_];
-  if (master_.body_node < 0) return;
-  pose_ = pose_at(at);
-  auto report = ents_struct<ents_report>();
-  const EntsLibrary& library = master_.model->library();
-  if (library.pose_to_body(static_cast<std::int32_t>(d_), &pose_,
-                           static_cast<std::int64_t>(positions.size() / d_), positions.data(),
-                           positions.data(), &report) != ENTS_OK)
-    throw JobError("the rigid body: " + describe(library, report.status, report));
-}
-
 SegmentCorners Contact::segment_corners() const {
   SegmentCorners result;
   const std::vector<double> line{-1, 1}, triangle{0, 0, 1, 0, 0, 1}, square{-1, -1, 1, -1, 1, 1, -1, 1};

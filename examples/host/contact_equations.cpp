@@ -154,7 +154,7 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   const std::int32_t status = add_elements(out, system, report);
   if (status != ENTS_OK) return status;
   count_changes(flags);
-  if (system.values != nullptr) turn_images();
+  if (system.values != nullptr) turn_images(), columns_of_turns(at);
   squared_force = 0;
   for (std::size_t i = 0; i < slave_dofs_; ++i) squared_force += force[i] * force[i];
   if (coupling != nullptr) {

@@ -6,37 +6,6 @@
 
 namespace host {
 
-void Contact::turn(std::vector<double>& vectors) const {
-  const EntsLibrary& library = master_.model->library();
-  auto report = ents_struct<ents_report>();
-  if (library.pose_to_space(static_cast<std::int32_t>(d_), &pose_,
-                            static_cast<std::int64_t>(vectors.size() / d_), vectors.data(), vectors.data(),
-                            &report) != ENTS_OK)
-    throw JobError("the rigid body: " + describe(library, report.status, report));
-}
-
-void Contact::to_space(std::vector<double>& points) const {
-  turn(points);
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] += pose_.point[i % d_];
-}
-
-// From the frame of a rigid body that turns; the forces are in space already.
-void Contact::put_in_space(const Configuration& at, ContactFields& fields) const {
-  turn(fields.normal), turn(fields.traction), to_space(fields.point);
-  fields.moment.assign(d_ == 2 ? 1 : 3, 0.0);
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    const std::array<double, 3> position = position_of(k, at.displacement);
-    std::array<double, 3> arm{}, force{};
-    for (std::size_t i = 0; i < d_; ++i) {
-      arm[i] = position[i] - pose_.point[i], force[i] = fields.node_forces[k * d_ + i];
-    }
-    for (std::size_t i = 0; i < fields.moment.size(); ++i) {
-      const std::size_t b = d_ == 2 ? 0 : (i + 1) % 3, c = d_ == 2 ? 1 : (i + 2) % 3;
-      fields.moment[i] += arm[b] * force[c] - arm[c] * force[b];
-    }
-  }
-}
-
 ContactFields Contact::fields(const Configuration& at) {
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   place(at);

@@ -376,6 +376,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
       timings_.total += watch.seconds();
       if (!keep) return outcome;
       if (contact_) {
+        contact_->keep_rotation(next);
         contact_->accept(next);
         if (contact_->master().translates()) next.force = state.coupling.force;
       }

@@ -76,7 +76,13 @@ Json step_json(const StepRecord& record, bool nodes) {
     step["wear"] = {{"slave_volume", record.worn_slave},
                     {"master_volume", record.worn_master},
                     {"slave_depth", record.worn_depth}};
-  if (!record.moment.empty()) step["moment"] = record.moment;
+  if (!record.moment.empty()) {
+    const auto turns = record.body_moved.begin() + (record.moment.size() == 1 ? 2 : 3);
+    step["moment"] = record.moment;
+    step["reference_point"] = {{"displacement", std::vector(record.body_moved.begin(), turns)},
+                               {"turns", std::vector(turns, record.body_moved.end())},
+                               {"rotation", record.body_rotation}};
+  }
   step["increments"] = Json::array();
   for (const IncrementRecord& increment : record.increments) {
     const Convergence rate = convergence(increment.residuals);

@@ -148,14 +148,8 @@ RigidBodySpec read_rigid_body(const JsonValue& value, int dimension, const std::
       if (mark == 1) item.fail(name + " is prescribed");
       mark = 2;
     }
-  int turns = 0;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    if (i >= static_cast<std::size_t>(dimension)) turns += known[i] != 0;
+  for (std::size_t i = 0; i < known.size(); ++i)
     if (!known[i]) body.prescribed.push_back({static_cast<int>(i), 0, {}});
-  }
-  if (turns > 1)
-    object.fail(
-        "this program turns a body round one axis: prescribe, load or free one of turn_x, turn_y, turn_z");
   if (dimension == 2) body.prescribed.push_back({3, 0, {}}); // the second component of the node that turns
   object.finish();
   return body;

@@ -89,6 +89,12 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
   record.contact_force = record.fields.force;
   for (double& component : record.contact_force) component *= scene.symmetry_copies;
   record.moment = record.fields.moment;
+  if (const int node = contact->master().body_node; node >= 0) {
+    const auto first =
+        simulation.now().displacement.begin() + static_cast<std::ptrdiff_t>(node) * scene.dimension;
+    record.body_moved.assign(first, first + RigidBodySpec::components(scene.dimension));
+    record.body_rotation = simulation.now().rotation;
+  }
   record.force = simulation.now().force * scene.symmetry_copies;
   record.approach = simulation.now().motion - simulation.first_touch();
   record.mean_pressure = simulation.now().force / simulation.contact_area();

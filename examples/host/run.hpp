@@ -49,6 +49,8 @@ struct StepRecord {
   double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
   std::vector<double> moment;        ///< [3], 2D [1] of these about a rigid body's reference point; or empty
+  std::vector<double> body_moved;    ///< displacement and turns of a rigid body, [6], 2D [3]; or empty
+  std::vector<double> body_rotation; ///< [d][d] row by row, its columns are the body's axes; or empty
   std::vector<Quantity> exact;
   std::vector<double> exact_pressure; ///< [slaves] of boundary elements; or empty
   ContactFields fields;
