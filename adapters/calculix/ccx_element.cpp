@@ -6,6 +6,7 @@
 #include <set>
 
 #include "../common/element.hpp"
+#include "../common/limits.hpp"
 #include "stiffness_store.hpp"
 
 #define CCX_API extern "C" __attribute__((visibility("default")))
@@ -101,7 +102,7 @@ CCX_API int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* l
     }
     if (unsymmetric) continue;
     Element e = describe(i + 1, lakon + 8 * i, prop + ielprop[i]);
-    e.history_size = 64; // the force pass looks at it
+    e.history_size = largest_history; // the force pass looks at it
     const Result result = check(e);
     if (result.outcome == Outcome::failed) ccx::stop("U1E", result.message);
     if (!result.symmetric) unsymmetric = 1;

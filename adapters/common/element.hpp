@@ -46,6 +46,8 @@ struct Host {
   std::string (*directory)();   ///< the job's directory, see model_number
   bool spare_nodes = false;     ///< the host's element may have more nodes than needed
   bool multipliers = true;      ///< its elements can carry them as unknowns
+  bool displacements = true;    ///< it passes them; else present positions alone
+  bool rotations = false;       ///< its nodes can have rotations as degrees of freedom
   int options = common_options; ///< those that mean something there
   const char* numbers = "";     ///< what to know of the elements' numbers where one is not in the table
 };
@@ -61,14 +63,16 @@ struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none
   bool listed = true;       ///< the number is that of an element, which ents_k.txt may have a line for
-  int nodes = 0;       ///< slave (or the nodes of the face that a slave point lies in), master nodes of the
-                       ///< segment, then one for the multipliers if the model has any
-  int dofs = 0;        ///< per node
-  int coordinates = 0; ///< per node
-  Grid<const double> position; ///< (coordinate, node) reference, or current with no displacement, [L]
+  int nodes = 0; ///< slave (or the nodes of the face that a slave point lies in), master nodes of the
+                 ///< segment, then one for the multipliers if the model has any
+  int dofs = 0;  ///< per node; the reference node of a rigid body may have rotations behind them
+  bool reference_turns = false; ///< it has (body.hpp): 3 rotations, in the plane one, in all arrays of dofs
+  int coordinates = 0;          ///< per node
+  Grid<const double> position;  ///< (coordinate, node) reference, or current with no displacement, [L]
   Grid<const double>
       displacement;             ///< (dof, node) or null; multipliers are the "displacements" of the last node
   Grid<const double> increment; ///< (dof, node) or null: added, too
+  Row<const double> spin; ///< [3] rotation vector of the reference node in this increment, or null: none
   Row<const double> properties;
   int property_count = 0;
   Row<const double>
@@ -100,6 +104,10 @@ struct Result {
 
 /// @return what happened; the history is written for `done` only
 Result evaluate(const Element& element);
+
+/// Rotations that the element's last node has: 3 of a reference node of a rigid body in space, 1 in the
+/// plane, else 0. For hosts with rotations; reads host, number, nodes, and properties.
+int reference_rotations(const Element& element);
 
 /// The value of an option property; 0 if it is absent, -1 if it is no sum of options of any host.
 int options(const Row<const double>& properties, int count);

@@ -6,9 +6,11 @@
 namespace ents_adapter {
 
 inline constexpr int largest_nodes = 1 + 32;
+inline constexpr int largest_body_nodes = 64; // of a rigid body, which are none of the host's
 inline constexpr int largest_slave_nodes = 9; // of the face that a slave point lies in
 inline constexpr int largest_multipliers = 3;
 inline constexpr int largest_dofs = 3 * largest_nodes + largest_multipliers;
 inline constexpr int largest_state = 64;
+inline constexpr int largest_history = largest_state + 12; // with that of a rigid body
 
 } // namespace ents_adapter

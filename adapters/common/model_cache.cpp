@@ -55,6 +55,25 @@ bool is_offsets(const std::string& line, const std::string& where, bool first) {
   return true;
 }
 
+/// A line "body X Y [Z]": a master node of a rigid body. @throws std::string
+bool read_body(const std::string& line, const std::string& where, LoadedModel& loaded) {
+  constexpr std::string_view key = "body";
+  if (line.compare(0, key.size(), key) != 0) return false;
+  const ents_layout& layout = loaded.layout;
+  const auto d = static_cast<std::size_t>(layout.dimension);
+  std::vector<double> x;
+  if (!loaded.rows.empty() || !read_numbers(line.substr(key.size()), x) || x.size() != d)
+    throw where + "write body and the " + std::to_string(d) +
+        " coordinates of a master node relative to the reference node, before the first element";
+  if (layout.multipliers || layout.dofs != layout.dimension)
+    throw where + (layout.multipliers
+                       ? "a rigid body takes no multipliers as unknowns: write another contact.normal.type, "
+                         "\"augmented\" for one"
+                       : "write \"master\": \"rigid\" into " + loaded.file + ", or remove the lines body");
+  loaded.body.insert(loaded.body.end(), x.begin(), x.end());
+  return true;
+}
+
 /// @throws std::string what is wrong, with the line
 void read_rows(const std::string& file, LoadedModel& loaded) {
   std::error_code error;
@@ -77,6 +96,7 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
       loaded.offsets = true;
       continue;
     }
+    if (read_body(line, where, loaded)) continue;
     if (!read_numbers(line, numbers)) throw where + "not a list of numbers";
     if (numbers.empty()) continue;
     const std::size_t weights = loaded.slave_nodes > 1 ? static_cast<std::size_t>(loaded.slave_nodes) : 0,
@@ -103,6 +123,11 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
     loaded.rows.push_back(std::move(row));
   }
   if (in.bad()) throw file + " cannot be read to its end";
+  if (const auto nodes = loaded.body.size() / static_cast<std::size_t>(loaded.layout.dimension);
+      nodes != 0 && (nodes != static_cast<std::size_t>(loaded.layout.nodes) || nodes > largest_body_nodes))
+    throw file + ": the body has " + std::to_string(nodes) + " lines, " + loaded.file + " has " +
+        std::to_string(loaded.layout.nodes) + " master nodes; write a line body for each, " +
+        std::to_string(largest_body_nodes) + " at most";
   const auto earlier = [](const ElementRow& a, const ElementRow& b) { return a.element < b.element; };
   std::sort(loaded.rows.begin(), loaded.rows.end(), earlier);
   for (std::size_t i = 1; i < loaded.rows.size(); ++i)

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "../common/element.hpp"
+#include "../common/limits.hpp"
 
 #define FEAP_API extern "C" __attribute__((visibility("default")))
 
@@ -46,7 +47,7 @@ FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* 
   const double properties[3] = {d[0], d[1] == 0 ? 1 : d[1], d[2]};
   Element e = describe(properties, nodes, ndf, ndm);
   e.host = &any;
-  e.history_size = 64;
+  e.history_size = largest_history;
   const Result result = check(e);
   *history = result.state_size;
   keep(result, text, length);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../common/element.hpp"
+#include "../common/limits.hpp"
 
 extern "C" {
 
@@ -81,7 +82,7 @@ int read(eleObject* ele) {
   e.dofs = e.coordinates = 3;
   e.properties = {properties};
   e.property_count = 3;
-  e.history_size = 64;
+  e.history_size = largest_history;
   const Result result = check(e);
   if (result.outcome != Outcome::done) return tell(result.message);
   int dofs[largest_nodes], all = 0;

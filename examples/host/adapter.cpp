@@ -33,13 +33,19 @@ const Program* const programs[] = {&direct,           &adapters::abaqus,   &adap
                                    &adapters::ansys,  &adapters::calculix, &adapters::feap,
                                    &adapters::lsdyna, &adapters::marc,     &adapters::opensees};
 
+/// What an element brings that is in the files of its model.
+struct InFiles {
+  std::vector<double> coordinates; ///< of the surface; none: empty
+  std::vector<double> body;        ///< master nodes of a rigid body that turns; another one: empty
+  auto operator<=>(const InFiles&) const = default;
+};
+
 /// A model of the scene, and the files that adapters read it from.
 struct WrittenModel {
   Json json;
   ents_layout layout{};
-  ents_model* base = nullptr; ///< for `direct`: without the height; null if there is none to leave out
-  /// Number of the file, by the surface coordinates that an element brings; none: empty.
-  std::map<std::vector<double>, int> numbers;
+  ents_model* base = nullptr;     ///< for `direct`: without the height; null if there is none to leave out
+  std::map<InFiles, int> numbers; ///< of the files
 };
 
 /// What the functions that stand in for the library's need. One process, one adapter.
@@ -51,6 +57,7 @@ struct Route {
   decltype(&ents_model_destroy) destroy = nullptr;
   decltype(&ents_evaluate) evaluate = nullptr;
   decltype(&ents_assemble) assemble = nullptr;
+  decltype(&ents_pose_element) pose_element = nullptr;
   fs::path folder; ///< of ents_k.json; the working directory while the adapter is called
   int last_number = 0;
   std::map<const ents_model*, WrittenModel> models;
@@ -128,9 +135,10 @@ int32_t destroy_model(ents_model** handle, ents_report* report) {
 
 /// The file for an element with these surface coordinates [m][d-1], or none. Programs whose elements cannot
 /// carry them need a model for each segment.
-int model_number(WrittenModel& model, const std::vector<double>& coordinates) {
-  const auto [entry, is_new] = model.numbers.try_emplace(coordinates, 0);
+int model_number(WrittenModel& model, const InFiles& in_files) {
+  const auto [entry, is_new] = model.numbers.try_emplace(in_files, 0);
   if (!is_new) return entry->second;
+  const std::vector<double>& coordinates = in_files.coordinates;
   Json json = model.json;
   const auto parameters = static_cast<std::size_t>(model.layout.parameters);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -139,7 +147,15 @@ int model_number(WrittenModel& model, const std::vector<double>& coordinates) {
     json["surface_coordinates"].back().push_back(coordinates[i]);
   }
   entry->second = ++route.last_number;
-  std::ofstream(route.folder / ("ents_" + std::to_string(entry->second) + ".json")) << json.dump();
+  const std::string name = "ents_" + std::to_string(entry->second);
+  std::ofstream(route.folder / (name + ".json")) << json.dump();
+  if (in_files.body.empty()) return entry->second;
+  std::ofstream table(route.folder / (name + ".txt"));
+  table.precision(17);
+  for (std::size_t i = 0; i < in_files.body.size(); ++i)
+    table << (i % static_cast<std::size_t>(model.layout.dimension) == 0 ? "\nbody " : " ")
+          << in_files.body[i];
+  table << "\n";
   return entry->second;
 }
 
@@ -149,29 +165,39 @@ struct ElementResult {
 };
 
 /// An element as the program sees it.
-UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
+/// @param pose  of a rigid body that turns, or null
+UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in, const ents_pose* pose) {
   const ents_layout& layout = model.layout;
   const auto d = static_cast<std::size_t>(layout.dimension), m = static_cast<std::size_t>(layout.nodes),
              multipliers = static_cast<std::size_t>(layout.multipliers),
              coordinates = m * static_cast<std::size_t>(layout.parameters);
   UserElement e;
   e.dimension = layout.dimension;
-  e.nodes = 1 + layout.nodes + (multipliers > 0 ? 1 : 0);
-  e.state_size = layout.state_size;
+  e.nodes = pose != nullptr ? 3 : 1 + layout.nodes + (multipliers > 0 ? 1 : 0);
   e.place = static_cast<int>(k);
   e.position.assign(in.slave, in.slave + d);
-  e.position.insert(e.position.end(), in.master, in.master + m * d);
   const std::size_t rows = static_cast<std::size_t>(e.rows());
-  e.position.resize(rows);
-  e.displacement.resize(rows);
-  std::copy_n(in.multiplier, multipliers, e.displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
+  e.state.resize(static_cast<std::size_t>(layout.state_size));
+  if (in.state_begin != nullptr) e.state.assign(in.state_begin, in.state_begin + layout.state_size);
+  InFiles in_files;
+  if (pose != nullptr) {
+    in_files.body.assign(in.master, in.master + m * d);
+    adapters::add_body(e, *pose);
+  } else {
+    e.position.insert(e.position.end(), in.master, in.master + m * d);
+    e.position.resize(rows);
+    e.displacement.resize(rows);
+    std::copy_n(in.multiplier, multipliers,
+                e.displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
+  }
+  e.state_size = static_cast<int>(e.state.size());
   std::vector<double> s;
   if (in.surface_coordinates != nullptr)
     s.assign(in.surface_coordinates, in.surface_coordinates + coordinates);
-  const int number = model_number(model, route.program->coordinates ? std::vector<double>{} : s);
+  if (!route.program->coordinates) in_files.coordinates = s;
+  const int number = model_number(model, in_files);
   e.properties = {static_cast<double>(number), *in.area, 0};
   if (route.program->coordinates) e.properties.insert(e.properties.end(), s.begin(), s.end());
-  if (in.state_begin != nullptr) e.state.assign(in.state_begin, in.state_begin + e.state_size);
   constexpr double unset = std::numeric_limits<double>::quiet_NaN();
   e.residual.assign(rows, unset);
   e.tangent.assign(rows * rows, unset);
@@ -180,14 +206,15 @@ UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in) {
 
 /// An element through the adapter: what its program asks for.
 /// @return the step factor; < 1: the adapter wants a cut and nothing was written
-double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, ElementResult& out) {
+double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, const ents_pose* pose,
+                    ElementResult& out) {
   const ents_layout& layout = model.layout;
-  UserElement e = user_element(model, k, in);
+  UserElement e = user_element(model, k, in, pose);
   if (e.properties[1] == 0) return 1; // a node without area is in no deck: its forces are zero
   route.program->call(route.adapter, e);
   if (e.step_factor < 1) return e.step_factor;
-  const auto dofs = static_cast<std::size_t>(layout.dofs),
-             of_nodes = static_cast<std::size_t>(layout.dofs - layout.multipliers),
+  const auto dofs = out.residual.size(),
+             of_nodes = pose != nullptr ? dofs : static_cast<std::size_t>(layout.dofs - layout.multipliers),
              first_multiplier = static_cast<std::size_t>((layout.nodes + 1) * layout.dimension),
              rows = static_cast<std::size_t>(e.rows());
   const auto row = [&](std::size_t i) { return i < of_nodes ? i : first_multiplier + i - of_nodes; };
@@ -199,13 +226,15 @@ double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, Elemen
       if (!std::isfinite(stiffness)) throw JobError(option() + "a stiffness is not finite");
     }
   }
+  e.state.resize(static_cast<std::size_t>(layout.state_size)); // a body's history is the pose
   out.state = e.state;
   return 1;
 }
 
 /// An element through the plain interface; `start` says where the projection starts, or null.
 /// @return as evaluate_one
-double evaluate_plainly(const ents_model* handle, ents_input in, const double* start, ElementResult& result) {
+double evaluate_plainly(const ents_model* handle, ents_input in, const ents_pose* pose, const double* start,
+                        ElementResult& result) {
   auto out = ents_struct<ents_output>();
   out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | (result.state.empty() ? 0 : ENTS_STATE);
   out.residual = result.residual.data(), out.tangent = result.tangent.data(),
@@ -214,14 +243,21 @@ double evaluate_plainly(const ents_model* handle, ents_input in, const double* s
   auto report = ents_struct<ents_report>();
   const int32_t status = route.evaluate(handle, 0, 1, &in, &out, &report);
   if (status < 0) throw JobError(option() + report.message);
-  return status > 0 ? report.step_factor : 1;
+  if (status > 0) return report.step_factor;
+  if (pose == nullptr) return 1;
+  const ElementResult rigid = result; // of the slave in the body's frame: the first entries
+  if (route.pose_element(route.models.at(handle).layout.dimension, pose, in.slave, rigid.residual.data(),
+                         rigid.tangent.data(), result.residual.data(), result.tangent.data(),
+                         &report) != ENTS_OK)
+    throw JobError(option() + report.message);
+  return 1;
 }
 
 /// What is left of an adapter without its program is where it starts the projection: on the segment without
 /// its height, unless the history knows better. This program starts where it has detected the node, which is
 /// quicker, and gives other last bits.
 double evaluate_directly(const ents_model* handle, const WrittenModel& model, const ents_input& in,
-                         ElementResult& result) {
+                         const ents_pose* pose, ElementResult& result) {
   double start[2] = {};
   bool found = false;
   if (model.base != nullptr) {
@@ -232,7 +268,7 @@ double evaluate_directly(const ents_model* handle, const WrittenModel& model, co
     projection.xi = start;
     found = route.evaluate(model.base, 0, 1, &plain, &projection, nullptr) == ENTS_OK;
   }
-  return evaluate_plainly(handle, in, found ? start : nullptr, result);
+  return evaluate_plainly(handle, in, pose, found ? start : nullptr, result);
 }
 
 /// While adapters are called the models are in the working directory, and what they write on standard output
@@ -276,7 +312,7 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
   double step_factor = 1;
   int64_t k = first;
   OwnElements elements(layout, *input, *system);
-  const auto dofs = static_cast<std::size_t>(layout.dofs);
+  const auto dofs = static_cast<std::size_t>(elements.rows());
   const JobSurroundings surroundings;
   for (; k < first + count && step_factor == 1; ++k) {
     if (!elements.has_segment(k)) {
@@ -287,11 +323,11 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
     ElementResult result{std::vector<double>(dofs), std::vector<double>(dofs * dofs),
                          std::vector<double>(static_cast<std::size_t>(layout.state_size))};
     if (route.program == &direct) {
-      step_factor = evaluate_directly(handle, model, in, result);
+      step_factor = evaluate_directly(handle, model, in, system->pose, result);
     } else {
       if (!route.program->tangent && system->values != nullptr)
-        evaluate_plainly(handle, in, in.start, result);
-      step_factor = evaluate_one(model, k, in, result);
+        evaluate_plainly(handle, in, system->pose, in.start, result);
+      step_factor = evaluate_one(model, k, in, system->pose, result);
     }
     if (step_factor < 1) break;
     elements.add(k, result.residual.data(), result.tangent.data());
@@ -334,6 +370,7 @@ void install_adapter(EntsLibrary& library, const std::string& name) {
   route.program = *entry;
   route.create = std::exchange(library.model_create, create_model);
   route.evaluate = library.evaluate;
+  route.pose_element = library.pose_element;
   route.assemble = std::exchange(library.assemble, assemble_elements);
   route.layout = library.model_layout;
   route.destroy = std::exchange(library.model_destroy, destroy_model);

@@ -79,6 +79,7 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     find(pose_move, "ents_pose_move");
     find(pose_to_body, "ents_pose_to_body");
     find(pose_to_space, "ents_pose_to_space");
+    find(pose_element, "ents_pose_element");
     find(sampling_points, "ents_sampling_points");
     find(smooth_size, "ents_smooth_size");
     find(smooth, "ents_smooth");

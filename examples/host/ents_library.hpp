@@ -53,6 +53,7 @@ public:
   decltype(&ents_pose_move) pose_move = nullptr;
   decltype(&ents_pose_to_body) pose_to_body = nullptr;
   decltype(&ents_pose_to_space) pose_to_space = nullptr;
+  decltype(&ents_pose_element) pose_element = nullptr;
   decltype(&ents_sampling_points) sampling_points = nullptr;
   decltype(&ents_smooth_size) smooth_size = nullptr;
   decltype(&ents_smooth) smooth = nullptr;

@@ -41,6 +41,10 @@ std::vector<OwnElements::Dof> OwnElements::dofs_of(std::int64_t element) const {
   } else {
     add_node(0, 1, system_.slave_equations, element);
   }
+  if (system_.pose != nullptr) {
+    for (int i = 0; d + i < rows(); ++i) dofs.push_back({d + i, 1, system_.body_equations[i]});
+    return dofs;
+  }
   const std::int64_t* nodes =
       input_.mesh->connectivity + input_.segment[element * input_.segment_stride] * layout_.nodes;
   for (int a = 0; d * (a + 1) < of_nodes; ++a) add_node(d * (a + 1), 1, system_.master_equations, nodes[a]);
@@ -65,8 +69,7 @@ void OwnElements::add(std::int64_t element, const double* residual, const double
       const int* at = std::lower_bound(first, last, static_cast<int>(column.equation));
       if (at == last || *at != column.equation)
         throw JobError("an element has no place in the tangent's pattern");
-      system_.values[at - columns] +=
-          row.weight * column.weight * tangent[row.local + layout_.dofs * column.local];
+      system_.values[at - columns] += row.weight * column.weight * tangent[row.local + rows() * column.local];
     }
   }
 }

@@ -22,8 +22,10 @@ public:
   /// The input of this element as that of a single one, number 0, which stands alone: no mesh. Valid until
   /// the next call.
   ents_input input(std::int64_t element);
-  /// @param residual  [dofs]; not read if the system wants none
-  /// @param tangent   [dofs][dofs] column-major; not read if the system wants none
+  /// Unknowns of an element; with a rigid body that turns those of slave, reference point and spin.
+  int rows() const { return system_.pose == nullptr ? layout_.dofs : layout_.dimension == 2 ? 5 : 9; }
+  /// @param residual  [rows]; not read if the system wants none
+  /// @param tangent   [rows][rows] column-major; not read if the system wants none
   void add(std::int64_t element, const double* residual, const double* tangent);
 
 private:

@@ -64,9 +64,11 @@ void note_without_contact(const Scene& scene, const std::vector<StepRecord>& rec
 void check_adapter(const Scene& scene, const std::string& adapter) {
   if (!scene.contact || adapter == "plain") return;
   const std::string end = "; run it without --adapter " + adapter;
-  if (scene.contact->body)
+  if (scene.contact->body && adapter == "lsdyna")
     throw InputError(scene.file.string() +
-                     ": /contact/master/rigid_body: the elements of adapters have no reference point" + end);
+                     ": /contact/master/rigid_body: elements of LS-DYNA see present positions only, and the "
+                     "turns of a body are displacements" +
+                     end);
   if (!find_json(scene.contact->model, "/parameters").is_null())
     throw InputError(scene.contact->model_where +
                      "/parameters: the elements of adapters read a model once, and it stays" + end);

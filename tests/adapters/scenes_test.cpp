@@ -167,6 +167,68 @@ TEST_F(Scenes, MultipliersAreUnknownsOfTheirOwnNode) {
     EXPECT_TRUE(compare(direct, run_scene(file, adapter, variant)).bits) << adapter;
 }
 
+// Rigid bodies that a load tilts while they turn, with friction: the reference node of Abaqus has rotations,
+// the others have a node for the turns. One plane scene, one in space. Bounds as above.
+TEST_F(Scenes, RigidBodiesHaveAReferenceNode) {
+  const struct {
+    const char *name, *scene;
+    std::vector<std::string> adapters;
+  } kinds[] = {
+      {"plane",
+       R"({"dimension": 2, "formulation": "plane_strain",
+  "materials": {"block": {"law": "neo_hooke", "young": 1000, "poisson": 0.3}},
+  "parts": [{"name": "block", "material": "block", "element": "quad4",
+    "x": {"from": -1, "pieces": [{"to": 1, "divisions": 8}]}, "y": {"from": -1, "pieces": [{"to": 0, "divisions": 3}]}}],
+  "supports": [{"nodes": "block.y_min", "x": 0, "y": 0}],
+  "contact": {"slave": "block.y_max", "master": {"rigid_body": {"reference": [0.1, 0.5],
+      "nodes": [[2, -0.003], [0, -0.003], [-2, -0.003]], "segments": [[0, 1], [1, 2]], "surface_coordinates": [[2], [0], [-2]],
+      "loads": [{"y": -50}], "free": ["turn"], "prescribed": [{"x": 0.05}]}},
+    "model": {"segment": "line2", "height": {"type": "sine", "amplitude": 0.002, "wave_vector": [0.4]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 1e4}, "friction": {"type": "coulomb", "coefficient": 0.2, "stiffness": 1e3}}}},
+  "steps": {"control": "load_factor", "values": [0.5, 1]}})",
+       {"abaqus", "abaqus_explicit", "ansys", "feap", "marc", "opensees"}},
+      {"space",
+       R"({"dimension": 3,
+  "materials": {"block": {"law": "linear_elastic", "young": 1000, "poisson": 0.3}},
+  "parts": [{"name": "block", "material": "block", "element": "hex8", "x": {"from": -1, "pieces": [{"to": 1, "divisions": 4}]},
+    "y": {"from": -1, "pieces": [{"to": 1, "divisions": 4}]}, "z": {"from": -1, "pieces": [{"to": 0, "divisions": 2}]}}],
+  "supports": [{"nodes": "block.z_min", "x": 0, "y": 0, "z": 0}],
+  "contact": {"slave": "block.z_max", "master": {"rigid_body": {"reference": [0.2, 0.1, 1],
+      "nodes": [[-3, 3, -0.004], [3, 3, -0.004], [3, -3, -0.004], [-3, -3, -0.004]], "segments": [[0, 1, 2, 3]],
+      "surface_coordinates": [[-3, 3], [3, 3], [3, -3], [-3, -3]],
+      "loads": [{"z": -200}], "free": ["turn_x", "turn_y"], "prescribed": [{"turn_z": 0.3}]}},
+    "model": {"segment": "quad4", "height": {"type": "sine", "amplitude": 0.003, "wave_vector": [0.3, 0.2]},
+      "contact": {"normal": {"type": "penalty", "stiffness": 1e4}, "friction": {"type": "coulomb", "coefficient": 0.1, "stiffness": 1e3}}}},
+  "steps": {"control": "load_factor", "values": [0.5, 1]}})",
+       {"abaqus", "abaqus_explicit", "ansys", "calculix", "feap", "marc", "opensees"}},
+  };
+  for (const auto& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    const std::string file = (folder_ / (std::string(kind.name) + ".json")).string();
+    std::ofstream(file) << kind.scene;
+    const SceneResult plain = run_scene(file, "plain"), direct = run_scene(file, "direct");
+    ASSERT_EQ(plain.refusal, "");
+    for (const nlohmann::json& moment : plain.steps.back()["moment"]) {
+      const bool of_turn =
+          moment == plain.steps.back()["moment"].back() && plain.steps.back()["moment"].size() == 3;
+      EXPECT_EQ(std::abs(moment.get<double>()) > 1e-3, of_turn) << moment; // the others are free
+    }
+    std::vector<std::string> adapters = kind.adapters;
+    adapters.insert(adapters.begin(), "direct");
+    for (const std::string& adapter : adapters) {
+      SCOPED_TRACE(adapter);
+      const SceneResult through = run_scene(file, adapter);
+      ASSERT_EQ(through.refusal, "");
+      const Comparison c = compare(plain, through);
+      EXPECT_TRUE(c.iterations);
+      EXPECT_LE(c.motion, 1e-12);
+      EXPECT_LE(c.force, roundings_of_forces);
+    }
+  }
+  const std::string refusal = run_scene((folder_ / "space.json").string(), "lsdyna").refusal;
+  EXPECT_NE(refusal.find("/contact/master/rigid_body"), std::string::npos) << refusal;
+}
+
 TEST_F(Scenes, AnUnknownNameIsToldWithTheList) {
   try {
     write_scene("hertz4d", Mesh::coarse, folder_);

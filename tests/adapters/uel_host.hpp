@@ -22,8 +22,9 @@ namespace adapters {
 /// Arguments of one call, as Abaqus passes them: two columns of RHS apart by MLVARX > NDOFEL, outputs
 /// poisoned, guard zones.
 struct UelCall {
-  UelCall(int nodes, int dofs_per_node, int variables)
-      : nnode(nodes), ndofel(nodes * dofs_per_node), mlvarx(ndofel + 5), nsvars(variables),
+  /// @param rotations  of the last node, behind its other degrees of freedom
+  UelCall(int nodes, int dofs_per_node, int variables, int rotations = 0)
+      : nnode(nodes), ndofel(nodes * dofs_per_node + rotations), mlvarx(ndofel + 5), nsvars(variables),
         mcrd(dofs_per_node), rhs(2 * static_cast<std::size_t>(mlvarx)),
         amatrx(static_cast<std::size_t>(ndofel) * static_cast<std::size_t>(ndofel)),
         svars(static_cast<std::size_t>(variables)), energy(8) {

@@ -15,6 +15,7 @@ constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
                     .history = "*USER ELEMENT, VARIABLES=",
                     .properties = "*UEL PROPERTY, entry ",
                     .directory = abaqus::job_directory,
+                    .rotations = true,
                     .options = common_options | option_old_displacement | option_negative_tangent,
                     .numbers = abaqus::numbers};
 
@@ -82,13 +83,18 @@ ENTS_ENTRY(uel, UEL,
   e.host = &host;
   e.number = jelem ? *jelem : -1;
   e.nodes = nodes;
-  e.dofs = nodes > 0 ? dofs / nodes : 0;
-  e.coordinates = *mcrd;
   e.properties = {props};
   e.property_count = *nprops;
+  const int turns = reference_rotations(e);
+  e.dofs = nodes > 0 ? (dofs - turns) / nodes : 0;
+  e.reference_turns = turns > 0 && dofs == nodes * *mcrd + turns;
+  e.coordinates = *mcrd;
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
   if (moose) e.increment = {du, 1, e.dofs};
+  // Where the host asks for both, DU leads from the begin of the increment to now; in a perturbation it does
+  // not.
+  if (e.reference_turns && !perturbation) e.spin = {du + dofs - turns};
   e.history = {svars};
   e.history_size = *nsvars;
   e.sign = -1; // RHS is external minus internal force

@@ -27,7 +27,8 @@ constexpr Host host{.nodes = "nodes: ",
                     .properties = "*SECTION_SOLID, entry ",
                     .directory = [] { return std::string(); },
                     .spare_nodes = true,
-                    .multipliers = false};
+                    .multipliers = false,
+                    .displacements = false};
 
 [[noreturn]] void stop() {
   int code = 2;

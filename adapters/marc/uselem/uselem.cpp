@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "../../common/element.hpp"
+#include "../../common/limits.hpp"
 
 // MSC Marc's routine that ends the job.
 extern "C" __attribute__((weak)) void quit_(int* code);
@@ -53,9 +54,8 @@ uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double
     return;
   }
 
-  constexpr int largest_state = 64;
-  double end[largest_state];
-  const int state = std::min(*nstats, largest_state);
+  double end[largest_history];
+  const int state = std::min(*nstats, largest_history);
   std::copy(t, t + state, end);
   Element e;
   e.host = &host;

@@ -22,12 +22,21 @@ void call_uel(void* library, UserElement& e) {
       number = e.place + 1, one = 1, none = 0, lflags[7] = {1, 1, 1, 0, 0, 0, 0};
   double energy[8] = {}, time[2] = {}, dtime = 1, params[3] = {}, unused = 0, pnewdt = 1e36, period = 1;
   std::vector<double> still(e.residual.size());
+  int nodes = e.nodes;
+  if (e.body) { // the turns are those of the reference node, with the same places in all arrays but AMATRX
+    nodes = 2;
+    ndofel = e.dimension == 2 ? 5 : 9;
+    nsvars -= e.dimension == 2 ? 0 : 3;
+  }
   uel(e.residual.data(), e.tangent.data(), e.state.data(), energy, &ndofel, &nrhs, &nsvars,
-      e.properties.data(), &nprops, e.position.data(), &e.dimension, &e.nodes, e.displacement.data(),
+      e.properties.data(), &nprops, e.position.data(), &e.dimension, &nodes, e.displacement.data(),
       still.data(), still.data(), still.data(), &one, time, &dtime, &one, &one, &number, params, &none, &none,
       &unused, &unused, &none, lflags, &ndofel, &unused, &none, &pnewdt, &none, &none, &period);
   e.step_factor = std::min(pnewdt, 1.0);
   for (double& value : e.residual) value = -value;
+  if (e.body && e.dimension == 2) // 5 x 5 into 6 x 6: the last dof of the node for the turns is none
+    for (int column = 4; column >= 0; --column)
+      for (int row = 4; row >= 0; --row) e.tangent[at(row + 6 * column)] = e.tangent[at(row + 5 * column)];
 }
 
 /// VUEL: blocks of elements with the block index first; rhs is the internal force. There is no tangent.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <dlfcn.h>
+#include <ents.h>
 
 #include "../error.hpp"
 
@@ -17,8 +18,10 @@
 
 namespace host::adapters {
 
-/// Slave, master nodes, one more for multipliers if there are any. Outputs are NaN before the call.
+/// Slave, master nodes, one more for multipliers if there are any; with a rigid body that turns slave,
+/// reference node, and a node whose displacements are the turns. Outputs are NaN before the call.
 struct UserElement {
+  bool body = false;
   int dimension = 0, nodes = 0, state_size = 0;
   int place = 0;                         ///< in the present list of elements
   std::vector<double> position;          ///< [nodes][d]; here the whole motion is in the position
@@ -30,6 +33,10 @@ struct UserElement {
 
   int rows() const { return dimension * nodes; }
 };
+
+/// Reference point and turns of a rigid body, as nodes at the end of the element; where the slave is in
+/// space. The whole rotation is the history, and nothing has been turned since: the derivatives are by spins.
+void add_body(UserElement& e, const ents_pose& pose);
 
 struct Program {
   const char *name, *file; ///< of --adapter; the library
