@@ -112,7 +112,7 @@ libraries='-lspooles -lpthread -larpack -llapack -lblas -lm'
 # 5. The same problems in ccx and in the reference host.
 status=0
 export CCX_UEL="$build/lib/libents_abaqus.so" # what U1A loads
-for name in sphere texture friction; do for element in U1E U1A; do
+for name in sphere texture friction turned; do for element in U1E U1A; do
   step "$name, $element"
   rm -rf "${work:?}/$name"
   python3 "$here/example/make.py" "$name" $element "$work/$name"
