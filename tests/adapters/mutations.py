@@ -63,10 +63,10 @@ LIBRARIES = [
     Library("entsContact", ["opensees/entsContact.cpp"], [], HOSTS, "*opensees*",
             user_element(
                 "opensees/entsContact.cpp",
-                tangent=("e.tangent = {tang, 1, ele->nDOF}", "e.tangent = {tang, ele->nDOF, 1}"),
+                tangent=("e.tangent = {tangent, 1, rows}", "e.tangent = {tangent, rows, 1}"),
                 coordinates=("e.position = {position, 1, d}", "e.position = {position + d - 1, -1, d}"),
                 nodes=("e.position = {position, 1, d}", "e.position = {position + d * (ele->nNode - 1), 1, -d}"),
-                forces=("e.residual = {resid, 1, d}", "e.residual = {resid + d - 1, -1, d}"),
+                forces=("e.residual = {residual, 1, d}", "e.residual = {residual + d - 1, -1, d}"),
                 displacements=("e.displacement = {displacement, 1, d}", "e.displacement = {displacement + d - 1, -1, d}"))),
     Library("ents_feap", ["feap/ents_feap.cpp"], [], HOSTS, "*feap*",
             user_element(
@@ -101,24 +101,33 @@ LIBRARIES = [
                 forces=("{force + b, nlq, 3 * nlq}", "{force + b + 2 * nlq, -nlq, 3 * nlq}"),
                 history=("e.history = {hsv + b, nlq}", "e.history = {hsv + b * *nhsv, 1}"))),
     # What all share, through one of them.
-    Library("ents_ansys", ["ansys/userelem/userelem.cpp", "common/element.cpp", "common/model_cache.cpp", "common/selfcheck.cpp"], [], HOSTS,
+    Library("ents_ansys", ["ansys/userelem/userelem.cpp", "common/element.cpp", "common/description.cpp", "common/model_cache.cpp", "common/selfcheck.cpp"], [], HOSTS,
             "*ansys*", [
                 Mutant("common: tangent transposed", "common/element.cpp", "tangent[row + layout.dofs * column]", "tangent[column + layout.dofs * row]"),
-                Mutant("common: node and dof swapped", "common/element.cpp", "e.residual(dof(column), node(column))",
-                       "e.residual(dof(column), node(layout.dofs - 1 - column))"),
+                Mutant("common: node and dof swapped", "common/element.cpp", "e.residual(dof(column), node(column, c))",
+                       "e.residual(dof(column), node(layout.dofs - 1 - column, c))"),
                 Mutant("common: multipliers in another order", "common/element.cpp", "i - of_nodes; };", "layout.dofs - 1 - i; };"),
-                Mutant("common: master nodes in another order", "common/element.cpp", "*out = e.position(i, node);",
-                       "*out = e.position(i, node > 0 ? layout.nodes + 1 - node : 0);"),
-                Mutant("common: too little history passes", "common/element.cpp", "if (e.history_size < layout.state_size)", "if (false)"),
+                Mutant("common: master nodes in another order", "common/element.cpp", "*out = current(i, node);",
+                       "*out = current(i, node > 0 ? layout.nodes + 1 - node : 0);"),
+                Mutant("common: too little history passes", "common/description.cpp", "if (e.history_size < layout.state_size)", "if (false)"),
                 Mutant("a mistake is not told", "ansys/userelem/userelem.cpp", "result.outcome == Outcome::failed ? 1 : 0", "0")]),
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/model_cache.cpp",
                             "common/selfcheck.cpp"], [], HOSTS, "Uel.Selfcheck*", [
-                                Mutant("selfcheck of a wrong K", "common/element.cpp", "  scatter(e, layout, residual, tangent);",
-                                       "  tangent[1] *= 1.01;\n  scatter(e, layout, residual, tangent);"),
-                                Mutant("selfcheck of a transposed K", "common/element.cpp", "  scatter(e, layout, residual, tangent);",
+                                Mutant("selfcheck of a wrong K", "common/element.cpp", "    scatter(e, arguments, residual, tangent);",
+                                       "  tangent[1] *= 1.01;\n  scatter(e, arguments, residual, tangent);"),
+                                Mutant("selfcheck of a transposed K", "common/element.cpp", "    scatter(e, arguments, residual, tangent);",
                                        "  for (int i = 0; i < layout.dofs; ++i)\n    for (int j = 0; j < i; ++j)\n"
                                        "      std::swap(tangent[i + layout.dofs * j], tangent[j + layout.dofs * i]);\n"
-                                       "  scatter(e, layout, residual, tangent);")]),
+                                       "    scatter(e, arguments, residual, tangent);")]),
+    # A rigid body with a reference node.
+    Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/body.cpp"], [], HOSTS,
+            "RigidBodyElement.*", [
+                Mutant("body: exponential map transposed", "common/body.cpp", "map[k][j] += first * s[i], map[j][k] -= first * s[i];",
+                       "map[k][j] -= first * s[i], map[j][k] += first * s[i];"),
+                Mutant("body: rotation kept transposed", "common/body.cpp", "= body.pose.turn[i];", "= body.pose.turn[3 * (i % 3) + i / 3];"),
+                Mutant("body: turns before the displacements", "common/element.cpp", "return std::pair(slave_nodes, i - d);",
+                       "return std::pair(slave_nodes, i < 2 * d ? i : i - 2 * d);"),
+                Mutant("body: another increment of rotations", "abaqus/uel/uel.cpp", "e.spin = {du + dofs - turns}", "e.spin = {u + dofs - turns}")]),
 ]
 
 
