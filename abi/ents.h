@@ -540,7 +540,7 @@ ENTS_API int32_t ents_state_augment(const ents_model *model, int64_t count, doub
  *   old_master, new_master  [m][d] positions, [L], both at the same time: the begin of the increment
  *   old_..., new_surface_coordinates  [m][d-1]; null: those of the model, or s = xi if it has none (positions decide then)
  *   state, moved            [state_size] in, out; may not overlap
- * Recoverable: NO_PROJECTION (of the anchor: without friction there is none), DEGENERATE_SEGMENT. */
+ * Recoverable: NO_PROJECTION (of the anchor: open slaves and models without friction have none), DEGENERATE_SEGMENT. */
 ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_master, const double *old_surface_coordinates,
                                      const double *new_master, const double *new_surface_coordinates,
                                      const double *state, double *moved, ents_report *report);

@@ -146,12 +146,18 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
   if (!is_state(layout, state)) return Status::bad_state;
   double end[largest_state];
   for (int i = 0; i < layout.size; ++i) end[i] = state[i];
-  const bool seen = state[StateLayout::history_at] != static_cast<double>(History::none);
+  const bool seen = state[StateLayout::history_at] != static_cast<double>(History::none),
+             touches = state[StateLayout::history_at] > static_cast<double>(History::open);
   const int points[3] = {StateLayout::xi_at, layout.anchor_at,
                          layout.wear_at < 0 ? -1 : layout.wear_at + StateLayout::worn_anchor};
   Projection<B, H> from, to;
   for (int which = 0; seen && which < 3; ++which) {
     if (points[which] < 0) continue;
+    // No force depends on the anchor of an open slave: that it is not found is no reason to cut the step.
+    if (which > 0 && !touches) {
+      for (int a = 0; a < T; ++a) end[points[which] + a] = end[StateLayout::xi_at + a];
+      continue;
+    }
     const double* old_xi = state + points[which];
     double xi[T];
     Geometry<B> g;

@@ -429,6 +429,28 @@ TEST(State, MovesToTheClosestPlaceOfASteepTexture) {
   }
 }
 
+// A hundred segments on, where the place that it comes from is not found: an open slave starts anew there,
+// and one in contact, whose anchor would be lost, asks for a smaller step.
+TEST(State, OfAnOpenSlaveMovesAnywhere) {
+  const mechanics::Model model(
+      R"({"segment": "bspline4", "contact": {"normal": {"type": "penalty", "stiffness": 100},
+                                             "friction": {"type": "rough", "stiffness": 10}}})");
+  const ents_layout layout = layout_of(model.handle());
+  std::vector<double> state(static_cast<std::size_t>(layout.state_size)), moved(state.size());
+  const double before[8] = {-1, 0, 0, 0.3, 1, 0.3, 2, 0}, after[8] = {99, 0, 100, 0.3, 101, 0.3, 102, 0};
+  for (const double history : {1.0, 2.0, 3.0}) {
+    ents_state_init(model.handle(), 1, state.data(), layout.state_size, nullptr);
+    state[1] = history, state[3] = state[4] = 0.3;
+    const std::int32_t status = ents_state_transfer(model.handle(), before, nullptr, after, nullptr,
+                                                    state.data(), moved.data(), nullptr);
+    EXPECT_EQ(status, history > 1 ? ENTS_NO_PROJECTION : ENTS_OK) << history;
+    if (status != ENTS_OK) continue;
+    EXPECT_EQ(moved[1], history);
+    EXPECT_EQ(moved[4], moved[3]);
+    EXPECT_LE(std::abs(moved[3]), 1.0);
+  }
+}
+
 // A multiplier may pull for an iteration while the pair is still counted as closed: no friction then, and
 // nothing undefined.
 TEST(State, AMultiplierThatPullsHasNoFriction) {
