@@ -6,8 +6,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "abi/handle.hpp"
@@ -90,14 +92,30 @@ protected:
     LawElements elements;
   };
   // Every seventh start is far off, so that calls mix elements that are ordinary with others.
-  static Drawn draw_mixed(const Case& c) {
-    Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name));
+  static Drawn draw_mixed(const Case& c, std::size_t round = 0) {
+    Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name) + 7919 * round);
     Drawn d;
     d.scene = mechanics::draw_scene(random, mechanics::basis_named(c.basis), c.height, c.projection);
     d.elements = draw(random, d.scene, model_of(d.scene, c), count, 0.05);
     for (std::size_t e = 0; e < static_cast<std::size_t>(count); e += 7)
       d.elements.state[e * static_cast<std::size_t>(d.elements.layout.state_size) + 3] += 0.7;
     return d;
+  }
+
+  // f(case, its elements) of all cases; ENTS_TEST_ROUNDS: how many times, each with other elements
+  template <class F> static void for_each_case(F&& f) {
+    const char* text = std::getenv("ENTS_TEST_ROUNDS");
+    const std::size_t rounds = text ? std::strtoull(text, nullptr, 10) : 1;
+    std::map<std::string, std::int64_t> elements;
+    for (std::size_t round = 0; round < rounds; ++round)
+      for (const Case& c : cases()) {
+        if (HasFatalFailure()) return;
+        f(c, draw_mixed(c, round));
+        elements[c.method.name] += count;
+      }
+    std::int64_t least = elements.begin()->second;
+    for (const auto& law : elements) least = std::min(least, law.second);
+    std::cout << elements.size() << " laws, at least " << least << " elements of each\n";
   }
 
   // Elements first .. of e as a call of their own.
@@ -131,8 +149,7 @@ protected:
 };
 
 TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
-  for (const Case& c : cases()) {
-    const Drawn d = draw_mixed(c);
+  for_each_case([](const Case& c, const Drawn& d) {
     const mechanics::Model model = model_of(d.scene, c);
     LawResults all;
     evaluate(model, d.elements, wanted, all);
@@ -149,7 +166,7 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
     LawResults more;
     evaluate(model, d.elements, wanted | ENTS_TRACTION, more);
     ASSERT_TRUE(same(all, more, 0, d.elements.layout)) << testing::PrintToString(c);
-  }
+  });
 }
 
 // Calls whose results no cache holds write them block by block to one that does, and copy them beside the
@@ -263,8 +280,7 @@ TEST_F(OrdinaryElements, OfARigidMasterAreAPartOfThoseOfADeformableOne) {
 }
 
 TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
-  for (const Case& c : cases()) {
-    const Drawn d = draw_mixed(c);
+  for_each_case([](const Case& c, const Drawn& d) {
     const mechanics::Model model = model_of(d.scene, c);
     LawResults best;
     evaluate(model, d.elements, wanted, best);
@@ -279,7 +295,7 @@ TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
       ASSERT_TRUE(same(best, other, 0, d.elements.layout))
           << testing::PrintToString(c) << " " << kernels->instruction_set;
     }
-  }
+  });
   std::cout << "this processor: " << ents::best_pair_kernels().instruction_set << "\n";
 }
 
