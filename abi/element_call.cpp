@@ -91,7 +91,7 @@ template <class F> void for_each_input(const ents_model& model, const ents_input
   const Plan& plan = model.plan;
   const std::int64_t d = plan.dimension, t = plan.parameters, m = model.sizes.nodes,
                      states = model.sizes.state, multipliers = plan.multipliers,
-                     slave_values = slave_value::count;
+                     slave_values = model.model.law.slave_values();
 #define ENTS_ARRAY(field, size) f(Array{#field, in.field, in.field##_stride, size});
   ENTS_INPUT_ARRAYS(ENTS_ARRAY)
 #undef ENTS_ARRAY
@@ -128,7 +128,7 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
     return report_status(
         report, ENTS_BAD_VALUE, -1,
         "input.slave_values is given, but the model's \"contact\" has neither \"offset\" nor "
-        "\"wear\", which would read it; write \"offset\": 0");
+        "\"wear\" nor a normal law \"table\", which would read it; write \"offset\": 0");
   const std::int64_t last = first + count - 1;
   if (in.mesh && last > 0 && in.segment_stride != 0)
     if (const std::int32_t status =
@@ -223,7 +223,8 @@ std::int32_t ElementCall::check_open(std::int64_t e) const {
       first_non_finite(area, 1) >= 0 || first_non_finite(lambda, plan->multipliers) >= 0)
     return ENTS_NON_FINITE;
   if (area && *area < 0.0) return ENTS_BAD_VALUE;
-  if (const Status status = ENTS_ISA::check_slave_values(at(in->slave_values, in->slave_values_stride, e));
+  if (const Status status =
+          ENTS_ISA::check_slave_values(plan->law, at(in->slave_values, in->slave_values_stride, e));
       status != Status::ok)
     return static_cast<std::int32_t>(status);
   if (in->state_begin &&
@@ -304,7 +305,7 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
     return report_message(
         report, status, e,
         "input.slave_values of element %lld has a negative factor of the wear coefficient or of "
-        "\"sliding\" (entries 1 and 2)",
+        "\"sliding\" (entries 1 and 2), or a scale of the table that is not positive (entry 3)",
         number);
   if (status == ENTS_BAD_STATE && in->state_begin && in->mesh &&
       is_state(plan->state, at(in->state_begin, in->state_begin_stride, e)) &&

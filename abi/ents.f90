@@ -27,7 +27,7 @@ module ents
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 6
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 7
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -146,7 +146,7 @@ module ents
     integer(c_int32_t) :: named_parameters = 0
     integer(c_int32_t) :: fields = 0
     integer(c_int32_t) :: worn = 0
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: slave_values = 0
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh
@@ -195,7 +195,7 @@ module ents
     integer(c_int64_t) :: segment_stride = 0
     type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
     integer(c_int64_t) :: shared = 0
-    type(c_ptr) :: slave_values = c_null_ptr ! (3, elements)
+    type(c_ptr) :: slave_values = c_null_ptr ! (slave_values, elements)
     integer(c_int64_t) :: slave_values_stride = 0
   end type ents_input
 

@@ -84,7 +84,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 6
+#define ENTS_CONTRACT_MINOR 7
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -221,7 +221,8 @@ typedef struct ents_layout {
   int32_t fields;              /* heights of type "field": ents_model_bind */
   int32_t worn;                /* wear: place in the state of three numbers: depth lost by the slave surface [L]; depth lost by the
                                   master surface that no field has yet [L], see ents_wear_collect; pressure [F/A]; else -1 */
-  int32_t reserved;            /* 0 */
+  int32_t slave_values;        /* numbers of ents_input.slave_values: 3, or 4 with a normal law "table" (since contract 1.7;
+                                  `reserved` before) */
 } ents_layout;
 
 /* What the elements of a model need. ents_model_create decides it from the model's text; what is not needed is not computed. (Results
@@ -406,9 +407,10 @@ typedef struct ents_input {
                                         master does not deform, and null if the model says "master": "rigid". Since contract 1.5 */
   int64_t shared;                    /* ENTS_SHARED_... bits: arrays whose stride is 0, and states that are left out, on purpose; read by ents_assemble and ents_iterate.
                                         Since contract 1.5 */
-  const double *slave_values;        /* [3] numbers of this slave node: added to the model's "offset" [L]; factor of the wear coefficient, >= 0
+  const double *slave_values;        /* [slave_values] numbers of this slave node: added to the model's "offset" [L]; factor of the wear coefficient, >= 0
                                         (0: does not wear); factor of the wear's "sliding", >= 0 (the distance from the axis where that
-                                        is an angle). Null: 0, 1, 1. For models with "offset" or "wear". Since contract 1.6 */
+                                        is an angle); scale r > 0 of the table, whose pressure is r p(g/r). Null: 0, 1, 1, 1. For models
+                                        with "offset", "wear" or "table". Since contract 1.6; the scale and "table" since 1.7 */
   int64_t slave_values_stride;
 } ents_input;
 

@@ -13,6 +13,7 @@
 #include "abi/model_error.hpp"
 #include "abi/surface_file.hpp"
 #include "abi/text_file.hpp"
+#include "core/height/low_pass.hpp"
 
 namespace ents {
 
@@ -158,14 +159,15 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
     fail(ENTS_UNKNOWN_KEY, path,
          "more than one of \"file\", \"values\" and \"data\"; leave one source of heights");
   if (file)
-    check_keys(value, path, {"type", "file", "boundary"}, {"size", "origin", "scale", "length_unit"});
+    check_keys(value, path, {"type", "file", "boundary"},
+               {"size", "origin", "scale", "length_unit", "cut_off"});
   else if (values)
-    check_keys(value, path, {"type", "values", "boundary", "size"}, {"origin", "scale"});
+    check_keys(value, path, {"type", "values", "boundary", "size"}, {"origin", "scale", "cut_off"});
   else if (data)
-    check_keys(value, path, {"type", "data", "boundary", "size"}, {"origin", "scale"});
+    check_keys(value, path, {"type", "data", "boundary", "size"}, {"origin", "scale", "cut_off"});
   else {
     check_keys(value, path, {"type"},
-               {"boundary", "file", "values", "data", "size", "origin", "scale", "length_unit"});
+               {"boundary", "file", "values", "data", "size", "origin", "scale", "length_unit", "cut_off"});
     fail(ENTS_UNKNOWN_KEY, path,
          "the heights are missing; write one of \"file\", \"values\" and \"data\"" +
              std::string(value.contains("boundary") ? "" : ", and \"boundary\""));
@@ -182,6 +184,7 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
   if (value.contains("origin"))
     origin = read_vector(value.at("origin"), member(path, "origin"), n, Range::any, per_coordinate);
   const double scale = read_double_or(value, path, "scale", Range::any, 1.0);
+  const double cut_off = read_double_or(value, path, "cut_off", Range::positive, 0.0);
   const std::string source_path = member(path, file ? "file" : values ? "values" : "data");
 
   bool size_known = false;
@@ -211,6 +214,7 @@ HeightMap read_map(const json& value, const std::string& path, const HeightSourc
       fail(ENTS_BAD_VALUE, source_path,
            "heights are beyond 1e100 after scaling; check \"scale\" and \"length_unit\"");
   }
+  if (cut_off > 0.0) leave_out_short_waves(map, cut_off);
   return map;
 }
 

@@ -163,6 +163,7 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.named_parameters = static_cast<std::int32_t>(model->model.parameters.size());
     out.fields = static_cast<std::int32_t>(model->model.fields.size());
     out.worn = model->plan.state.wear_at;
+    out.slave_values = law.slave_values();
     out.instruction_set = ents::best_pair_kernels().instruction_set;
     ents::give_back(out, layout);
     return ents::report_ok(report);

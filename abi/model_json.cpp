@@ -14,6 +14,7 @@
 #include "abi/text_file.hpp"
 #include "core/height/height_binding.hpp"
 #include "core/law/flattening.hpp"
+#include "core/law/law_table.hpp"
 
 namespace ents {
 
@@ -130,11 +131,40 @@ double read_law_number(const json& object, const std::string& path, const char* 
                           0.0);
 }
 
+void read_table(const json& normal, const std::string& path, Model& model) {
+  constexpr std::size_t most = 1024;
+  check_keys(normal, path, {"type", "gap", "pressure"}, {});
+  const json& gaps = normal.at("gap");
+  const std::string at_gap = member(path, "gap"), at_pressure = member(path, "pressure");
+  check_array(gaps, at_gap, most, "gaps, rising");
+  if (gaps.size() < 2) fail(ENTS_BAD_VALUE, at_gap, "has one number; write 2 to 1024 gaps, rising");
+  const std::vector<double> gap = read_vector(gaps, at_gap, gaps.size(), Range::any, "");
+  const std::vector<double> pressure =
+      read_vector(normal.at("pressure"), at_pressure, gap.size(), Range::any, "one per gap");
+  for (std::size_t i = 1; i < gap.size(); ++i) {
+    if (!(gap[i] > gap[i - 1]))
+      fail(ENTS_BAD_VALUE, item(at_gap, i),
+           "is " + shown(gap[i]) + ", not above the gap before it; write rising gaps");
+    if (!(pressure[i] < pressure[i - 1]))
+      fail(ENTS_BAD_VALUE, item(at_pressure, i),
+           "is " + shown(pressure[i]) + ", not below the pressure before it; write falling pressures");
+  }
+  if (pressure.back() != 0.0)
+    fail(ENTS_BAD_VALUE, item(at_pressure, gap.size() - 1),
+         "is " + shown(pressure.back()) + "; the last pressure is 0: contact begins at the last gap");
+  model.law.normal = NormalKind::table;
+  model.law_table = make_law_table(gap, pressure);
+  for (const LawTable& point : model.law_table)
+    if (!std::isfinite(point.force + point.stiffness + point.energy))
+      fail(ENTS_BAD_VALUE, at_gap, "has gaps so close to each other that the stiffness is not finite");
+}
+
 void read_normal(const json& normal, const std::string& path, Model& model) {
   ContactLaw& law = model.law;
   std::uint8_t& bound_to = model.law_binding.normal;
-  switch (read_type(normal, path,
-                    {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier"})) {
+  switch (read_type(
+      normal, path,
+      {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier", "table"})) {
   case 1: {
     check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
     law.normal = NormalKind::power;
@@ -161,6 +191,9 @@ void read_normal(const json& normal, const std::string& path, Model& model) {
   case 4:
     law.normal = NormalKind::augmented_multiplier;
     break;
+  case 6:
+    read_table(normal, path, model);
+    return;
   default:
     law.normal = NormalKind::multiplier;
     break;
@@ -211,6 +244,8 @@ void read_wear(const json& wear, const std::string& path, Model& model) {
            "is " + shown(law.slave) +
                "; it is the part of the worn depth that the slave surface loses, 0 .. 1");
   }
+  if (model.law.normal == NormalKind::table)
+    fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"table\"");
   if (model.law.multiplier_is_dof())
     fail(ENTS_BAD_VALUE, path,
          "needs a normal law whose pressure follows from the gap; write \"penalty\", \"power\", "

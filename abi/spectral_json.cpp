@@ -47,12 +47,24 @@ double read_whole(const json& value, const std::string& path, const char* key, d
   return number;
 }
 
+// cut_off 0: none
+bool is_shorter(const std::vector<double>& wave_vector, double cut_off) {
+  double squared = 0.0;
+  for (const double k : wave_vector) squared += (k * cut_off) * (k * cut_off);
+  return squared > 1.0 + 2e-12; // one of exactly that length stays
+}
+
+[[noreturn]] void fail_without_waves(const std::string& path) {
+  fail(ENTS_BAD_VALUE, member(path, "cut_off"),
+       "is longer than all waves; write the length of the shortest wave that stays");
+}
+
 constexpr double largest_seed = 9007199254740992.0; // 2^53: whole numbers up to it are doubles
 
 } // namespace
 
 Height read_roughness(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "seed", "rms", "hurst", "wavelengths", "size"}, {"samples"});
+  check_keys(value, path, {"type", "seed", "rms", "hurst", "wavelengths", "size"}, {"samples", "cut_off"});
   Roughness r;
   r.dimension = sources.dimension;
   r.seed = static_cast<std::uint64_t>(read_whole(value, path, "seed", 0.0, largest_seed));
@@ -65,6 +77,7 @@ Height read_roughness(const json& value, const std::string& path, const HeightSo
   if (!(r.shortest <= r.roll_off && r.roll_off <= r.longest))
     fail(ENTS_BAD_VALUE, member(path, "wavelengths"),
          "are not in order; write the shortest, the one of the roll-off, the longest");
+  r.cut_off = read_double_or(value, path, "cut_off", Range::positive, 0.0);
   const std::vector<double> size = read_surface_vector(value, path, "size", sources, Range::positive);
   std::vector<double> samples;
   if (value.contains("samples"))
@@ -88,6 +101,7 @@ Height read_roughness(const json& value, const std::string& path, const HeightSo
                " are possible; make \"size\" smaller or the shortest wavelength longer");
   }
   const HeightMap map = rough_map(r);
+  if (r.cut_off > r.longest) fail_without_waves(path);
   if (map.values.empty())
     fail(ENTS_BAD_VALUE, member(path, "wavelengths"),
          "have no wave of the period between them; waves have a whole number of lengths in \"size\"");
@@ -95,7 +109,7 @@ Height read_roughness(const json& value, const std::string& path, const HeightSo
 }
 
 Height read_fourier(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "wave_vectors", "amplitudes"}, {"phases"});
+  check_keys(value, path, {"type", "wave_vectors", "amplitudes"}, {"phases", "cut_off"});
   const json& vectors = value.at("wave_vectors");
   const std::string at = member(path, "wave_vectors");
   check_array(vectors, at, most_waves, "wave vectors");
@@ -105,18 +119,20 @@ Height read_fourier(const json& value, const std::string& path, const HeightSour
   const std::vector<double> amplitudes = each("amplitudes");
   std::vector<double> phases(vectors.size(), 0.0);
   if (value.contains("phases")) phases = each("phases");
+  const double cut_off = read_double_or(value, path, "cut_off", Range::positive, 0.0);
   std::vector<Height> waves;
-  for (std::size_t i = 0; i < vectors.size(); ++i)
-    waves.push_back(
-        Height::sine(amplitudes[i],
-                     read_vector(vectors[i], item(at, i), static_cast<std::size_t>(sources.dimension),
-                                 Range::any, per_coordinate),
-                     phases[i] + 0.5 * pi));
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const std::vector<double> wave = read_vector(
+        vectors[i], item(at, i), static_cast<std::size_t>(sources.dimension), Range::any, per_coordinate);
+    if (!is_shorter(wave, cut_off)) waves.push_back(Height::sine(amplitudes[i], wave, phases[i] + 0.5 * pi));
+  }
+  if (waves.empty()) fail_without_waves(path);
   return waves.size() == 1 ? std::move(waves[0]) : Height::sum(std::move(waves));
 }
 
 Height read_weierstrass(const json& value, const std::string& path, const HeightSources& sources) {
-  check_keys(value, path, {"type", "amplitude", "wave_vector", "hurst", "terms"}, {"ratio", "seed"});
+  check_keys(value, path, {"type", "amplitude", "wave_vector", "hurst", "terms"},
+             {"ratio", "seed", "cut_off"});
   const double amplitude = read_double(value, path, "amplitude", Range::any);
   const std::vector<double> first = read_surface_vector(value, path, "wave_vector", sources, Range::any);
   const double hurst = read_within(value, path, "hurst", 0.0, 1.0),
@@ -125,15 +141,18 @@ Height read_weierstrass(const json& value, const std::string& path, const Height
   const bool random = value.contains("seed");
   const auto seed =
       random ? static_cast<std::uint64_t>(read_whole(value, path, "seed", 0.0, largest_seed)) : 0;
+  const double cut_off = read_double_or(value, path, "cut_off", Range::positive, 0.0);
   std::vector<Height> waves;
   double factor = 1.0; // ratio^i
   for (int i = 0; i < static_cast<int>(terms); ++i, factor *= ratio) {
     std::vector<double> vector = first;
     for (double& k : vector) k *= factor;
+    if (is_shorter(vector, cut_off)) break;
     const double phase = random ? 2.0 * pi * random_phase(seed, i, 0) : 0.0;
     waves.push_back(Height::sine(amplitude * portable::exponential(-hurst * portable::logarithm(factor)),
                                  vector, phase + 0.5 * pi));
   }
+  if (waves.empty()) fail_without_waves(path);
   return waves.size() == 1 ? std::move(waves[0]) : Height::sum(std::move(waves));
 }
 

@@ -15,7 +15,7 @@ struct Arguments {
   const LoadedModel* model = nullptr;
   const ElementRow* row = nullptr; ///< of the table, if it has one for this element
   double area = 0;
-  double slave_values[3] = {0, 1, 1}; ///< offset, and factors of wear
+  double slave_values[4] = {0, 1, 1, 1}; ///< offset, factors of wear, scale of a table
   bool has_offset = false;
   int options = 0;
   int slave_nodes = 1; ///< of the face that a slave point lies in; 1: the slave is a node

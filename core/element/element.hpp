@@ -40,7 +40,8 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
   constexpr int D = B::dim, T = D - 1;
   if (!inputs_finite<B>(plan, in)) return Status::non_finite;
   if (in.area && *in.area < 0.0) return Status::bad_value;
-  if (const Status status = check_slave_values(in.slave_values); status != Status::ok) return status;
+  if (const Status status = check_slave_values(plan.law, in.slave_values); status != Status::ok)
+    return status;
   if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
 
   Geometry<B> g;

@@ -69,7 +69,7 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
   const auto measured = at.measure(plan);
   Truth<S> fine = both(both(p.ordinary, at.safe), p.is_regular(measured, !ray));
   if (plan.multipliers > 0) fine = both(fine, p.area > 0.0);
-  at.press(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset);
+  at.press(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset, in.scale);
   S size = p.area * (absolute(at.law.force) + at.law.stiffness);
   if (in.has_wear) {
     size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid);
@@ -141,7 +141,7 @@ template <class B, bool H>
 ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
   constexpr int D = B::dim, T = D - 1;
   const double* start = start_of<B, H>(plan, block, e);
-  if (!start || !has_sound_values(block, e)) return false;
+  if (!start || !has_sound_values(plan, block, e)) return false;
   PairNodes<B, double> nodes;
   set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
                coordinates_of(plan, block, e), nodes);
@@ -176,7 +176,7 @@ std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::in
       for (int i = 0; i < W && (block.state_begin || block.slave_values); ++i)
         if ((block.state_begin &&
              !is_finite(block.state_begin + (e + i) * block.state_begin_stride, plan.state.size)) ||
-            !has_sound_values(block, e + i))
+            !has_sound_values(plan, block, e + i))
           known &= ~(1u << i);
       Pair<B, H, Lanes<W>> p(in.nodes, in.xi);
       p.area = in.area;

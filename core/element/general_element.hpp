@@ -144,7 +144,8 @@ template <class B, bool H> struct GeneralElement {
 
     const PairBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<B, H, double> begin(plan, block, 0);
-    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(), begin.offset);
+    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(), begin.offset,
+             begin.scale);
     if (element && !at.solved) return Status::out_of_range;
     if (!judged) pair.contact = false;
     if (pair.contact && element) {

@@ -15,15 +15,16 @@ template <class S, class Number> ENTS_INLINE S of_each(Number&& number) {
     return each_lane<width_of<S>>(number);
 }
 
-ENTS_INLINE bool has_sound_values(const PairBlock& block, std::int64_t e) {
-  return check_slave_values(element_at(block.slave_values, block.slave_values_stride, e)) == Status::ok;
+ENTS_INLINE bool has_sound_values(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  return check_slave_values(plan.law, element_at(block.slave_values, block.slave_values_stride, e)) ==
+         Status::ok;
 }
 
 // What an element, or each lane's, is evaluated from.
 template <class B, bool H, class S> struct GeneralInputs {
   static constexpr int D = B::dim, T = D - 1;
   S anchor[T], history, multiplier[1 + T];
-  S offset; // of the gap, beside the law's own
+  S offset, scale; // of the gap, beside the law's own; of a table
   bool has_multiplier, has_wear;
   WornState<S, T> worn;
 
@@ -54,6 +55,7 @@ template <class B, bool H, class S> struct GeneralInputs {
       });
     };
     offset = own(slave_value::offset, 0.0);
+    scale = plan.law.normal == NormalKind::table ? own(slave_value::scale, 1.0) : S(1.0);
     has_wear = plan.law.wear.on;
     if (!has_wear) return;
     worn.factor = own(slave_value::wear, 1.0), worn.sliding_factor = own(slave_value::sliding, 1.0);

@@ -262,6 +262,7 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
       if (place != 0) stamp.add(values[place - 1]);
   }
   plan = of;
+  law.table = of.law.table, law.table_points = of.law.table_points;
   plan.law = law;
   if (plan.height) plan.height = nodes.data();
   plan.height_bound = plan.height ? height_bound(nodes.front()) : 0.0;

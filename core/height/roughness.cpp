@@ -65,6 +65,13 @@ double random_phase(std::uint64_t seed, std::int64_t i, std::int64_t j) {
   return static_cast<double>(bits >> 11) * (1.0 / 9007199254740992.0);
 }
 
+// Of a wave that relative_power() has
+static bool is_cut_off(const Roughness& r, std::int64_t i, std::int64_t j) {
+  const double k1 = static_cast<double>(i) / r.size[0] * r.cut_off,
+               k2 = r.dimension == 2 ? static_cast<double>(j) / r.size[1] * r.cut_off : 0.0;
+  return k1 * k1 + k2 * k2 > 1.0 + 2e-12; // one of exactly that length stays
+}
+
 double relative_power(const Roughness& r, std::int64_t i, std::int64_t j) {
   const double k1 = static_cast<double>(i) / r.size[0],
                k2 = r.dimension == 2 ? static_cast<double>(j) / r.size[1] : 0.0;
@@ -102,7 +109,7 @@ HeightMap rough_map(const Roughness& r) {
       const bool upper =
           j > 0 || (j == 0 && i > 0); // of a wave and its conjugate the one whose phase is drawn
       const double power = relative_power(r, i, j);
-      if (power == 0.0) continue;
+      if (power == 0.0 || is_cut_off(r, i, j)) continue;
       const double amplitude = r.rms * portable::square_root(power / total);
       double sine, cosine;
       portable::sin_cos_turns(upper ? random_phase(r.seed, i, j) : random_phase(r.seed, -i, -j), 0.0, sine,

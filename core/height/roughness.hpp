@@ -21,6 +21,7 @@ struct Roughness {
   std::uint64_t seed = 0;
   double rms = 0.0, hurst = 0.0;
   double shortest = 0.0, roll_off = 0.0, longest = 0.0; // wavelengths
+  double cut_off = 0.0;                                 // shorter waves are left out; rms is that of all
   double size[2] = {0.0, 0.0};                          // period
   std::int64_t samples[2] = {1, 1};                     // powers of two, more than 2 size / shortest
 };

@@ -7,6 +7,7 @@
 //   augmented             W = (<p>^2 - lambda^2) / (2 eps), p = lambda - eps g; lambda in the state (Uzawa)
 //   augmented_multiplier  the same with lambda as a dof (Alart and Curnier 1991, semi-smooth Newton)
 //   multiplier            lambda as a dof, no augmentation; eps only decides the active set
+//   table                 p(g) through given points (law_table.hpp); of a slave node r p(g / r), r its scale
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ enum class NormalKind : std::int32_t {
   exponential,
   augmented,
   augmented_multiplier,
-  multiplier
+  multiplier,
+  table
 };
 
 enum class FrictionKind : std::int32_t {
@@ -59,9 +61,17 @@ enum : std::int32_t {
   offset,
   wear,
   sliding,
-  count
-}; // added to the law's offset; factors of k and of `sliding`
+  scale
+}; // added to the law's offset; factors of k and of `sliding`; of a table's gaps and pressures
 }
+
+// A point of a table, derivatives of W by the gap: law_table.hpp
+struct LawTable {
+  double gap = 0.0;       // [L], rising
+  double force = 0.0;     // W' = -p [F/L^2], rising to 0
+  double stiffness = 0.0; // [F/L^3]
+  double energy = 0.0;    // W [F/L]
+};
 
 struct ContactLaw {
   NormalKind normal = NormalKind::none;
@@ -74,6 +84,8 @@ struct ContactLaw {
   double friction_stiffness = 0.0;   // eps_t [F/L^3]
   double shear_limit = 0.0;          // [F/L^2]; 0: none
   bool symmetrised = false;          // tangent (K + K^T) / 2
+  const LawTable* table = nullptr;   // of a plan: points that its model has
+  std::int32_t table_points = 0;
   bool has_offset = false;
   double offset = 0.0; // [L] added to the gap that the law sees: > 0 a clearance, < 0 a coating
   Wear wear;
@@ -86,7 +98,11 @@ struct ContactLaw {
     return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on && !has_offset;
   }
   // Does it read numbers of the slave node (SlaveValues)?
-  constexpr bool has_slave_values() const { return wear.on || has_offset; }
+  constexpr bool has_slave_values() const { return wear.on || has_offset || normal == NormalKind::table; }
+  // How many?
+  constexpr std::int32_t slave_values() const {
+    return normal == NormalKind::table ? slave_value::scale + 1 : slave_value::scale;
+  }
   constexpr bool multiplier_in_state() const { return normal == NormalKind::augmented; }
   constexpr bool multiplier_is_dof() const {
     return normal == NormalKind::augmented_multiplier || normal == NormalKind::multiplier;

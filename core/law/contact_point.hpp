@@ -52,9 +52,9 @@ template <class B, bool H, class S> struct ContactPoint {
   }
 
   // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; history: 1 where
-  // there is an anchor; worn: null without wear; offset: of the slave node.
+  // there is an anchor; worn: null without wear; offset, scale: of the slave node.
   ENTS_INLINE void press(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
-                         const WornState<S, T>* worn, const S& offset) {
+                         const WornState<S, T>* worn, const S& offset, const S& scale) {
     const S none(0.0), lambda = multiplier ? multiplier[0] : none;
     law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
     if (worn) {
@@ -62,7 +62,7 @@ template <class B, bool H, class S> struct ContactPoint {
       law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
     } else {
       solved = gap <= gap;
-      law = normal_force(plan.law, law_gap, lambda);
+      law = normal_force(plan.law, law_gap, lambda, scale);
     }
     Truth<S> outside = pair.outside;
     if (plan.multipliers > 0) { // a slave without area holds them at zero

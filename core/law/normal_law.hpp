@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/law/contact_law.hpp"
+#include "core/law/law_table.hpp"
 #include "core/numbers/lanes.hpp"
 
 namespace ents::ENTS_ISA {
@@ -39,9 +40,35 @@ template <class S> ENTS_INLINE S exponential_energy(const S& u, const S& e_minus
   return select(u > 0.05, (u - 1.0) * e_minus_1 + u - 0.5 * u * u, series);
 }
 
-// multiplier: lambda of the augmented and the multiplier laws, a pressure.
+// The law of a table; scale: r of r p(g / r)
 template <class S>
-ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, const S& multiplier) {
+ENTS_INLINE NormalForce<S> tabular_force(const ContactLaw& law, const S& gap, const S& scale) {
+  const S at = gap / scale;
+  const auto of = [&](double g) { return table_force(law.table, law.table_points, g); };
+  NormalForce<S> f{S(0.0), S(0.0), S(0.0), S(1.0) < S(0.0)};
+  if constexpr (std::is_same_v<S, double>) {
+    const TableForce t = of(at);
+    f.force = t.force, f.stiffness = t.stiffness, f.energy = t.energy;
+  } else if constexpr (std::is_same_v<S, Dual<double>>) {
+    const TableForce t = of(at.v);
+    f.force = S(t.force, t.stiffness * at.d), f.stiffness = S(t.stiffness, t.third * at.d);
+    f.energy = S(t.energy, t.force * at.d);
+  } else {
+    for (int k = 0; k < width_of<S>; ++k) {
+      const TableForce t = of(lane(at, k));
+      f.force.v[k] = t.force, f.stiffness.v[k] = t.stiffness, f.energy.v[k] = t.energy;
+    }
+  }
+  f.contact = f.force < 0.0;
+  f.force = scale * f.force;
+  f.energy = (scale * scale) * f.energy;
+  return f;
+}
+
+// multiplier: lambda of the augmented and the multiplier laws, a pressure; of_table: its scale
+template <class S>
+ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, const S& multiplier,
+                                        const S& of_table = S(1.0)) {
   NormalForce<S> f{S(0.0), S(0.0), S(0.0), S(1.0) < S(0.0)};
   S held = S(0.0); // energy where there is no contact
   const S eps = law_number<S>(law.stiffness, law.rates.normal);
@@ -71,6 +98,9 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
     f = {-p, eps, 0.5 * p * p * (1.0 / eps) + held, p > 0.0};
     break;
   }
+  case NormalKind::table:
+    f = tabular_force(law, gap, of_table);
+    break;
   case NormalKind::multiplier:
     held = -(0.5 * multiplier * multiplier * (1.0 / eps));
     f = {-multiplier, S(0.0), -(multiplier * gap), multiplier - eps * gap > 0.0};

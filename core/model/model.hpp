@@ -89,6 +89,7 @@ struct Model {
   ProjectionKind projection = ProjectionKind::normal;
   double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
   ContactLaw law;                  // normal kind `none`: kinematics only
+  std::vector<LawTable> law_table; // of a law that is a table
   LawBinding law_binding;
   std::vector<NamedParameter> parameters; // in the order of their names
   std::vector<std::string> fields;

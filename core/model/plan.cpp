@@ -134,6 +134,8 @@ Plan make(const Model& model, bool enriched) {
   plan.tangent = model.tangent;
   for (int c = 0; c < 3; ++c) plan.ray[c] = model.ray[c];
   plan.law = model.law;
+  plan.law.table = model.law_table.data();
+  plan.law.table_points = static_cast<std::int32_t>(model.law_table.size());
   plan.penetration_limit = model.penetration_limit;
   plan.border = model.border;
   plan.hull_spread = kernels.hull_spread(model.border);

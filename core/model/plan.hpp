@@ -197,11 +197,15 @@ struct Plan {
 
 namespace ENTS_ISA {
 // Numbers that a slave node has of its own; null: none
-ENTS_INLINE Status check_slave_values(const double* values) {
+ENTS_INLINE Status check_slave_values(const ContactLaw& law, const double* values) {
   if (!values) return Status::ok;
   double zero = 0.0;
-  for (int i = 0; i < slave_value::count; ++i) zero += 0.0 * values[i];
+  for (int i = 0; i < law.slave_values(); ++i) zero += 0.0 * values[i];
   if (!(zero == 0.0)) return Status::non_finite;
+  constexpr double smallest_scale = 1e-30, largest_scale = 1e30;
+  if (law.normal == NormalKind::table &&
+      !(values[slave_value::scale] >= smallest_scale && values[slave_value::scale] <= largest_scale))
+    return Status::bad_value;
   return values[slave_value::wear] >= 0.0 && values[slave_value::sliding] >= 0.0 ? Status::ok
                                                                                  : Status::bad_value;
 }

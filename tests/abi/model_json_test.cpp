@@ -116,6 +116,9 @@ TEST(ModelJson, EveryLawEndsInItsPlace) {
   EXPECT_EQ(law_of(R"({"normal": {"type": "multiplier", "stiffness": 7}})").normal, NormalKind::multiplier);
   EXPECT_EQ(law_of(R"({"normal": {"type": "multiplier", "stiffness": 7}})").stiffness, 7.0);
 
+  EXPECT_EQ(law_of(R"({"normal": {"type": "table", "gap": [-1, 0], "pressure": [2, 0]}})").normal,
+            NormalKind::table);
+
   const std::string start = R"({"normal": {"type": "penalty", "stiffness": 1}, "friction": )";
   const ContactLaw coulomb =
       law_of(start + R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 4, "shear_limit": 5}})");

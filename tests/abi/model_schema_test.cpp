@@ -126,13 +126,15 @@ protected:
            {"hurst", 0.8},
            {"wavelengths", {0.25, 0.5, 1}},
            {"size", {1}},
-           {"samples", {32}}}}},
+           {"samples", {32}},
+           {"cut_off", 0.5}}}},
         {{"segment", "quad4"},
          {"height",
           {{"type", "fourier"},
            {"wave_vectors", {{1, 0}, {1, 2}}},
            {"amplitudes", {0.1, 0.2}},
-           {"phases", {0, 1}}}}},
+           {"phases", {0, 1}},
+           {"cut_off", 0.5}}}},
         {{"segment", "line2"},
          {"height",
           {{"type", "weierstrass"},
@@ -141,7 +143,8 @@ protected:
            {"hurst", 0.8},
            {"terms", 5},
            {"ratio", 2},
-           {"seed", 1}}}},
+           {"seed", 1},
+           {"cut_off", 0.1}}}},
         {{"segment", "quad4"},
          {"height", {{"type", "window"}, {"of", two}, {"low", {-1, -1}}, {"high", {1, 1}}}}},
         {{"segment", "quad4"},
@@ -154,7 +157,8 @@ protected:
            {"size", {1, 2}},
            {"origin", {0, 0}},
            {"scale", 2},
-           {"length_unit", 1e-6}}}},
+           {"length_unit", 1e-6},
+           {"cut_off", 0.3}}}},
         {{"segment", "line2"},
          {"height",
           {{"type", "map"},
@@ -178,7 +182,8 @@ protected:
            {"boundary", "periodic"},
            {"size", {1}},
            {"origin", {0}},
-           {"scale", 2}}}},
+           {"scale", 2},
+           {"cut_off", 0.1}}}},
         {{"segment", "quad4"},
          {"height",
           {{"type", "map"},
@@ -194,7 +199,8 @@ protected:
            {"boundary", "clamped"},
            {"size", {1}},
            {"origin", {0}},
-           {"scale", 2}}}},
+           {"scale", 2},
+           {"cut_off", 0.1}}}},
     };
     const json wear = {{"coefficient", "k"}, {"scheme", "trapezoidal"}, {"slave", 0.5}, {"sliding", 1}};
     result.push_back({{"segment", "quad4"},
@@ -244,7 +250,8 @@ protected:
              {{"normal", {{"type", "exponential"}, {"pressure", 1e5}, {"clearance", 0.01}}}},
              {{"normal", {{"type", "augmented"}, {"stiffness", 1e5}}}},
              {{"normal", {{"type", "augmented_multiplier"}, {"stiffness", 1e5}}}},
-             {{"normal", {{"type", "multiplier"}, {"stiffness", 1e5}}}}})
+             {{"normal", {{"type", "multiplier"}, {"stiffness", 1e5}}}},
+             {{"normal", {{"type", "table"}, {"gap", {-1, 0.5}}, {"pressure", {3, 0}}}}}})
       result.push_back({{"segment", "line2"}, {"contact", contact}});
     for (const BasisEntry& basis : basis_table) result.push_back({{"segment", basis.name}});
     return result;
@@ -312,6 +319,11 @@ bool depends_on_more(const std::string& message) {
            "the shortest wavelength has at least 4 samples",
            "have no wave of the period between them",
            "one per wave vector",
+           "is longer than all waves", // what a cut-off leaves
+           "one per gap",
+           "not above the gap before it",
+           "not below the pressure before it",
+           "the last pressure is 0",
            "is not above \"low\" in each surface coordinate",
            "/height/h: ", // whether a text is an expression
            "/of/2/h: ",

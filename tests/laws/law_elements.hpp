@@ -40,6 +40,10 @@ inline std::vector<Method> methods() {
   for (const json& normal : normals)
     for (const auto& [name, friction] : frictions)
       all.push_back({normal["type"].get<std::string>() + "_" + name, normal, friction});
+  // Its stiffness has a kink in the middle point, which no element is as deep as.
+  const json table = {{"type", "table"}, {"gap", {-0.3, -0.14, 0.002}}, {"pressure", {40, 6, 0}}};
+  for (const std::size_t friction : {0u, 1u})
+    all.push_back({"table_" + frictions[friction].first, table, frictions[friction].second});
   return all;
 }
 
@@ -51,7 +55,7 @@ inline std::vector<Method> methods_with_wear() {
                         {{"coefficient", 0.05}, {"scheme", "explicit"}, {"slave", 0}}};
   for (const Method& method : methods()) {
     const std::string normal = method.normal["type"];
-    if (normal.ends_with("multiplier") || method.name.ends_with("shear_limit") ||
+    if (normal == "table" || normal.ends_with("multiplier") || method.name.ends_with("shear_limit") ||
         method.name.ends_with("rough"))
       continue;
     for (json wear : wears) {

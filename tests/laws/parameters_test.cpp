@@ -45,9 +45,10 @@ json height_with_names(int t) {
 }
 json law_with_names(Method method) {
   json& normal = method.normal;
-  normal[normal["type"] == "power"         ? "coefficient"
-         : normal["type"] == "exponential" ? "pressure"
-                                           : "stiffness"] = "eps";
+  if (normal["type"] != "table")
+    normal[normal["type"] == "power"         ? "coefficient"
+           : normal["type"] == "exponential" ? "pressure"
+                                             : "stiffness"] = "eps";
   if (!method.friction.is_null()) method.friction["coefficient"] = "mu";
   if (!method.wear.is_null()) method.wear["coefficient"] = "k", method.wear["sliding"] = "sliding";
   if (!method.offset.is_null()) method.offset = "offset";

@@ -90,7 +90,8 @@ class Model(Varying):
         """Shape of an array of one element, from its extents in ents.h."""
         lay = self.layout
         sizes = {"d": lay.dimension, "d-1": lay.parameters, "m": lay.nodes, "n": lay.dofs - lay.multipliers, "dofs": lay.dofs,
-                 "tangent_leading_dimension": lay.dofs, "state_size": lay.state_size, "multipliers": lay.multipliers}
+                 "tangent_leading_dimension": lay.dofs, "state_size": lay.state_size, "multipliers": lay.multipliers,
+                 "slave_values": lay.slave_values}
         return tuple(sizes[extent] if extent in sizes else int(extent) for extent in extents)
 
     def state_init(self, count):
@@ -126,7 +127,7 @@ class Model(Varying):
         slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
         want       names of QUANTITIES, as one string or a list
         surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers],
-        slave_values [3] (gap offset [L], factors of the wear coefficient and of "sliding"): one for all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
+        slave_values [3] (gap offset [L], factors of the wear coefficient and of "sliding"; with a normal law "table" [4], the last one its scale): one for all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 

@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 6
+CONTRACT_MINOR = 7
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 
@@ -108,7 +108,7 @@ INPUTS = {
     "area": (),
     "state_begin": ("state_size",),
     "multiplier": ("multipliers",),
-    "slave_values": ("3",),
+    "slave_values": ("slave_values",),
 }
 
 # Places in the arrays of SurfaceAdmissibility.
@@ -154,7 +154,7 @@ class Layout(ctypes.Structure):
         ("named_parameters", ctypes.c_int32),
         ("fields", ctypes.c_int32),
         ("worn", ctypes.c_int32),
-        ("reserved", ctypes.c_int32),
+        ("slave_values", ctypes.c_int32),
     ]
 
 

@@ -99,7 +99,7 @@ class Contact:
         self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool)
         self._own_values = None
         if offset is not None:
-            self._own_values = np.ones((count, 3))
+            self._own_values = np.ones((count, model.layout.slave_values))
             self._own_values[:, 0] = _array("offset", np.broadcast_to(np.asarray(offset, float), (count,)), (count,))
         self._slave_rows = np.arange(count * d).reshape(count, d)
         self._master_rows = None if self.rigid else count * d + np.arange(len(start) * d).reshape(len(start), d)
