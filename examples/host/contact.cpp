@@ -53,10 +53,13 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   }
   wear_factor_ = spec.wear_factor;
   const bool turns = d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size();
-  const bool varies = turns || !wear_factor_.points.empty() || master_.profile;
-  for (std::size_t k = 0; k < points_.size() && varies; ++k)
-    for (const double value : {0.0, 1.0, turns ? std::abs(points_.place(k, mesh)[0]) : 1.0})
-      slave_values_.push_back(value);
+  const bool varies = turns || !wear_factor_.points.empty() || master_.profile || spec.law_scale;
+  if (spec.law_scale) slave_numbers_ = 4;
+  for (std::size_t k = 0; k < points_.size() && varies; ++k) {
+    const auto place = points_.place(k, mesh);
+    for (const double value : {0.0, 1.0, turns ? std::abs(place[0]) : 1.0}) slave_values_.push_back(value);
+    if (spec.law_scale) slave_values_.push_back(spec.law_scale(place[0], place[1]));
+  }
   number_unknowns();
   master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
   refuse_self_contact(spec);
@@ -272,13 +275,15 @@ void Contact::read_profile() {
     for (const std::size_t k : found)
       xi.insert(xi.end(), at_.xi.data() + k * parameters_, at_.xi.data() + (k + 1) * parameters_);
     const SurfaceSample sample = sample_surface(*master_.profile, nodes, coordinates, xi);
-    for (std::size_t i = 0; i < found.size(); ++i) slave_values_[3 * found[i]] = -sample.height[i];
+    for (std::size_t i = 0; i < found.size(); ++i)
+      slave_values_[slave_numbers_ * found[i]] = -sample.height[i];
   }
 }
 
 double Contact::largest_arm() const {
   double largest = slave_values_.empty() ? 1 : 0;
-  for (std::size_t i = 2; i < slave_values_.size(); i += 3) largest = std::max(largest, slave_values_[i]);
+  for (std::size_t i = 2; i < slave_values_.size(); i += slave_numbers_)
+    largest = std::max(largest, slave_values_[i]);
   return largest;
 }
 
@@ -292,7 +297,8 @@ ents_input Contact::input(const ents_master_mesh& where) const {
   if (state_size_ > 0) in.state_begin = state_in_.data(), in.state_begin_stride = stride(state_size_);
   if (multipliers_ > 0)
     in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);
-  if (!slave_values_.empty()) in.slave_values = slave_values_.data(), in.slave_values_stride = 3;
+  if (!slave_values_.empty())
+    in.slave_values = slave_values_.data(), in.slave_values_stride = stride(slave_numbers_);
   return in;
 }
 

@@ -75,6 +75,10 @@ public:
   double total_area() const;
   /// Positions [n][d] in the frame of a rigid body that turns, in space at its present place.
   void to_space(std::vector<double>& points) const;
+  /// Scale of the law in a slave point, if it is a table that has one; 1.
+  double law_scale(std::size_t slave) const {
+    return slave_numbers_ > 3 ? slave_values_[slave_numbers_ * slave + 3] : 1;
+  }
   /// Diagonal of the box round the slave nodes: the length that penetrations are measured by.
   double size() const { return size_; }
   bool symmetric_tangent() const {
@@ -245,7 +249,8 @@ private:
   std::vector<std::int64_t> body_equations_;
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
   bool profile_known_ = false;       ///< the offsets of a master's profile are in slave_values_
-  std::vector<double> slave_values_; ///< [points][3], see ents_input; empty: none
+  std::vector<double> slave_values_; ///< [points][slave_numbers_], see ents_input; empty: none
+  std::size_t slave_numbers_ = 3;    ///< 4: with the scale of a table
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is
   std::vector<double> bound_;   ///< parameters of the model at present
   bool surface_changed_ = true; ///< since the detector has seen it

@@ -52,7 +52,9 @@ ContactFields Contact::fields(const Configuration& at) {
   fields.force.assign(d_, 0.0);
   for (std::size_t k = 0; k < slaves; ++k) {
     fields.closed[k] = (fields.flags[k] & ENTS_FLAG_CONTACT) != 0;
-    if (master_.profile) fields.gap[k] += slave_values_[3 * k], fields.normal_gap[k] += slave_values_[3 * k];
+    if (master_.profile)
+      fields.gap[k] += slave_values_[slave_numbers_ * k],
+          fields.normal_gap[k] += slave_values_[slave_numbers_ * k];
     for (std::size_t i = 0; i < d_; ++i) {
       fields.force[i] += fields.node_forces[k * d_ + i];
       if (master_.translates()) fields.point[k * d_ + i] += at.motion * master_.direction[i];

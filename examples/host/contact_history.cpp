@@ -28,7 +28,7 @@ void Contact::begin_increment(const Configuration& begin) {
   pressure_ = accepted_.pressure;
   traction_ = accepted_.traction;
   for (std::size_t k = 0; k < points_.size() && !wear_factor_.points.empty(); ++k)
-    slave_values_[3 * k + 1] = wear_factor_.at(accepted_.pressure[k]);
+    slave_values_[slave_numbers_ * k + 1] = wear_factor_.at(accepted_.pressure[k]);
   closed_.assign(points_.size(), 0);
   for (std::size_t k = 0; k < points_.size(); ++k) closed_[k] = accepted_.pressure[k] != 0;
   auto report = ents_struct<ents_report>();

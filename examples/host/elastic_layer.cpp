@@ -26,7 +26,7 @@ double border_share(const Eigen::ArrayXXd& pressure, bool periodic) {
 }
 
 constexpr int most_iterations = 20000;
-constexpr double enough = 1e-8; // of the overlap, of the height of the surface
+constexpr double enough_overlap = 1e-8; // of the overlap
 
 [[noreturn]] void no_convergence() {
   throw JobError("boundary elements: no convergence in " + std::to_string(most_iterations) + " iterations");
@@ -47,12 +47,18 @@ double layer_compliance(double k, double thickness, const Material& material) {
 
 ElasticLayer::ElasticLayer(Eigen::Index nx, Eigen::Index ny, double lx, double ly, double thickness,
                            const Material& material, Grid grid)
-    : lx_(lx), ly_(ly), periodic_(grid == Grid::periodic), transform_(grid, nx, ny), compliance_(nx, ny) {
+    : lx_(lx), ly_(ly), periodic_(grid == Grid::periodic), transform_(grid, nx, ny), wave_number_(nx, ny),
+      compliance_(nx, ny) {
   for (Eigen::Index j = 0; j < ny; ++j)
-    for (Eigen::Index i = 0; i < nx; ++i)
-      compliance_(i, j) = layer_compliance(
-          pi * std::hypot(transform_.half_waves(i, nx) / lx, transform_.half_waves(j, ny) / ly), thickness,
-          material);
+    for (Eigen::Index i = 0; i < nx; ++i) {
+      wave_number_(i, j) =
+          pi * std::hypot(transform_.half_waves(i, nx) / lx, transform_.half_waves(j, ny) / ly);
+      compliance_(i, j) = layer_compliance(wave_number_(i, j), thickness, material);
+    }
+}
+
+Eigen::ArrayXXd ElasticLayer::smoothed(const Eigen::ArrayXXd& field, double deviation) const {
+  return transform_.filter(field, (-0.5 * (deviation * wave_number_).square()).exp());
 }
 
 Eigen::ArrayXXd ElasticLayer::displacement(const Eigen::ArrayXXd& pressure) const {
@@ -82,7 +88,8 @@ LayerContact ElasticLayer::press(const Eigen::ArrayXXd& gap, double softness) co
     const Eigen::ArrayXXd moved = gap + displacement(p), g = moved + softness * p;
     const Eigen::ArrayXXd in = (p > 0).cast<double>();
     const double largest = (in * g.abs()).maxCoeff(), deepest = -((1 - in) * g).minCoeff();
-    if (std::max(largest, deepest) <= enough * overlap) return describe(std::move(p), moved, iteration);
+    if (std::max(largest, deepest) <= enough_overlap * overlap)
+      return describe(std::move(p), moved, iteration);
     const double squared = (in * g * g).sum();
     t = in * (g + keep * squared / before * t);
     before = squared;
@@ -97,11 +104,12 @@ LayerContact ElasticLayer::press(const Eigen::ArrayXXd& gap, double softness) co
 
 // The same with the approach as a further unknown: gaps are measured from their mean in contact, and the
 // pressures are scaled to their sum after every step.
-LayerContact ElasticLayer::press_with(double mean_pressure, const Eigen::ArrayXXd& gap,
-                                      double softness) const {
+LayerContact ElasticLayer::press_with(double mean_pressure, const Eigen::ArrayXXd& gap, double softness,
+                                      const Eigen::ArrayXXd* start, double enough) const {
   const double height = gap.maxCoeff() - gap.minCoeff();
   Eigen::ArrayXXd p = Eigen::ArrayXXd::Constant(gap.rows(), gap.cols(), mean_pressure),
                   t = Eigen::ArrayXXd::Zero(gap.rows(), gap.cols());
+  if (start != nullptr) p = *start * (mean_pressure / start->mean());
   double before = 1, keep = 0;
   for (int iteration = 1; iteration <= most_iterations; ++iteration) {
     const Eigen::ArrayXXd in = (p > 0).cast<double>();

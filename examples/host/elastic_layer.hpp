@@ -52,13 +52,20 @@ public:
   /// Displacement of the surface away from the rigid body under a pressure.
   Eigen::ArrayXXd displacement(const Eigen::ArrayXXd& pressure) const;
 
+  /// Mean of a field around each cell, with the weights of a normal distribution.
+  /// @param deviation  its standard deviation [L]
+  Eigen::ArrayXXd smoothed(const Eigen::ArrayXXd& field, double deviation) const;
+
   /// Pressure >= 0 under a rigid surface, where gap + displacement >= 0, one of them zero.
   /// @param gap  [x][y] of the undeformed layer, < 0: overlap
   /// @throws JobError if the iteration does not converge
   /// @param softness  overlap per pressure that the contact law allows [L^3/F]; 0: hard contact
   LayerContact press(const Eigen::ArrayXXd& gap, double softness = 0) const;
   /// The same with a given mean pressure; `gap` up to a constant.
-  LayerContact press_with(double mean_pressure, const Eigen::ArrayXXd& gap, double softness = 0) const;
+  /// @param start   pressure that the iteration starts from, scaled to the mean; null: the mean everywhere
+  /// @param enough  where it ends: largest gap in contact or overlap, of the height of the surface
+  LayerContact press_with(double mean_pressure, const Eigen::ArrayXXd& gap, double softness = 0,
+                          const Eigen::ArrayXXd* start = nullptr, double enough = 1e-8) const;
 
 private:
   LayerContact describe(Eigen::ArrayXXd pressure, Eigen::ArrayXXd gap, int iterations) const;
@@ -66,7 +73,7 @@ private:
   double lx_, ly_;
   bool periodic_;
   WaveTransform transform_;
-  Eigen::ArrayXXd compliance_; ///< [modes x][modes y]
+  Eigen::ArrayXXd wave_number_, compliance_; ///< [modes x][modes y]
 };
 
 } // namespace host

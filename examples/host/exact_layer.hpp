@@ -3,25 +3,16 @@
 // height over it.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 
 #include "dof_map.hpp"
-#include "elastic_layer.hpp"
 #include "ents_library.hpp"
 #include "exact.hpp"
+#include "layer_scene.hpp"
 #include "mesh.hpp"
 
 namespace host {
-
-/// The block of the scene, and which way its surface looks.
-struct Box {
-  std::array<double, 3> low{}, high{};
-  double up = 1; ///< z of its surface's normal
-  double surface() const { return up > 0 ? high[2] : low[2]; }
-  double base() const { return up > 0 ? low[2] : high[2]; }
-};
 
 /// The exact solution of a step, and the same with half the points.
 struct LayerTruth {
@@ -64,9 +55,8 @@ private:
   LayerContact press(int points, double motion) const;
 
   const Scene* scene_;
+  LayerScene place_;
   std::unique_ptr<EntsModel> model_;
-  Box box_;
-  bool periodic_;
   mutable std::map<int, Cells> cells_;
 };
 

@@ -172,6 +172,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   }
   if (object.has("enrichment"))
     contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
+  if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
   if (object.has("wear_factor")) {
     const JsonValue table = object.at("wear_factor");
     for (const JsonValue& item : table.items()) {
@@ -229,6 +230,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
                                                                    : nullptr;
     if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
   }
+  check_cut_off(contact);
   object.finish();
   return contact;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,6 +69,13 @@ struct MirrorPlane {
   std::string where;
 };
 
+/// Waves of the height that the mesh need not resolve: removed_waves.hpp.
+struct CutOff {
+  double wavelength = 0; ///< shorter ones become a law; 0: none
+  int points = 256;      ///< cells of the boundary elements along the longer side
+  std::string where;
+};
+
 struct ContactSpec {
   std::string slave, slave_where; ///< faces whose nodes are the slave nodes
   int sampling = 0;               ///< points per direction inside every slave face instead; 0: the nodes
@@ -84,8 +92,10 @@ struct ContactSpec {
   std::vector<MirrorPlane> mirror;  ///< smoothed master
   std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
   std::vector<double> direction; ///< rigid master: unit vector of its motion
-  bool gap_only = false;         ///< the height changes the gap and nothing else, see Master::profile
-  Json model;                    ///< passed on to the library
+  CutOff cut_off;                ///< short waves of the height become a law
+  std::function<double(double x, double y)> law_scale; ///< of a law "table" in a slave point; empty: 1
+  bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
+  Json model;            ///< passed on to the library
   std::string model_where;
 };
 
@@ -202,6 +212,9 @@ void read_sampling(const JsonValue& value, ContactSpec& contact);
 
 /// The keys "ends" and "mirror" of a master on the faces of a body.
 /// @throws InputError naming the key
+/// Its key "cut_off", and what it excludes in the rest of the contact.
+void read_cut_off(const JsonValue& value, ContactSpec& contact);
+void check_cut_off(const ContactSpec& contact);
 void read_ends(JsonObject& master, int dimension, ContactSpec& contact);
 
 /// The key "exact".

@@ -21,6 +21,32 @@ void read_sampling(const JsonValue& value, ContactSpec& contact) {
   }
 }
 
+void read_cut_off(const JsonValue& value, ContactSpec& contact) {
+  contact.cut_off.where = value.where();
+  const auto wavelength = [&](const JsonValue& length) {
+    if (!(length.number() > 0)) length.fail("a wavelength > 0 is expected");
+    contact.cut_off.wavelength = length.number();
+  };
+  if (!value.is_object()) return wavelength(value);
+  JsonObject object(value);
+  wavelength(object.at("wavelength"));
+  if (object.has("points")) contact.cut_off.points = object.at("points").integer(16, 2048);
+  object.finish();
+}
+
+void check_cut_off(const ContactSpec& contact) {
+  if (!(contact.cut_off.wavelength > 0)) return;
+  const auto fail = [&](const std::string& text) { throw InputError(contact.cut_off.where + ": " + text); };
+  if (contact.rigid.empty()) fail("is for a rigid master of one segment, \"master\": {\"nodes\": ...}");
+  if (!find_json(contact.model, "/contact").is_null())
+    fail("the law follows from the waves that are left out, without friction; leave \"contact\" out of the "
+         "model");
+  if (contact.cut > 0)
+    fail("is not possible with \"sampling\": \"cut\"; take the nodes, or a number of points");
+  if (contact.gap_only) fail("is not possible with \"enrichment\": \"gap_only\"");
+  if (contact.model.contains("parameters")) fail("is for a model without \"parameters\"");
+}
+
 void read_ends(JsonObject& master, int dimension, ContactSpec& contact) {
   if (master.has("ends"))
     contact.straight_ends = master.at("ends").word({"repeated", "straight"}) == "straight";

@@ -274,13 +274,21 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   exact_axis_ = host::exact_axis(*scene_, *library);
   if (scene_->exact.type == ExactSpec::Type::boundary_elements && divisions == 0 && !maker)
     exact_layer_ = std::make_shared<ExactLayer>(*scene_, *library, mesh_, *dofs_);
+  Scene smooth; // with the law of the waves that the height leaves out
+  if (scene_->contact->cut_off.wavelength > 0) {
+    if (maker || divisions > 0)
+      throw InputError(scene_->contact->cut_off.where + ": is for the height itself, no other master");
+    removed_waves_ = std::make_shared<RemovedWaves>(*scene_, *library);
+    smooth = *scene_, smooth.contact = removed_waves_->contact();
+  }
+  const Scene& of_master = removed_waves_ ? smooth : *scene_;
   Master master = maker           ? maker(*library, *scene_)
                   : divisions > 0 ? explicit_master(*library, *scene_, divisions)
-                                  : scene_master(*library, *scene_, mesh_);
+                                  : scene_master(*library, of_master, mesh_);
   const ElementSetup& setup = scene_->parts.front().setup;
   const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,
                                scene_->contact->equal_areas};
-  const ContactSpec& contact = *scene_->contact;
+  const ContactSpec& contact = *of_master.contact;
   SlavePoints points;
   CutSpec cut;
   if (contact.cut > 0)

@@ -12,6 +12,7 @@
 #include "contact.hpp"
 #include "exact.hpp"
 #include "exact_layer.hpp"
+#include "removed_waves.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
 
@@ -79,6 +80,8 @@ public:
   /// Of the scene's exact solution.
   const ExactAxis& exact_axis() const { return exact_axis_; }
   /// Boundary elements, if they are the scene's exact solution and the master is the scene's own; else null.
+  /// Null: the height is the scene's.
+  const RemovedWaves* removed_waves() const { return removed_waves_.get(); }
   const ExactLayer* exact_layer() const { return exact_layer_.get(); }
   const Configuration& now() const { return now_; }
   Sizes sizes() const;
@@ -166,6 +169,7 @@ private:
   std::shared_ptr<const LayerBody> layer_; ///< null: the bodies have elements
   std::unique_ptr<Contact> contact_;
   ExactAxis exact_axis_;
+  std::shared_ptr<const RemovedWaves> removed_waves_;
   std::shared_ptr<const ExactLayer> exact_layer_;
   std::vector<StencilGroup> bulk_stencils_;
   std::unique_ptr<SparseSystem> system_;

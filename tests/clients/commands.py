@@ -28,6 +28,7 @@ LONG = {  # a part of a command: why it is not run
     "setup.sh": "builds", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
     "--variant layer": "a minute of boundary elements; Accuracy.* and LayerBody.* run it", "variants examples/cattaneo": "a minute; that of hertz2d is run",
+    "rough_afm/cut_off.py": "minutes; RemovedWaves.* runs one of its cases on a part of the scan",
     "ridges/polar.py": "24 runs, for the gallery", "sheet/friction.py": "a minute, for the gallery",
     "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --compare": "minutes", "ENTS_": "a longer run of a test",
 }
