@@ -67,8 +67,8 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
                        };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, all = plan.dofs,
                      states = model->sizes.state, multipliers = plan.multipliers,
-                     slave_values = model->model.law.slave_values(), leading = leading_dimension(*model, *out),
-                     tangent = (all - 1) * leading + all;
+                     slave_values = model->model.law.slave_values(),
+                     leading = leading_dimension(*model, *out), tangent = (all - 1) * leading + all;
 #define ENTS_CHECK(field, size) &&shared(in->field, in->field##_stride, size)
   if (!(leading >= all && leading < most ENTS_INPUT_ARRAYS(ENTS_CHECK))) return false;
 #undef ENTS_CHECK

@@ -7,8 +7,8 @@
 
 namespace ents {
 
-// Elements block.first .. + count - 1. Bit k: element first + k is written; the others are left to the element
-// kernel. The fast kernel does not know of symmetrised tangents, the others do.
+// Elements block.first .. + count - 1. Bit k: element first + k is written; the others are left to the
+// element kernel. The fast kernel does not know of symmetrised tangents, the others do.
 inline std::uint64_t evaluate_block(const Plan& plan, const PairBlock& block, std::int32_t count) {
   const std::uint64_t done = plan.pairs(plan, block, count);
   if (plan.law.symmetrised && plan.law.has_friction() && (block.wanted & want::tangent) != 0 &&

@@ -35,8 +35,7 @@ static_assert(!is_flat<Line3> && !is_flat<CatmullRom4> && !is_flat<BSpline4> && 
 
 // Does such a model have the faster kernel (pair_kernel.hpp)?
 constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection, TangentKind tangent) {
-  return projection == ProjectionKind::normal && law.force_has_slope() &&
-         tangent == TangentKind::consistent;
+  return projection == ProjectionKind::normal && law.force_has_slope() && tangent == TangentKind::consistent;
 }
 
 // Are the elements of a call evaluated one after the other? patch: the element has several segments. Lanes:
