@@ -231,15 +231,16 @@ private:
 
   void spread_vector(const double* from, int n, int all, double* to) const {
     std::fill_n(to, all, 0.0);
-    for (int i = 0; i < n; ++i) to[dof(i)] = from[i];
+    for (int i = 0; i < n; ++i) to[places_[i]] = from[i];
   }
   void spread_matrix(const double* from, int n, int all, std::int64_t leading, double* to) const {
     for (int j = 0; j < all; ++j) std::fill_n(to + j * leading, all, 0.0);
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) to[dof(j) * leading + dof(i)] = from[j * n + i];
+      for (int i = 0; i < n; ++i) to[places_[j] * leading + places_[i]] = from[j * n + i];
   }
 
-  void spread() const {
+  void spread() {
+    for (int i = 0; i < plan_.dofs; ++i) places_[i] = dof(i);
     const int n = plan_.dofs - plan_.multipliers, all = sizes_.dofs - plan_.multipliers, w = out_.wanted;
     if (w & want::gap_gradient) spread_vector(gap_gradient_, n, all, out_.gap_gradient);
     if (w & want::gap_hessian) spread_matrix(gap_hessian_, n, all, all, out_.gap_hessian);
@@ -263,6 +264,7 @@ private:
   MasterMesh mesh_;
   std::int64_t segment_ = -1;
   bool open_ = false;
+  std::int32_t places_[most_dofs + 3]; // of dof()
   double coordinates_[most_patch_segments * 16 * 2];
   double gap_gradient_[most_dofs], gap_hessian_[most_dofs * most_dofs], xi_gradient_[2 * most_dofs],
       xi_hessian_[2 * most_dofs * most_dofs], residual_[most_dofs + 3],
