@@ -50,7 +50,8 @@ Json Simulation::checkpoint() const {
             {"force", now_.force},
             {"displacement", now_.displacement},
             {"multiplier", now_.multiplier},
-            {"rate", rate_}};
+            {"rate", rate_},
+            {"factors", factors_json()}};
   if (scene_->contact && scene_->contact->body)
     json["body"] = {{"rotation", now_.rotation}, {"turned", now_.turned}};
   if (contact_) {
@@ -97,6 +98,13 @@ void Simulation::restore(const Json& checkpoint) {
           "the checkpoint is of another scene: a rotation of so many numbers is not expected");
     body.finish();
   }
+  bool fit = false;
+  const auto factorize = [&](const std::vector<std::int64_t>& segment) {
+    const std::optional<Factored> factors = read_factors(object.at("factors"), segment);
+    object.finish();
+    fit = factors && factorize_again(*factors);
+  };
+  if (!contact_) factorize({});
   if (contact_) {
     JsonObject contact(object.at("contact"));
     ContactHistory history;
@@ -114,17 +122,76 @@ void Simulation::restore(const Json& checkpoint) {
       history.worn_master = contact.at("worn_master").number();
     }
     contact.finish();
+    factorize(history.at.segment);
     try {
       contact_->restore(history, at);
     } catch (const std::exception& error) {
       throw InputError("checkpoint: " + std::string(error.what()));
     }
-    if (!contact_->master().rigid || contact_->cuts_again()) build_pattern(); // that of the restored segments
+    // That of the restored segments.
+    if ((!contact_->master().rigid && !fit) || contact_->cuts_again()) build_pattern();
   }
-  object.finish();
   now_ = at;
   rate_ = rate;
+  factors_fit_ = fit;
+}
+
+Json Simulation::factors_json() const {
+  if (!factors_fit_) return nullptr;
+  const auto& [at, contact] = *factored_;
+  return {{"displacement", at.displacement}, {"multiplier", at.multiplier}, {"motion", at.motion},
+          {"parameters", at.parameters},     {"rotation", at.rotation},     {"turned", at.turned},
+          {"segment", contact.at.segment},   {"xi", contact.at.xi},         {"state", contact.state}};
+}
+
+std::optional<Simulation::Factored> Simulation::read_factors(const JsonValue& json,
+                                                             const std::vector<std::int64_t>& segment) const {
+  if (json.json().is_null()) return {};
+  const auto of_another_scene = [&](const char* what) {
+    json.fail("the checkpoint is of another scene: " + std::string(what) + " is not expected");
+  };
+  if (!keeps_factors()) of_another_scene("an object");
+  JsonObject object(json);
+  Factored factors{now_, contact_ ? contact_->start() : ElementStart()};
+  auto& [at, contact] = factors;
+  at.displacement = object.at("displacement").numbers(now_.displacement.size());
+  at.multiplier = object.at("multiplier").numbers(now_.multiplier.size());
+  at.motion = object.at("motion").number();
+  at.parameters = object.at("parameters").numbers(now_.parameters.size());
+  at.rotation = object.at("rotation").numbers();
+  at.turned = object.at("turned").numbers();
+  const bool turns = scene_->contact && scene_->contact->body;
+  const std::size_t d = static_cast<std::size_t>(mesh_.dimension), angles = d == 2 ? 1 : 3;
+  if (at.turned.size() != (at.rotation.empty() ? 0 : angles) ||
+      (!at.rotation.empty() && (!turns || at.rotation.size() != d * d)))
+    of_another_scene("a rotation of so many numbers");
+  const std::size_t points = contact.at.segment.size();
+  contact.at.segment.clear();
+  for (const JsonValue& item : object.at("segment").items())
+    contact.at.segment.push_back(item.integer(-1, static_cast<int>(sizes().master_segments) - 1));
+  contact.at.xi = object.at("xi").numbers(contact.at.xi.size());
+  contact.state = object.at("state").numbers(contact.state.size());
+  // A deformable master's equations are those of the segments.
+  if (contact.at.segment.size() != points ||
+      (contact_ && !contact_->master().rigid && contact.at.segment != segment))
+    of_another_scene("such a list of segments");
+  object.finish();
+  return factors;
+}
+
+bool Simulation::factorize_again(const Factored& where) {
   factors_fit_ = false;
+  try {
+    if (contact_) contact_->take(where.contact);
+    if (contact_ && !contact_->master().rigid) build_pattern();
+    // A scene that was changed may refuse it (penetration_limit): that run makes factors of its own.
+    if (!evaluate(where.at, {}, true).ok || !solver_->factorize(system_->matrix())) return false;
+  } catch (const JobError& error) { // of the contact: a state block that is not its own
+    contact_->begin_increment(now_);
+    throw InputError("checkpoint: /factors: " + std::string(error.what()));
+  }
+  factored_ = where;
+  return true;
 }
 
 std::string Simulation::mesh_fingerprint() const {

@@ -60,6 +60,13 @@ struct ContactHistory {
   double worn_master = 0;                            ///< volume that the master has lost [L^3]
 };
 
+/// What the elements start from beside the configuration: the last choice, and the states of the increment's
+/// begin as seen from there. Without history, too: the state's projection is the one that is followed.
+struct ElementStart {
+  Projections at;
+  std::vector<double> state; ///< [slaves][state_size]
+};
+
 class Contact {
 public:
   /// @param points     without a cut
@@ -127,6 +134,11 @@ public:
   /// begin of the increment. Empty: nowhere.
   const std::string& lost() const { return lost_; }
   bool lost_behind_edge() const { return lost_behind_edge_; }
+
+  /// For the same elements again.
+  ElementStart start() const { return {at_, state_in_}; }
+  /// As if `choose` had found these; until the next `begin_increment`.
+  void take(const ElementStart& start) { at_ = start.at, state_in_ = start.state; }
 
   /// The tangent's pattern for the present choice.
   void build_tangent();

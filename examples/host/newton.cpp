@@ -12,6 +12,16 @@
 #include "stopwatch.hpp"
 
 namespace host {
+// Not where history counts: a run must end with the same bits whatever was tried in between, and factors
+// depend on what was tried. Points that are cut anew have new equations.
+bool Simulation::keeps_factors() const {
+  return !contact_ || (!contact_->has_history() && !contact_->cuts_again());
+}
+
+void Simulation::note_factors(const Configuration& at) {
+  if (keeps_factors()) factored_ = {at, contact_ ? contact_->start() : ElementStart()};
+}
+
 bool Simulation::force_controlled() const {
   return scene_->control == Control::force || scene_->control == Control::mean_pressure;
 }
@@ -311,8 +321,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
     }
   if (!jumps) jump.clear();
   at.load_factor = next.load_factor;
-  // A guess: the factors left by the last increment serve it as well as new ones. Not where history counts: a
-  // run must end with the same bits whatever was tried in between, and factors depend on what was tried.
+  // A guess: the factors left by the last increment serve it as well as new ones.
   const bool factorize = !factors_fit_;
   factors_fit_ = false;
   Evaluation state;
@@ -322,6 +331,7 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   if (!extrapolate) {
     state = evaluate(at, jump, factorize);
     if (!state.ok) return fail_there(state);
+    if (factorize) note_factors(at);
     if (!solve(state, factorize, motion_step, error_of(state), next)) {
       outcome.advice = advice_if_singular(at);
       return fail("the tangent is singular", 0.5);
@@ -386,11 +396,12 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
           rate_[i] = (next.displacement[i] - now_.displacement[i]) / size;
       }
       now_ = next;
-      factors_fit_ = !contact_ || !contact_->has_history();
+      factors_fit_ = factored_.has_value();
       return outcome;
     }
     if (contact_ && iteration > scene_->solver.max_iterations - looked_back && lost.empty())
       lost = contact_->lost();
+    note_factors(next);
     if (!solve(state, true, 0, error_of(state), next)) {
       outcome.advice = advice_if_singular(next);
       return fail("the tangent is singular", 0.5);

@@ -321,6 +321,7 @@ void Simulation::build_pattern() {
   solver_->analyze(system_->matrix());
   bulk_values_.clear();
   factors_fit_ = false;
+  factored_.reset();
 }
 
 Sizes Simulation::sizes() const {

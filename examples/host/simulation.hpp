@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -123,6 +124,12 @@ private:
     std::string reason, advice; ///< as of NewtonOutcome
     double step_factor = 0.5;
   };
+  /// Where the tangent was that the solver holds factors of: a checkpoint has it, for a run that goes on from
+  /// there to make the same ones.
+  struct Factored {
+    Configuration at;
+    ElementStart contact;
+  };
 
   void build_mesh();
   void build_equations();
@@ -158,6 +165,15 @@ private:
   /// Does any slave node carry pressure?
   bool touches(const Configuration& at);
   bool force_controlled() const;
+  /// Do the factors that an increment leaves serve the first guess of the next one?
+  bool keeps_factors() const;
+  /// The tangent that was just evaluated there is factorized now.
+  void note_factors(const Configuration& at);
+  Json factors_json() const;
+  /// @throws InputError if they are those of another scene
+  std::optional<Factored> read_factors(const JsonValue& json, const std::vector<std::int64_t>& segment) const;
+  /// For what comes before a history is restored. @return false: this scene refuses it
+  bool factorize_again(const Factored& where);
   /// @param factorize  false: the factors at hand will do
   bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
              Configuration& next);
@@ -174,8 +190,9 @@ private:
   std::vector<StencilGroup> bulk_stencils_;
   std::unique_ptr<SparseSystem> system_;
   std::unique_ptr<LinearSolver> solver_;
-  std::vector<double> bulk_values_; ///< tangent of a linear bulk
-  bool factors_fit_ = false;        ///< the solver holds factors of a tangent close to the present one
+  std::vector<double> bulk_values_;  ///< tangent of a linear bulk
+  bool factors_fit_ = false;         ///< the solver holds factors of a tangent close to the present one
+  std::optional<Factored> factored_; ///< empty: no factors, or none that are used again
   struct Prescribed {
     std::size_t dof;
     double value;

@@ -42,10 +42,10 @@ public:
   // error.
   void analyze(const Matrix&) override { analyzed_ = false; }
   bool factorize(const Matrix& matrix) override {
-    matrix_ = &matrix;
-    if (!analyzed_) lu_.analyzePattern(matrix);
+    if (&matrix != &matrix_) matrix_ = matrix;
+    if (!analyzed_) lu_.analyzePattern(matrix_);
     analyzed_ = true;
-    lu_.factorize(matrix);
+    lu_.factorize(matrix_);
 #ifdef ENTS_HOST_UMFPACK
     if (lu_.umfpackFactorizeReturncode() == UMFPACK_ERROR_out_of_memory)
       throw std::bad_alloc(); // not a singular matrix
@@ -56,7 +56,7 @@ public:
     Eigen::MatrixXd solution = lu_.solve(right_hand_sides);
     if (solves(solution, right_hand_sides)) return solution;
     analyzed_ = false; // the pivots that were chosen for other entries
-    if (factorize(*matrix_)) solution = lu_.solve(right_hand_sides);
+    if (factorize(matrix_)) solution = lu_.solve(right_hand_sides);
     if (!solves(solution, right_hand_sides)) solution.setConstant(std::numeric_limits<double>::quiet_NaN());
     return solution;
   }
@@ -64,12 +64,12 @@ public:
 private:
   /// The solution is that of a matrix beside this one, nearer than 1e-9 of it.
   bool solves(const Eigen::MatrixXd& solution, const Eigen::MatrixXd& right_hand_sides) const {
-    const double error = (*matrix_ * solution - right_hand_sides).norm();
-    return error <= 1e-9 * (matrix_->norm() * solution.norm() + right_hand_sides.norm());
+    const double error = (matrix_ * solution - right_hand_sides).norm();
+    return error <= 1e-9 * (matrix_.norm() * solution.norm() + right_hand_sides.norm());
   }
 
   Decomposition lu_;
-  const Matrix* matrix_ = nullptr; // of the factors
+  Matrix matrix_; // of the factors: UMFPACK reads it again when it solves, and the caller's has changed then
   bool analyzed_ = false;
 };
 
@@ -95,10 +95,10 @@ public:
     check_memory();
     use_general_ = cholesky_.info() != Eigen::Success;
     if (!use_general_) return true;
-    full_ = matrix.selfadjointView<Eigen::Lower>();
-    if (!analyzed_general_) general_.analyze(full_);
+    const Matrix full = matrix.selfadjointView<Eigen::Lower>();
+    if (!analyzed_general_) general_.analyze(full);
     analyzed_general_ = true;
-    return general_.factorize(full_);
+    return general_.factorize(full);
   }
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override {
     return use_general_ ? general_.solve(right_hand_sides)
@@ -116,7 +116,6 @@ private:
 
   Decomposition cholesky_;
   GeneralSolver general_;
-  Matrix full_; // UMFPACK reads the matrix again when it solves
   bool analyzed_general_ = false, use_general_ = false;
 };
 

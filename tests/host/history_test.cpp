@@ -3,6 +3,7 @@
 // host.
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -126,6 +127,77 @@ TEST_P(History, AFailedIncrementChangesNothing) {
   EXPECT_GT(refused.step_factor, 0);
   EXPECT_LT(refused.step_factor, 1);
   EXPECT_EQ(refusing.fingerprint(), untouched);
+}
+
+/// Scenes whose first guess of an increment takes the factors that the last one left, and two that make their
+/// own; small meshes.
+std::map<std::string, Json> scenes_to_restart() {
+  const auto shipped = [](const char* name) { return parse_json_file(test::scene_file(name)); };
+  std::map<std::string, Json> scenes;
+  Json plane = shipped("hertz2d");
+  plane.erase("compare"), plane.erase("variants");
+  plane["parts"][0]["x"] = {{"from", 0},
+                            {"pieces", {{{"to", 0.3}, {"divisions", 10}}, {{"to", 2}, {"divisions", 6}}}}};
+  plane["parts"][0]["y"] = test::axis(-2, 0, 12);
+  scenes["plane"] = plane;
+  for (const char* law : {"multiplier", "augmented"}) { // not for Cholesky; with history
+    scenes[law] = plane;
+    scenes[law]["contact"]["model"]["contact"]["normal"] = {{"type", law}, {"stiffness", 1e5}};
+  }
+  Json space = shipped("hertz3d");
+  space.erase("compare");
+  for (const char* axis : {"x", "y"}) space["parts"][0][axis] = test::axis(0, 0.8, 6);
+  space["parts"][0]["z"] = test::axis(-0.8, 0, 4);
+  scenes["space"] = space;
+  Json layer = shipped("rough_afm");
+  for (const char* key : {"compare", "supports", "variants", "exact"}) layer.erase(key);
+  layer["parts"][0]["element"] = "layer";
+  layer["parts"][0]["x"] = layer["parts"][0]["y"] = test::axis(3, 8, 12);
+  layer["parts"][0]["z"] = test::axis(-2.5, 0, 1);
+  layer["contact"]["model"]["height"] = {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {0.2, 0}}};
+  layer["steps"] = {{"control", "approach"}, {"values", {0.02, 0.04, 0.06}}};
+  scenes["layer"] = layer;
+  scenes["friction"] = shipped("slope");
+  for (const bool extrapolate : {true, false}) {
+    Json& bodies = scenes[extrapolate ? "bodies_extrapolated" : "bodies"];
+    bodies = sliding(penalty, nullptr);
+    bodies["materials"]["m"]["law"] = "neo_hooke";
+    bodies["solver"]["extrapolate"] = extrapolate;
+    bodies["steps"]["values"] = {0.5, 1, 1.3, 1.35};
+  }
+  Json turns = plane; // a rigid body that turns
+  turns.erase("exact"), turns.erase("symmetry_copies");
+  turns["parts"][0]["x"] = test::axis(-0.5, 0.5, 16);
+  turns["supports"] = {{{"nodes", "block.y_min"}, {"x", 0}, {"y", 0}}};
+  turns["contact"]["master"] = Json::parse(R"({"rigid_body": {
+    "nodes": [[1, 0.05], [-1, 0.05]], "segments": [[0, 1]], "reference": [0, 1],
+    "prescribed": [{"x": 0}, {"y": -0.003}, {"turn": 0.02}]}})");
+  turns["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e5;
+  turns["steps"] = {{"control", "load_factor"}, {"values", {0.3, 0.6, 1}}};
+  scenes["turning"] = turns;
+  return scenes;
+}
+
+// With or without history: the run that goes on is the run that goes through, whatever the solver still held.
+TEST(Restart, OfAnySceneGoesOnWithTheSameBits) {
+  for (const auto& [name, json] : scenes_to_restart()) {
+    const Scene scene = test::scene_from(json);
+    Simulation whole(scene, &test::library());
+    std::vector<std::string> checkpoints;
+    solve(whole, {{}, [&](const Simulation& at, const StepRecord&) {
+                    checkpoints.push_back(at.checkpoint().dump());
+                  }});
+    const std::size_t steps = checkpoints.size();
+    ASSERT_GE(steps, 3u) << name;
+    for (const std::size_t step : {std::size_t{1}, steps - 1}) {
+      Simulation again(scene, &test::library());
+      again.restore(Json::parse(checkpoints[step - 1]));
+      StepPlan rest;
+      rest.first = static_cast<int>(step) + 1;
+      solve(again, {}, rest);
+      EXPECT_EQ(again.fingerprint(), whole.fingerprint()) << name << ", restarted after step " << step;
+    }
+  }
 }
 
 // A checkpoint that was cut short, is of another scene, or whose state is not of this model: an error that
