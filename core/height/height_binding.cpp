@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/height/height_map.hpp"
 #include "core/model/fingerprint.hpp"
@@ -26,7 +27,9 @@ double bound_of(const double* coefficients, std::int64_t count) {
 // Values of its own that a node has in a bound height
 std::int32_t count_values(const HeightNode& node) {
   std::int32_t count = 0;
-  if (with_formula(node, [&](const auto& formula) { count = count_numbers(formula.table); })) {
+  if (with_formula(node, [&](const auto& formula) {
+        count = count_numbers(std::remove_cvref_t<decltype(formula)>::table);
+      })) {
     for (const std::uint8_t place : node.bound_to)
       if (place != 0) return count;
     return 0;
@@ -56,7 +59,7 @@ Status bind_node(const Model& model, const double* parameters, const double* con
         if (own_values == 0) return;
         std::copy_n(node.numbers, own_values, values);
         int slot = 0, i = 0;
-        for (const FormulaNumber& of_table : formula.table)
+        for (const FormulaNumber& of_table : std::remove_cvref_t<decltype(formula)>::table)
           for (int k = 0; k < of_table.count(); ++k, ++i)
             if (of_table.named) number(slot++, values[i]);
         node.numbers = values;
