@@ -67,13 +67,13 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
                        };
   const std::int64_t d = plan.dimension, t = plan.parameters, m = plan.nodes, all = plan.dofs,
                      states = model->sizes.state, multipliers = plan.multipliers,
-                     slave_values = model->model.law.slave_values(),
+                     slave_values = in->slave_values ? model->model.law.slave_values() : 0,
                      leading = leading_dimension(*model, *out), tangent = (all - 1) * leading + all;
 #define ENTS_CHECK(field, size) &&shared(in->field, in->field##_stride, size)
   if (!(leading >= all && leading < most ENTS_INPUT_ARRAYS(ENTS_CHECK))) return false;
 #undef ENTS_CHECK
   if ((in->slave_values && !model->model.law.has_slave_values()) || (multipliers > 0 && !in->multiplier) ||
-      !shared(out->status, out->status_stride, 1))
+      (out->status && !one && (out->status_stride < 1 || out->status_stride >= most)))
     return false;
 #define ENTS_CHECK(bit, public_name, name, field, type, size)                                                \
   &&own(want::name, out->field, out->field##_stride, size)

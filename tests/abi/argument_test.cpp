@@ -22,7 +22,7 @@ protected:
   }
   void reset() {
     input = input_of(element);
-    output = output_of(results, want_all);
+    output = output_of(results, usual);
     report = new_report();
   }
   // The call is refused with this status; the message names `name`. Then all is as before.
@@ -34,6 +34,7 @@ protected:
     reset();
   }
 
+  std::int32_t usual = want_all;
   Model model;
   Results results;
   Random random;
@@ -74,39 +75,48 @@ TEST_F(Arguments, NoElementsNoComplaint) {
   EXPECT_STREQ(report.message, "");
 }
 
+// Calls of what blocks of elements have, and of forces alone, have a shorter way through the checks.
 TEST_F(Arguments, EveryStrideOfABatch) {
-  for (int i = 0; i < input_count; ++i) {
-    if (element[i].empty()) continue;
-    const auto size = static_cast<int64_t>(size_of_input(model.layout, i));
-    const std::string name = std::string("input.") + inputs[i].name + "_stride";
-    for (const int64_t bad : {int64_t{-1}, size - 1, INT64_MIN, INT64_MAX, int64_t{1} << 60}) {
-      if (bad == 0) continue; // shared, also for arrays of one number
-      input.*inputs[i].stride = bad;
-      refused(ENTS_BAD_COUNT, name, 0, 2);
-      input.*inputs[i].stride = bad;
-      refused(ENTS_BAD_COUNT, name, 1, 1); // element 1 alone lies one stride behind, too
+  constexpr std::int32_t kinematics =
+      ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_XI_HESSIAN;
+  for (const std::int32_t some : {+want_all, want_all & ~kinematics, ENTS_RESIDUAL | ENTS_TANGENT}) {
+    usual = some;
+    reset();
+    for (int i = 0; i < input_count; ++i) {
+      if (element[i].empty()) continue;
+      const auto size = static_cast<int64_t>(size_of_input(model.layout, i));
+      const std::string name = std::string("input.") + inputs[i].name + "_stride";
+      for (const int64_t bad : {int64_t{-1}, size - 1, INT64_MIN, INT64_MAX, int64_t{1} << 60}) {
+        if (bad == 0) continue; // shared, also for arrays of one number
+        input.*inputs[i].stride = bad;
+        refused(ENTS_BAD_COUNT, name, 0, 2);
+        input.*inputs[i].stride = bad;
+        refused(ENTS_BAD_COUNT, name, 1, 1); // element 1 alone lies one stride behind, too
+      }
     }
+    for (int i = 0; i < output_count; ++i) {
+      if ((usual & outputs[i].bit) == 0) continue;
+      const auto size = static_cast<int64_t>(size_of_output(model.layout, i));
+      const std::string name = std::string("output.") + outputs[i].name + "_stride";
+      for (const int64_t bad : {int64_t{-1}, int64_t{0}, size - 1, INT64_MIN, INT64_MAX, int64_t{1} << 60}) {
+        output.*outputs[i].stride = bad;
+        refused(ENTS_BAD_COUNT, name, 0, 2);
+        output.*outputs[i].stride = bad;
+        refused(ENTS_BAD_COUNT, name, 1, 1);
+      }
+    }
+    int64_t ents_output::*const integers[] = {&ents_output::flags_stride, &ents_output::iterations_stride,
+                                              &ents_output::status_stride};
+    const char* names[] = {"output.flags_stride", "output.iterations_stride", "output.status_stride"};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const int64_t bad : {int64_t{-1}, int64_t{0}, INT64_MIN, INT64_MAX}) {
+        if (i < 2 && (usual & ENTS_FLAGS) == 0) continue;
+        output.*integers[i] = bad;
+        refused(ENTS_BAD_COUNT, names[i], 0, 2);
+        output.*integers[i] = bad;
+        refused(ENTS_BAD_COUNT, names[i], 1, 1);
+      }
   }
-  for (int i = 0; i < output_count; ++i) {
-    const auto size = static_cast<int64_t>(size_of_output(model.layout, i));
-    const std::string name = std::string("output.") + outputs[i].name + "_stride";
-    for (const int64_t bad : {int64_t{-1}, int64_t{0}, size - 1, INT64_MIN, INT64_MAX, int64_t{1} << 60}) {
-      output.*outputs[i].stride = bad;
-      refused(ENTS_BAD_COUNT, name, 0, 2);
-      output.*outputs[i].stride = bad;
-      refused(ENTS_BAD_COUNT, name, 1, 1);
-    }
-  }
-  int64_t ents_output::*const integers[] = {&ents_output::flags_stride, &ents_output::iterations_stride,
-                                            &ents_output::status_stride};
-  const char* names[] = {"output.flags_stride", "output.iterations_stride", "output.status_stride"};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (const int64_t bad : {int64_t{-1}, int64_t{0}, INT64_MIN, INT64_MAX}) {
-      output.*integers[i] = bad;
-      refused(ENTS_BAD_COUNT, names[i], 0, 2);
-      output.*integers[i] = bad;
-      refused(ENTS_BAD_COUNT, names[i], 1, 1);
-    }
 }
 
 TEST_F(Arguments, StridesDoNotMatterForOneElement) {
