@@ -119,6 +119,29 @@ TEST_F(Arguments, EveryStrideOfABatch) {
   }
 }
 
+// Of two elements that are evaluated without a doubt, so that nothing looks at the arguments a second time.
+TEST_F(Arguments, AStrideOfZeroForResultsOfPlainCalls) {
+  std::vector<double> residual(static_cast<std::size_t>(2 * model.layout.dofs));
+  int32_t status[2] = {-1, -1};
+  const auto set = [&] {
+    for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = 0;
+    output = {};
+    output.struct_size = sizeof output;
+    output.wanted = ENTS_RESIDUAL;
+    output.residual = residual.data(), output.residual_stride = model.layout.dofs;
+    output.status = status, output.status_stride = 1;
+  };
+  set();
+  ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{2}, &input, &output, &report), ENTS_OK)
+      << report.message;
+  EXPECT_EQ(status[1], ENTS_OK);
+  output.status_stride = 0;
+  refused(ENTS_BAD_COUNT, "output.status_stride", 0, 2);
+  set();
+  output.residual_stride = 0;
+  refused(ENTS_BAD_COUNT, "output.residual_stride", 0, 2);
+}
+
 TEST_F(Arguments, StridesDoNotMatterForOneElement) {
   for (int i = 0; i < input_count; ++i) input.*inputs[i].stride = i % 2 ? -5 : INT64_MAX;
   for (int i = 0; i < output_count; ++i) output.*outputs[i].stride = i % 2 ? 0 : INT64_MIN;
