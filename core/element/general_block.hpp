@@ -31,28 +31,44 @@ ENTS_INLINE Truth<S> set_rays(const Plan& plan, const PairBlock& block, std::int
   return both(length > 1.0 / safe_magnitude, length < safe_magnitude);
 }
 
-// Tangents of the elements first + k whose bit is set in `contact`, of the nodes' dofs.
-template <class B, bool H, class S>
-ENTS_NOINLINE void write_matrices(const Plan& plan, const PairBlock& block, const TangentSum<B, H, S>& sum,
-                                  std::uint32_t contact, std::int64_t first) {
-  constexpr int W = width_of<S>, D = B::dim, N = dof_count<B, false>;
-  const bool rigid = node_dofs(plan) == D;
+// The tangents of elements in contact, whose bits are set, and what belongs to them: the turn of a ray,
+// multipliers, symmetry.
+template <bool Friction, class B, bool H, class S>
+ENTS_NOINLINE void write_tangents(const Plan& plan, const PairBlock& block, const ContactPoint<B, H, S>& at,
+                                  const S* multiplier, std::uint32_t contact, std::int64_t first) {
+  constexpr int D = B::dim, N = dof_count<B, false>, W = width_of<S>;
+  TangentSum<B, H, S, Friction> sum;
+  const auto weights = weights_of_tangent(plan, at);
+  sum.evaluate(plan, at, weights);
+  const int n = node_dofs(plan);
   const auto place = [&](int k) { return block.tangent + (first + k) * block.tangent_stride; };
-  if constexpr (W == 1) {
-    sum.write(place(0), block.leading, rigid);
+  if (n == D) {
+    if constexpr (W == 1)
+      write_slave(sum, place(0), block.leading);
+    else
+      write_slaves(sum, contact, block.leading, place);
+  } else if constexpr (W == 1) {
+    write_long_tangent<D>(sum, place(0), block.leading);
   } else {
-    if (N <= 15 && !rigid) { // few entries: all lanes at once
-      double nowhere[N * N], *out[W];
-      for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? place(k) : nowhere;
-      if constexpr (N <= 15) write_tangent<D>(sum, out, block.leading, contact, nullptr);
-      return;
+    double nowhere[N * N], *out[W];
+    for (int k = 0; k < W; ++k) out[k] = contact >> k & 1 ? place(k) : nowhere;
+    write_long_tangent<D>(sum, out, block.leading, contact, static_cast<DeferredCopy*>(nullptr));
+  }
+  const bool turns = plan.projection == ProjectionKind::shadow_point;
+  if (!turns && plan.multipliers == 0 && !plan.law.symmetrised) return;
+  const Vec<S, D> covector = turns ? sum.covector_of(at, weights) : Vec<S, D>::zero();
+  for (int k = 0; k < W; ++k) {
+    if (!(contact >> k & 1)) continue;
+    if (turns) {
+      double dg[N];
+      for (int i = 0; i < N; ++i) dg[i] = lane(sum.dg[i], k);
+      add_turning_ray(vector_of_lane(covector, k),
+                      Ray<double, D>{vector_of_lane(at.ray->e, k), lane(at.ray->inverse_distance, k)},
+                      lane(at.gap, k), dg, n, place(k), block.leading);
     }
-    for (int k = 0; k < W; ++k) {
-      if (!(contact >> k & 1)) continue;
-      TangentSum<B, H, double> one;
-      one.take(sum, k);
-      one.write(place(k), block.leading, rigid);
-    }
+    if (plan.multipliers > 0)
+      MultiplierEquations<B, H, S>{plan, at, multiplier}.write_tangent(k, &sum, n, place(k), block.leading);
+    if (plan.law.symmetrised) symmetrise(plan.dofs, place(k), block.leading);
   }
 }
 
@@ -61,7 +77,7 @@ ENTS_NOINLINE void write_matrices(const Plan& plan, const PairBlock& block, cons
 template <class B, bool H, class S>
 ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& block, std::uint32_t known,
                                           Pair<B, H, S>& p, const Ray<S, B::dim>* ray, std::int64_t first) {
-  constexpr int D = B::dim, N = dof_count<B, false>, W = width_of<S>;
+  constexpr int N = dof_count<B, false>, W = width_of<S>;
   const GeneralInputs<B, H, S> in(plan, block, first);
   p.arrive();
   ContactPoint<B, H, S> at(p);
@@ -98,37 +114,24 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
         for (int i = 0; i < n; ++i) block.residual[(first + k) * block.residual_stride + i] = lane(r[i], k);
   }
   if (contact && (block.wanted & want::tangent)) {
-    TangentSum<B, H, S> sum;
-    const auto weights = weights_of_tangent(plan, at);
-    sum.evaluate(plan, at, weights);
-    const Vec<S, D> covector = ray ? sum.covector_of(at, weights) : Vec<S, D>::zero();
-    write_matrices(plan, block, sum, contact, first);
-    for (int k = 0; k < W; ++k) {
-      if (!(contact >> k & 1)) continue;
-      double* to = block.tangent + (first + k) * block.tangent_stride;
-      if (plan.projection == ProjectionKind::shadow_point) {
-        double dg[N];
-        for (int i = 0; i < N; ++i) dg[i] = lane(sum.dg[i], k);
-        add_turning_ray(vector_of_lane(covector, k),
-                        Ray<double, D>{vector_of_lane(ray->e, k), lane(ray->inverse_distance, k)},
-                        lane(at.gap, k), dg, n, to, block.leading);
-      }
-      if constexpr (W == 1)
-        if (plan.multipliers > 0)
-          MultiplierEquations<B, H>{plan, at, in.multiplier}.write_tangent(&sum, n, to, block.leading);
-      if (plan.law.symmetrised) symmetrise(plan.dofs, to, block.leading);
-    }
+    if (sums_friction(plan))
+      write_tangents<true>(plan, block, at, in.multiplier, contact, first);
+    else
+      write_tangents<false>(plan, block, at, in.multiplier, contact, first);
   }
   for (int k = 0; k < W; ++k)
     if ((done & ~contact) >> k & 1) write_zeros(block, first + k, plan.dofs);
-  if constexpr (W == 1)
-    if (plan.multipliers > 0) {
-      const MultiplierEquations<B, H> equations{plan, at, in.multiplier};
+  if (plan.multipliers > 0) {
+    const MultiplierEquations<B, H, S> equations{plan, at, in.multiplier};
+    for (int k = 0; k < W; ++k) {
+      if (!(done >> k & 1)) continue;
+      const std::int64_t e = first + k;
       if (block.wanted & want::residual)
-        equations.write_residual(block.residual + first * block.residual_stride + n);
-      if ((block.wanted & want::tangent) && !contact)
-        equations.write_tangent(nullptr, n, block.tangent + first * block.tangent_stride, block.leading);
+        equations.write_residual(k, block.residual + e * block.residual_stride + n);
+      if ((block.wanted & want::tangent) && !(contact >> k & 1))
+        equations.write_open(k, n, block.tangent + e * block.tangent_stride, block.leading);
     }
+  }
   if (block.wanted & beside_forces) {
     const SmallResults<B, true, S> small(at);
     for (int k = 0; k < W; ++k)
@@ -139,17 +142,11 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
 
 template <class B, bool H>
 ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  constexpr int D = B::dim, T = D - 1;
-  const double* start = start_of<B, H>(plan, block, e);
-  if (!start || !has_sound_values(plan, block, e)) return false;
-  PairNodes<B, double> nodes;
-  set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
-               coordinates_of(plan, block, e), nodes);
-  double from[T];
-  for (int a = 0; a < T; ++a) from[a] = start[a];
-  Pair<B, H, double> p(nodes, from);
-  p.area = block.area ? block.area[e * block.area_stride] : 1.0;
-  Ray<double, D> ray;
+  const PairOne<B, H, false> in(plan, block, e);
+  if (!in.known || !has_sound_values(plan, block, e)) return false;
+  Pair<B, H, double> p(in.nodes, in.xi);
+  p.area = in.area;
+  Ray<double, B::dim> ray;
   if (plan.projection == ProjectionKind::normal) {
     p.project();
     return write_general<B, H, double>(plan, block, 1, p, nullptr, e) != 0;
@@ -159,17 +156,14 @@ ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block
   return write_general<B, H, double>(plan, block, 1, p, &ray, e) != 0;
 }
 
-// Lanes where their arrays of numbers stay within the nearest caches.
-template <class B> inline constexpr int general_width = dof_count<B, false> <= 30 ? block_width<B> : 1;
-
 // Bit k: element first + k was ordinary and is written.
 template <class B, bool H>
 std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::int32_t count) {
   std::uint64_t done = 0;
   std::int32_t k = 0;
 #if defined(ENTS_HAS_LANES)
-  if constexpr (constexpr int W = general_width<B>; W > 1)
-    for (; k + W <= count && plan.multipliers == 0; k += W) {
+  if constexpr (constexpr int W = block_width<B>; W > 1)
+    for (; k + W <= count; k += W) {
       const std::int64_t e = block.first + k;
       const PairLanes<B, H, false, W> in(plan, block, e);
       std::uint32_t known = in.known;

@@ -15,63 +15,41 @@ namespace ents::ENTS_ISA {
 // Dofs of the nodes; those of multipliers come after them.
 ENTS_INLINE int node_dofs(const Plan& plan) { return plan.dofs - plan.multipliers; }
 
-// Results of multiplier dofs: lambda_n [F/L^2], then lambda_a [F/L] with friction.
-template <class B, bool H> struct MultiplierEquations {
+// Results of multiplier dofs, of lane k: lambda_n [F/L^2], then lambda_a [F/L] with friction.
+template <class B, bool H, class S> struct MultiplierEquations {
   static constexpr int T = B::dim - 1;
   const Plan& plan;
-  const ContactPoint<B, H, double>& at;
-  const double* multiplier;
+  const ContactPoint<B, H, S>& at;
+  const S* multiplier;
 
-  ENTS_INLINE void write_residual(double* out) const {
-    const double area = at.pair.area;
-    out[0] = at.pair.contact ? -area * at.law_gap : -area / plan.law.stiffness * multiplier[0];
+  ENTS_INLINE void write_residual(int k, double* out) const {
+    const double area = area_of(k);
+    out[0] = bits_of(at.pair.contact) >> k & 1 ? -area * lane(at.law_gap, k)
+                                               : -area / plan.law.stiffness * lane(multiplier[0], k);
     for (int a = 1; a < plan.multipliers; ++a)
-      out[a] = (at.friction.force[a - 1] - area * multiplier[a]) / plan.law.friction_stiffness;
+      out[a] =
+          (lane(at.friction.force[a - 1], k) - area * lane(multiplier[a], k)) / plan.law.friction_stiffness;
   }
 
-  // Rows and columns of the multipliers; n: dofs of the nodes. sum: of an element in contact, or null.
-  ENTS_INLINE void write_tangent(const TangentSum<B, H, double>* sum, int n, double* out,
-                                 std::int64_t leading) const {
-    const int count = plan.multipliers;
-    const double area = at.pair.area;
-    const auto& f = at.friction;
-    for (int e = 0; e < count; ++e) {
-      for (int i = 0; i < n; ++i) out[(n + e) * leading + i] = out[i * leading + n + e] = 0.0;
-      for (int k = 0; k < count; ++k) out[(n + e) * leading + n + k] = 0.0;
-    }
+  // Rows and columns of the multipliers of an element in contact; n: dofs of the nodes
+  template <class Sum>
+  ENTS_INLINE void write_tangent(int k, const Sum* sum, int n, double* out, std::int64_t leading) const {
+    clear(n, out, leading);
     double* column = out + n * leading;
-    if (sum)
-      for (int i = 0; i < n; ++i) column[i] = out[i * leading + n] = -area * sum->dg[i];
-    else
-      column[n] = -area / plan.law.stiffness;
-    if (count == 1) return;
-    const double rate = 1.0 / plan.law.friction_stiffness;
-    const bool rubs = sum && f.active;
-    for (int b = 0; b < T; ++b) {
-      double* by_multiplier = out + (n + 1 + b) * leading;
-      for (int a = 0; a < T; ++a) {
-        double d = 0.0; // dt_a / dlambda_b
-        if (rubs) {
-          d = a == b ? area : 0.0;
-          if (f.slip) d = f.limit / f.norm * (d - area * f.direction[a] * f.raised[b]);
-          for (int i = 0; i < n; ++i) by_multiplier[i] += sum->x[a][i] * d;
-        }
-        by_multiplier[n + 1 + a] = rate * (d - (a == b ? area : 0.0));
-      }
-    }
-    if (!rubs) return;
-    for (int a = 0; a < T; ++a) {
-      for (int i = 0; i < n; ++i) out[i * leading + n + 1 + a] = rate * sum->P[a][i];
-      if (f.slip) { // the limit follows the pressure, that is lambda_n
-        const double d = f.direction[a] * f.by_pressure * area;
-        for (int i = 0; i < n; ++i) column[i] += sum->x[a][i] * d;
-        column[n + 1 + a] = rate * d;
-      }
-    }
+    for (int i = 0; i < n; ++i) column[i] = out[i * leading + n] = -area_of(k) * lane(sum->dg[i], k);
+    if constexpr (Sum::friction)
+      if (plan.multipliers > 1) write_friction(k, sum, n, out, leading);
+  }
+  // Of an open one
+  ENTS_INLINE void write_open(int k, int n, double* out, std::int64_t leading) const {
+    clear(n, out, leading);
+    out[n * leading + n] = -area_of(k) / plan.law.stiffness;
+    for (int a = 1; a < plan.multipliers; ++a)
+      out[(n + a) * leading + n + a] = -area_of(k) / plan.law.friction_stiffness;
   }
 
   // No entry of these rows and columns is larger.
-  ENTS_INLINE double bound(const TangentSum<B, H, double>& sum) const {
+  template <class Sum> ENTS_INLINE double bound(const Sum& sum) const {
     const auto& f = at.friction;
     if (!f.active) return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
     const double rate = 1.0 / plan.law.friction_stiffness;
@@ -81,11 +59,54 @@ template <class B, bool H> struct MultiplierEquations {
           at.pair.area * sum_of_absolutes(f.direction) * (sum_of_absolutes(f.raised) + f.by_pressure);
     for (int a = 0; a < T; ++a) {
       bound += rate * sum_of_absolutes(sum.P[a]);
-      nodes += sum_of_absolutes(sum.x[a]);
+      nodes += sum_of_absolutes(sum.dxi[a]);
     }
     return bound + by_multiplier * (nodes + rate);
   }
+
+private:
+  ENTS_INLINE double area_of(int k) const { return lane(at.pair.area, k); }
+  ENTS_INLINE void clear(int n, double* out, std::int64_t leading) const {
+    for (int e = 0; e < plan.multipliers; ++e) {
+      for (int i = 0; i < n; ++i) out[(n + e) * leading + i] = out[i * leading + n + e] = 0.0;
+      for (int i = 0; i < plan.multipliers; ++i) out[(n + e) * leading + n + i] = 0.0;
+    }
+  }
+
+  template <class Sum>
+  ENTS_INLINE void write_friction(int k, const Sum* sum, int n, double* out, std::int64_t leading) const {
+    const auto& f = at.friction;
+    const double area = area_of(k), rate = 1.0 / plan.law.friction_stiffness;
+    const bool rubs = bits_of(f.active) >> k & 1, slips = bits_of(f.slip) >> k & 1;
+    double* column = out + n * leading;
+    for (int b = 0; b < T; ++b) {
+      double* by_multiplier = out + (n + 1 + b) * leading;
+      for (int a = 0; a < T; ++a) {
+        double d = 0.0; // dt_a / dlambda_b
+        if (rubs) {
+          d = a == b ? area : 0.0;
+          if (slips)
+            d = lane(f.limit, k) / lane(f.norm, k) *
+                (d - area * lane(f.direction[a], k) * lane(f.raised[b], k));
+          for (int i = 0; i < n; ++i) by_multiplier[i] += lane(sum->dxi[a][i], k) * d;
+        }
+        by_multiplier[n + 1 + a] = rate * (d - (a == b ? area : 0.0));
+      }
+    }
+    if (!rubs) return;
+    for (int a = 0; a < T; ++a) {
+      for (int i = 0; i < n; ++i) out[i * leading + n + 1 + a] = rate * lane(sum->P[a][i], k);
+      if (slips) { // the limit follows the pressure, that is lambda_n
+        const double d = lane(f.direction[a], k) * lane(f.by_pressure, k) * area;
+        for (int i = 0; i < n; ++i) column[i] += lane(sum->dxi[a][i], k) * d;
+        column[n + 1 + a] = rate * d;
+      }
+    }
+  }
 };
+
+// TangentSum with `friction`?
+ENTS_INLINE bool sums_friction(const Plan& plan) { return plan.law.has_friction() || plan.law.wear.on; }
 
 // What the tangent of an element in contact is the sum of.
 template <class B, bool H, class S>
@@ -107,12 +128,13 @@ ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const Co
 
 template <class B, bool H> struct GeneralElement {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>;
+  using Sum = TangentSum<B, H, double, true>;
   const Plan& plan;
   const ElementInput& in;
   const ElementOutput& out;
   const FoundProjection& found;
   ContactPoint<B, H, double>& at;
-  const MultiplierEquations<B, H> multipliers{plan, at, in.multiplier};
+  const MultiplierEquations<B, H, double> multipliers{plan, at, in.multiplier};
   const bool element = (out.wanted & want::element) != 0;
   // flags are those of the element; alone, or with kinematics, they refuse nothing
   const bool judged = element || ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
@@ -250,7 +272,7 @@ private:
   Status write() const {
     const int n = node_dofs(plan);
     const bool rigid = n == D;
-    TangentSum<B, H, double> sum;
+    Sum sum;
     SmallResults<B, true, double> small(at);
     small.more_flags = more_flags;
     small.escaped = found.escaped;
@@ -276,11 +298,12 @@ private:
     for_each_matrix(
         [&](const Weights<double, T>& weights, double* to, std::int64_t leading, bool is_tangent) {
           if (matrices > 1) sum.evaluate(plan, at, weights);
-          sum.write(to, leading, rigid);
-          if (at.ray)
-            add_turning_ray(TangentSum<B, H, double>::covector_of(at, weights), *at.ray, at.gap, sum.dg, n,
-                            to, leading);
-          if (is_tangent && plan.multipliers > 0) multipliers.write_tangent(&sum, n, to, leading);
+          if (rigid)
+            write_slave(sum, to, leading);
+          else
+            write_tangent<D>(sum, to, leading);
+          if (at.ray) add_turning_ray(Sum::covector_of(at, weights), *at.ray, at.gap, sum.dg, n, to, leading);
+          if (is_tangent && plan.multipliers > 0) multipliers.write_tangent(0, &sum, n, to, leading);
           if (is_tangent && plan.law.symmetrised) symmetrise(plan.dofs, to, leading);
           return Status::ok;
         });
@@ -288,7 +311,7 @@ private:
       sum.evaluate_first(at);
       for (int i = 0; i < n && wants(want::gap_gradient); ++i) out.gap_gradient[i] = sum.dg[i];
       for (int a = 0; a < T && wants(want::xi_gradient); ++a)
-        for (int i = 0; i < n; ++i) out.xi_gradient[a * n + i] = sum.x[a][i];
+        for (int i = 0; i < n; ++i) out.xi_gradient[a * n + i] = sum.dxi[a][i];
     }
     if (wants(want::gap_hessian) && plan.tangent == TangentKind::first_variation)
       for (int i = 0; i < n * n; ++i) out.gap_hessian[i] = 0.0;
@@ -301,13 +324,13 @@ private:
     const int n = node_dofs(plan);
     if (wants(want::residual)) {
       for (int i = 0; i < n; ++i) out.residual[i] = at.pair.contact ? residual[i] : 0.0;
-      if (plan.multipliers > 0) multipliers.write_residual(out.residual + n);
+      if (plan.multipliers > 0) multipliers.write_residual(0, out.residual + n);
     }
     if (wants(want::tangent) && !at.pair.contact) {
       const std::int64_t leading = out.tangent_leading_dimension;
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) out.tangent[j * leading + i] = 0.0;
-      if (plan.multipliers > 0) multipliers.write_tangent(nullptr, n, out.tangent, leading);
+      if (plan.multipliers > 0) multipliers.write_open(0, n, out.tangent, leading);
     }
   }
 
@@ -331,50 +354,48 @@ template <int D> ENTS_INLINE bool set_ray(const Plan& plan, const double* slave,
   return true;
 }
 
-// An element that a block has projected: RestKernel
-template <class B, bool H>
-bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput& out,
-                   const ProjectedElement& projected) {
+// use(pair, at) of an element at xi, whose surface is not evaluated there yet; grazing_ray where the slave is
+// at the emitter.
+template <class B, bool H, class Use>
+ENTS_INLINE Status at_projection(const Plan& plan, const ElementInput& in, const double* found, Use&& use) {
   constexpr int D = B::dim, T = D - 1;
   PairNodes<B, double> nodes;
   set_nodes<H>(plan, in.slave, in.master,
                in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
   double xi[T];
-  for (int a = 0; a < T; ++a) xi[a] = projected.xi[a];
+  for (int a = 0; a < T; ++a) xi[a] = found[a];
   Pair<B, H, double> pair(nodes, xi);
-  pair.area = projected.area;
-  pair.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
-  pair.arrive();
-  ContactPoint<B, H, double> at(pair);
-  Ray<double, D> ray;
-  if (plan.projection != ProjectionKind::normal) {
-    if (!set_ray(plan, in.slave, ray)) return false;
-    at.ray = &ray;
-  }
-  const FoundProjection found{};
-  return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations() == Status::ok;
-}
-
-template <class B, bool H>
-Status finish_element(const Plan& plan, const ElementInput& in, const ElementOutput& out,
-                      const FoundProjection& found) {
-  constexpr int D = B::dim, T = D - 1;
-  PairNodes<B, double> nodes;
-  set_nodes<H>(plan, in.slave, in.master,
-               in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
-  double xi[T];
-  for (int a = 0; a < T; ++a) xi[a] = found.xi[a];
-  Pair<B, H, double> pair(nodes, xi);
-  pair.evaluations = found.evaluations;
-  pair.area = 1.0;
-  pair.ordinary = true; // read by the friction law; no block kernel has decided it here
   ContactPoint<B, H, double> at(pair);
   Ray<double, D> ray;
   if (plan.projection != ProjectionKind::normal) {
     if (!set_ray(plan, in.slave, ray)) return Status::grazing_ray;
     at.ray = &ray;
   }
-  return GeneralElement<B, H>{plan, in, out, found, at}.evaluate();
+  return use(pair, at);
+}
+
+// An element that a block has projected: RestKernel
+template <class B, bool H>
+bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput& out,
+                   const ProjectedElement& projected) {
+  const Status status = at_projection<B, H>(plan, in, projected.xi, [&](auto& pair, auto& at) {
+    pair.area = projected.area;
+    pair.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
+    pair.arrive();
+    const FoundProjection found{};
+    return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations();
+  });
+  return status == Status::ok;
+}
+
+template <class B, bool H>
+Status finish_element(const Plan& plan, const ElementInput& in, const ElementOutput& out,
+                      const FoundProjection& found) {
+  return at_projection<B, H>(plan, in, found.xi, [&](auto& pair, auto& at) {
+    pair.evaluations = found.evaluations;
+    pair.ordinary = true; // read by the friction law; no block kernel has decided it here
+    return GeneralElement<B, H>{plan, in, out, found, at}.evaluate();
+  });
 }
 
 } // namespace ents::ENTS_ISA

@@ -64,6 +64,28 @@ ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, st
   return state ? state + plan.state.anchor_at : none;
 }
 
+// Inputs of element e.
+template <class B, bool H, bool F> struct PairOne {
+  static constexpr int T = B::dim - 1;
+  PairNodes<B, double> nodes;
+  double xi[T], area, anchor[T] = {}, history = 0.0; // as of PairLanes
+  bool known;
+
+  ENTS_INLINE PairOne(const Plan& plan, const PairBlock& block, std::int64_t e) {
+    const double* start = start_of<B, H>(plan, block, e);
+    known = start != nullptr;
+    if (!known) return;
+    set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
+                 coordinates_of(plan, block, e), nodes);
+    for (int a = 0; a < T; ++a) xi[a] = start[a];
+    area = block.area ? block.area[e * block.area_stride] : 1.0;
+    if constexpr (F) {
+      const double* at = anchor_of<T>(plan, block, e, history);
+      for (int a = 0; a < T; ++a) anchor[a] = at[a];
+    }
+  }
+};
+
 #if defined(ENTS_HAS_LANES)
 // `size` numbers of each of W elements will be read soon.
 template <int W> ENTS_INLINE void prefetch(const double* from, std::int64_t stride, std::int64_t size) {

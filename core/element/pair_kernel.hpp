@@ -116,33 +116,22 @@ ENTS_INLINE void write_forces_of(bool rigid, Arguments&... arguments) {
 
 template <class B, bool H, bool F>
 ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  constexpr int D = B::dim, T = D - 1;
-  const double* start = start_of<B, H>(plan, block, e);
-  if (!start) return false;
-  PairNodes<B, double> nodes;
-  set_nodes<H>(plan, block.slave + e * block.slave_stride, block.master + e * block.master_stride,
-               coordinates_of(plan, block, e), nodes);
-  double from[T];
-  for (int a = 0; a < T; ++a) from[a] = start[a];
-  Pair<B, H, double> p(nodes, from);
+  const PairOne<B, H, F> in(plan, block, e);
+  if (!in.known) return false;
+  Pair<B, H, double> p(in.nodes, in.xi);
   PairFriction<B, H, double> f;
-  p.area = block.area ? block.area[e * block.area_stride] : 1.0;
-  double anchor[T] = {}, history = 0.0;
-  if constexpr (F) {
-    const double* at = anchor_of<T>(plan, block, e, history);
-    for (int a = 0; a < T; ++a) anchor[a] = at[a];
-  }
+  p.area = in.area;
   if (block.wanted & forces_only && p.has_area() && p.is_clearly_open(plan)) {
     write_open(block, e);
     return true;
   }
   p.project();
-  press<F>(plan, block.wanted, p, f, anchor, history);
+  press<F>(plan, block.wanted, p, f, in.anchor, in.history);
   if (!p.ordinary || (block.rest && !write_rest(plan, block, p))) return false;
   if (!p.contact)
     write_zeros(block, e, plan.dofs);
   else
-    write_forces_of<F, B>(plan.dofs == D, plan, block, p, f, e);
+    write_forces_of<F, B>(plan.dofs == B::dim, plan, block, p, f, e);
   if (block.wanted & beside_forces) SmallResults<B, F, double>(p, f).write(plan, block, 0, e);
   return true;
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ordinary elements of smoothed surfaces. Compiled once per instruction set.
+// Instantiates the kernels of ordinary elements of segments of nine nodes and more. Compiled once per
+// instruction set.
 #include "core/element/pair_table.hpp"
 
 namespace ents::ENTS_ISA {
 
-const PairKernelsOfBasis& pair_kernels_of_patch(Basis basis) {
+const PairKernelsOfBasis& pair_kernels_of_patches(Basis basis) {
   switch (basis) {
+  case Basis::quad9:
+    return pair_kernels_of<Quad9>;
   case Basis::catmull_rom16:
     return pair_kernels_of<CatmullRom16>;
   case Basis::bspline16:

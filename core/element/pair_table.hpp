@@ -13,7 +13,4 @@ inline constexpr PairKernelsOfBasis pair_kernels_of = {
      {evaluate_pairs<B, true, false>, evaluate_pairs<B, true, true>}},
     {evaluate_general<B, false>, evaluate_general<B, true>}};
 
-// Those of patches of 15 and 16 nodes, compiled apart.
-const PairKernelsOfBasis& pair_kernels_of_patch(Basis basis);
-
 } // namespace ents::ENTS_ISA

@@ -38,13 +38,9 @@ constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection,
   return projection == ProjectionKind::normal && law.force_has_slope() && tangent == TangentKind::consistent;
 }
 
-// Are the elements of a call evaluated one after the other? patch: the element has several segments. Lanes:
-// evaluate_general() of general_block.hpp, and all of pair_kernel.hpp.
+// Are the elements of a call evaluated one after the other? patch: the element has several segments.
 inline bool is_one_by_one(const Model& model, bool patch) {
-  const ContactLaw& law = model.law;
-  const bool fast = has_fast_kernel(law, model.projection, model.tangent);
-  return patch || law.flattening.parameter != 0 ||
-         (!fast && (law.multiplier_is_dof() || basis_entry(model.basis).nodes > 9));
+  return patch || model.law.flattening.parameter != 0;
 }
 
 // Does the force depend on the state of the begin of the increment?

@@ -23,14 +23,14 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
                        parts_of_z_rate = is_flat<B> ? parts_of_z : parts_of_z | on_curvatures;
   using Drift = PairDrift<B, H, S>;
 
-  // M and y
-  static ENTS_INLINE void set_direction(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
-                                        S (&inverse)[K], S (&y)[T]) {
+  // M and y = - M t
+  static ENTS_INLINE void set_direction(const Pair<B, H, S>& pair, const S (&force)[T], S (&inverse)[K],
+                                        S (&y)[T]) {
     const auto& f2 = pair.projector.f2;
     invert(f2, determinant(f2), inverse);
     for (int a = 0; a < T; ++a) {
-      S sum = inverse[symmetric_index(a, 0)] * friction.force[0];
-      if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * friction.force[1];
+      S sum = inverse[symmetric_index(a, 0)] * force[0];
+      if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * force[1];
       y[a] = -sum;
     }
   }
@@ -150,29 +150,33 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
                     (-friction.by_pressure * (exponent * pair.area * pair.per_gap)) * pair.normal, limit);
   }
 
-  // Y_a but for what changes by third derivatives, and P = dt_a or, if Joined, Y_a + dt_a
-  template <bool Joined>
-  static ENTS_INLINE void set_Y_and_P(int a, const Drift& drift, const S& stiffness,
-                                      const Form<B, Dual<S>> (&f)[T], const Form<B, S> (&x)[T],
-                                      const ChangeOfForce& change, const Form<B, S>& limit, Form<B, S>& Y,
-                                      Form<B, S>& P) {
-    const auto& p = drift.p;
-    Form<B, S> rate;
+  // (F'_ab - (A W'/g) F_,ab) / 2
+  static ENTS_INLINE S half_bend(int a, int b, const Drift& drift, const S& stiffness) {
+    const int k = symmetric_index(a, b);
+    return 0.5 * (drift.f2[k] - stiffness * drift.p.f2[k]);
+  }
+  // Y_a but for what changes by third derivatives; rate: f'_a
+  static ENTS_INLINE void set_Y(int a, const Drift& drift, const S& stiffness, const Form<B, Dual<S>> (&f)[T],
+                                const Form<B, S> (&x)[T], Form<B, S>& rate, Form<B, S>& Y) {
     set_form_rate<parts>(f[a], drift.y, rate);
     set_form<parts_of_rate>(Y, S(-1.0), rate);
+    for (int c = 0; c < T; ++c) add_form<parts>(Y, half_bend(a, c, drift, stiffness), x[c]);
+  }
+  // dt_a or, if Joined, Y_a + dt_a
+  template <bool Joined>
+  static ENTS_INLINE void set_P(int a, const Drift& drift, const S& stiffness, const Form<B, S>& rate,
+                                const Form<B, S> (&x)[T], const ChangeOfForce& change,
+                                const Form<B, S>& limit, Form<B, S>& P) {
     if constexpr (Joined) set_form<parts_of_rate>(P, S(-1.0), rate);
     for (int c = 0; c < T; ++c) {
-      const int k = symmetric_index(a, c);
-      const S half = 0.5 * (drift.f2[k] - stiffness * p.f2[k]);
-      add_form<parts>(Y, half, x[c]);
       if constexpr (Joined)
-        add_form<parts>(P, half + change.by_xi[a][c], x[c]);
+        add_form<parts>(P, half_bend(a, c, drift, stiffness) + change.by_xi[a][c], x[c]);
       else if (c == 0)
         set_form<parts>(P, change.by_xi[a][c], x[c]);
       else
         add_form<parts>(P, change.by_xi[a][c], x[c]);
     }
-    change.add_to(a, p.s, P);
+    change.add_to(a, drift.p.s, P);
     add_form<parts_of_p<H>>(P, change.slips[a], limit);
   }
 

@@ -33,7 +33,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
     for (int a = 0; a < T; ++a) xi[a] = pair.xi[a];
     stiffness = pair.area * pair.per_gap;
     S inverse[K];
-    Forms::set_direction(pair, friction, inverse, y);
+    Forms::set_direction(pair, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
       const Drift drift(pair.projector, pair.xi, y);
       Forms::in_part([&]()
@@ -163,8 +163,9 @@ private:
     Form<B, S> limit;
     Forms::form_of_limit(plan, pair, friction, limit);
     for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
-      Form<B, S> Yf, Pf;
-      Forms::template set_Y_and_P<true>(a, drift, stiffness, f, xf, change, limit, Yf, Pf);
+      Form<B, S> rate, Yf, Pf;
+      Forms::set_Y(a, drift, stiffness, f, xf, rate, Yf);
+      Forms::template set_P<true>(a, drift, stiffness, rate, xf, change, limit, Pf);
       keep<Forms::parts>(xf[a], x[a]);
       keep<Forms::parts_of_rate>(Yf, Y[a]);
       keep<Forms::parts_of_rate>(Pf, P[a]);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// t_a D2xi^a of the normal projection (pair_friction_forms.hpp) in numbers of dofs, and with it, where the
+// law has a slope W'/g, the second variation of its force:
+//   (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T + x_a Y_a^T + Y_a x_a^T)
+#pragma once
+
+#include "core/tangent/pair_friction_forms.hpp"
+#include "core/tangent/pair_write.hpp"
+
+namespace ents::ENTS_ISA {
+
+template <class B, bool H, bool Rigid, class S> struct SecondXi {
+  using Forms = PairFrictionForms<B, H, Rigid, S>;
+  using Drift = typename Forms::Drift;
+  static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
+  static constexpr bool turns = Forms::turns, bends = Forms::bends;
+  static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
+  S weights[2][M]; // s, r
+  DofArray<S, N> x[T], Y[T];
+  DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
+
+  // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
+  ENTS_INLINE void set_weights(const S& stiffness, const Drift& drift) {
+    const S half = 0.5 * stiffness;
+    weights[0][0] = S(1.0);
+    weights[1][0] = half;
+    if constexpr (!Rigid)
+      for (int i = 0; i < B::nodes; ++i) {
+        S change = drift.y[0] * drift.p.N.d1[0][i];
+        if constexpr (T == 2) change = change + drift.y[1] * drift.p.N.d1[1][i];
+        weights[0][i + 1] = -drift.p.N.n[i];
+        weights[1][i + 1] = -change - half * drift.p.N.n[i];
+      }
+  }
+
+  // x_a and Y_a; beside(a, f', x, Y) may add to the forms of Y_a.
+  template <class Beside>
+  ENTS_INLINE void set_projection_terms(const Pair<B, H, S>& pair, const S (&inverse)[K], const Drift& drift,
+                                        const S& stiffness, Beside&& beside) {
+    const auto& p = pair.projector;
+    Form<B, Dual<S>> f[T];
+    forms_of_f(drift.s, f);
+    Form<B, S> value[T], xf[T];
+    Forms::set_x(f, inverse, value, xf);
+    for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
+    Shape<S, T, B::nodes> shape_rates;
+    if constexpr (Forms::by_third) Forms::set_shape_rates(pair.xi, drift.y, shape_rates);
+    for (int a = 0; a < T; ++a) {
+      Form<B, S> rate, Yf;
+      Forms::set_Y(a, drift, stiffness, f, xf, rate, Yf);
+      beside(a, rate, xf, Yf);
+      expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
+      if constexpr (Forms::by_third) Forms::subtract_third(value[a], shape_rates, Y[a]);
+    }
+  }
+
+  // w_a, Z_a and their changes; beside(a, Z) may add to the form of Z_a.
+  template <class Beside>
+  ENTS_INLINE void set_height_terms(const S& stiffness, const Drift& drift, Beside&& beside) {
+    const auto& p = drift.p;
+    Form<B, Dual<S>> moving_z[T];
+    forms_of_z<B>(drift.s, moving_z);
+    unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
+      Form<B, S> zf, Zf;
+      Forms::set_Z(moving_z[a], drift, stiffness, zf, Zf);
+      beside(a, Zf);
+      expand_to_dofs<B, Rigid, Forms::parts_of_z_rate>(Zf, p.N, Z[a]);
+      expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
+      if constexpr (bends) {
+        expand_to_dofs<B, Rigid, Forms::parts_of_z>(zf, p.N, z[a]);
+        Forms::expand_turn_rate(a, drift, w1[a]);
+      }
+    });
+  }
+};
+
+} // namespace ents::ENTS_ISA
