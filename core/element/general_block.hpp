@@ -31,6 +31,13 @@ ENTS_INLINE Truth<S> set_rays(const Plan& plan, const PairBlock& block, std::int
   return both(length > 1.0 / safe_magnitude, length < safe_magnitude);
 }
 
+// Are there sums without friction apart? They are shorter; the bits are the same.
+#if defined(ENTS_SMALL_CODE)
+template <class S> inline constexpr bool without_friction = false;
+#else
+template <class S> inline constexpr bool without_friction = width_of<S> > 1;
+#endif
+
 // The tangents of elements in contact, whose bits are set, and what belongs to them: the turn of a ray,
 // multipliers, symmetry.
 template <bool Friction, class B, bool H, class S>
@@ -114,9 +121,9 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
         for (int i = 0; i < n; ++i) block.residual[(first + k) * block.residual_stride + i] = lane(r[i], k);
   }
   if (contact && (block.wanted & want::tangent)) {
-    if (sums_friction(plan))
+    if (!without_friction<S> || sums_friction(plan))
       write_tangents<true>(plan, block, at, in.multiplier, contact, first);
-    else
+    else if constexpr (without_friction<S>)
       write_tangents<false>(plan, block, at, in.multiplier, contact, first);
   }
   for (int k = 0; k < W; ++k)
