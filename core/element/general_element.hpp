@@ -45,7 +45,7 @@ template <class B, bool H, class S> struct MultiplierEquations {
     clear(n, out, leading);
     out[n * leading + n] = -area_of(k) / plan.law.stiffness;
     for (int a = 1; a < plan.multipliers; ++a)
-      out[(n + a) * leading + n + a] = -area_of(k) / plan.law.friction_stiffness;
+      out[(n + a) * leading + n + a] = 1.0 / plan.law.friction_stiffness * -area_of(k);
   }
 
   // No entry of these rows and columns is larger.
@@ -263,7 +263,8 @@ private:
     for (int a = 0; a < T && wants(want::xi_hessian); ++a) {
       Weights<double, T> sum = none();
       sum.force[a] = 1.0, sum.second_xi = true;
-      if (const Status s = f(sum, out.xi_hessian + a * n * n, n, false); s != Status::ok) return s;
+      if (const Status s = f(sum, out.xi_hessian + std::int64_t{a} * n * n, n, false); s != Status::ok)
+        return s;
     }
     return Status::ok;
   }

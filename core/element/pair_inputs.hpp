@@ -27,7 +27,7 @@ template <bool H, class B>
 ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* master,
                            const double* coordinates, PairNodes<B, double>& nodes) {
   constexpr int D = B::dim;
-  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + D * i) - vec_at<D>(slave);
+  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + std::int64_t{D} * i) - vec_at<D>(slave);
   nodes.has_coordinates = H && coordinates;
   if (nodes.has_coordinates)
     for (int i = 0; i < (D - 1) * B::nodes; ++i) nodes.coordinates[i] = coordinates[i];

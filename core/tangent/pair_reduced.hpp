@@ -130,7 +130,8 @@ ENTS_NOINLINE void add_curved_law(const Tangent& t, double* out, std::int64_t le
   for (int n = 0; n < Tangent::M; ++n)
     for (int c = 0; c < D; ++c)
       for (int m = 0; m < Tangent::M; ++m)
-        for (int i = 0; i < D; ++i) out[(D * n + c) * leading + D * m + i] += t.g[n][c] * t.g[m][i];
+        for (int i = 0; i < D; ++i)
+          out[(D * n + c) * leading + std::int64_t{D} * m + i] += t.g[n][c] * t.g[m][i];
 }
 
 template <int D, Reduced Tangent>
@@ -139,7 +140,7 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leadi
     expand_columns(
         t, c, []() ENTS_LAMBDA_INLINE {},
         [&](int m, int n, const auto& v)
-            ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + D * m); });
+            ENTS_LAMBDA_INLINE { store(v, out + (D * n + c) * leading + std::int64_t{D} * m); });
   if (t.curved_law) add_curved_law<D>(t, out, leading);
 }
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)

@@ -259,7 +259,7 @@ private:
       return of;
     }();
     set_gap_terms(at, c, push, pairs_with, Yf, HP);
-    const auto add_z = [&](auto a, Form<B, S>& Zf) ENTS_LAMBDA_INLINE {
+    const auto add_z = [&]([[maybe_unused]] auto a, [[maybe_unused]] Form<B, S>& Zf) ENTS_LAMBDA_INLINE {
       if constexpr (H) {
         Form<B, S> own;
         form_of_z<a.value, B>(p.s, c, own);
