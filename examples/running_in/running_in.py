@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""running_in.py [ENTS-HOST] [--out FOLDER]: a textured slider that wears, in full contact with an elastic layer, against the closed form.
+
+Exact, in full contact and for small slopes (Archard's law, wear k p per slid length): a wave of the texture of amplitude A leaves a wave of the
+pressure of amplitude A / C, which wears it off: A = A0 exp(-k s / C), C = c + 1 / eps. c is the compliance of a bonded layer at that wave length
+in plane strain, eps the stiffness of the penalty. The worn volume is k F s.
+"""
+import json
+import math
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import runs  # noqa: E402
+
+
+def compliance(young, poisson, wave_number, thickness):
+    """Displacement of the surface of a bonded layer under a unit wave of pressure."""
+    kappa, t = 3 - 4 * poisson, wave_number * thickness
+    return (2 * (1 - poisson**2) / (young * wave_number) * (kappa * math.sinh(2 * t) - 2 * t)
+            / (kappa * math.cosh(2 * t) + 2 * t * t + (1 + kappa**2) / 2))
+
+
+def first_wave(nodes):
+    """Amplitude of cos(2 pi x) in the pressure; the nodes are equally far apart, and the last one is the first."""
+    places, pressure = nodes["position"][::2], nodes["pressure"]
+    pairs = sorted(zip(places, pressure))[:-1] if max(places) - min(places) > 1 - 1e-9 else list(zip(places, pressure))
+    return abs(2 / len(pairs) * sum(p * math.cos(2 * math.pi * x) for x, p in pairs))
+
+
+def draw(folder, result, slid, rate, amplitude):
+    last = len(slid) - 1
+    chosen = [(slid[i], result["steps"][i]["nodes"]) for i in (0, last // 4, last // 2, last)]
+    blocks = ["\n".join(f"{x} {p}" for x, p in sorted(zip(nodes["position"][::2], nodes["pressure"]))) for _, nodes in chosen]
+    (folder / "pressure.dat").write_text("\n\n\n".join(blocks) + "\n")
+    (folder / "amplitude.dat").write_text("".join(f"{s / 1000} {first_wave(step['nodes'])}\n" for s, step in zip(slid, result["steps"])))
+    curves = ", ".join(f'"{folder}/pressure.dat" index {i} with lines lw 2 lc {i + 1} title "{s / 1000:g} m"'
+                       for i, (s, _) in enumerate(chosen))
+    runs.draw(f"""set terminal pngcairo size 1000,420 font "sans,12" rounded
+set output "{folder}/running_in.png"
+set multiplot layout 1,2
+set grid lc rgb "#dddddd"
+set xlabel "place [mm]"; set ylabel "pressure [MPa]"; set key center bottom title "slid"; set xrange [-0.5:0.5]; set yrange [0:*]
+plot {curves}
+set xlabel "slid [m]"; set ylabel "amplitude of the pressure [MPa]"; set key right top notitle; set xrange [0:0.9]; set yrange [0:*]; set samples 300
+plot {amplitude} * exp(-{rate} * 1000 * x) lw 1.5 lc rgb "#333333" title "exact", "{folder}/amplitude.dat" pt 7 lc 1 title "computed"
+""", folder / "running_in.png")
+
+
+def main():
+    arguments = runs.arguments(__doc__, "running_in")
+    result = runs.solve(arguments.program, HERE / "scene.json", arguments.out / "run", "--nodes")
+    scene = json.loads((HERE / "scene.json").read_text())
+    material, contact = scene["materials"]["block"], scene["contact"]["model"]["contact"]
+    wear, height = contact["wear"]["coefficient"], scene["contact"]["model"]["height"]["of"][0]["amplitude"]
+    (first, rest) = scene["history"]["slid"]
+    slid = [first, *(first + (rest["to"] - first) * (i + 1) / rest["count"] for i in range(rest["count"]))]
+    in_all = compliance(material["young"], material["poisson"], 2 * math.pi, 1) + 1 / contact["normal"]["stiffness"]
+    steps = []
+    print(f"{'slid [m]':>8}{'amplitude [MPa]':>18}{'exact':>10}{'error':>10}{'worn [mm^2]':>14}{'k F s':>10}")
+    for s, step in zip(slid, result["steps"]):
+        found = [runs.quantity("amplitude of the pressure", first_wave(step["nodes"]), height / in_all * math.exp(-wear * s / in_all)),
+                 runs.quantity("worn volume of the slider", step["wear"]["master_volume"], wear * step["force"] * s)]
+        steps.append(found)
+        print(f"{s / 1000:>8.3f}" + f"{found[0]['value']:>18.4f}{found[0]['exact']:>10.4f}{100 * found[0]['relative_error']:>8.2f} %"
+              f"{found[1]['value']:>14.6f}{found[1]['exact']:>10.6f}")
+    runs.write_result(arguments.out, steps)
+    draw(arguments.out, result, slid, wear / in_all, height / in_all)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
