@@ -45,10 +45,10 @@ cd "$(dirname "$0")/.."
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
-# Compilers and build tools; libraries; pictures, and what the test of the Python module needs.
+# Compilers and build tools; libraries; pictures, and what the programs in Python import (tests/clients/commands.py compares).
 packages='g++ gfortran cmake ninja-build pkg-config
   libeigen3-dev nlohmann-json3-dev tao-pegtl-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libopenblas0-serial
-  gnuplot-nox python3-numpy'$with
+  gnuplot-nox python3-numpy python3-scipy python3-matplotlib'$with
 
 missing() { # PACKAGES
   for package in $1; do

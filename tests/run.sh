@@ -32,9 +32,9 @@ for option; do
   esac
 done
 
-# A browser opens the page of charts; ents.Contact makes SciPy's matrices; the wheel is installed into a venv; ents-deck reads ccx's own tests.
+# A browser opens the page of charts; the wheel is installed into a venv; ents-deck reads ccx's own tests.
 # shellcheck disable=SC2086 # words
-sh "$root/examples/setup.sh" $hosts --with chromium --with python3-scipy --with python3-venv --with calculix-ccx-test "$@"
+sh "$root/examples/setup.sh" $hosts --with chromium --with python3-venv --with calculix-ccx-test "$@"
 echo "== testing"
 temporary=$root/build/Testing/Temporary
 status=0

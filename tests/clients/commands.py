@@ -7,7 +7,10 @@ to end with exit status 0 and to print something. Not run: those that LONG names
 ctest; usage lines with [options]; programs that are not built, and those that are not installed (exit status 3). Commands of a
 user's own files get those of INSTEAD and FILES. --list prints the commands and the seconds that each has taken.
 
-Exit status: 0 all commands that can be run are right; 1 one fails; 2 wrong command line."""
+examples/setup.sh has to install every package that a Python program of examples/ and adapters/ imports, but for those of OTHER_PROGRAMS.
+
+Exit status: 0 all commands that can be run are right; 1 one fails, or a package is not installed; 2 wrong command line."""
+import ast
 import os
 import pathlib
 import re
@@ -34,6 +37,8 @@ LONG = {  # a part of a command: why it is not run
 }
 INSTEAD = {"examples/SCENE/": "examples/hertz2d/", "out/SCENE": "out/hertz2d"}
 STATUS = {"ents-host run examples/chatter/scene.json": 1}  # its README: this scene does not converge
+OTHER_PROGRAMS = {"getfem", "dolfinx", "mpi4py", "petsc4py", "ufl",  # finite element programs: their files say so and end with status 3
+                  "sympy"}  # python3 -m ents generate, which names it
 DECK = """*NODE, NSET=NLOW
 1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.
 *NODE, NSET=NHIGH
@@ -91,6 +96,23 @@ def reason_to_leave_out(command, build):
     return ""
 
 
+def not_in_setup(root):
+    """What the programs import and examples/setup.sh does not install."""
+    packages = re.search(r"^packages='([^']*)'", (root / "examples/setup.sh").read_text(), re.MULTILINE)[1].split()
+    files = [file for folder in ("examples", "adapters") for file in (root / folder).rglob("*.py")]
+    own = {file.stem for file in files} | {file.parent.name for file in files}
+    missing = []
+    for file in sorted(files):
+        for node in ast.walk(ast.parse(file.read_text())):
+            names = [name.name for name in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom) and node.level == 0:
+                names = [node.module]
+            for name in sorted({name.split(".")[0] for name in names} - own - OTHER_PROGRAMS - sys.stdlib_module_names):
+                if f"python3-{name}" not in packages:
+                    missing.append(f"{file.relative_to(root)}:{node.lineno}: imports {name}, which examples/setup.sh does not install")
+    return missing
+
+
 def main(arguments):
     if len(arguments) not in (3, 4) or arguments[3:] not in ([], ["--list"]):
         print(__doc__, file=sys.stderr)
@@ -105,7 +127,7 @@ def main(arguments):
         (scratch / name).write_text(text)
     environment = dict(os.environ, ENTS_LIBRARY=str(build / "lib" / "libents.so"), PYTHONDONTWRITEBYTECODE="1")
     readmes = [root / "README.md", *sorted(path for folder in FOLDERS for path in (root / folder).rglob("README.md"))]
-    seen, left_out, failed, run = {}, {}, [], 0
+    seen, left_out, failed, run = {}, {}, not_in_setup(root), 0
     for readme in readmes:
         for command in commands_of(readme):
             for own, other in INSTEAD.items():
