@@ -57,7 +57,7 @@ set pm3d depthorder lighting primary 0.4 specular 0.3; set palette defined (0 "#
 set title "with the thread as a height"
 splot "{folder}/screw.dat" using 1:2:3:4 with pm3d
 unset pm3d
-set palette defined (0 "#2c7bb6", 0.5 "#ffffbf", 1 "#d7191c"); set colorbox user origin 0.945,0.25 size 0.012,0.5; set cbtics; set cbrange [0:*]
+set palette defined (0 "#2c7bb6", 0.5 "#ffffbf", 1 "#d7191c"); set colorbox user origin 0.953,0.25 size 0.01,0.5; set cbtics offset -0.9,0; set cbrange [0:*]
 set title "pressure on the flank of the nut [MPa]"
 splot "{folder}/flank.dat" using 1:2:3:4 with points pt 7 ps 0.8 lc palette
 """
