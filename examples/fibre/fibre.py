@@ -46,18 +46,18 @@ def half_width(rows):
 
 
 def draw(folder, steps):
-    plots = []
+    plots, curves = [], []
     for i, rows in enumerate(steps):
         load = abs(sum(row[2] for row in rows)) / PIECE
         half, peak = hertz(load)
         (folder / f"step{i}.dat").write_text("".join(f"{d} {p}\n" for d, p, _ in rows if p > 0))
         plots.append(f'"{folder}/step{i}.dat" with points pt 7 ps 0.5 lc {i + 1} title "{load:.1f} N per mm"')
-        plots.append(f'abs(x) < {half} ? {peak} * sqrt(1 - x**2 / {half}**2) : 0 with lines lw 1.5 lc rgb "#333333" {"title" if i == 0 else "no"}'
-                     + ('"Hertz"' if i == 0 else "title"))
+        curves.append(f'abs(x) < {half} ? {peak} * sqrt(1 - x**2 / {half}**2) : 0 with lines lw 1.5 lc rgb "#333333" '
+                      + ("notitle" if curves else 'title "Hertz"'))
     script = f"""set terminal pngcairo size 1000,480 font "sans,12" rounded
 set output "{folder}/fibre.png"
 set xlabel "place across the fibre [mm]"; set ylabel "pressure [MPa]"; set grid lc rgb "#dddddd"; set samples 1000; set xrange [-0.4:0.4]
-plot {", ".join(plots)}
+plot {", ".join(plots + curves)}
 """
     runs.draw(script, folder / "fibre.png")
 

@@ -48,7 +48,7 @@ set multiplot layout 1,2
 set logscale xy; set xrange [0.06:4]; set grid lc rgb "#dddddd"; set key bottom right; set xlabel "mean pressure [MPa]"
 set ylabel "contact area / area"; set key top left
 plot {", ".join(plots["area"])}
-set ylabel "stiffness [MPa/mm]"; set yrange [150:2000]
+set ylabel "stiffness [MPa/mm]"; set yrange [150:2000]; set ytics (200, 500, 1000, 2000)
 plot {", ".join(plots["stiffness"])}
 """
     runs.draw(script, folder / "rough.png")

@@ -28,7 +28,7 @@ def draw(folder, result):
     script = f"""set terminal pngcairo size 1000,420 font "sans,12" rounded
 set output "{folder}/wires.png"
 set multiplot layout 1,2
-set xlabel "approach [um]"; set ylabel "force [mN]"; set grid lc rgb "#dddddd"; set key left top; set xrange [0:*]; set samples 500
+set xlabel "approach [um]"; set ylabel "force [mN]"; set grid lc rgb "#dddddd"; set key right bottom; set xrange [0:*]; set samples 500
 plot 1e3 * 4. / 3 * {modulus} * sqrt({RADIUS}) * (x / 1e3)**1.5 lw 1.5 lc rgb "#333333" title "Hertz", "{folder}/force.dat" pt 7 lc 1 title "computed"
 set xlabel "place from the middle [um]"; set ylabel "pressure [MPa]"; set key right top; set xrange [0:1.15 * {radius}]
 plot {peak} * sqrt(x < {radius} ? 1 - (x / {radius})**2 : 0) lw 1.5 lc rgb "#333333" title "Hertz", \\
