@@ -255,7 +255,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
 }
 
 void Contact::read_profile() {
-  profile_known_ = true;
+  if (!master_.profile) return;
   std::map<std::int64_t, std::vector<std::size_t>> points; // of each segment
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (at_.segment[k] < 0)

@@ -128,6 +128,10 @@ public:
   /// @param report     of a history that could not be moved: its status is positive, cut the step
   /// @return the choice is not that of the last `build_tangent`: a deformable master needs it again
   bool choose(const Configuration& at, bool only_lost, ents_report& report);
+  /// The offsets of a master's profile, if it has one: what is below each point where it was chosen, before
+  /// the first step. The points keep them.
+  /// @throws JobError if a point is over no segment
+  void read_profile();
 
   /// Where the last `choose` found a slave node whose contact is lost: behind a concave edge, open although
   /// it has penetrated; or beside all segments, although it was in contact in the iterate before or at the
@@ -227,9 +231,6 @@ private:
   /// Mirror images move against their nodes: the signs of their unknowns go into the tangent.
   void turn_images();
   ents_input input(const ents_master_mesh& mesh) const;
-  /// The offsets of a master's profile, which each point keeps.
-  /// @throws JobError if a point is over no segment
-  void read_profile();
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
   std::int32_t add_elements(const ents_output& out, ents_system system, ents_report& report);
@@ -260,7 +261,6 @@ private:
   ents_pose pose_{}; ///< of a rigid body that turns, at present
   std::vector<std::int64_t> body_equations_;
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
-  bool profile_known_ = false;       ///< the offsets of a master's profile are in slave_values_
   std::vector<double> slave_values_; ///< [points][slave_numbers_], see ents_input; empty: none
   std::size_t slave_numbers_ = 3;    ///< 4: with the scale of a table
   std::size_t sliding_ = 0;     ///< the parameter that is the distance slid; behind the last one: none is

@@ -105,7 +105,6 @@ std::int32_t Contact::add_elements(const ents_output& out, ents_system system, e
     system.pose = &pose_;
     if (system.body_equations == nullptr) system.body_equations = none;
   }
-  if (master_.profile && !profile_known_) read_profile();
   const EntsLibrary& library = master_.model->library();
   const ents_master_mesh where = mesh();
   const ents_input in = input(where);

@@ -136,9 +136,9 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
     now_.parameters = contact_->master().model->defaults();
     contact_->begin_increment(now_);
     auto report = ents_struct<ents_report>();
-    first_touch_ = find_first_touch();
-    contact_->begin_increment(now_);
     contact_->choose(now_, false, report);
+    contact_->read_profile();
+    first_touch_ = find_first_touch();
   }
   build_pattern();
   timings_.setup += watch.seconds();
@@ -147,8 +147,6 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
 
 double Simulation::find_first_touch() {
   if (!contact_->master().translates()) return 0;
-  auto report = ents_struct<ents_report>();
-  contact_->choose(now_, false, report);
   double smallest = std::numeric_limits<double>::infinity();
   for (const double gap : contact_->fields(now_).gap)
     if (gap < smallest) smallest = gap;

@@ -175,6 +175,13 @@ std::map<std::string, Json> scenes_to_restart() {
   turns["contact"]["model"]["contact"]["normal"]["stiffness"] = 1e5;
   turns["steps"] = {{"control", "load_factor"}, {"values", {0.3, 0.6, 1}}};
   scenes["turning"] = turns;
+  for (const bool friction : {true, false}) { // what a slave point had below it before it slid
+    Json& profile = scenes[friction ? "gap_only_friction" : "gap_only"];
+    profile = sliding(penalty, friction ? coulomb : Json());
+    profile["contact"]["enrichment"] = "gap_only";
+    profile["contact"]["model"]["height"] = {{"type", "sine"}, {"amplitude", 0.003}, {"wave_vector", {2}}};
+    profile["steps"]["values"] = {0.5, 1, 1.3, 1.35};
+  }
   return scenes;
 }
 
