@@ -90,30 +90,45 @@ void Contact::refuse_self_contact(const ContactSpec& spec) const {
 }
 
 bool Contact::has_two_sides(const ContactSpec& spec) const {
-  std::set<std::vector<std::int64_t>> known;
-  std::vector<std::size_t> second;
+  std::map<std::vector<std::int64_t>, std::vector<std::size_t>> of_nodes;
   for (std::size_t s = 0; s < master_.segments(); ++s) {
     std::vector<std::int64_t> nodes(master_.connectivity.begin() + stride(s * m_),
                                     master_.connectivity.begin() + stride((s + 1) * m_));
     std::sort(nodes.begin(), nodes.end());
-    if (!known.insert(std::move(nodes)).second) second.push_back(s);
+    of_nodes[std::move(nodes)].push_back(s);
   }
-  const std::vector<double> xi = even_grid(static_cast<int>(parameters_), 4, master_.triangles);
   std::vector<double> nodes(m_ * d_), coordinates;
-  for (const std::size_t s : second) {
+  const auto sample = [&](std::size_t s, const std::vector<double>& xi) {
     gather(stride(s), nodes);
     const std::size_t size = m_ * parameters_;
     if (!master_.surface_coordinates.empty())
       coordinates.assign(master_.surface_coordinates.begin() + stride(s * size),
                          master_.surface_coordinates.begin() + stride((s + 1) * size));
-    for (const double height : sample_surface(*master_.model, nodes, coordinates, xi).height)
-      if (!(height > 0))
-        throw InputError(spec.model_where +
-                         ": two segments of the master have the same nodes, a sheet without "
-                         "thickness, and on which side of it a slave is cannot be told; give "
-                         "it a \"height\" above 0: half its thickness");
-  }
-  return !second.empty();
+    return sample_surface(*master_.model, nodes, coordinates, xi);
+  };
+  const std::vector<double> centre(parameters_, master_.triangles ? 1. / 3 : 0.),
+      xi = even_grid(static_cast<int>(parameters_), 4, master_.triangles);
+  bool two_sides = false;
+  for (const auto& [key, segments] : of_nodes)
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+      // The segments of a smoothed ring of four have the same nodes, too, and lie side by side.
+      const std::vector<double> first = sample(segments[0], centre).base_point,
+                                other = sample(segments[i], centre).base_point;
+      double apart = 0, size = 0;
+      for (std::size_t c = 0; c < d_; ++c) {
+        apart = std::max(apart, std::abs(first[c] - other[c]));
+        for (std::size_t a = 0; a < m_; ++a) size = std::max(size, std::abs(nodes[a * d_ + c] - nodes[c]));
+      }
+      if (apart > 1e-9 * size) continue;
+      two_sides = true;
+      for (const double height : sample(segments[i], xi).height)
+        if (!(height > 0))
+          throw InputError(spec.model_where +
+                           ": two segments of the master have the same nodes, a sheet without "
+                           "thickness, and on which side of it a slave is cannot be told; give "
+                           "it a \"height\" above 0: half its thickness");
+    }
+  return two_sides;
 }
 
 void Contact::reset_points() {

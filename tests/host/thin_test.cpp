@@ -69,6 +69,22 @@ TEST(ThinSheet, WithoutThicknessIsRefused) {
         << height;
 }
 
+// Its four segments have the same four nodes, in another order each.
+TEST(ThinSheet, ASmoothedRingOfFourIsNone) {
+  Json scene = beside_a_sheet(false, false, Json());
+  scene["contact"]["model"] = {{"segment", "bspline4"},
+                               {"height", {{"type", "constant"}, {"value", 0}}},
+                               {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}}}};
+  scene["contact"]["master"] = {{"rigid_body",
+                                 {{"nodes", {{0.2, -0.2}, {-0.2, -0.2}, {-0.2, 0.2}, {0.2, 0.2}}},
+                                  {"segments", {{3, 0, 1, 2}, {0, 1, 2, 3}, {1, 2, 3, 0}, {2, 3, 0, 1}}}}}};
+  scene["parts"][0]["x"] = test::axis(-1, 1, 8);
+  scene["supports"][0]["y"] = -0.05;
+  const Scene read = test::scene_from(scene);
+  Simulation simulation(read, &test::library());
+  EXPECT_LT(solve(simulation, {}).back().contact_force[1], -0.1);
+}
+
 TEST(ThinSheet, ASurfaceThatTouchesItselfIsRefused) {
   Json scene = beside_a_sheet(false, false, Json());
   scene["contact"]["model"].erase("height");
