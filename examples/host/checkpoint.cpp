@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "hash.hpp"
+#include "last_places.hpp"
 #include "simulation.hpp"
 
 namespace host {
@@ -99,8 +100,8 @@ void Simulation::restore(const Json& checkpoint) {
     body.finish();
   }
   bool fit = false;
-  const auto factorize = [&](const std::vector<std::int64_t>& segment) {
-    const std::optional<Factored> factors = read_factors(object.at("factors"), segment);
+  const auto factorize = [&](const ContactHistory& history) {
+    const std::optional<Factored> factors = read_factors(object.at("factors"), at, history);
     object.finish();
     fit = factors && factorize_again(*factors);
   };
@@ -122,7 +123,7 @@ void Simulation::restore(const Json& checkpoint) {
       history.worn_master = contact.at("worn_master").number();
     }
     contact.finish();
-    factorize(history.at.segment);
+    factorize(history);
     try {
       contact_->restore(history, at);
     } catch (const std::exception& error) {
@@ -139,13 +140,20 @@ void Simulation::restore(const Json& checkpoint) {
 Json Simulation::factors_json() const {
   if (!factors_fit_) return nullptr;
   const auto& [at, contact] = *factored_;
-  return {{"displacement", at.displacement}, {"multiplier", at.multiplier}, {"motion", at.motion},
-          {"parameters", at.parameters},     {"rotation", at.rotation},     {"turned", at.turned},
-          {"segment", contact.at.segment},   {"xi", contact.at.xi},         {"state", contact.state}};
+  const ContactHistory history = contact_ ? contact_->history() : ContactHistory();
+  return {{"displacement", last_places(now_.displacement, at.displacement)},
+          {"multiplier", last_places(now_.multiplier, at.multiplier)},
+          {"motion", at.motion},
+          {"parameters", at.parameters},
+          {"rotation", at.rotation},
+          {"turned", at.turned},
+          {"segment", contact.at.segment},
+          {"xi", last_places(history.at.xi, contact.at.xi)},
+          {"state", last_places(history.state, contact.state)}};
 }
 
-std::optional<Simulation::Factored> Simulation::read_factors(const JsonValue& json,
-                                                             const std::vector<std::int64_t>& segment) const {
+std::optional<Simulation::Factored> Simulation::read_factors(const JsonValue& json, const Configuration& now,
+                                                             const ContactHistory& history) const {
   if (json.json().is_null()) return {};
   const auto of_another_scene = [&](const char* what) {
     json.fail("the checkpoint is of another scene: " + std::string(what) + " is not expected");
@@ -154,8 +162,8 @@ std::optional<Simulation::Factored> Simulation::read_factors(const JsonValue& js
   JsonObject object(json);
   Factored factors{now_, contact_ ? contact_->start() : ElementStart()};
   auto& [at, contact] = factors;
-  at.displacement = object.at("displacement").numbers(now_.displacement.size());
-  at.multiplier = object.at("multiplier").numbers(now_.multiplier.size());
+  at.displacement = from_last_places(now.displacement, object.at("displacement"));
+  at.multiplier = from_last_places(now.multiplier, object.at("multiplier"));
   at.motion = object.at("motion").number();
   at.parameters = object.at("parameters").numbers(now_.parameters.size());
   at.rotation = object.at("rotation").numbers();
@@ -169,11 +177,14 @@ std::optional<Simulation::Factored> Simulation::read_factors(const JsonValue& js
   contact.at.segment.clear();
   for (const JsonValue& item : object.at("segment").items())
     contact.at.segment.push_back(item.integer(-1, static_cast<int>(sizes().master_segments) - 1));
-  contact.at.xi = object.at("xi").numbers(contact.at.xi.size());
-  contact.state = object.at("state").numbers(contact.state.size());
+  const std::size_t xi = contact.at.xi.size(), state = contact.state.size();
+  contact.at.xi = from_last_places(history.at.xi, object.at("xi"));
+  contact.state = from_last_places(history.state, object.at("state"));
+  if (contact.at.xi.size() != xi || contact.state.size() != state)
+    of_another_scene("a list of another length");
   // A deformable master's equations are those of the segments.
   if (contact.at.segment.size() != points ||
-      (contact_ && !contact_->master().rigid && contact.at.segment != segment))
+      (contact_ && !contact_->master().rigid && contact.at.segment != history.at.segment))
     of_another_scene("such a list of segments");
   object.finish();
   return factors;

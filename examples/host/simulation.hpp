@@ -171,7 +171,9 @@ private:
   void note_factors(const Configuration& at);
   Json factors_json() const;
   /// @throws InputError if they are those of another scene
-  std::optional<Factored> read_factors(const JsonValue& json, const std::vector<std::int64_t>& segment) const;
+  /// @param now,history  of the checkpoint
+  std::optional<Factored> read_factors(const JsonValue& json, const Configuration& now,
+                                       const ContactHistory& history) const;
   /// For what comes before a history is restored. @return false: this scene refuses it
   bool factorize_again(const Factored& where);
   /// @param factorize  false: the factors at hand will do
