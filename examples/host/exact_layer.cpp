@@ -14,8 +14,7 @@ void check_supports(const LayerScene& place, const Mesh& mesh, const DofMap& dof
   const Box& box = place.box();
   const bool periodic = place.periodic();
   for (const SupportSpec& support : scene.supports)
-    for (const std::optional<double>& component : support.displacement)
-      if (component && *component != 0) place.refuse(support.where, "is for supports that stay in place");
+    if (support.moves()) place.refuse(support.where, "is for supports that stay in place");
   for (int node = 0; node < mesh.node_count(); ++node) {
     const auto at = mesh.node(node);
     const bool on_base = at[2] == box.base();

@@ -88,6 +88,9 @@ Chart screw_torque_history(const Scene& scene, const std::vector<StepRecord>& re
       computed.y.push_back(quantity.value), exact.y.push_back(quantity.exact);
     }
   }
+  double largest = 0;
+  for (const double value : computed.y) largest = std::max(largest, value);
+  if (largest > 0) chart.y.max = 1.15 * largest;
   chart.curves = {exact, computed};
   return chart;
 }

@@ -104,10 +104,9 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
     }
   }
   const std::vector<double> points = master.net ? master.net->positions(mesh.coordinates) : mesh.coordinates;
-  for (const std::int64_t point : master.connectivity)
-    for (const int axis : contact.surface_axes)
-      master.surface_coordinates.push_back(
-          points[static_cast<std::size_t>(point) * d + static_cast<std::size_t>(axis)]);
+  master.surface_coordinates =
+      surface_coordinates(contact.coordinates, scene.dimension, points, master.connectivity,
+                          static_cast<std::size_t>(master.model->layout().nodes));
   return master;
 }
 

@@ -51,6 +51,13 @@ struct Mesh {
 /// One axis of a structured block: the ordered coordinates of its grid planes.
 using GridLines = std::vector<double>;
 
+/// The upper side of a block, that of its last axis, is a cylinder: highest at 0, where the block ends, and
+/// lower by radius - sqrt(radius^2 - x^2) beside it. The nodes below follow in proportion to their height.
+struct Crown {
+  double radius = 0; ///< 0: none
+  int axis = 0;      ///< x, across the cylinder
+};
+
 /// Grid lines of one graded piece, without its first: `divisions` cells from `from` to `to`, each `growth`
 /// times as long as the one before it (geometric progression).
 void append_graded(GridLines& lines, double to, int divisions, double growth);
@@ -59,7 +66,7 @@ void append_graded(GridLines& lines, double to, int divisions, double growth);
 /// per cell round one space diagonal: conforming) in 3D. Its sets are NAME (all nodes) and the sides
 /// NAME.x_min, NAME.x_max, NAME.y_min ... as nodes and as faces.
 void add_block(Mesh& mesh, const std::string& name, ElementType type, const std::vector<GridLines>& lines,
-               int part);
+               int part, const Crown& crown = {});
 
 /// Add the body of an Abaqus/CalculiX deck with its node sets and surfaces as NAME.SET.
 /// @param element_set  of the deck; empty: the whole body

@@ -6,12 +6,12 @@
 
 #include "advice.hpp"
 #include "holding.hpp"
-#include "layer_body.hpp"
 #include "output/table.hpp"
 #include "simulation.hpp"
 #include "stopwatch.hpp"
 
 namespace host {
+
 // Not where history counts: a run must end with the same bits whatever was tried in between, and factors
 // depend on what was tried. Points that are cut anew have new equations.
 bool Simulation::keeps_factors() const {
@@ -24,27 +24,6 @@ void Simulation::note_factors(const Configuration& at) {
 
 bool Simulation::force_controlled() const {
   return scene_->control == Control::force || scene_->control == Control::mean_pressure;
-}
-
-void Simulation::prescribe(Configuration& at) const {
-  const double all_copies = at.force * scene_->symmetry_copies;
-  // Nodes tied to a prescribed one have no equation either, and no value of their own.
-  const auto follow = [&](std::size_t dof) {
-    return half_space_.empty() ? 0 : half_space_[dof] * all_copies;
-  };
-  for (std::size_t dof = 0; dof < half_space_.size(); ++dof)
-    if (dofs_->equation(dof) < 0) at.displacement[dof] = follow(dof);
-  for (const Prescribed& support : prescribed_)
-    at.displacement[support.dof] = support.value * support.path->at(at.load_factor) + follow(support.dof);
-}
-
-std::vector<double> Simulation::loads(double load_factor) const {
-  std::vector<double> sum(static_cast<std::size_t>(dofs_->dofs()), 0.0);
-  for (const Load& load : loads_) {
-    const double factor = load.path->at(load_factor);
-    for (std::size_t dof = 0; dof < sum.size(); ++dof) sum[dof] += factor * load.force[dof];
-  }
-  return sum;
 }
 
 bool Simulation::choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor) {
@@ -72,39 +51,6 @@ bool Simulation::choose(const Configuration& at, bool only_lost, std::string& re
   return false;
 }
 
-double Simulation::rounding_of_forces() const {
-  double squared = 0;
-  const auto d = static_cast<std::size_t>(mesh_.dimension);
-  for (std::size_t i = 0; i < d; ++i) {
-    double low = INFINITY, high = -low;
-    for (std::size_t k = i; k < mesh_.coordinates.size(); k += d) {
-      low = std::min(low, mesh_.coordinates[k]);
-      high = std::max(high, mesh_.coordinates[k]);
-    }
-    squared += (high - low) * (high - low);
-  }
-  constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
-  return roundings * std::sqrt(squared) * system_->matrix().diagonal().norm();
-}
-
-double Simulation::relative_residual(const Evaluation& at) const {
-  Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
-  const auto dofs = static_cast<std::size_t>(dofs_->dofs());
-  double squared_gaps = 0;
-  for (std::size_t i = 0; i < at.residual.size(); ++i) // gaps times area become forces
-    if (const int row = equation(i); row >= 0) {
-      const double force = at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
-      residual[row] += force;
-      if (i >= dofs) squared_gaps += force * force;
-    }
-  const double norm = residual.norm();
-  // Bodies that nothing presses or loads: the forces present are rounding, as the residual is.
-  if (const double rounding = rounding_of_forces(); std::max(norm, at.force_scale) <= rounding) return 0;
-  // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they
-  // are zero.
-  return norm == 0 ? 0 : norm / std::max(at.force_scale, std::sqrt(squared_gaps));
-}
-
 void Simulation::find_contact(Configuration& at) {
   const ContactFields fields = contact_->fields(at);
   double smallest = std::numeric_limits<double>::infinity(), sum = 0;
@@ -126,117 +72,6 @@ void Simulation::find_contact(Configuration& at) {
 bool Simulation::touches(const Configuration& at) {
   const std::vector<char> closed = contact_->fields(at).closed;
   return std::find(closed.begin(), closed.end(), 1) != closed.end();
-}
-
-Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
-                                            bool want_tangent) {
-  Evaluation result;
-  result.residual.assign(at.displacement.size() + at.multiplier.size(), 0.0);
-  double squared_contact = 0;
-  {
-    const Stopwatch watch;
-    // The tangent of a linear bulk is assembled once.
-    const bool have = bulk_->linear() && !bulk_values_.empty();
-    SparseSystem* system = want_tangent && !have ? system_.get() : nullptr;
-    if (system != nullptr) system->set_zero();
-    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, system);
-    if (want_tangent && have) std::copy(bulk_values_.begin(), bulk_values_.end(), system_->values().begin());
-    if (want_tangent && !have && bulk_->linear())
-      bulk_values_.assign(system_->values().begin(), system_->values().end());
-    timings_.bulk += watch.seconds();
-    if (!ok) {
-      bulk_values_.clear();
-      result.reason = "an element was turned inside out";
-      return result;
-    }
-  }
-  if (layer_) {
-    const Stopwatch watch;
-    Eigen::VectorXd displacement(layer_->nodes());
-    for (Eigen::Index node = 0; node < displacement.size(); ++node)
-      displacement[node] = at.displacement[static_cast<std::size_t>(3 * node + 2)];
-    const Eigen::VectorXd force = layer_->force(displacement);
-    for (Eigen::Index node = 0; node < displacement.size(); ++node)
-      result.residual[static_cast<std::size_t>(3 * node + 2)] += force[node];
-    timings_.bulk += watch.seconds();
-  }
-  if (!springs_.empty()) {
-    for (std::size_t dof = 0; dof < springs_.size(); ++dof) {
-      result.residual[dof] +=
-          springs_[dof] * (at.displacement[dof] + (direction.empty() ? 0 : direction[dof]));
-      if (want_tangent) system_->add(bulk_stencils_.size(), dof, &springs_[dof]);
-    }
-  }
-  if (contact_) {
-    const Stopwatch watch;
-    const CpuStopwatch cpu;
-    auto report = ents_struct<ents_report>();
-    RigidCoupling* coupling = contact_->master().translates() ? &result.coupling : nullptr;
-    // A body that is moved takes the slave along, or leaves it behind.
-    const bool follows = !direction.empty() && contact_->master().body_node >= 0;
-    const std::int32_t status =
-        contact_->assemble(at, result.residual, want_tangent || follows, coupling, squared_contact, report);
-    if (follows && status == ENTS_OK) contact_->add_tangent_times(direction, result.residual);
-    if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent());
-    timings_.contact += watch.seconds();
-    timings_.contact_cpu += cpu.seconds();
-    if (status != ENTS_OK) {
-      result.reason = describe(contact_->master().model->library(), status, report);
-      if (status == ENTS_DEEP_PENETRATION) result.advice = advice_if_deep(scene_->contact->model);
-      result.step_factor = report.step_factor > 0 && report.step_factor < 1 ? report.step_factor : 0.5;
-      return result;
-    }
-  }
-  double squared_loads = 0, squared_reactions = 0;
-  const std::vector<double> load = loads(at.load_factor);
-  for (std::size_t dof = 0; dof < load.size(); ++dof) {
-    result.residual[dof] -= load[dof];
-    squared_loads += load[dof] * load[dof];
-    if (dofs_->equation(dof) < 0) squared_reactions += result.residual[dof] * result.residual[dof];
-  }
-  result.force_scale = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
-  result.ok = true;
-  return result;
-}
-
-bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
-                       Configuration& next) {
-  const Stopwatch watch;
-  bool ok = !factorize || solver_->factorize(system_->matrix());
-  if (ok) {
-    // Tied dofs add their residuals in one equation.
-    Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(equations(), force_controlled() ? 2 : 1);
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(equations()), row = column;
-    for (std::size_t i = 0; i < at.residual.size(); ++i) {
-      const int at_row = equation(i);
-      if (at_row < 0) continue;
-      sides(at_row, 0) -= at.residual[i];
-      if (at.coupling.column.empty()) continue;
-      column[at_row] += at.coupling.column[i];
-      row[at_row] += at.coupling.row[i];
-    }
-    sides.col(0) -= motion_step * column;
-    if (force_controlled()) sides.col(1) = -column;
-    const Eigen::MatrixXd steps = solver_->solve(sides);
-    Eigen::VectorXd step = steps.col(0);
-    double motion = motion_step;
-    if (force_controlled()) {
-      // One more unknown, the motion, and one more equation, the force: eliminated by hand.
-      const auto follow = steps.col(1);
-      const double stiffness = at.coupling.diagonal + row.dot(follow);
-      motion = (-force_error - row.dot(step)) / stiffness;
-      step += motion * follow;
-    }
-    // A pivot may be small without being zero, and the step not finite.
-    ok = std::isfinite(motion) && step.allFinite();
-    if (ok) next.motion += motion;
-    const std::size_t dofs = next.displacement.size();
-    for (std::size_t i = 0; ok && i < at.residual.size(); ++i)
-      if (const int row_of = equation(i); row_of >= 0)
-        (i < dofs ? next.displacement[i] : next.multiplier[i - dofs]) += step[row_of];
-  }
-  timings_.solver += watch.seconds();
-  return ok;
 }
 
 std::string Simulation::advice_if_singular(const Configuration& at) {
@@ -419,15 +254,6 @@ NewtonOutcome Simulation::attempt(const Target& target, bool keep, bool extrapol
   return fail("no convergence in " + std::to_string(scene_->solver.max_iterations) +
                   " iterations, residuals" + last,
               0.5);
-}
-
-std::vector<double> Simulation::reactions() {
-  Evaluation state = evaluate(now_, {}, false);
-  if (!state.ok) throw JobError(state.reason);
-  state.residual.resize(now_.displacement.size()); // multipliers have no reactions
-  for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-    if (dofs_->equation(dof) >= 0) state.residual[dof] = 0;
-  return state.residual;
 }
 
 } // namespace host

@@ -11,11 +11,8 @@ namespace {
 
 /// Do supports or tractions follow the load factor?
 bool loads_follow(const Scene& scene) {
-  const auto moves = [](const SupportSpec& support) {
-    return std::any_of(support.displacement.begin(), support.displacement.end(),
-                       [](const std::optional<double>& component) { return component.value_or(0) != 0; });
-  };
-  return !scene.tractions.empty() || std::any_of(scene.supports.begin(), scene.supports.end(), moves);
+  return !scene.tractions.empty() || std::any_of(scene.supports.begin(), scene.supports.end(),
+                                                 [](const SupportSpec& support) { return support.moves(); });
 }
 
 /// Later steps may be other ones: smaller, more, fewer.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "surface_coordinates.hpp"
+
 namespace host {
 namespace {
 
@@ -85,7 +87,9 @@ void add_segments(JsonObject& object, int dimension, RigidBodySpec& body) {
   const auto count = static_cast<int>(body.positions.size() / d);
   if (count == 0) object.at("nodes").fail("an array of node positions is expected");
   std::vector<std::vector<double>> coordinates;
-  if (object.has("surface_coordinates")) {
+  const bool by_rule = object.has("surface_coordinates") && (object.at("surface_coordinates").is_object() ||
+                                                             object.at("surface_coordinates").is_string());
+  if (object.has("surface_coordinates") && !by_rule) {
     for (const JsonValue& item : object.at("surface_coordinates").items())
       coordinates.push_back(item.numbers(d - 1));
     if (coordinates.size() != static_cast<std::size_t>(count))
@@ -105,6 +109,10 @@ void add_segments(JsonObject& object, int dimension, RigidBodySpec& body) {
     }
   }
   if (body.connectivity.empty()) object.at("segments").fail("the nodes of each segment are expected");
+  if (!by_rule) return;
+  CoordinateRule rule = read_coordinate_rule(object.at("surface_coordinates"), dimension);
+  for (std::size_t i = 0; i < d; ++i) rule.point[i] -= body.reference[i];
+  body.surface_coordinates = surface_coordinates(rule, dimension, body.positions, body.connectivity, nodes);
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 // A scene file, read and checked. examples/host/README.md describes every key.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -13,6 +15,7 @@
 #include "mesh.hpp"
 #include "path.hpp"
 #include "rigid_body.hpp"
+#include "surface_coordinates.hpp"
 
 namespace host {
 
@@ -22,17 +25,26 @@ struct PartSpec {
   ElementSetup setup;
   ElementType type = ElementType::quad4; ///< block
   std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
+  Crown crown;                           ///< block
   bool layer = false;                    ///< block: its surface alone has nodes, layer_body.hpp
   std::filesystem::path deck;
   std::string deck_where; ///< file and path, for messages
   std::string element_set;
 };
 
-/// Prescribed displacement components of a node set; they follow the load factor along their path.
+/// Prescribed displacement components of a node set, or its motion as a rigid body; they follow the load
+/// factor along their path.
 struct SupportSpec {
   std::string nodes, where;
-  std::vector<std::optional<double>> displacement; ///< [dimension]
+  std::vector<std::optional<double>> displacement; ///< [dimension]; of a set that turns: of the point `about`
+  std::vector<double> turn; ///< radians: in the plane one angle, in space a rotation vector; empty: none
+  std::array<double, 3> about{};
   Path path;
+
+  bool moves() const {
+    const auto nonzero = [](const std::optional<double>& component) { return component.value_or(0) != 0; };
+    return !turn.empty() || std::any_of(displacement.begin(), displacement.end(), nonzero);
+  }
 };
 
 /// Outer boundary of a block that stands for a half-space: its nodes follow the half-space's displacement
@@ -90,9 +102,9 @@ struct ContactSpec {
   std::string master, master_where; ///< deformable master: faces, each one segment
   bool straight_ends = false;       ///< smoothed master: beyond free borders 2 x_0 - x_1, else x_0 again
   std::vector<MirrorPlane> mirror;  ///< smoothed master
-  std::vector<int> surface_axes; ///< deformable master: surface coordinates are these reference coordinates
-  std::vector<double> direction; ///< rigid master: unit vector of its motion
-  CutOff cut_off;                ///< short waves of the height become a law
+  CoordinateRule coordinates;       ///< deformable master: its surface coordinates
+  std::vector<double> direction;    ///< rigid master: unit vector of its motion
+  CutOff cut_off;                   ///< short waves of the height become a law
   std::function<double(double x, double y)> law_scale; ///< of a law "table" in a slave point; empty: 1
   bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
   Json model;            ///< passed on to the library
@@ -205,21 +217,5 @@ Scene read_scene_text(const std::string& text, const std::filesystem::path& file
 
 /// The part that a set "PART" or "PART.NAME" is of; null: none of that name.
 const PartSpec* part_of_set(const Scene& scene, const std::string& set);
-
-/// The key "sampling" of a contact: a number, "cut" or {"cut": number}.
-/// @throws InputError naming the key
-void read_sampling(const JsonValue& value, ContactSpec& contact);
-
-/// The keys "ends" and "mirror" of a master on the faces of a body.
-/// @throws InputError naming the key
-/// Its key "cut_off", and what it excludes in the rest of the contact.
-void read_cut_off(const JsonValue& value, ContactSpec& contact);
-void check_cut_off(const ContactSpec& contact);
-void read_ends(JsonObject& master, int dimension, ContactSpec& contact);
-
-/// The key "exact".
-/// @param scene  all of it that is read before this key
-/// @throws InputError naming the key where the solution is none of such a scene
-ExactSpec read_exact(const JsonValue& value, const Scene& scene);
 
 } // namespace host

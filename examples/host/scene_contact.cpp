@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys of a contact: which points of the slave surface have a contact element, and what lies beyond the
-// borders of a smoothed master.
-#include "scene.hpp"
+// Keys of a contact: its slave and its master, which points of the slave surface have a contact element, and
+// what lies beyond the borders of a smoothed master.
+#include <cmath>
+
+#include "scene_keys.hpp"
 
 namespace host {
+namespace {
+
+/// Rows of `dimension` numbers, one per node.
+std::vector<double> read_nodes(const JsonValue& value, int dimension) {
+  std::vector<double> nodes;
+  for (const JsonValue& item : value.items()) {
+    const auto node = item.numbers(static_cast<std::size_t>(dimension));
+    nodes.insert(nodes.end(), node.begin(), node.end());
+  }
+  if (nodes.empty()) value.fail("an array of node positions is expected");
+  return nodes;
+}
+
+} // namespace
 
 void read_sampling(const JsonValue& value, ContactSpec& contact) {
   constexpr int usual = 2; // exact for a uniform pressure between faces that are parallelograms
@@ -58,6 +74,74 @@ void read_ends(JsonObject& master, int dimension, ContactSpec& contact) {
       contact.mirror.push_back({axis, planes.at(name).number(), planes.at(name).where()});
   planes.finish();
   if (contact.mirror.empty()) planes.fail("a plane of symmetry is expected: {\"x\": place} or another axis");
+}
+
+ContactSpec read_contact(const JsonValue& value, int dimension) {
+  JsonObject object(value);
+  ContactSpec contact;
+  contact.slave = object.at("slave").string();
+  contact.slave_where = object.at("slave").where();
+  if (object.has("sampling")) read_sampling(object.at("sampling"), contact);
+  if (object.has("areas")) {
+    const JsonValue areas = object.at("areas");
+    contact.equal_areas = areas.word({"tributary", "equal"}) == "equal";
+    if (contact.equal_areas && (contact.sampling > 0 || contact.cut > 0))
+      areas.fail("sampling points have areas of their own; leave it out");
+  }
+  if (object.has("enrichment"))
+    contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
+  if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
+  if (object.has("wear_factor")) {
+    const JsonValue table = object.at("wear_factor");
+    for (const JsonValue& item : table.items()) {
+      const std::vector<double> point = item.numbers(2);
+      if (point[0] < 0 || point[1] < 0) item.fail("[pressure, factor] are not negative");
+      if (!contact.wear_factor.points.empty() && !(point[0] > contact.wear_factor.points.back()[0]))
+        item.fail("pressures ascend");
+      contact.wear_factor.points.push_back({point[0], point[1]});
+    }
+    if (contact.wear_factor.points.empty() || find_json(object.at("model").json(), "/contact/wear").is_null())
+      table.fail("[[pressure, factor], ...] is expected, and a model with contact.wear");
+  }
+  JsonObject master(object.at("master"));
+  if (master.has("faces")) {
+    contact.master = master.at("faces").string();
+    contact.master_where = master.at("faces").where();
+    read_ends(master, dimension, contact);
+    if (master.has("surface_coordinates"))
+      contact.coordinates = read_coordinate_rule(master.at("surface_coordinates"), dimension);
+  } else if (master.has("rigid_body")) {
+    const Json segment = find_json(object.at("model").json(), "/segment");
+    contact.body = read_rigid_body(master.at("rigid_body"), dimension,
+                                   segment.is_string() ? segment.get<std::string>() : std::string());
+  } else {
+    contact.rigid = read_nodes(master.at("nodes"), dimension);
+    const JsonValue direction = master.at("direction");
+    contact.direction = direction.numbers(static_cast<std::size_t>(dimension));
+    double squared = 0;
+    for (const double component : contact.direction) squared += component * component;
+    if (!(squared > 0)) direction.fail("the direction of the master's motion must not be zero");
+    for (double& component : contact.direction) component /= std::sqrt(squared);
+  }
+  master.finish();
+  const JsonValue model = object.at("model");
+  if (!model.is_object()) model.fail("an object is expected: the library's model");
+  contact.model = model.json();
+  contact.model_where = model.where();
+  // One place says whether the master is rigid: the scene.
+  contact.model["master"] = contact.rigid.empty() && !contact.body ? "deformable" : "rigid";
+  if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
+    model.fail("\"master\" contradicts the scene's master; leave it out here");
+  if (contact.gap_only) {
+    const char* of = find_json(contact.model, "/height").is_null() ? "a model with a \"height\""
+                     : contact.cut > 0                             ? "no \"sampling\": \"cut\""
+                     : contact.model.contains("parameters")        ? "a model without \"parameters\""
+                                                                   : nullptr;
+    if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
+  }
+  check_cut_off(contact);
+  object.finish();
+  return contact;
 }
 
 } // namespace host

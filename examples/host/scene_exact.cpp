@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "scene.hpp"
+#include "scene_keys.hpp"
 
 namespace host {
 namespace {
@@ -91,15 +91,6 @@ void check_bodies(const ExactSpec& exact, const JsonValue& value, const Scene& s
 }
 
 } // namespace
-
-const PartSpec* part_of_set(const Scene& scene, const std::string& set) {
-  const PartSpec* found = nullptr; // names may have dots: the longest decides
-  for (const PartSpec& part : scene.parts)
-    if ((set == part.name || set.starts_with(part.name + ".")) &&
-        (found == nullptr || part.name.size() > found->name.size()))
-      found = &part;
-  return found;
-}
 
 ExactSpec read_exact(const JsonValue& value, const Scene& scene) {
   JsonObject object(value);

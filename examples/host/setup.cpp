@@ -167,7 +167,7 @@ void Simulation::build_mesh() {
     else if (part.layer)
       add_layer(mesh_, part.name, part.lines);
     else
-      add_block(mesh_, part.name, part.type, part.lines, index);
+      add_block(mesh_, part.name, part.type, part.lines, index, part.crown);
     setups.push_back(part.setup);
   }
   if (scene_->contact && scene_->contact->body) // displacement and turns of the body
@@ -192,8 +192,8 @@ void Simulation::build_equations() {
       for (std::size_t i = 0; i < d; ++i)
         if (support.displacement[i]) {
           dofs_->prescribe(node, static_cast<int>(i));
-          prescribed_.push_back(
-              {static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
+          prescribed_.push_back({static_cast<std::size_t>(node) * d + i, *support.displacement[i],
+                                 &support.path, support.turn.empty() ? nullptr : &support});
         }
   if (scene_->half_space) {
     half_space_.assign(total, 0.0);
@@ -236,7 +236,7 @@ void Simulation::build_equations() {
     };
     for (const BodyComponent& c : body.prescribed) {
       dofs_->prescribe(first + c.component / mesh_.dimension, c.component % mesh_.dimension);
-      prescribed_.push_back({dof(c), c.value, &c.path});
+      prescribed_.push_back({dof(c), c.value, &c.path, nullptr});
     }
     for (const BodyComponent& c : body.loads) {
       loads_.push_back({std::vector<double>(total, 0.0), &c.path});
@@ -251,7 +251,7 @@ void Simulation::build_equations() {
     for (const int c : {0, 1}) {
       dofs_->prescribe(node, c);
       prescribed_.push_back(
-          {static_cast<std::size_t>(node) * d + static_cast<std::size_t>(c), 0, &layer_path});
+          {static_cast<std::size_t>(node) * d + static_cast<std::size_t>(c), 0, &layer_path, nullptr});
     }
   if (prescribed_.empty() && half_space_.empty() && springs_.empty())
     throw InputError(scene_->file.string() +

@@ -154,6 +154,8 @@ private:
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
+  /// Displacement of a dof by the turn of its support.
+  double turned(const SupportSpec& support, std::size_t dof, const Configuration& at) const;
   /// A body that only contact can hold, and nothing touches: no step of any size can be solved. Empty: that
   /// is not it.
   /// @param begin  where the iteration began
@@ -199,6 +201,7 @@ private:
     std::size_t dof;
     double value;
     const Path* path;
+    const SupportSpec* turns; ///< its node turns about a point, too; null: it does not
   };
   struct Load {
     std::vector<double> force; ///< [dofs] at factor 1

@@ -47,7 +47,7 @@ void append_graded(GridLines& lines, double to, int divisions, double growth) {
 }
 
 void add_block(Mesh& mesh, const std::string& name, ElementType type, const std::vector<GridLines>& lines,
-               int part) {
+               int part, const Crown& crown) {
   const auto d = static_cast<std::size_t>(mesh.dimension);
   std::array<int, 3> points{1, 1, 1};
   for (std::size_t i = 0; i < d; ++i) points[i] = static_cast<int>(lines[i].size());
@@ -64,6 +64,14 @@ void add_block(Mesh& mesh, const std::string& name, ElementType type, const std:
           mesh.coordinates.push_back(lines[a][static_cast<std::size_t>(position[a])]);
           if (position[a] == 0) sides[2 * a].push_back(index(i, j, k));
           if (position[a] == points[a] - 1) sides[2 * a + 1].push_back(index(i, j, k));
+        }
+        if (crown.radius > 0) {
+          const GridLines& up = lines[d - 1];
+          const double x = lines[static_cast<std::size_t>(crown.axis)]
+                                [static_cast<std::size_t>(position[static_cast<std::size_t>(crown.axis)])];
+          double& height = mesh.coordinates.back();
+          height += (std::sqrt(crown.radius * crown.radius - x * x) - crown.radius) * (height - up.front()) /
+                    (up.back() - up.front());
         }
         all.push_back(index(i, j, k));
       }

@@ -29,6 +29,18 @@ class Gallery(unittest.TestCase):
         self.assertEqual(there - listed, {"fortran_host"})  # solved by a program of its own
         self.assertEqual(listed - there, set())
 
+    def test_the_readme_has_every_check(self):
+        text = (EXAMPLES / "README.md").read_text().partition("## Every check of the gallery")[2]
+        rows = {tuple(cell.strip() for cell in line.split("|")[1:4]) for line in text.splitlines() if line.startswith("| ")}
+        bounds = {tuple(cell.strip() for cell in line.split("|")[1:3]): line.split("|")[5].strip() for line in text.splitlines()
+                  if line.startswith("| ") and line.count("|") == 6}
+        for entry in json.loads((EXAMPLES / "gallery.json").read_text()):
+            label = "_".join([entry["scene"], *entry.get("variant", "").split()])
+            for check in entry.get("checks", []):
+                self.assertIn((label, check["quantity"], check["exact"]), rows, "run examples/gallery.py --readme")
+                bound = f"{100 * check['bound']:.2g} %" if "bound" in check else f"{check['absolute_bound']:.4g}"
+                self.assertEqual(bounds[label, check["quantity"]], bound, "run examples/gallery.py --readme")
+
     def test_a_bound_that_is_met(self):
         done = self.run_gallery([self.entry(bound=5e-5), {"scene": "chatter", "fails": "no convergence"}])
         self.assertEqual(done.returncode, 0, done.stderr)
