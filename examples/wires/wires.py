@@ -3,7 +3,7 @@
 """wires.py [ENTS-HOST] [--out FOLDER]: two wires of 1 mm radius that cross at 90 degrees, against Hertz.
 
 One wire is elastic: a block around the contact, a quarter of it, whose outer boundary follows Boussinesq's half-space; its mesh has the round
-surface (make_wire.py). The other one is rigid, a height on ONE quad4 across the first.
+surface (the part's "crown"). The other one is rigid, a height on ONE quad4 across the first.
 
 Exact: crossed cylinders of equal radii touch like a sphere of that radius and a plane, F = 4/3 E* sqrt(R) d^(3/2).
 """
