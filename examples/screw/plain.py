@@ -15,7 +15,7 @@ import make_nut  # noqa: E402
 import runs  # noqa: E402
 import torque  # noqa: E402
 
-SEGMENTS = [("quad4", 4, 4), ("quad4", 64, 1), ("quad4", 256, 1), ("quad4", 1024, 1), ("bspline16", 16, 1)]  # kind, around, along
+SEGMENTS = [("quad4", 4, 4), ("quad4", 64, 1), ("quad4", 256, 1), ("quad4", 1024, 1), ("bspline16", 4, 4), ("bspline16", 8, 2), ("bspline16", 16, 1)]  # kind, around, along
 
 
 def scene(segment, around, along):
