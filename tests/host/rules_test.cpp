@@ -74,6 +74,33 @@ TEST(TurnedSupport, MistakesAreNamed) {
   expect(json, "about");
 }
 
+// The upper side is the cylinder, the base is flat, and the grid between them goes along.
+TEST(Crown, IsACylinder) {
+  for (const int d : {2, 3}) {
+    Json json = turned(d, {{"nodes", "b.y_min"}, {"x", 0}, {"y", 0}});
+    json["parts"][0]["x"] = test::axis(-0.5, 0.5, 4);
+    json["parts"][0]["crown"] = {{"radius", 0.8}};
+    if (d == 3) json["parts"][0]["crown"]["across"] = "y";
+    const Scene scene = test::scene_from(json);
+    const Simulation simulation(scene, nullptr);
+    const Mesh& mesh = simulation.mesh();
+    const double low = 0, high = d == 2 ? 0.5 : 0.4;
+    std::size_t top = 0;
+    for (int node = 0; node < mesh.node_count(); ++node) {
+      const auto x = mesh.node(node);
+      const double across = d == 2 ? x[0] : x[1], crown = std::sqrt(0.64 - across * across) - 0.8;
+      const double share = (x.back() - low) / (high + crown - low); // 0, 1/2 or 1 of two cells
+      EXPECT_NEAR(share, std::round(2 * share) / 2, 1e-14);
+      top += share > 0.75;
+    }
+    EXPECT_EQ(top, mesh.node_sets.at(d == 2 ? "b.y_max" : "b.z_max").size());
+    json["parts"][0]["crown"]["radius"] = 0.4;
+    EXPECT_NE(test::refusal(json).find("/parts/0/crown: the cylinder does not cover the block"),
+              std::string::npos)
+        << test::refusal(json);
+  }
+}
+
 CoordinateRule rule_of(const Json& json, int dimension) {
   return read_coordinate_rule(JsonValue(json, "test: "), dimension);
 }
