@@ -16,10 +16,12 @@ h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin: 0 0 .3rem; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { text-align: left; padding: .25rem .7rem .25rem 0; border-bottom: 1px solid #ddd; vertical-align: top; white-space: nowrap; }
 td.text { white-space: normal; min-width: 14rem; } .number { text-align: right; } .missed { color: #a00; font-weight: bold; }
-section { margin: 2rem 0; } img { max-width: 100%; height: auto; } .note { color: #555; }
+section { margin: 2rem 0; } img { max-width: 100%; height: auto; }
 """
 TITLES = ("scene", "quantity", "exact answer", "reached", "exact", "difference", "bound", "time [s]", "")
 NUMBERS = (3, 4, 5, 6, 7)
+HEADING = "## Every check of the gallery"
+SAID = "Written by `gallery.py --readme`: the largest difference of each quantity over all steps."
 
 
 def problem(text):
@@ -101,6 +103,22 @@ def markdown(rows):
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
 
+def readme(rows, labels):
+    """Puts these rows into the table of examples/README.md, which keeps those of other scenes; without times, which no two runs share."""
+    file = HERE / "README.md"
+    before, found, rest = file.read_text().partition(f"{HEADING}\n")
+    if not found:
+        problem(f"{file}: no heading \"{HEADING}\"")
+    columns = [TITLES.index(title) for title in ("scene", "quantity", "exact answer", "difference", "bound")]
+    done = {row[0] for row in rows}
+    lines = [line for line in rest.splitlines() if line.startswith("| ") and line.split(" ")[1] in labels and line.split(" ")[1] not in done]
+    lines += ["| " + " | ".join(row[i] for i in columns) + " |" for row in rows if row[TITLES.index("bound")]]
+    lines.sort(key=lambda line: labels.index(line.split(" ")[1]))
+    after = rest[rest.index("\n## "):] if "\n## " in rest else ""
+    head = ["| " + " | ".join(TITLES[i] for i in columns) + " |", "|---|---|---|---:|---:|"]
+    file.write_text(f"{before}{HEADING}\n\n{SAID}\n\n" + "\n".join(head + lines) + "\n" + after)
+
+
 def page(rows, scenes):
     def cell(i, text, tag="td"):
         kind = "number" if i in NUMBERS else "missed" if text == "MISSED" else "text" if i == 2 else ""
@@ -110,9 +128,10 @@ def page(rows, scenes):
     head = "".join(cell(i, text, "th") for i, text in enumerate(TITLES))
     sections = ""
     for name, title, picture in scenes:
-        data = base64.b64encode(picture.read_bytes()).decode() if picture else ""
-        image = f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}">' if data else '<p class="note">No picture.</p>'
-        sections += f"<section><h2>{html.escape(name)}: {html.escape(title)}</h2>{image}</section>\n"
+        if picture:
+            data = base64.b64encode(picture.read_bytes()).decode()
+            sections += (f'<section><h2>{html.escape(name)}: {html.escape(title)}</h2>'
+                         f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}"></section>\n')
     return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>ents: gallery</title><style>{STYLE}</style></head><body><h1>ents: every scene against its exact answer</h1>"
             '<p>Each row shows the step with the largest difference. On a narrow screen the table scrolls sideways.</p>'
@@ -129,6 +148,7 @@ def main():
     parser.add_argument("--out", type=Path, default=Path("out/gallery"), metavar="DIR", help="default: out/gallery")
     parser.add_argument("--list", type=Path, default=HERE / "gallery.json", metavar="FILE", help="default: examples/gallery.json")
     parser.add_argument("--host", type=Path, default=HERE.parent / "build/bin/ents-host", metavar="PROGRAM", help="default: build/bin/ents-host")
+    parser.add_argument("--readme", action="store_true", help="write the rows into the table of examples/README.md, if all bounds are met")
     options = parser.parse_args()
     try:
         entries = json.loads(options.list.read_text())
@@ -159,6 +179,8 @@ def main():
             failures.append(f"{label(entry)}: no picture {picture.name} was drawn; is gnuplot installed?")
     (options.out / "gallery.md").write_text(markdown(rows))
     (options.out / "index.html").write_text(page(rows, scenes))
+    if options.readme and not failures:
+        readme(rows, [label(entry) for entry in entries])
     for text in failures:
         print(f"MISSED {text}", file=sys.stderr)
     print(f"{options.out / 'index.html'}, {options.out / 'gallery.md'}: {len(chosen)} scenes, {len(failures)} failures")
