@@ -68,7 +68,11 @@ TEST(RemovedWaves, AreaPressureAndStiffnessOfAMeasuredSurface) {
     std::printf("area %.2f %%: %+.1f %%, without %+.1f %%; pressure %+.2f %%, without %+.2f %%\n",
                 100 * area.exact, 100 * area.error, 100 * (plain[k].area.fraction / area.exact - 1),
                 100 * pressure.error, 100 * (plain[k].mean_pressure / pressure.exact - 1));
-    EXPECT_NEAR(area.error, 0, 0.04); // measured 3.1, 1.3, -1.5 %
+    // What the key is worth: no more than a third of the error in area is left. Nothing derives the 4 %: it
+    // stands for the 3.1, 1.3 and -1.5 % that were measured, so that a change is noticed, and is no accuracy
+    // that the key has on other surfaces (examples/rough_afm/README.md: up to 15 %).
+    EXPECT_LT(std::abs(area.error), std::abs(plain[k].area.fraction / area.exact - 1) / 3);
+    EXPECT_NEAR(area.error, 0, 0.04);
     EXPECT_NEAR(pressure.error, 0, 0.01);
     EXPECT_GT(std::abs(plain[k].area.fraction / area.exact - 1), 0.05);
     if (k > 0) {
