@@ -287,7 +287,7 @@ int run_program(int argc, char** argv) {
                    "folder for chart.html (one page, no network), chart.json and the pictures")
       ->type_name("DIR");
   chart_app->add_flag("--quick", chart.quick, "a few runs of each scene and points of each map");
-  chart_app->add_option("--only", chart.only, "these scenes alone, as wavy3d,rough_area, and no maps")
+  chart_app->add_option("--only", chart.only, "these scenes alone, as wavy3d,rough_truth, and no maps")
       ->type_name("NAME")
       ->delimiter(',');
   chart_app

@@ -41,9 +41,12 @@ const scrolls=e=>{for(;e;e=e.parentElement)if(getComputedStyle(e).overflowX==='a
 const charts=all('svg.w').map(s=>({width:box(s).width,height:box(s).height,axes:s.querySelectorAll('.x').length,marks:s.querySelectorAll('title').length,
 labels:[...s.querySelectorAll('text')].filter(t=>t.textContent).map(t=>t.textContent),
 smallest:Math.min(...[...s.querySelectorAll('text')].filter(t=>t.textContent).map(t=>box(t).height)),
+over:(()=>{const b=[...s.querySelectorAll('text')].filter(t=>t.textContent).map(box);let n=0;
+for(let i=0;i<b.length;i++)for(let j=0;j<i;j++)if(Math.min(b[i].right,b[j].right)-Math.max(b[i].left,b[j].left)>1&&Math.min(b[i].bottom,b[j].bottom)-Math.max(b[i].top,b[j].top)>1)n++;return n})(),
 out:[...s.querySelectorAll('text,circle,rect,polygon')].filter(e=>{const b=box(e),c=box(s);return b.width>0&&(b.left<c.left-1||b.right>c.right+1||b.top<c.top-1||b.bottom>c.bottom+1)}).length}));
 const out=all('body *').filter(e=>!scrolls(e)&&box(e).width>0&&(box(e).right>wide+1||box(e).left<-1)).map(e=>e.tagName+' '+(e.textContent||'').slice(0,40));
-parent.postMessage(JSON.stringify({wide,scroll:document.documentElement.scrollWidth,charts,maps:all('.panels svg').length,headings:all('h2').map(h=>h.textContent),
+const tables=all('.wide').map(e=>({scrolls:e.scrollWidth>e.clientWidth+1,hint:getComputedStyle(e,'::before').content.includes('scroll')}));
+parent.postMessage(JSON.stringify({wide,tables,methods:document.querySelectorAll('#truth ~ .wide')[0].querySelectorAll('tr').length-1,scroll:document.documentElement.scrollWidth,charts,maps:all('.panels svg').length,headings:all('h2').map(h=>h.textContent),
 advice:all('li').filter(l=>l.textContent.startsWith('For an error of')).length,out}),'*')})</script>)";
 
 struct Cleared {
@@ -117,7 +120,19 @@ void expect_charts_at(const std::string& program, int width) {
   EXPECT_EQ(seen.at("advice"), advice);
   EXPECT_EQ(seen.at("maps"), panels);
   EXPECT_EQ(seen.at("headings").size(), 3u);
+  std::size_t methods = 0, scrolling = 0;
+  for (const Json& work : data.at("work_precision")) methods += work.at("methods").size();
+  EXPECT_GT(methods, 20u);
+  EXPECT_EQ(seen.at("methods"), methods);
+  for (const Json& table : seen.at("tables")) {
+    EXPECT_EQ(table.at("scrolls"), table.at("hint")) << "a table that scrolls says so, and no other";
+    scrolling += table.at("scrolls").get<bool>();
+  }
+  if (width < 400) {
+    EXPECT_GE(scrolling, 3u);
+  }
   for (const Json& chart : seen.at("charts")) {
+    EXPECT_EQ(chart.at("over"), 0) << "texts overprint each other: " << chart.dump();
     EXPECT_GT(chart.at("width").get<double>(), 300);
     EXPECT_EQ(chart.at("axes"), 1) << chart.dump();
     EXPECT_EQ(chart.at("out"), 0) << chart.dump();

@@ -188,18 +188,23 @@ TEST(Chart, LeavesPageAndData) {
     const std::size_t points = map.at("x").at("values").size() * map.at("y").at("values").size();
     for (const Json& panel : map.at("panels")) EXPECT_EQ(panel.at("fate").size(), points);
   }
-  for (const char* name : {"rough_pressure", "rough_area"}) { // against boundary elements
+  for (const char* name : {"rough_truth", "rough_truth_area"}) { // against boundary elements
     const auto work = std::find_if(data.at("work_precision").begin(), data.at("work_precision").end(),
                                    [&](const Json& each) { return each.at("name") == name; });
     ASSERT_NE(work, data.at("work_precision").end()) << name;
     std::map<std::string, double> errors;
     for (const Json& run : work->at("runs"))
       if (run.contains("error") && run.at("error").is_number())
-        errors[run.at("way")] = run.at("error").get<double>();
+        errors[run.at("way").get<std::string>() + ", " + run.at("slave_mesh").get<std::string>() +
+               (run.at("counted").get<bool>() ? ", counted" : "")] = run.at("error").get<double>();
     EXPECT_EQ(errors.size(), work->at("runs").size()) << work->dump();
-    for (const auto& [way, error] : errors) EXPECT_TRUE(error > 0 && error < 1) << way << ": " << error;
-    if (std::string(name) == "rough_area") {
-      EXPECT_LT(errors["enriched, elastic layer"], errors["enriched, one segment"]);
+    for (const auto& [way, error] : errors) { // counted on 81 nodes the area is twice the true one and more
+      const double most = way.find(", counted") == std::string::npos ? 1 : 2;
+      EXPECT_TRUE(error > 0 && error < most) << way << ": " << error;
+    }
+    if (std::string(name) == "rough_truth_area") {
+      EXPECT_LT(errors.at("enriched, elastic layer, 1089 slave nodes, layer"),
+                errors.at("enriched, one segment, 81 slave nodes, block"));
     }
   }
   std::ifstream stream(folder / "chart.html");

@@ -12,6 +12,7 @@
 #include "chart/following.hpp"
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
+#include "chart/truth_table.hpp"
 #include "chart/work.hpp"
 #include "chart/work_page.hpp"
 #include "support.hpp"
@@ -117,13 +118,119 @@ TEST(WorkPrecision, EqualAccuracyCountsWhatReachesIt) {
   EXPECT_EQ(at.reaching, 2);
 }
 
-TEST(WorkPrecision, ErrorIsWeighted) {
-  EXPECT_DOUBLE_EQ(relative_error({{1, 3}, {}, {1, 4}}, {1, 2}), std::sqrt(4 * 1. / (1 * 1 + 4 * 4)));
-  EXPECT_TRUE(std::isinf(relative_error({{1}, {}, {1}}, {1, 2})));
+// The table of what each method needs: each price is the least of the runs that reach the asked error; a
+// method that does not reach it has the prices of its closest run.
+TEST(WorkPrecision, PricesOfMethodsAreThoseOfTheRunsThatReachTheError) {
+  Work work = made({made(Family::facets, 64, 0.009, 3), made(Family::facets, 128, 0.005, 2),
+                    made(Family::facets, 8, 0.1, 1), made(Family::enriched, 1, 0.02, 4),
+                    made(Family::enriched, 1, 0.05, 1)});
+  work.runs[0].block_dofs = 70, work.runs[1].block_dofs = 60, work.runs[3].block_dofs = 50;
+  const std::vector<MethodPrice> methods = method_prices(work);
+  ASSERT_EQ(methods.size(), 2u);
+  EXPECT_EQ(methods[0].family, Family::enriched);
+  EXPECT_FALSE(methods[0].reached);
+  EXPECT_EQ(methods[0].best, &work.runs[3]);
+  EXPECT_EQ(methods[0].dofs, 50u);
+  EXPECT_EQ(methods[0].seconds, 4);
+  EXPECT_TRUE(methods[1].reached);
+  EXPECT_EQ(methods[1].segments, 64u);
+  EXPECT_EQ(methods[1].dofs, 60u);
+  EXPECT_EQ(methods[1].seconds, 2);
+  const std::string table = truth_table({work});
+  EXPECT_NE(table.find("<td>plain segments</td><td>yes</td><td>64</td><td>60</td><td>2.0</td>"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("<td>no: 2 %</td>"), std::string::npos) << table;
+  EXPECT_NE(
+      table.find("plain segments is the fastest to reach 1 %, in 2.0 s. Not reached here: enriched, one "
+                 "segment."),
+      std::string::npos)
+      << table;
+  work.problem.exact = false;
+  EXPECT_TRUE(method_prices(work).empty()); // held against a run of its own, which is no truth
+}
+
+TEST(WorkPrecision, PairsOfRunsAreCompared) {
+  Work work = made({made(Family::facets, 8, 0.01, 1), made(Family::facets, 8, 0.04, 1),
+                    made(Family::facets_cut, 8, 0.03, 6), made(Family::facets_sampled, 8, 0.02, 2),
+                    made(Family::facets_sampled, 16, 0.001, 2)});
+  work.runs[1].way.counted = true;
+  const std::vector<std::string> lines = comparisons(work);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0],
+            "The area corrected between the nodes has 0.25 times the error (median of 1 pair, smaller "
+            "in 1) of the counted one.");
+  EXPECT_EQ(lines[1],
+            "Plain segments with cut faces have 1.5 times the error (median of 1 pair, smaller in 0) of "
+            "those with sampling points on the same meshes, and take 3.0 times as long.");
 }
 
 const Problem& problem(const std::vector<Problem>& problems, const std::string& name) {
   return *std::find_if(problems.begin(), problems.end(), [&](const Problem& at) { return at.name == name; });
+}
+
+// What block, slave mesh and master add: differences of the fields of two runs, of the truth; a layer's share
+// is its whole error.
+TEST(WorkPrecision, SharesOfBlockAndMaster) {
+  Problem at = truth_problems(library(), EXAMPLES, true).front();
+  ASSERT_EQ(at.name, "wave_truth");
+  std::vector<Series> fields; // of the run that warms up, then of all ways: one step each
+  at.against = [&fields, against = at.against](const StepRecord& record, const SurfaceState& state,
+                                               Series& to) {
+    against(record, state, to);
+    fields.push_back(to);
+  };
+  const std::vector<Work> works = measure(at, library(), 1, [](const std::string&) {});
+  ASSERT_EQ(works.size(), 3u);
+  ASSERT_EQ(fields.size(), 1 + at.ways.size());
+  const auto index = [&](Family family, std::size_t level) {
+    return static_cast<std::size_t>(
+        std::find(at.ways.begin(), at.ways.end(), Way{family, family == Family::facets ? 15 : 1, level}) -
+        at.ways.begin());
+  };
+  const auto share = [&](std::size_t way) {
+    for (const WorkRun& run : works[2].runs)
+      if (run.way == at.ways.at(way)) return run.error;
+    ADD_FAILURE() << "no share of way " << way;
+    return 0.0;
+  };
+  const auto apart = [&](std::size_t way, std::size_t beside) {
+    const Series &a = fields.at(1 + way), &b = fields.at(1 + beside);
+    double difference = 0, whole = 0;
+    for (std::size_t k = 0; k < a.value.size(); ++k)
+      difference += a.weight[k] * std::pow(a.value[k] - b.value[k], 2),
+          whole += a.weight[k] * std::pow(a.truth[k], 2);
+    return std::sqrt(difference / whole);
+  };
+  const std::size_t block = index(Family::enriched, 0), same = index(Family::layer, 1),
+                    fine = index(Family::layer, 2), plain = index(Family::facets, 2);
+  EXPECT_NEAR(share(block), apart(block, same), 1e-12);
+  EXPECT_NEAR(share(plain), apart(plain, fine), 1e-12);
+  EXPECT_EQ(share(same), works[0].runs.at(same).error);
+  EXPECT_LT(share(fine), 0.5 * share(same)); // half the spacing
+}
+
+// Faces that are cut have other points in each step: what they give to the nodes is the step's force, up to
+// the slope of the sphere (1 - cos 0.02).
+TEST(WorkPrecision, PointsOfCutFacesAreThoseOfTheirStep) {
+  const std::vector<Problem> problems = work_problems(EXAMPLES, true);
+  Problem at = problem(problems, "hertz3d");
+  at.ways = {{Family::facets_cut, 23, 0}};
+  at.pressure = {}, at.area = {};
+  int steps = 0;
+  at.against = [&steps](const StepRecord& record, const SurfaceState& state, Series&) {
+    double force = 0;
+    for (std::size_t k = 0; k < state.area.size(); ++k) force += 4 * state.area[k] * state.pressure[k];
+    EXPECT_NEAR(force / record.force, 1, 2e-4) << "step " << record.step;
+    ++steps;
+  };
+  measure(at, library(), 1, [](const std::string&) {});
+  EXPECT_EQ(steps, 4); // two, and two of the run that warms up
+}
+
+TEST(WorkPrecision, ErrorIsWeighted) {
+  EXPECT_DOUBLE_EQ(relative_error({{1, 3}, {}, {1, 4}}, {1, 2}), std::sqrt(4 * 1. / (1 * 1 + 4 * 4)));
+  EXPECT_TRUE(std::isinf(relative_error({{1}, {}, {1}}, {1, 2})));
 }
 
 // A cosine's chord is off by 1 - cos(pi / n) of the amplitude at a crest between two nodes, n in a wave; in
@@ -251,7 +358,8 @@ TEST(WorkPrecision, AutomaticTangentIsTheClosedOne) {
 // better than the enriched segment they come close to.
 TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
   for (const Problem& at : work_problems(EXAMPLES, true)) {
-    const Work work = measure(at, library(), 1, [](const std::string&) {});
+    const std::vector<Work> works = measure(at, library(), 1, [](const std::string&) {});
+    const Work& work = works.front();
     const WorkRun *enriched = nullptr, *coarse = nullptr, *fine = nullptr, *automatic = nullptr;
     for (const WorkRun& run : work.runs) {
       EXPECT_EQ(run.failure, "") << at.name << ", " << word(run.way.family) << " " << run.way.divisions;
@@ -273,6 +381,11 @@ TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
       EXPECT_LE(enriched->error, fine->error) << at.name;
     }
     EXPECT_NE(work_svg(work, Price::time).find("<title>"), std::string::npos) << at.name;
+    EXPECT_EQ(works.size(), at.area ? 2u : 1u);
+    for (const WorkRun& run : works.back().runs) // the area is that of the closed form
+      if (at.area && run.way.family == Family::enriched) {
+        EXPECT_LT(run.error, run.way.counted ? 0.15 : equal_error_of_area) << at.name;
+      }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "chart/map_picture.hpp"
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
+#include "chart/truth_table.hpp"
 #include "chart/work.hpp"
 #include "chart/work_page.hpp"
 #include "chart/wrong_heights.hpp"
@@ -117,8 +118,9 @@ std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& op
            std::find(options.only.begin(), options.only.end(), problem.name) == options.only.end();
   });
   for (const Problem& problem : problems)
-    works.push_back(measure(problem, library, options.quick ? 1 : 3,
-                            options.quick ? [](const std::string&) {} : progress));
+    for (Work& work : measure(problem, library, options.quick ? 1 : 3,
+                              options.quick ? [](const std::string&) {} : progress))
+      works.push_back(std::move(work));
   return works;
 }
 
@@ -200,6 +202,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
     for (const Work& work : works) {
       std::printf("%s: %s\n", work.problem.name.c_str(), work.problem.quantity.c_str());
       for (const std::string& line : advice(work, advised_errors)) std::printf("  %s\n", line.c_str());
+      for (const std::string& line : comparisons(work)) std::printf("  %s\n", line.c_str());
     }
     if (!maps.empty()) std::printf("\n%s", table.text().c_str());
     Table wrong_table;

@@ -109,7 +109,10 @@ p,li{max-width:46em}
 figure{margin:0}figcaption{font-size:.8em;line-height:1.2;margin-left:18%}
 svg{width:100%;height:auto;display:block}svg text{font:9px Helvetica,Arial,sans-serif;text-anchor:middle}svg text.a{font-size:12px}
 table{border-collapse:collapse;font-size:.86em}td,th{padding:2px 9px;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}
-.wide{overflow-x:auto}.careless{color:#777}
+tr.new td{border-top:2px solid #bbb}
+.wide{overflow-x:auto;background:linear-gradient(to right,#fff 40%,#fff0) local 0 0/36px 100% no-repeat,linear-gradient(to left,#fff 40%,#fff0) local 100% 0/36px 100% no-repeat,linear-gradient(to right,#0003,#0000) 0 0/12px 100% no-repeat,linear-gradient(to left,#0003,#0000) 100% 0/12px 100% no-repeat}
+.wide.over::before{content:"more columns: scroll the table to the right \2192";position:sticky;left:0;display:inline-block;font-size:.8em;color:#555}
+.careless{color:#777}
 .key{display:flex;flex-wrap:wrap;gap:4px 16px;font-size:.86em;margin:.8em 0}
 .key span{display:inline-flex;align-items:center;gap:6px}.key i{width:15px;height:15px;font:normal 11px/15px Helvetica,Arial;text-align:center}
 nav a{margin-right:1em}
@@ -121,6 +124,11 @@ svg.w text{font:13px Helvetica,Arial,sans-serif;fill:#222}svg.k{width:15px;heigh
 @media(max-width:900px){.panels{grid-template-columns:repeat(3,1fr)}}
 @media(max-width:560px){.panels{grid-template-columns:repeat(2,1fr)}}
 )";
+
+/// Tables that do not fit say that they scroll.
+constexpr const char* script = R"(
+<script>{const mark=()=>document.querySelectorAll('.wide').forEach(e=>e.classList.toggle('over',e.scrollWidth>e.clientWidth+1));
+addEventListener('resize',mark);mark()}</script>)";
 
 } // namespace
 
@@ -206,7 +214,7 @@ std::string page(const std::vector<Section>& sections, const std::string& versio
   for (const Section& section : sections)
     html += "\n<section id=\"" + section.id + "\"><h2>" + escaped(section.title) + "</h2>" + section.html +
             "</section>";
-  return html + "\n</body></html>\n";
+  return html + std::string(script) + "\n</body></html>\n";
 }
 
 } // namespace host::chart

@@ -77,6 +77,7 @@ std::string name_of(const Problem& problem, const WorkRun& run) {
     text = "enriched, " + count(run);
   else if (run.segments > 1)
     text += " (" + std::to_string(run.segments) + ")";
+  if (run.way.counted) text += ", area counted";
   return text + ", " + problem.levels[run.way.level].name;
 }
 
@@ -125,6 +126,7 @@ std::string sentence(const Work& work, const std::string& errors, const Choice& 
 
 std::vector<std::string> advice(const Work& work, const std::vector<double>& errors) {
   std::vector<std::string> result;
+  if (work.problem.asked == 0) return result; // shares of an error: no ways to choose from
   for (std::size_t i = 0; i < errors.size();) {
     const Choice choice = choose(work, errors[i]);
     std::size_t last = i; // of those with the same answer

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "chart/chart_page.hpp"
 #include "chart/pareto.hpp"
@@ -141,6 +142,10 @@ const char* color_of(Family family) {
     return "#56b4e9";
   case Family::facets:
     return "#d55e00";
+  case Family::facets_sampled:
+    return "#882255";
+  case Family::facets_cut:
+    return "#a8760a";
   case Family::smoothed:
     return "#009e73";
   case Family::on_facets:
@@ -151,10 +156,11 @@ const char* color_of(Family family) {
   return "#000";
 }
 
-std::string marker(Family family, double x, double y, const std::string& title) {
+std::string marker(Family family, double x, double y, const std::string& title, bool hollow) {
   std::string shape;
-  const std::string fill =
-      std::string(" fill=\"") + color_of(family) + "\" stroke=\"#fff\" stroke-width=\"1\"";
+  const std::string fill = std::string(" fill=\"") + (hollow ? "#fff" : color_of(family)) + "\" stroke=\"" +
+                           (hollow ? color_of(family) : "#fff") + "\" stroke-width=\"" +
+                           (hollow ? "1.6" : "1") + "\"";
   const auto polygon = [&](std::initializer_list<std::pair<double, double>> corners) {
     std::string points;
     for (const auto& [dx, dy] : corners) points += px(x + dx) + "," + px(y + dy) + " ";
@@ -172,6 +178,23 @@ std::string marker(Family family, double x, double y, const std::string& title) 
     break;
   case Family::facets:
     shape = polygon({{-4.2, -4.2}, {4.2, -4.2}, {4.2, 4.2}, {-4.2, 4.2}});
+    break;
+  case Family::facets_sampled:
+    shape = polygon({{-2, -5.5},
+                     {2, -5.5},
+                     {2, -2},
+                     {5.5, -2},
+                     {5.5, 2},
+                     {2, 2},
+                     {2, 5.5},
+                     {-2, 5.5},
+                     {-2, 2},
+                     {-5.5, 2},
+                     {-5.5, -2},
+                     {-2, -2}});
+    break;
+  case Family::facets_cut:
+    shape = polygon({{-5.5, -5.5}, {5.5, 5.5}, {5.5, -5.5}, {-5.5, 5.5}});
     break;
   case Family::smoothed:
     shape = polygon({{0, -5.5}, {5.2, 4}, {-5.2, 4}});
@@ -216,18 +239,21 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
                   "class=\"f\"");
   // A curve: one slave mesh and finer and finer masters; with one enriched segment, finer and finer slave
   // meshes.
-  std::map<std::pair<Family, std::size_t>, std::vector<const WorkRun*>> curves;
+  std::map<std::tuple<Family, std::size_t, bool>, std::vector<const WorkRun*>> curves;
   for (const WorkRun& run : work.runs) {
     if (!charted(run)) continue;
     const bool one = run.way.family == Family::enriched || run.way.family == Family::sampled ||
                      run.way.family == Family::layer;
-    curves[{run.way.family, one ? static_cast<std::size_t>(run.way.divisions) : run.way.level}].push_back(
-        &run);
+    curves[{run.way.family, one ? static_cast<std::size_t>(run.way.divisions) : run.way.level,
+            run.way.counted}]
+        .push_back(&run);
   }
   for (const auto& [key, runs] : curves)
-    svg += polyline(runs, false, std::string("class=\"l\" stroke=\"") + color_of(key.first) + "\"");
-  for (const Family family : {Family::facets, Family::smoothed, Family::on_facets, Family::on_smoothed,
-                              Family::sampled, Family::layer, Family::enriched})
+    svg += polyline(runs, false,
+                    std::string("class=\"l\" stroke=\"") + color_of(std::get<0>(key)) + "\"" +
+                        (std::get<2>(key) ? " stroke-dasharray=\"3 3\"" : ""));
+  std::vector<Family> order(std::rbegin(families), std::rend(families)); // the first of them on top
+  for (const Family family : order)
     for (const WorkRun& run : work.runs)
       if (charted(run) && run.way.family == family)
         svg +=
@@ -235,7 +261,8 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
                    name_of(work.problem, run) + ": error " + format_number(100 * run.error, 2) + " %, " +
                        format_number(run.seconds(), 2) + " s, contact " +
                        format_number(1e3 * run.contact_seconds(), 2) + " ms, " + std::to_string(run.dofs()) +
-                       " dofs, " + std::to_string(run.iterations) + " iterations");
+                       " dofs, " + std::to_string(run.iterations) + " iterations",
+                   run.way.counted);
   return svg;
 }
 
@@ -260,12 +287,19 @@ std::string work_picture(const std::vector<const Work*>& works, const std::vecto
     x += needed;
     return at;
   };
-  for (const Family family : {Family::enriched, Family::layer, Family::sampled, Family::facets,
-                              Family::smoothed, Family::on_facets, Family::on_smoothed}) {
+  for (const Family family : families) {
     const std::string name = family_name(works, family);
     if (name.empty()) continue;
     const double at = place_for(name.size());
     key += marker(family, at + 6, legend - 16, "") + text(at + 17, legend - 11.5, "start", name);
+  }
+  const auto counted = [](const Work* work) {
+    return std::any_of(work->runs.begin(), work->runs.end(),
+                       [](const WorkRun& run) { return run.way.counted; });
+  };
+  if (std::any_of(works.begin(), works.end(), counted)) {
+    const std::string name = "hollow: area counted";
+    key += text(place_for(name.size() - 2), legend - 11.5, "start", name);
   }
   const std::string front = "Pareto front";
   const double at = place_for(front.size() + 4);

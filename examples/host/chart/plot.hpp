@@ -19,7 +19,8 @@ const char* label_of(Price price);
 const char* color_of(Family family);
 
 /// A family's marker at a place, as SVG.
-std::string marker(Family family, double x, double y, const std::string& title);
+/// @param hollow  of an area that is counted
+std::string marker(Family family, double x, double y, const std::string& title, bool hollow = false);
 
 /// One diagram, 440 x 320: its content without the svg element.
 std::string work_panel(const Work& work, Price price, const std::string& heading);

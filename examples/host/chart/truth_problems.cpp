@@ -41,68 +41,110 @@ private:
   std::map<double, LayerTruth> known_;
 };
 
-} // namespace
+/// A scene with a variant "layer", solved with meshed blocks and with layers.
+struct TruthScene {
+  std::string name, title, text, period, scene;
+  Json approaches;
+  std::vector<int> blocks, layers, facets; ///< cells per side; plain segments per direction
+  int points;                              ///< of the boundary elements
+};
 
-std::vector<Problem> truth_problems(const EntsLibrary& library, const std::filesystem::path& scenes,
-                                    bool quick) {
+Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& scenes, const TruthScene& of) {
   Problem p;
-  p.scene = scenes / "rough_afm" / "scene.json";
-  p.text = "256 x 256 heights on one segment, of which the block covers a quarter; three approaches, 3 to 36 "
-           "% of the "
-           "area in contact. Blocks of hex8 and a penalty, or an elastic layer without a mesh below its "
-           "surface and hard contact.";
-  p.period = "256 x 256 heights";
+  p.scene = scenes / of.scene / "scene.json";
+  p.name = of.name, p.title = of.title, p.text = of.text, p.period = of.period;
   p.forces = true;
   p.settings = {{"/solver", {{"tolerance", 1e-6}}},
-                {"/steps/values", quick ? Json{0.06} : Json{0.03, 0.06, 0.1}}};
+                {"/steps", {{"control", "approach"}, {"values", of.approaches}}}};
   const auto divided = [](int n) {
     return std::vector<std::pair<std::string, Json>>{{"/parts/0/x/pieces/0/divisions", n},
                                                      {"/parts/0/y/pieces/0/divisions", n}};
   };
-  const std::vector<int> blocks = quick ? std::vector<int>{8} : std::vector<int>{14, 28},
-                         layers = quick ? std::vector<int>{32} : std::vector<int>{32, 64, 128, 256};
-  for (const int n : blocks)
-    p.levels.push_back({std::to_string((n + 1) * (n + 1)) + " slave nodes, block", divided(n)});
-  for (const int n : layers)
-    p.levels.push_back({std::to_string((n + 1) * (n + 1)) + " slave nodes, layer", {}});
+  const auto slaves = [](int n) { return std::to_string((n + 1) * (n + 1)) + " slave nodes, "; };
+  // Levels: blocks with the scene's penalty, layers on the same nodes with the same penalty, layers with hard
+  // contact.
+  std::vector<int> layers = of.blocks;
+  layers.insert(layers.end(), of.layers.begin(), of.layers.end());
+  const std::size_t blocks = of.blocks.size();
+  for (const int n : of.blocks) p.levels.push_back({slaves(n) + "block", divided(n)});
+  for (const int n : of.blocks) p.levels.push_back({slaves(n) + "layer with the block's penalty", {}});
+  for (const int n : of.layers) p.levels.push_back({slaves(n) + "layer", {}});
   p.adapt = [blocks, layers](Json& scene, const Way& way) {
-    if (way.level >= blocks.size()) become_layer(scene, layers[way.level - blocks.size()]);
+    if (way.level >= blocks) {
+      const Json penalty = scene.at("contact").at("model").at("contact");
+      become_layer(scene, layers[way.level - blocks]);
+      Json& law = scene.at("contact").at("model").at("contact");
+      law = penalty;
+      if (way.level >= 2 * blocks) law["normal"]["type"] = "augmented_multiplier";
+    }
     for (const char* key : {"exact", "compare", "variants"}) scene.erase(key);
   };
-  for (std::size_t level = 0; level < blocks.size(); ++level) {
+  for (std::size_t level = 0; level < blocks; ++level) {
     p.ways.push_back({Family::enriched, 1, level});
-    if (level + 1 < blocks.size()) p.ways.push_back({Family::sampled, 1, level});
+    if (level + 1 < blocks) p.ways.push_back({Family::sampled, 1, level});
   }
-  for (std::size_t level = blocks.size(); level < p.levels.size(); ++level)
+  for (std::size_t level = blocks; level < p.levels.size(); ++level)
     p.ways.push_back({Family::layer, 1, level});
-  for (const int n : quick ? std::vector<int>{64} : std::vector<int>{64, 128})
-    p.ways.push_back({Family::facets, n, quick ? p.levels.size() - 1 : p.levels.size() - 2});
-
-  const auto truth = std::make_shared<Truth>(library, p.scene, quick ? 64 : 1024);
-  const std::string held =
-      "boundary elements, " + std::string(quick ? "64" : "1024") + " points a side, hard contact";
-  Problem field = p, area = p;
-  field.name = "rough_pressure",
-  field.title = "A measured rough surface: the pressure field against the truth";
-  field.quantity = "force of every slave node, L2 over the surface and the loads";
-  field.truth = held + ": what the cells around the node carry";
-  field.against = [truth](const StepRecord& record, const SurfaceState& state, Series& series) {
+  const std::size_t middle = p.levels.size() - (of.layers.size() > 1 ? 2 : 1);
+  for (const int n : of.facets) p.ways.push_back({Family::facets, n, middle});
+  p.beside = [blocks](const Way& way) -> std::optional<Way> {
+    switch (way.family) {
+    case Family::enriched:
+      return Way{Family::layer, 1, way.level + blocks};
+    case Family::facets:
+      return Way{Family::layer, 1, way.level};
+    case Family::layer:
+      return std::nullopt;
+    default:
+      return Way{Family::on_facets, 0, 0}; // points instead of nodes are no share of these three
+    }
+  };
+  const auto truth = std::make_shared<Truth>(library, p.scene, of.points);
+  p.truth = "boundary elements, " + std::to_string(of.points) +
+            " points a side, hard contact; a node has what the "
+            "cells around it carry";
+  p.quantity = "force of every slave node, L2 over the surface and the loads";
+  p.against = [truth](const StepRecord& record, const SurfaceState& state, Series& series) {
     const std::vector<double> exact = truth->layer().pressure_at(state, truth->at(record.motion));
     series.value.insert(series.value.end(), state.pressure.begin(), state.pressure.end());
     series.truth.insert(series.truth.end(), exact.begin(), exact.end());
     series.weight.insert(series.weight.end(), state.area.begin(), state.area.end());
   };
-  std::erase_if(area.ways,
-                [](const Way& way) { return way.family == Family::sampled; }); // the correction needs nodes
-  area.name = "rough_area", area.title = "A measured rough surface: the contact area against the truth";
-  area.quantity = "area in contact, corrected by its border, over the loads";
-  area.truth = held;
-  area.against = [truth](const StepRecord& record, const SurfaceState&, Series& series) {
-    series.value.push_back(record.area.fraction);
-    series.truth.push_back(truth->at(record.motion).fine.fraction);
-    series.weight.push_back(1);
-  };
-  return {field, area};
+  p.area = [truth](const Scene&, const StepRecord& record) { return truth->at(record.motion).fine.fraction; };
+  return p;
+}
+
+} // namespace
+
+std::vector<Problem> truth_problems(const EntsLibrary& library, const std::filesystem::path& scenes,
+                                    bool quick) {
+  const TruthScene wave{"wave_truth",
+                        "Double sine, partial contact",
+                        "A quarter of a wave; three approaches, 10 to 62 % of the area in contact. Blocks of "
+                        "hex8 and a penalty, "
+                        "or an elastic layer without a mesh below its surface and hard contact.",
+                        "one wave per direction",
+                        "wavy3d",
+                        quick ? Json{0.002} : Json{0.001, 0.002, 0.004},
+                        quick ? std::vector<int>{8} : std::vector<int>{8, 16, 24},
+                        quick ? std::vector<int>{16} : std::vector<int>{16, 32, 64, 128},
+                        quick ? std::vector<int>{15} : std::vector<int>{7, 15, 31, 63},
+                        quick ? 64 : 512};
+  const TruthScene rough{
+      "rough_truth",
+      "A measured rough surface",
+      "256 x 256 heights on one segment, of which the block covers a quarter; three approaches, 3 to 36 % of "
+      "the area in contact. Blocks of hex8 and a penalty, or an elastic layer without a mesh below its "
+      "surface "
+      "and hard contact.",
+      "256 x 256 heights",
+      "rough_afm",
+      quick ? Json{0.06} : Json{0.03, 0.06, 0.1},
+      quick ? std::vector<int>{8} : std::vector<int>{14, 28},
+      quick ? std::vector<int>{32} : std::vector<int>{32, 64, 128, 256},
+      quick ? std::vector<int>{64} : std::vector<int>{64, 128},
+      quick ? 64 : 1024};
+  return {truth_problem(library, scenes, wave), truth_problem(library, scenes, rough)};
 }
 
 } // namespace host::chart

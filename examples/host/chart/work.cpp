@@ -32,6 +32,8 @@ double median(std::vector<double> values) {
 struct Solution {
   Series series;
   std::vector<double> global; ///< approach (force given) or forces (motion given) of every step
+  Series estimated,
+      counted; ///< shares of the slave surface in contact; weights: errors relative in each step
 };
 
 struct NodalTraction {
@@ -39,13 +41,22 @@ struct NodalTraction {
   std::array<double, 3> traction{}; ///< friction times area
 };
 
-Solution solution_of(const Problem& problem, const Simulation& simulation, const SlavePoints& slaves,
-                     const std::vector<double>& areas, const std::vector<StepRecord>& records) {
+/// @param points  of every step: faces that are cut have others in the next one
+Solution solution_of(const Problem& problem, const Simulation& simulation,
+                     const std::vector<SlavePoints>& points, const std::vector<StepRecord>& records) {
   Solution solution;
   const Scene& scene = simulation.scene();
   const auto d = static_cast<std::size_t>(scene.dimension);
-  for (const StepRecord& record : records) {
+  for (std::size_t step = 0; step < records.size(); ++step) {
+    const StepRecord& record = records[step];
+    const SlavePoints& slaves = points[step];
     if (record.value <= problem.after) continue;
+    if (const double area = problem.area ? problem.area(scene, record) : NAN; area > 0)
+      for (const auto& [series, value] : {std::pair(&solution.estimated, record.area.fraction),
+                                          {&solution.counted, record.contact_fraction}}) {
+        series->value.push_back(value), series->truth.push_back(area);
+        series->weight.push_back(1 / (area * area));
+      }
     // Forces of sampling points go to the nodes of their faces: pressures are compared where displacements
     // live.
     std::map<int, NodalTraction> nodes;
@@ -53,7 +64,7 @@ Solution solution_of(const Problem& problem, const Simulation& simulation, const
       for (std::size_t a = 0; a < slaves.nodes_per_point; ++a) {
         const std::size_t at = k * slaves.nodes_per_point + a;
         NodalTraction& node = nodes[slaves.nodes[at]];
-        const double share = slaves.weights[at] * areas[k];
+        const double share = slaves.weights[at] * slaves.areas[k];
         node.area += share;
         node.pressure += share * record.fields.pressure[k];
         for (std::size_t i = 0; i < d; ++i) node.traction[i] += share * record.fields.traction[k * d + i];
@@ -98,7 +109,12 @@ Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& 
   const CpuStopwatch cpu(CLOCK_PROCESS_CPUTIME_ID);
   Simulation simulation(scene, automatic ? &automatic->library() : &library, 0,
                         scene.contact->rigid.empty() ? MasterMaker{} : master_of(run.way));
-  const std::vector<StepRecord> records = solve(simulation, {});
+  std::vector<SlavePoints> points;
+  RunObserver observer;
+  observer.step_done = [&points](const Simulation& at, const StepRecord&) {
+    points.push_back(at.contact()->slaves());
+  };
+  const std::vector<StepRecord> records = solve(simulation, observer);
   run.cpu.push_back(cpu.seconds());
   run.wall.push_back(wall.seconds());
   run.contact_cpu.push_back(simulation.timings().contact_cpu);
@@ -112,8 +128,7 @@ Solution solve_way(const Problem& problem, const EntsLibrary& library, WorkRun& 
     run.iterations += record.iterations();
     run.cuts += static_cast<int>(record.cuts.size());
   }
-  return solution_of(problem, simulation, simulation.contact()->slaves(), simulation.contact()->areas(),
-                     records);
+  return solution_of(problem, simulation, points, records);
 }
 
 double relative_difference(const std::vector<double>& values, const std::vector<double>& truth) {
@@ -146,6 +161,10 @@ const char* word(Family family) {
     return "enriched, sampling points";
   case Family::facets:
     return "plain segments";
+  case Family::facets_sampled:
+    return "plain segments, sampling points";
+  case Family::facets_cut:
+    return "plain segments, faces cut";
   case Family::smoothed:
     return "smoothed segments";
   case Family::on_facets:
@@ -183,14 +202,71 @@ Scene scene_of(const Problem& problem, const Way& way) {
   };
   apply(problem.settings);
   apply(problem.levels[way.level].settings);
-  if (way.family == Family::sampled) json["contact"]["sampling"] = 2;
+  if (way.family == Family::sampled || way.family == Family::facets_sampled) json["contact"]["sampling"] = 2;
+  if (way.family == Family::facets_cut) json["contact"]["sampling"] = "cut";
   if (problem.adapt) problem.adapt(json, way);
   json["contact"]["model"]["tangent"] = way.tangent == automatic_tangent ? "consistent" : way.tangent;
   return read_scene_text(json.dump(), problem.scene);
 }
 
-Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
-             const std::function<void(const std::string&)>& progress) {
+namespace {
+
+/// The work with another quantity, without runs.
+Work other_quantity(const Problem& problem, const std::string& name, const std::string& title) {
+  Work work{problem, {}, 0};
+  work.problem.name += "_" + name, work.problem.title += ": " + title;
+  return work;
+}
+
+/// Errors of the contact area; each run twice where its nodes allow an estimate between them.
+Work area_of(const Work& work, const std::vector<Solution>& solutions) {
+  Work area = other_quantity(work.problem, "area", "contact area");
+  area.problem.quantity = "area in contact, relative, rms over the loads";
+  area.problem.asked = equal_error_of_area;
+  for (std::size_t i = 0; i < work.runs.size(); ++i)
+    for (const bool counted : {false, true}) {
+      WorkRun run = work.runs[i];
+      const Series& series = counted ? solutions[i].counted : solutions[i].estimated;
+      run.way.counted = counted, run.global = NAN;
+      if (run.failure.empty()) run.error = relative_error(series, series.truth);
+      if (!std::isnan(run.error)) area.runs.push_back(run); // sampling points have no estimate
+    }
+  return area;
+}
+
+/// Block, slave mesh and master apart.
+Work shares_of(const Work& work, const std::vector<Solution>& solutions) {
+  Work shares = other_quantity(work.problem, "shares", "what block, slave mesh and master add to the error");
+  shares.problem.quantity =
+      "force of every slave node, in parts: of a block its difference to the layer on as many nodes, of "
+      "plain segments theirs to one enriched segment on the same nodes, of one segment on a layer the whole "
+      "error, "
+      "which is that of the slave mesh";
+  shares.problem.asked = 0; // nothing to choose from
+  for (std::size_t i = 0; i < work.runs.size(); ++i) {
+    const std::optional<Way> way = work.problem.beside(work.runs[i].way);
+    const auto found =
+        way ? std::find(work.problem.ways.begin(), work.problem.ways.end(), *way) : work.problem.ways.end();
+    if (way && found == work.problem.ways.end()) continue;
+    WorkRun run = work.runs[i];
+    run.global = NAN;
+    const Series& own = solutions[i].series;
+    if (way && run.failure.empty()) { // the difference, of the truth
+      Series difference = own;
+      const Series& other = solutions[static_cast<std::size_t>(found - work.problem.ways.begin())].series;
+      if (other.value.size() != own.value.size()) continue;
+      for (std::size_t k = 0; k < own.value.size(); ++k) difference.value[k] += own.truth[k] - other.value[k];
+      run.error = relative_error(difference, own.truth);
+    }
+    shares.runs.push_back(run);
+  }
+  return shares;
+}
+
+} // namespace
+
+std::vector<Work> measure(const Problem& problem, const EntsLibrary& library, int repetitions,
+                          const std::function<void(const std::string&)>& progress) {
   Work work{problem, {}, 0};
   if (!problem.against)
     work.following = segments_that_follow(library, scene_of(problem, problem.ways.front()), equal_error);
@@ -233,7 +309,10 @@ Work measure(const Problem& problem, const EntsLibrary& library, int repetitions
     for (WorkRun& run : work.runs)
       if (run.failure.empty() && run.cpu.front() < (repetition < repetitions ? short_run : very_short_run))
         solve_way(problem, library, run);
-  return work;
+  std::vector<Work> works{work};
+  if (problem.area) works.push_back(area_of(work, solutions));
+  if (problem.beside) works.push_back(shares_of(work, solutions));
+  return works;
 }
 
 } // namespace host::chart

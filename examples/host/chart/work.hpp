@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,17 +15,27 @@
 
 namespace host::chart {
 
+/// The errors at which ways are compared: of pressures, and of contact areas.
+inline constexpr double equal_error = 0.01, equal_error_of_area = 0.03;
+
 /// How the surface of the master is told to the library, and where the slave side sees it.
 enum class Family {
-  enriched,    ///< one segment with the height
-  layer,       ///< the same on an elastic layer that is known at its surface only, instead of a meshed block
-  sampled,     ///< the same, two sampling points per direction and slave face instead of the nodes
-  facets,      ///< plain segments through points of the surface
-  smoothed,    ///< Catmull-Rom segments through the same points, no height
-  on_facets,   ///< the height on plain segments of a curved base
-  on_smoothed, ///< the height on Catmull-Rom segments of a curved base
+  enriched, ///< one segment with the height
+  layer,    ///< the same on an elastic layer that is known at its surface only, instead of a meshed block
+  sampled,  ///< the same, two sampling points per direction and slave face instead of the nodes
+  facets,   ///< plain segments through points of the surface
+  facets_sampled, ///< the same with sampling points
+  facets_cut,     ///< the same, slave faces cut at the borders of the segments
+  smoothed,       ///< Catmull-Rom segments through the same points, no height
+  on_facets,      ///< the height on plain segments of a curved base
+  on_smoothed,    ///< the height on Catmull-Rom segments of a curved base
 };
 const char* word(Family family);
+
+/// In the order of legends and tables.
+inline constexpr Family families[] = {Family::enriched, Family::layer,          Family::sampled,
+                                      Family::facets,   Family::facets_sampled, Family::facets_cut,
+                                      Family::smoothed, Family::on_facets,      Family::on_smoothed};
 
 /// Way::tangent: the consistent one by automatic differentiation instead of the library's closed form.
 inline constexpr const char* automatic_tangent = "automatic";
@@ -35,6 +46,7 @@ struct Way {
   int divisions = 1;                  ///< segments of the master per direction
   std::size_t level = 0;              ///< of the slave mesh, see Problem::levels
   std::string tangent = "consistent"; ///< of the library, or automatic_tangent
+  bool counted = false; ///< of a contact area: that of closed nodes or points, not the estimate between them
 
   bool operator==(const Way&) const = default;
 };
@@ -64,9 +76,10 @@ struct Problem {
   std::vector<std::pair<std::string, Json>> settings; ///< changes of the scene for all runs
   std::vector<SlaveMesh> levels;                      ///< coarse to fine
   std::vector<Way> ways;
-  double after = -1;   ///< steps up to this value of the control do not count
-  bool forces = false; ///< the motion is given: WorkRun::global is that of the forces
-  bool exact = true;   ///< false: the truth is the last way's
+  double after = -1;          ///< steps up to this value of the control do not count
+  bool forces = false;        ///< the motion is given: WorkRun::global is that of the forces
+  bool exact = true;          ///< false: the truth is the last way's
+  double asked = equal_error; ///< the error that the ways are held against
   /// Changes of the scene file that a way asks for, besides those of its level; may be empty.
   std::function<void(Json&, const Way&)> adapt;
   /// Exact pressure at a place of the reference surface in a step, NaN in steps where nobody knows it; empty
@@ -75,10 +88,15 @@ struct Problem {
   /// Instead of it: adds what a step is compared by. The state is that of the slave nodes, to which forces of
   /// sampling points have gone.
   std::function<void(const StepRecord&, const SurfaceState& nodes, Series&)> against;
+  /// Exact share of the slave surface in contact in a step, NaN where nobody knows it; empty: not compared.
+  std::function<double(const Scene&, const StepRecord&)> area;
+  /// The way that has all the errors of this one but the block's, or but the master's: what is between them
+  /// is that share. Nothing: the way's whole error is one share. Empty: shares are not looked at.
+  std::function<std::optional<Way>(const Way&)> beside;
 };
 
-/// A measured rough surface, whose pressures and contact areas are held against boundary elements: errors of
-/// block, slave mesh and master together.
+/// A measured rough surface and a double sine, whose pressures and contact areas are held against boundary
+/// elements: errors of block, slave mesh and master together, and apart.
 std::vector<Problem> truth_problems(const EntsLibrary& library, const std::filesystem::path& scenes,
                                     bool quick);
 
@@ -111,14 +129,13 @@ struct Work {
       0; ///< plain segments that follow the surface itself to equal_error of its amplitude; 0: not known
 };
 
-/// The error at which enriched and explicit segments are compared.
-inline constexpr double equal_error = 0.01;
-
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.
 /// @param repetitions  of runs that take less than 1.5 s (if more than one: two more below 0.3 s); longer
 /// ones are solved once
-Work measure(const Problem& problem, const EntsLibrary& library, int repetitions,
-             const std::function<void(const std::string&)>& progress);
+/// @return the quantity of the problem itself, then the contact area and the shares of the error where they
+/// are known: other errors of the same runs
+std::vector<Work> measure(const Problem& problem, const EntsLibrary& library, int repetitions,
+                          const std::function<void(const std::string&)>& progress);
 
 /// The scene of a way.
 Scene scene_of(const Problem& problem, const Way& way);

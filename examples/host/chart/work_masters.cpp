@@ -148,6 +148,8 @@ MasterMaker master_of(const Way& way) {
   case Family::sampled:
     return {};
   case Family::facets:
+  case Family::facets_sampled:
+  case Family::facets_cut:
     return [n](const EntsLibrary& library, const Scene& scene) { return explicit_master(library, scene, n); };
   case Family::smoothed:
     return [n](const EntsLibrary& library, const Scene& scene) { return smoothed_master(library, scene, n); };

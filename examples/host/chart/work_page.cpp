@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chart/work_page.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "chart/chart_page.hpp"
 #include "chart/pareto.hpp"
 #include "chart/plot.hpp"
+#include "chart/truth_table.hpp"
 #include "output/table.hpp"
 
 namespace host::chart {
@@ -71,7 +73,7 @@ std::string equal_accuracy_table(const std::vector<Work>& works) {
   std::string notes;
   for (const Work& work : works) {
     const EqualAccuracy at = equal_accuracy(work, equal_error);
-    if (at.enriched == nullptr) continue;
+    if (at.enriched == nullptr || work.problem.asked != equal_error) continue;
     html += row({work.problem.name, segments(at.enriched), segments(at.fewest_facets),
                  segments(at.fewest_smoothed), seconds(at.enriched), seconds(at.cheapest_facets),
                  seconds(at.cheapest_smoothed), milliseconds(at.enriched), milliseconds(at.cheapest_facets),
@@ -132,13 +134,15 @@ std::string tangent_table(const std::vector<Work>& works) {
 
 std::string legend_of(const Work& work) {
   std::string html = "<div class=\"key\">";
-  for (const Family family : {Family::enriched, Family::layer, Family::sampled, Family::facets,
-                              Family::smoothed, Family::on_facets, Family::on_smoothed}) {
+  const bool areas =
+      std::any_of(work.runs.begin(), work.runs.end(), [](const WorkRun& run) { return run.way.counted; });
+  for (const Family family : families) {
     const std::string name = family_name({&work}, family);
     if (name.empty()) continue;
     html += "<span><svg class=\"k\" viewBox=\"0 0 14 14\">" + marker(family, 7, 7, "") + "</svg>" + name +
             "</span>";
   }
+  if (areas) html += "<span>filled: corrected between the nodes; hollow: counted</span>";
   return html + "<span><svg class=\"k\" viewBox=\"0 0 14 14\"><path class=\"f\" d=\"M2 7H12\"/></svg>Pareto "
                 "front</span></div>";
 }
@@ -150,7 +154,8 @@ Json run_json(const Problem& problem, const WorkRun& run) {
              several ? "enriched, " + std::to_string(run.way.divisions) + " segments" : word(run.way.family)},
             {"divisions", run.way.divisions},
             {"slave_mesh", problem.levels[run.way.level].name},
-            {"tangent", run.way.tangent}};
+            {"tangent", run.way.tangent},
+            {"counted", run.way.counted}};
   if (!run.failure.empty()) {
     json["failure"] = run.failure;
     return json;
@@ -174,7 +179,7 @@ Json run_json(const Problem& problem, const WorkRun& run) {
 } // namespace
 
 std::string work_section(const std::vector<Work>& works) {
-  std::string html = introduction + equal_accuracy_table(works);
+  std::string html = introduction + truth_table(works) + equal_accuracy_table(works);
   for (const Work& work : works) {
     const Problem& problem = work.problem;
     html += "<h3 id=\"work_" + problem.name + "\">" + escaped(problem.title) + "</h3><p>" +
@@ -183,6 +188,7 @@ std::string work_section(const std::vector<Work>& works) {
     for (const Price price : prices) html += "<figure>" + work_svg(work, price) + "</figure>";
     html += "</div><ul>";
     for (const std::string& line : advice(work, advised_errors)) html += "<li>" + escaped(line) + "</li>";
+    for (const std::string& line : comparisons(work)) html += "<li>" + escaped(line) + "</li>";
     for (const WorkRun& run : work.runs)
       if (!run.failure.empty())
         html += "<li>Not solved: " + escaped(word(run.way.family)) + " " + std::to_string(run.way.divisions) +
@@ -212,6 +218,8 @@ Json work_json(const std::vector<Work>& works) {
                     {"runs", runs},
                     {"front", front},
                     {"advice", advice(work, advised_errors)},
+                    {"methods", truth_json(work)},
+                    {"comparisons", comparisons(work)},
                     {"equal_accuracy",
                      {{"error", equal_error},
                       {"plain_following", work.following > 0 ? Json(work.following) : Json()},

@@ -37,6 +37,31 @@ double pressure_of_two_waves(const Scene& scene, const StepRecord& record,
   return record.mean_pressure + full * std::cos(wave * place[0]) * std::cos(wave * place[1]);
 }
 
+double pressure_of_sphere(const Scene& scene, const StepRecord& record, const std::array<double, 3>& place) {
+  const HertzPoint hertz = hertz_point_under(record.force, scene.exact.radius, contact_modulus(scene));
+  return hertz_pressure(hertz.peak_pressure, hertz.radius, std::hypot(place[0], place[1]));
+}
+
+// Shares of the slave surface in contact; force over mean pressure is the whole of it, with all its mirror
+// images.
+
+double area_of_cylinder(const Scene& scene, const StepRecord& record) {
+  return 2 * hertz_line(record.force, scene.exact.radius, contact_modulus(scene)).half_width *
+         record.mean_pressure / record.force;
+}
+
+double area_of_sphere(const Scene& scene, const StepRecord& record) {
+  const double radius = hertz_point_under(record.force, scene.exact.radius, contact_modulus(scene)).radius;
+  return pi * radius * radius * record.mean_pressure / record.force;
+}
+
+double area_of_wave(const Scene& scene, const StepRecord& record) {
+  const double full =
+      westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
+  return 2 * westergaard_half_width(full, record.mean_pressure, scene.exact.wavelength) /
+         scene.exact.wavelength;
+}
+
 /// All levels by enriched segments, sampling points, plain and smoothed meshes; the tangents on one level.
 std::vector<Way> all_ways(const std::vector<SlaveMesh>& levels, const std::vector<int>& plain,
                           const std::vector<int>& smooth, bool sampling) {
@@ -48,6 +73,10 @@ std::vector<Way> all_ways(const std::vector<SlaveMesh>& levels, const std::vecto
     for (const int n : plain) ways.push_back({Family::facets, n, level});
   }
   const std::size_t middle = (levels.size() - 1) / 2;
+  // The finest plain mesh has points enough, and cutting at all its segments takes longest.
+  for (std::size_t k = 0; sampling && k + 1 < plain.size(); ++k)
+    for (const Family family : {Family::facets_sampled, Family::facets_cut})
+      ways.push_back({family, plain[k], middle});
   for (const char* tangent : {"small_gap", "first_variation"})
     ways.push_back({Family::enriched, 1, middle, tangent});
   return ways;
@@ -149,7 +178,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     if (quick) p.levels.resize(1);
     p.ways = quick ? all_ways(p.levels, {15, 60}, {15}, true)
                    : all_ways(p.levels, {7, 15, 30, 60, 120, 240, 480}, {7, 15, 30, 60}, true);
-    p.pressure = pressure_of_wave;
+    p.pressure = pressure_of_wave, p.area = area_of_wave;
     problems.push_back(std::move(p));
   }
   {
@@ -167,7 +196,26 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     if (quick) p.levels.resize(1);
     p.ways = quick ? all_ways(p.levels, {23, 95}, {23}, true)
                    : all_ways(p.levels, {6, 11, 23, 47, 95, 191, 383}, {11, 23, 47}, true);
-    p.pressure = pressure_of_cylinder;
+    p.pressure = pressure_of_cylinder, p.area = area_of_cylinder;
+    problems.push_back(std::move(p));
+  }
+  {
+    Problem p;
+    p.name = "hertz3d", p.title = "Hertz: a sphere on a half-space";
+    p.text = "Two forces; the master is 4 x 4 large, the contact radius at most 0.2.";
+    p.quantity = "contact pressure, L2 over the surface and the loads";
+    p.truth = "Hertz's exact pressure";
+    p.period = "4 x 4 mm, of which 0.4 x 0.4 touch";
+    p.scene = scenes / "hertz3d" / "scene.json";
+    p.settings = {tolerance, {"/steps/values", {0.6, 1.2}}};
+    for (const auto& [n, nz] : {std::pair{5, 2}, {8, 3}, {12, 5}})
+      p.levels.push_back(level(
+          std::to_string((n + 11) * (n + 11)) + " slave nodes",
+          {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", n}, {"/parts/0/z/pieces/1/divisions", nz}}));
+    if (quick) p.levels.resize(1);
+    p.ways = all_ways(p.levels, {23, 47, 95, 189}, {5, 11}, true);
+    if (quick) p.ways = {{Family::enriched, 1, 0}, {Family::facets, 12, 0}, {Family::facets, 47, 0}};
+    p.pressure = pressure_of_sphere, p.area = area_of_sphere;
     problems.push_back(std::move(p));
   }
   {
@@ -250,7 +298,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     p.levels = {level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
                       {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", n}})};
     p.exact = false, p.forces = true;
-    p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{32} : std::vector<int>{128, 256}, false);
+    p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{8} : std::vector<int>{128, 256}, false);
     for (const int m : quick ? std::vector<int>{32, 128} : std::vector<int>{64, 128, 256, 512, 1024})
       p.ways.push_back({Family::facets, m, 0});
     problems.push_back(std::move(p));
