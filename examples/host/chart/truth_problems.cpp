@@ -85,8 +85,9 @@ Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& s
   }
   for (std::size_t level = blocks; level < p.levels.size(); ++level)
     p.ways.push_back({Family::layer, 1, level});
-  const std::size_t middle = p.levels.size() - (of.layers.size() > 1 ? 2 : 1);
-  for (const int n : of.facets) p.ways.push_back({Family::facets, n, middle});
+  const std::size_t finest = p.levels.size() - (of.layers.size() > 1 ? 1 : 0); // too dear for plain segments
+  for (std::size_t level = 2 * blocks; level < finest; ++level)
+    for (const int n : of.facets) p.ways.push_back({Family::facets, n, level});
   p.beside = [blocks](const Way& way) -> std::optional<Way> {
     switch (way.family) {
     case Family::enriched:

@@ -56,13 +56,14 @@ Ratios ratios(const Work& work, const std::function<bool(const WorkRun&)>& is_fi
   return result;
 }
 
-/// "8.2 % (225 slave nodes, block), 3.1 % (...)": the runs of a family in a work of shares.
+/// "8.2 % (225), 3.1 % (1089)", in brackets slave nodes: the runs of a family in a work of shares.
 std::string list(const Work& work, Family family, bool segments) {
   std::string text;
   for (const WorkRun& run : work.runs) {
     if (run.way.family != family || !charted(run)) continue;
     text += (text.empty() ? "" : ", ") + percent(run.error) + " (";
-    text += segments ? std::to_string(run.segments) + " segments)" : std::to_string(run.slaves) + ")";
+    if (segments) text += std::to_string(run.segments) + " segments, ";
+    text += std::to_string(run.slaves) + ")";
   }
   return text;
 }
@@ -113,8 +114,10 @@ std::vector<std::string> comparisons(const Work& work) {
   if (work.problem.asked == 0) {
     result.push_back("The block's share on so many slave nodes: " + list(work, Family::enriched, false) +
                      ".");
-    result.push_back("The slave mesh's share: " + list(work, Family::layer, false) + ".");
-    result.push_back("The share of a master of plain segments: " + list(work, Family::facets, true) + ".");
+    result.push_back("The slave mesh's share on so many slave nodes: " + list(work, Family::layer, false) +
+                     ".");
+    result.push_back("The share of a master of plain segments, on so many slave nodes: " +
+                     list(work, Family::facets, true) + ".");
   }
   return result;
 }
