@@ -235,8 +235,9 @@ std::string work_panel(const Work& work, Price price, const std::string& heading
     }
     return runs.size() < 2 ? std::string() : "<path d=\"" + path + "\" " + style + "/>";
   };
-  svg += polyline(pareto_front(work.runs, [price](const WorkRun& run) { return price_of(run, price); }), true,
-                  "class=\"f\"");
+  if (work.problem.asked > 0) // shares of an error do not compete
+    svg += polyline(pareto_front(work.runs, [price](const WorkRun& run) { return price_of(run, price); }),
+                    true, "class=\"f\"");
   // A curve: one slave mesh and finer and finer masters; with one enriched segment, finer and finer slave
   // meshes.
   std::map<std::tuple<Family, std::size_t, bool>, std::vector<const WorkRun*>> curves;

@@ -143,6 +143,7 @@ std::string legend_of(const Work& work) {
             "</span>";
   }
   if (areas) html += "<span>filled: corrected between the nodes; hollow: counted</span>";
+  if (work.problem.asked == 0) return html + "</div>";
   return html + "<span><svg class=\"k\" viewBox=\"0 0 14 14\"><path class=\"f\" d=\"M2 7H12\"/></svg>Pareto "
                 "front</span></div>";
 }
