@@ -86,6 +86,24 @@ TEST(BoundaryElements, Hertz) {
   EXPECT_NEAR(counted, 1, 2 * (1. / 512) / hertz.radius); // a row of cells round it
 }
 
+// The images of a cylinder change the pressure by the second power of the share.
+TEST(BoundaryElements, HertzLine) {
+  constexpr double cylinder = 1;
+  constexpr Eigen::Index n = 1 << 16;
+  const double share = 1. / 128, force = pi / 4 * share * share * steel.contact_modulus() / cylinder;
+  const HertzLine hertz = hertz_line(force, cylinder, steel.contact_modulus());
+  ASSERT_NEAR(hertz.half_width, share, 1e-12);
+  const ElasticLayer layer(n, 1, 1, 1, half_space, steel, Grid::periodic);
+  const Eigen::ArrayXXd distance =
+      heights(layer, [&](double x, double) { return std::abs(x - layer.x(n / 2)); });
+  const LayerContact contact = layer.press_with(force, distance.square() / (2 * cylinder));
+  const Eigen::ArrayXXd exact =
+      (1 - (distance / hertz.half_width).square()).max(0.).sqrt() * hertz.peak_pressure;
+  EXPECT_NEAR(contact.peak_pressure / hertz.peak_pressure, 1, 1e-3);
+  EXPECT_LT((contact.pressure - exact).matrix().norm() / exact.matrix().norm(), 1e-3);
+  EXPECT_NEAR(contact.fraction_counted, 2 * hertz.half_width, 4. / n);
+}
+
 TEST(BoundaryElements, MirroredSidesAreAQuarterOfThePeriod) {
   const auto height = [](double x, double y) {
     return 1e-3 * (std::cos(2 * pi * x) * std::cos(2 * pi * y) + 0.4 * std::cos(6 * pi * x));
