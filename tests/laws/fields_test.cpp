@@ -7,23 +7,10 @@
 #include <vector>
 
 #include "law_elements.hpp"
+#include "model_handle.hpp"
 
 namespace laws {
 namespace {
-
-struct Destroy {
-  void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
-};
-using Handle = std::unique_ptr<ents_model, Destroy>;
-
-Handle make(const json& text) {
-  ents_model* model = nullptr;
-  ents_report report{};
-  report.struct_size = sizeof report;
-  if (ents_model_create(text.dump().c_str(), -1, nullptr, nullptr, 0, &model, &report) != ENTS_OK)
-    throw std::runtime_error(report.message);
-  return Handle(model);
-}
 
 // A field through samples is the map through them.
 TEST(Fields, AFieldIsTheMapOfItsSamples) {

@@ -7,16 +7,12 @@
 #include <limits>
 
 #include "law_elements.hpp"
+#include "model_handle.hpp"
 #include "samples.hpp"
 #include "worst.hpp"
 
 namespace laws {
 namespace {
-
-struct Destroy {
-  void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
-};
-using Handle = std::unique_ptr<ents_model, Destroy>;
 
 // In alphabetical order, as the library numbers them; values, and lengths over which results change.
 struct Value {
@@ -69,14 +65,6 @@ std::array<double, parameters> defaults() {
   return theta;
 }
 
-Handle make(const json& text) {
-  ents_model* model = nullptr;
-  ents_report report{};
-  report.struct_size = sizeof report;
-  if (ents_model_create(text.dump().c_str(), -1, nullptr, nullptr, 0, &model, &report) != ENTS_OK)
-    throw std::runtime_error(report.message);
-  return Handle(model);
-}
 void bind_values(const Handle& model, const std::array<double, parameters>& theta, Handle& bound) {
   ents_model* to = bound.release();
   ents_report report{};

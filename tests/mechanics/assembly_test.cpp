@@ -13,12 +13,6 @@
 namespace mechanics {
 namespace {
 
-ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
-
 // Points over nodes, as ents_sampling_points fills it or drawn at random.
 struct Combination {
   std::vector<std::int64_t> begin{0}, nodes;

@@ -7,12 +7,6 @@
 namespace mechanics {
 namespace {
 
-ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
-
 // Where nothing is wanted but the sum, elements that are clearly open are not projected. The sum is the same
 // to the last bit.
 TEST(ClearlyOpen, AddsNothing) {

@@ -8,12 +8,6 @@ namespace {
 
 std::size_t size(std::int64_t n) { return static_cast<std::size_t>(n); }
 
-ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
-
 void check(std::int32_t status, const ents_report& report) {
   if (status < 0) throw std::runtime_error(std::string(ents_status_text(status)) + ": " + report.message);
 }

@@ -11,6 +11,12 @@
 
 namespace mechanics {
 
+inline ents_report new_report() {
+  ents_report report{};
+  report.struct_size = sizeof report;
+  return report;
+}
+
 // Inputs of `count` elements, one after the other; an array that is empty is not given to the library.
 struct Elements {
   std::int64_t count = 0;

@@ -13,12 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
-
 ents_layout layout_of(const Model& model) {
   ents_layout layout{};
   layout.struct_size = sizeof layout;
