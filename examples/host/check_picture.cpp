@@ -9,7 +9,7 @@ namespace host {
 namespace {
 
 constexpr std::size_t most_segments = 2500;
-constexpr double most_points = 40000; // of a whole picture
+constexpr double most_points_drawn = 40000; // of a whole picture
 
 /// The segments that are drawn: all, or those closest to the first offence.
 std::vector<std::size_t> shown(const MasterSurface& surface, const std::vector<pictures::Place>& places) {
@@ -39,7 +39,7 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
                              const std::vector<pictures::Place>& places, bool triangles,
                              const std::filesystem::path& folder) {
   const std::vector<std::size_t> segments = shown(surface, places);
-  const double each = most_points / static_cast<double>(segments.size());
+  const double each = most_points_drawn / static_cast<double>(segments.size());
   pictures::Surface picture;
   picture.dimension = static_cast<int>(surface.d);
   picture.columns = surface.d == 2 ? static_cast<int>(std::clamp(each, 5., 801.))

@@ -14,8 +14,6 @@
 namespace host {
 namespace {
 
-std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
-
 /// A stiffness of the model's contact law; 1 where the law has none.
 double stiffness_of(const Json& model, const char* law) {
   const Json found = find_json(model, ("/contact/" + std::string(law) + "/stiffness").c_str());

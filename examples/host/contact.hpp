@@ -18,6 +18,9 @@
 
 namespace host {
 
+/// A size as the library counts.
+inline std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
+
 /// What a rigid master feels: total force along its direction of motion e, and how it and the forces on the
 /// other unknowns depend on its motion.  dW/d(motion) = -sum R_s . e
 struct RigidCoupling {

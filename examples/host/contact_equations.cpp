@@ -5,11 +5,6 @@
 #include "contact.hpp"
 
 namespace host {
-namespace {
-
-std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
-
-} // namespace
 
 void Contact::number_unknowns() {
   dof_equations_.assign(dofs(), -1);

@@ -9,8 +9,6 @@
 namespace host {
 namespace {
 
-std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
-
 bool fields_fit(const std::map<std::string, std::vector<double>>& theirs,
                 const std::map<std::string, std::vector<double>>& ours) {
   return theirs.size() == ours.size() &&

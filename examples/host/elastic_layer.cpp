@@ -10,7 +10,7 @@
 namespace host {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Pairs of neighbouring cells of which one is in contact, times the area of a cell, over that of the layer.
 double border_share(const Eigen::ArrayXXd& pressure, bool periodic) {

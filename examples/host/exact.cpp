@@ -12,7 +12,7 @@
 namespace host {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double squared(double value) { return value * value; }
 

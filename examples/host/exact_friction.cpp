@@ -22,7 +22,7 @@
 namespace host {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// f(x, a) of the comment above.
 double elliptical(double x, double a) {

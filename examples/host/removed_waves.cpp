@@ -13,12 +13,12 @@ namespace {
 
 // The table goes from nearly full contact down to a few per mille of the area.
 constexpr int levels = 16;
-constexpr double most = 1.5, least = 1e-3; // mean pressures over E* times the rms slope
-constexpr double closed = 1e-3;            // gap over the rms of the waves: full contact
-constexpr double enough = 4e-4;            // error of gaps, of the height of the waves
-constexpr double window = 0.5;             // standard deviation of the local mean, of the cut-off
-constexpr double flattest = 0.1;           // least local height, of the rms
-constexpr int tail = 5;                    // points of the exponential end, one per factor e
+constexpr double most = 1.5, least = 1e-3;   // mean pressures over E* times the rms slope
+constexpr double gap_of_full_contact = 1e-3; // gap over the rms of the waves: full contact
+constexpr double enough = 4e-4;              // error of gaps, of the height of the waves
+constexpr double window = 0.5;               // standard deviation of the local mean, of the cut-off
+constexpr double flattest = 0.1;             // least local height, of the rms
+constexpr int tail = 5;                      // points of the exponential end, one per factor e
 
 /// The waves of all parts of a height that have some.
 int cut_off(Json& height, double wavelength) {
@@ -94,7 +94,8 @@ void RemovedWaves::press(const Eigen::ArrayXXd& gap, const ElasticLayer& half_sp
     const double mean = modulus * rms_slope * most * std::pow(least / most, i / (levels - 1.));
     LayerContact found = half_space.press_with(mean, gap, 0, start.size() == 0 ? nullptr : &start, enough);
     const double mean_gap = found.gap.mean();
-    if (!gap_.empty() && gap_.back() < closed * rms_) // of several nearly full contacts the last one stays
+    if (!gap_.empty() &&
+        gap_.back() < gap_of_full_contact * rms_) // of several nearly full contacts the last one stays
       gap_.pop_back(), pressure_.pop_back(), share_.pop_back();
     gap_.push_back(mean_gap), pressure_.push_back(mean), share_.push_back(found.fraction);
     start = std::move(found.pressure);

@@ -15,7 +15,7 @@
 namespace host {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using pictures::Chart;
 using pictures::Curve;
 using pictures::Style;

@@ -13,7 +13,7 @@
 namespace host {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 using Complex = std::complex<double>;
 

@@ -9,7 +9,7 @@
 namespace host::chart {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<double> spaced(double from, double to, int count, bool logarithmic) {
   std::vector<double> values;

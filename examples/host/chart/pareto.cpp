@@ -18,17 +18,17 @@ double segments_of(const WorkRun& run) { return static_cast<double>(run.segments
 /// Times whose ratio is closer to 1 are the same.
 double noise(const WorkRun& a, const WorkRun& b) { return std::max({a.noise(), b.noise(), 0.05}); }
 
-std::string percent(double value) {
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * value);
-  return text.data();
-}
-
 std::string count(const WorkRun& run) {
   return std::to_string(run.segments) + (run.segments == 1 ? " segment" : " segments");
 }
 
 } // namespace
+
+std::string percent(double value) {
+  std::array<char, 24> text{};
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * value);
+  return text.data();
+}
 
 bool charted(const WorkRun& run) {
   return run.failure.empty() && run.error > 0 && std::isfinite(run.error) && run.way.tangent == "consistent";

@@ -31,6 +31,9 @@ std::string family_name(const std::vector<const Work*>& works, Family family);
 /// "enriched, one segment, 64 slave nodes"
 std::string name_of(const Problem& problem, const WorkRun& run);
 
+/// 0.0123 as "1.23 %"
+std::string percent(double value);
+
 /// "For an error of 1 % take ...": one for each of the errors that a run reaches; the times of the best other
 /// family beside it.
 std::vector<std::string> advice(const Work& work, const std::vector<double>& errors);

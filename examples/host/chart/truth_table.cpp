@@ -2,9 +2,7 @@
 #include "chart/truth_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "chart/chart_page.hpp"
@@ -14,22 +12,10 @@
 namespace host::chart {
 namespace {
 
-std::string percent(double value) {
-  std::array<char, 24> text{};
-  std::snprintf(text.data(), text.size(), "%.3g %%", 100 * value);
-  return text.data();
-}
-
 std::string name_of(const Work& work, const MethodPrice& method) {
   std::string text = family_name({&work}, method.family);
   if (method.counted) text += ", area counted";
   return text;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 /// Ratios of error and time, `first` over `second`, of runs that differ in nothing else.

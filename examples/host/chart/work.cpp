@@ -15,18 +15,18 @@
 #include "stopwatch.hpp"
 
 namespace host::chart {
-namespace {
-
-/// Runs that take longer are not repeated; shorter than the second number: two times more than the others
-/// [s].
-constexpr double short_run = 1.5, very_short_run = 0.3;
-
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
+
+namespace {
+
+/// Runs that take longer are not repeated; shorter than the second number: two times more than the others
+/// [s].
+constexpr double short_run = 1.5, very_short_run = 0.3;
 
 /// What a run leaves behind to be compared.
 struct Solution {

@@ -64,6 +64,9 @@ struct Series {
   std::vector<double> weight;
 };
 
+/// NaN of no values
+double median(std::vector<double> values);
+
 /// Relative L2 error; infinite if the sizes do not fit.
 double relative_error(const Series& series, const std::vector<double>& truth);
 

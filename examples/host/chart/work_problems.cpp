@@ -13,7 +13,7 @@
 namespace host::chart {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double pressure_of_cylinder(const Scene& scene, const StepRecord& record,
                             const std::array<double, 3>& place) {
