@@ -74,7 +74,7 @@ extern "C" int32_t ents_model_check(const ents_model* model, const double* maste
     set(out.shadow, out.shadow_xi, a.shadow);
     out.height_min = a.height_min;
     out.height_max = a.height_max;
-    ents::give_back(out, result);
+    ents::copy_to_caller(out, result);
     return ents::report_ok(report);
   });
 }

@@ -285,7 +285,7 @@ extern "C" int32_t ents_contact_area(const char* facet, int64_t facets, const in
       out.error = line ? 0.5 * sum.border : out.counted - out.border_corrected;
     }
     add_peak(fields, share, out);
-    give_back(out, area);
+    copy_to_caller(out, area);
     return report_ok(report);
   });
 }

@@ -289,15 +289,15 @@ std::int32_t ElementCall::explain_penetration(std::int64_t e, ents_report* repor
 std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_report* report) const {
   const long long number = e;
   if (status == ENTS_NON_FINITE) {
-    std::int32_t told = ENTS_OK;
+    std::int32_t reported = ENTS_OK;
     for_each_input(*model, *in, [&](const Array& a) {
-      if (told != ENTS_OK || (std::strcmp(a.name, "start") == 0 && in->mesh && segment(e) < 0)) return;
+      if (reported != ENTS_OK || (std::strcmp(a.name, "start") == 0 && in->mesh && segment(e) < 0)) return;
       const double* v = at(static_cast<const double*>(a.data), a.stride, e);
       if (const std::int64_t k = first_non_finite(v, a.size); k >= 0)
-        told = report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
-                              static_cast<long long>(k), number, std::isnan(v[k]) ? "NaN" : "infinite");
+        reported = report_message(report, status, e, "input.%s[%lld] of element %lld is %s", a.name,
+                                  static_cast<long long>(k), number, std::isnan(v[k]) ? "NaN" : "infinite");
     });
-    if (told != ENTS_OK) return told;
+    if (reported != ENTS_OK) return reported;
   }
   if (status == ENTS_BAD_VALUE && in->area && *at(in->area, in->area_stride, e) < 0.0)
     return report_message(report, status, e, "input.area of element %lld is negative", number);

@@ -104,7 +104,7 @@ inline std::int32_t check_reserved(std::int32_t reserved, const char* name, ents
 }
 
 // Write a filled struct back into the caller's, as far as the caller's reaches.
-template <class Struct> void give_back(Struct& filled, Struct* caller) noexcept {
+template <class Struct> void copy_to_caller(Struct& filled, Struct* caller) noexcept {
   const std::int32_t size = caller->struct_size;
   filled.struct_size = size;
   std::memcpy(caller, &filled,

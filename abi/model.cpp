@@ -165,7 +165,7 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.worn = model->plan.state.wear_at;
     out.slave_values = law.slave_values();
     out.instruction_set = ents::best_pair_kernels().instruction_set;
-    ents::give_back(out, layout);
+    ents::copy_to_caller(out, layout);
     return ents::report_ok(report);
   });
 }

@@ -95,7 +95,7 @@ std::int32_t move(int d, const double* translation, const double* spin, ents_pos
       }
     make_orthonormal(d, moved.turn);
   }
-  give_back(moved, pose);
+  copy_to_caller(moved, pose);
   return report_ok(report);
 }
 
@@ -207,7 +207,7 @@ int32_t ents_pose_init(int32_t dimension, ents_pose* pose, ents_report* report) 
     if (!known) return status;
     ents_pose made{};
     for (int i = 0; i < dimension; ++i) made.turn[dimension * i + i] = 1.0;
-    ents::give_back(made, pose);
+    ents::copy_to_caller(made, pose);
     return ents::report_ok(report);
   });
 }

@@ -9,7 +9,7 @@
 
 #include "abi/element_block.hpp"
 #include "core/element/pair_kernels.hpp"
-#include "core/numbers/past_caches.hpp"
+#include "core/numbers/streaming.hpp"
 
 namespace ents {
 
@@ -22,7 +22,7 @@ public:
   StagedResults(const StagedResults&) = delete;
   ~StagedResults() {
     copy_last();
-    portable::finish_past_caches();
+    portable::stream_fence();
   }
 
   // Is a call of `count` elements so long, its results such that they are staged?
@@ -54,7 +54,7 @@ public:
     if (out_.tangent_stride == entries_ && done == ~std::uint64_t{0} >> (PairBlock::most - size)) {
       last_ = {tangents, size * entries_, at(out_.tangent, entries_, first)};
       turn_ = 1 - turn_;
-      if (residual) copy_past_caches_(residuals_, size * dofs_, residual);
+      if (residual) stream_copy_(residuals_, size * dofs_, residual);
       return;
     }
     for (std::int64_t k = 0; k < size; ++k) {
@@ -70,7 +70,7 @@ private:
                                 narrow = 6 * PairBlock::most;
 
   void copy_last() noexcept {
-    if (last_.count > 0) copy_past_caches_(last_.from, last_.count, last_.to);
+    if (last_.count > 0) stream_copy_(last_.from, last_.count, last_.to);
     last_.count = 0;
   }
 
@@ -79,7 +79,7 @@ private:
   bool residuals_too_;
   int turn_ = 0;
   DeferredCopy last_{};
-  decltype(PairKernels::copy_past_caches) copy_past_caches_ = best_pair_kernels().copy_past_caches;
+  decltype(PairKernels::stream_copy) stream_copy_ = best_pair_kernels().stream_copy;
   alignas(64) double tangents_[2][room], residuals_[narrow];
 };
 

@@ -76,7 +76,7 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller,
     tell(model->plan, mesh, a.findings[which], which, out);
   out.height_min = a.height_min, out.height_max = a.height_max;
   if (io->violations) std::copy(a.violations.begin(), a.violations.end(), io->violations);
-  give_back(out, result);
+  copy_to_caller(out, result);
   return report_ok(report);
 }
 

@@ -72,9 +72,9 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     at.searched = true;
   }
   at.escaped = found == Found::escaped;
-  const bool judged = (out.wanted & want::element) != 0 ||
-                      ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
-  if (found != Found::yes && !(at.escaped && judged && !(out.wanted & want::kinematics)))
+  const bool verdict_wanted = (out.wanted & want::element) != 0 ||
+                              ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
+  if (found != Found::yes && !(at.escaped && verdict_wanted && !(out.wanted & want::kinematics)))
     return status_of(found);
   at.evaluations += p.evaluations;
   for (int a = 0; a < T; ++a) at.xi[a] = p.xi[a];

@@ -86,13 +86,13 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
                                           Pair<B, H, S>& p, const Ray<S, B::dim>* ray, std::int64_t first) {
   constexpr int N = dof_count<B, false>, W = width_of<S>;
   const GeneralInputs<B, H, S> in(plan, block, first);
-  p.arrive();
+  p.evaluate_at_solution();
   ContactPoint<B, H, S> at(p);
   at.ray = ray;
   const auto measured = at.measure(plan);
   Truth<S> fine = both(both(p.ordinary, at.safe), p.is_regular(measured, !ray));
   if (plan.multipliers > 0) fine = both(fine, p.area > 0.0);
-  at.press(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset, in.scale);
+  at.evaluate_law(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset, in.scale);
   S size = p.area * (absolute(at.law.force) + at.law.stiffness);
   if (in.has_wear) {
     size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid);
@@ -101,7 +101,7 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
   S own = S(0.0);
   for (const S& lambda : in.multiplier) own = own + absolute(lambda);
   fine = both(fine, both(size < safe_magnitude, own < safe_magnitude));
-  fine = both(fine, p.ordinary); // friction has its say in it
+  fine = both(fine, p.ordinary); // friction may have cleared it
   fine =
       without(fine, both(p.contact, both(at.gap < 0.0, p.is_deep(plan, measured,
                                                                  ray ? at.gap * square_root(measured.area2_e)
@@ -196,5 +196,10 @@ std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::in
   for (; k < count; ++k) done |= std::uint64_t{evaluate_general_one<B, H>(plan, block, block.first + k)} << k;
   return done;
 }
+
+// Those of a basis, instantiated; pair_table.cpp lists them.
+#define ENTS_GENERAL_KERNELS(B)                                                                              \
+  template std::uint64_t evaluate_general<B, false>(const Plan&, const PairBlock&, std::int32_t);            \
+  template std::uint64_t evaluate_general<B, true>(const Plan&, const PairBlock&, std::int32_t);
 
 } // namespace ents::ENTS_ISA

@@ -46,7 +46,8 @@ template <class B, bool H> struct GeneralElement {
   const MultiplierEquations<B, H, double> multipliers{plan, at, in.multiplier};
   const bool element = (out.wanted & want::element) != 0;
   // flags are those of the element; alone, or with kinematics, they refuse nothing
-  const bool judged = element || ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
+  const bool verdict_wanted =
+      element || ((out.wanted & want::flags) != 0 && plan.law.normal != NormalKind::none);
   std::int32_t more_flags = 0;
 
   bool wants(std::int32_t bits) const { return (out.wanted & bits) != 0; }
@@ -55,7 +56,7 @@ template <class B, bool H> struct GeneralElement {
     auto& pair = at.pair;
     const bool shadow = at.ray != nullptr;
     pair.area = in.area ? *in.area : 1.0;
-    pair.arrive();
+    pair.evaluate_at_solution();
     auto measured = at.measure(plan);
     if (pair.is_regular(measured, !shadow)) { // then the bits are those of a block
       B::template shape<2>(pair.xi, pair.projector.N);
@@ -75,10 +76,10 @@ template <class B, bool H> struct GeneralElement {
 
     const PairBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<B, H, double> begin(plan, block, 0);
-    at.press(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(), begin.offset,
-             begin.scale);
+    at.evaluate_law(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(),
+                    begin.offset, begin.scale);
     if (element && !at.solved) return Status::out_of_range;
-    if (!judged) pair.contact = false;
+    if (!verdict_wanted) pair.contact = false;
     if (pair.contact && element) {
       if (far_side) return Status::singular_projection;
       if (found.ambiguous) return Status::ambiguous_projection;
@@ -291,7 +292,7 @@ bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput
   const Status status = at_projection<B, H>(plan, in, projected.xi, [&](auto& pair, auto& at) {
     pair.area = projected.area;
     pair.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
-    pair.arrive();
+    pair.evaluate_at_solution();
     const FoundProjection found{};
     return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations();
   });

@@ -72,7 +72,7 @@ template <class B, bool H, class S> struct GeneralInputs {
     for (int a = 0; a < T; ++a) worn.anchor[a] = number(StateLayout::worn_anchor + a);
   }
 
-  // As ContactPoint::press() takes them
+  // As ContactPoint::evaluate_law() takes them
   ENTS_INLINE const S* multipliers() const { return has_multiplier ? multiplier : nullptr; }
   ENTS_INLINE const WornState<S, T>* worn_or_null() const { return has_wear ? &worn : nullptr; }
 };

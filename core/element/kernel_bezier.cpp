@@ -2,5 +2,5 @@
 #include "core/element/kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet& bezier15_kernels() { return kernels_of<Bezier15>; }
+const KernelSet bezier15_kernels = kernels_of<Bezier15>;
 } // namespace ents::ENTS_ISA

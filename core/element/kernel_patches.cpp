@@ -2,6 +2,6 @@
 #include "core/element/kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet& catmull_rom16_kernels() { return kernels_of<CatmullRom16>; }
-const KernelSet& bspline16_kernels() { return kernels_of<BSpline16>; }
+const KernelSet catmull_rom16_kernels = kernels_of<CatmullRom16>;
+const KernelSet bspline16_kernels = kernels_of<BSpline16>;
 } // namespace ents::ENTS_ISA

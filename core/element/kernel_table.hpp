@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled kernels of each basis: [enriched]. Instantiated basis by basis in
-// kernel_*.cpp, because together they are the bulk of the library's compile time.
+// The compiled kernels of each basis. kernel_*.cpp instantiate them, basis by basis: together they take long
+// to compile.
 #pragma once
 
 #include "core/model/plan.hpp"
@@ -20,20 +20,9 @@ struct KernelSet {
 };
 
 namespace portable {
-#define ENTS_KERNELS(name) const KernelSet& name##_kernels();
-ENTS_KERNELS(line2)
-ENTS_KERNELS(line3)
-ENTS_KERNELS(catmull_rom4)
-ENTS_KERNELS(bspline4)
-ENTS_KERNELS(tri3)
-ENTS_KERNELS(tri6)
-ENTS_KERNELS(quad4)
-ENTS_KERNELS(quad8)
-ENTS_KERNELS(quad9)
-ENTS_KERNELS(catmull_rom16)
-ENTS_KERNELS(bspline16)
-ENTS_KERNELS(bezier15)
-#undef ENTS_KERNELS
+#define ENTS_BASIS(name, ...) extern const KernelSet name##_kernels;
+ENTS_BASES(ENTS_BASIS)
+#undef ENTS_BASIS
 } // namespace portable
 
 } // namespace ents

@@ -185,8 +185,8 @@ private:
       for (int a = 0; a < T; ++a) anchor[a] = state[StateLayout::xi_at + T + a];
     }
   }
-  // Of a later element, or of none: inputs of long calls come from memory, and the processor's own foresight
-  // ends with every page.
+  // Of a later element, or of none: inputs of long calls come from memory, and the hardware prefetch of the
+  // processor stops at each page (4 KiB).
   static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
     const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
       if (data) prefetch<W>(data + e * stride, stride, size);

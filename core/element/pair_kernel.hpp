@@ -18,10 +18,10 @@ inline constexpr std::int32_t beside_forces = want::block & ~want::forces;
 
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
-ENTS_INLINE void press(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p, PairFriction<B, H, S>& f,
-                       const S (&anchor)[B::dim - 1], const S& history) {
-  p.arrive();
-  p.press(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
+ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p,
+                              PairFriction<B, H, S>& f, const S (&anchor)[B::dim - 1], const S& history) {
+  p.evaluate_at_solution();
+  p.evaluate_law(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
   if constexpr (F) f.evaluate(plan.law, p, anchor, history, -(p.area * p.per_gap * p.gap));
 }
 // Shape functions come as late as here, with as many derivatives as are asked for.
@@ -126,7 +126,7 @@ ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int6
     return true;
   }
   p.project();
-  press<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  evaluate_law<F>(plan, block.wanted, p, f, in.anchor, in.history);
   if (!p.ordinary || (block.rest && !write_rest(plan, block, p))) return false;
   if (!p.contact)
     write_zeros(block, e, plan.dofs);
@@ -187,9 +187,9 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
     using Tangent = TangentOf<F, Rigid, B, H, S>;
     if constexpr (Tangent::one_by_one && N >= W) {
       TangentOf<F, Rigid, B, H, double> one[W];
-      t.hand_out_lanes(one);
+      t.scatter_lanes(one);
       for (int k = 0; k < W; ++k) {
-        copy_beside(block.last, N * N);
+        interleave_copy(block.last, N * N);
         if (contact >> k & 1) write_tangent<B::dim>(one[k], out[k], block.leading);
       }
     } else if constexpr (N <= 12)
@@ -208,7 +208,7 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
   constexpr int D = B::dim;
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
-  press<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  evaluate_law<F>(plan, block.wanted, p, f, in.anchor, in.history);
   const std::uint32_t done = in.known & (bits_of(p.ordinary) | far);
   if (!done) return 0;
   const std::uint32_t contact = done & bits_of(p.contact) & ~far;
@@ -274,5 +274,12 @@ std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int3
   for (; k < count; ++k) done |= std::uint64_t{pair_of_one<B, H, F>(plan, block, block.first + k)} << k;
   return done;
 }
+
+// Those of a basis, instantiated; pair_table.cpp lists them.
+#define ENTS_PAIR_KERNELS(B)                                                                                 \
+  template std::uint64_t evaluate_pairs<B, false, false>(const Plan&, const PairBlock&, std::int32_t);       \
+  template std::uint64_t evaluate_pairs<B, false, true>(const Plan&, const PairBlock&, std::int32_t);        \
+  template std::uint64_t evaluate_pairs<B, true, false>(const Plan&, const PairBlock&, std::int32_t);        \
+  template std::uint64_t evaluate_pairs<B, true, true>(const Plan&, const PairBlock&, std::int32_t);
 
 } // namespace ents::ENTS_ISA

@@ -19,9 +19,9 @@ struct PairKernelsOfBasis {
 };
 struct PairKernels {
   const char* instruction_set;
-  const PairKernelsOfBasis& (*of_basis)(Basis);
-  void (*copy_past_caches)(const double* from, std::int64_t count, double* to); // see past_caches.hpp
-  ExternalHeight::Jets expression_jets;                                         // see expression.hpp
+  const PairKernelsOfBasis* of_basis;                                      // [basis]
+  void (*stream_copy)(const double* from, std::int64_t count, double* to); // streaming.hpp
+  ExternalHeight::Jets expression_jets;                                    // see expression.hpp
 };
 namespace portable {
 extern const PairKernels pair_kernels;

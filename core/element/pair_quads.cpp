@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Instantiates the kernels of ordinary elements of bilinear and serendipity quadrilaterals. Compiled once per
-// instruction set.
-#include "core/element/pair_table.hpp"
+#include "core/element/pair_kernel.hpp"
 
 namespace ents::ENTS_ISA {
-
-const PairKernelsOfBasis& pair_kernels_of_quads(Basis basis) {
-  switch (basis) {
-  case Basis::quad4:
-    return pair_kernels_of<Quad4>;
-  default:
-    return pair_kernels_of<Quad8>;
-  }
-}
-
+ENTS_PAIR_KERNELS(Quad4)
+ENTS_PAIR_KERNELS(Quad8)
+ENTS_PAIR_KERNELS(Quad9)
 } // namespace ents::ENTS_ISA

@@ -40,39 +40,12 @@ Status coordinates_of_segment(const Plan& plan, const double* master, const doub
   return Status::ok;
 }
 
-template <class B>
-constexpr ParameterKernels kernels_of{evaluate_parameter_rates<B>, coordinates_of_segment<B>};
+#define ENTS_BASIS(name, type, ...) {evaluate_parameter_rates<type>, coordinates_of_segment<type>},
+constexpr ParameterKernels kernels[] = {ENTS_BASES(ENTS_BASIS)};
+#undef ENTS_BASIS
 
 } // namespace
 
-const ParameterKernels& parameter_kernels(Basis basis) {
-  switch (basis) {
-  case Basis::line2:
-    return kernels_of<Line2>;
-  case Basis::line3:
-    return kernels_of<Line3>;
-  case Basis::catmull_rom4:
-    return kernels_of<CatmullRom4>;
-  case Basis::bspline4:
-    return kernels_of<BSpline4>;
-  case Basis::tri3:
-    return kernels_of<Tri3>;
-  case Basis::tri6:
-    return kernels_of<Tri6>;
-  case Basis::quad4:
-    return kernels_of<Quad4>;
-  case Basis::quad8:
-    return kernels_of<Quad8>;
-  case Basis::quad9:
-    return kernels_of<Quad9>;
-  case Basis::catmull_rom16:
-    return kernels_of<CatmullRom16>;
-  case Basis::bspline16:
-    return kernels_of<BSpline16>;
-  case Basis::bezier15:
-    break;
-  }
-  return kernels_of<Bezier15>;
-}
+const ParameterKernels& parameter_kernels(Basis basis) { return kernels[static_cast<std::int32_t>(basis)]; }
 
 } // namespace ents

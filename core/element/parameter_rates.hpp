@@ -81,8 +81,8 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
     for (int a = 0; a < T; ++a) worn.anchor[a] = S(begin.worn.anchor[a]);
     worn.factor = S(begin.worn.factor), worn.sliding_factor = S(begin.worn.sliding_factor);
   }
-  at.press(plan, anchor, S(begin.history), begin.has_multiplier ? multiplier : nullptr,
-           begin.has_wear ? &worn : nullptr, S(begin.offset), S(begin.scale));
+  at.evaluate_law(plan, anchor, S(begin.history), begin.has_multiplier ? multiplier : nullptr,
+                  begin.has_wear ? &worn : nullptr, S(begin.offset), S(begin.scale));
   out.gap = at.gap.d;
   out.energy = pair.area.v * at.law.energy.d;
   out.pressure = 0.0 - at.law.force.d;

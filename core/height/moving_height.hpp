@@ -17,13 +17,13 @@ template <class S> struct SineAt {
 };
 
 // Farther than this, turns, it is looked up.
-inline constexpr double next_to = 1.0 / 64.0;
+inline constexpr double reuse_radius_turns = 1.0 / 64.0;
 
 // Moves `at` to `turns`. Rounding adds up: over the moves of a projection to less than six units in the last
 // place of the amplitude.
 template <class S> ENTS_INLINE void move_sine(SineAt<S>& at, const Sine<double>& p, S turns) {
   const S f = turns - at.turns;
-  const Truth<S> near = absolute(f) <= next_to;
+  const Truth<S> near = absolute(f) <= reuse_radius_turns;
   S h, slope;
   if (!every(near)) {
     sin_cos_turns(turns, p.phase, h, slope);

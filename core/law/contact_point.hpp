@@ -53,8 +53,8 @@ template <class B, bool H, class S> struct ContactPoint {
 
   // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; history: 1 where
   // there is an anchor; worn: null without wear; offset, scale: of the slave node.
-  ENTS_INLINE void press(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
-                         const WornState<S, T>* worn, const S& offset, const S& scale) {
+  ENTS_INLINE void evaluate_law(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
+                                const WornState<S, T>* worn, const S& offset, const S& scale) {
     const S none(0.0), lambda = multiplier ? multiplier[0] : none;
     law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
     if (worn) {

@@ -11,21 +11,24 @@
 
 namespace ents {
 
-// Segment bases; order and names as in basis_table.
-enum class Basis : std::int32_t {
-  line2,
-  line3,
-  catmull_rom4,
-  bspline4,
-  tri3,
-  tri6,
-  quad4,
-  quad8,
-  quad9,
-  catmull_rom16,
-  bspline16,
-  bezier15
-};
+// Segment bases, listed once: their name, their type in surface/basis.hpp, and the rest of a BasisEntry.
+#define ENTS_BASES(X)                                                                                        \
+  X(line2, Line2, 2, 1, false, false)                                                                        \
+  X(line3, Line3, 3, 1, false, false)                                                                        \
+  X(catmull_rom4, CatmullRom4, 4, 1, false, true)                                                            \
+  X(bspline4, BSpline4, 4, 1, false, true)                                                                   \
+  X(tri3, Tri3, 3, 2, true, false)                                                                           \
+  X(tri6, Tri6, 6, 2, true, false)                                                                           \
+  X(quad4, Quad4, 4, 2, false, false)                                                                        \
+  X(quad8, Quad8, 8, 2, false, false)                                                                        \
+  X(quad9, Quad9, 9, 2, false, false)                                                                        \
+  X(catmull_rom16, CatmullRom16, 16, 2, false, true)                                                         \
+  X(bspline16, BSpline16, 16, 2, false, true)                                                                \
+  X(bezier15, Bezier15, 15, 2, true, true)
+
+#define ENTS_BASIS(name, ...) name,
+enum class Basis : std::int32_t { ENTS_BASES(ENTS_BASIS) };
+#undef ENTS_BASIS
 
 struct BasisEntry {
   Basis basis;
@@ -36,20 +39,9 @@ struct BasisEntry {
   bool smoothed;           // over several segments: its nodes are not the corners of the segment
 };
 
-inline constexpr BasisEntry basis_table[] = {
-    {Basis::line2, "line2", 2, 1, false, false},
-    {Basis::line3, "line3", 3, 1, false, false},
-    {Basis::catmull_rom4, "catmull_rom4", 4, 1, false, true},
-    {Basis::bspline4, "bspline4", 4, 1, false, true},
-    {Basis::tri3, "tri3", 3, 2, true, false},
-    {Basis::tri6, "tri6", 6, 2, true, false},
-    {Basis::quad4, "quad4", 4, 2, false, false},
-    {Basis::quad8, "quad8", 8, 2, false, false},
-    {Basis::quad9, "quad9", 9, 2, false, false},
-    {Basis::catmull_rom16, "catmull_rom16", 16, 2, false, true},
-    {Basis::bspline16, "bspline16", 16, 2, false, true},
-    {Basis::bezier15, "bezier15", 15, 2, true, true},
-};
+#define ENTS_BASIS(name, type, ...) {Basis::name, #name, __VA_ARGS__},
+inline constexpr BasisEntry basis_table[] = {ENTS_BASES(ENTS_BASIS)};
+#undef ENTS_BASIS
 
 constexpr const BasisEntry& basis_entry(Basis basis) { return basis_table[static_cast<std::int32_t>(basis)]; }
 

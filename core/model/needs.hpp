@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the elements of a model need. The decisions are made elsewhere: once per model by make_plan(), by the
 // kernels' templates, and by evaluate_height(), which does not evaluate what a constant does not have. Here
-// they are told.
+// they are stated.
 #pragma once
 
 #include "core/model/plan.hpp"

@@ -12,41 +12,15 @@ namespace ents {
 
 namespace {
 
-const KernelSet& kernels_of(Basis basis) {
-  switch (basis) {
-  case Basis::line2:
-    return portable::line2_kernels();
-  case Basis::line3:
-    return portable::line3_kernels();
-  case Basis::catmull_rom4:
-    return portable::catmull_rom4_kernels();
-  case Basis::bspline4:
-    return portable::bspline4_kernels();
-  case Basis::tri3:
-    return portable::tri3_kernels();
-  case Basis::tri6:
-    return portable::tri6_kernels();
-  case Basis::quad4:
-    return portable::quad4_kernels();
-  case Basis::quad8:
-    return portable::quad8_kernels();
-  case Basis::quad9:
-    return portable::quad9_kernels();
-  case Basis::catmull_rom16:
-    return portable::catmull_rom16_kernels();
-  case Basis::bspline16:
-    return portable::bspline16_kernels();
-  case Basis::bezier15:
-    break;
-  }
-  return portable::bezier15_kernels();
-}
+#define ENTS_BASIS(name, ...) &portable::name##_kernels,
+constexpr const KernelSet* kernels_of[] = {ENTS_BASES(ENTS_BASIS)}; // [basis]
+#undef ENTS_BASIS
 
 } // namespace
 
 PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
   const ContactLaw& law = model.law;
-  const PairKernelsOfBasis& of = kernels.of_basis(model.basis);
+  const PairKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
   return has_fast_kernel(law, model.projection, model.tangent) ? of.of[enriched][law.has_friction()]
                                                                : of.general[enriched];
 }
@@ -109,7 +83,7 @@ namespace {
 
 Plan make(const Model& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);
-  const KernelSet& kernels = kernels_of(model.basis);
+  const KernelSet& kernels = *kernels_of[static_cast<std::int32_t>(model.basis)];
   Plan plan{};
   plan.element = kernels.element[enriched];
   plan.finish = kernels.finish[enriched];

@@ -120,7 +120,8 @@ template <class B, bool H, class S> struct Pair {
       } else {
         for (int a = 0; a < T; ++a) xi[a] = select(active, step[a], xi[a]);
       }
-      evaluations = select(both(active, last), evaluations + 1.0, evaluations); // that of arrive()
+      evaluations =
+          select(both(active, last), evaluations + 1.0, evaluations); // that of evaluate_at_solution()
       active = without(active, last);
       previous_length = length;
       previous_merit = twice_merit;
@@ -170,7 +171,7 @@ template <class B, bool H, class S> struct Pair {
   }
 
   // The surface at the projection.
-  ENTS_INLINE void arrive() {
+  ENTS_INLINE void evaluate_at_solution() {
     if constexpr (!PairProjector<B, H, S>::closed_form) projector.evaluate(xi);
   }
 
@@ -253,7 +254,7 @@ template <class B, bool H, class S> struct Pair {
   }
 
   // Gap, force and status of the penalty and the power law.
-  ENTS_INLINE void press(const Plan& plan, bool measures) {
+  ENTS_INLINE void evaluate_law(const Plan& plan, bool measures) {
     const Measured at = measure(plan, measures);
     ordinary = both(ordinary, is_regular(at));
     contact = without(at.across < 0.0, outside);

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "core/law/pair_friction.hpp"
-#include "core/tangent/pair_drift.hpp"
+#include "core/tangent/directional_derivative.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -21,7 +21,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
   static constexpr int parts = parts_of_f<B, H>, parts_of_rate = is_flat<B> ? parts : parts | on_curvatures;
   static constexpr int parts_of_z = on_position | on_tangents,
                        parts_of_z_rate = is_flat<B> ? parts_of_z : parts_of_z | on_curvatures;
-  using Drift = PairDrift<B, H, S>;
+  using Derivative = DirectionalDerivative<B, H, S>;
 
   // M and y = - M t
   static ENTS_INLINE void set_direction(const Pair<B, H, S>& pair, const S (&force)[T], S (&inverse)[K],
@@ -151,37 +151,38 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
   }
 
   // (F'_ab - (A W'/g) F_,ab) / 2
-  static ENTS_INLINE S half_bend(int a, int b, const Drift& drift, const S& stiffness) {
+  static ENTS_INLINE S half_bend(int a, int b, const Derivative& derivative, const S& stiffness) {
     const int k = symmetric_index(a, b);
-    return 0.5 * (drift.f2[k] - stiffness * drift.p.f2[k]);
+    return 0.5 * (derivative.f2[k] - stiffness * derivative.p.f2[k]);
   }
   // Y_a but for what changes by third derivatives; rate: f'_a
-  static ENTS_INLINE void set_Y(int a, const Drift& drift, const S& stiffness, const Form<B, Dual<S>> (&f)[T],
-                                const Form<B, S> (&x)[T], Form<B, S>& rate, Form<B, S>& Y) {
-    set_form_rate<parts>(f[a], drift.y, rate);
+  static ENTS_INLINE void set_Y(int a, const Derivative& derivative, const S& stiffness,
+                                const Form<B, Dual<S>> (&f)[T], const Form<B, S> (&x)[T], Form<B, S>& rate,
+                                Form<B, S>& Y) {
+    set_form_rate<parts>(f[a], derivative.y, rate);
     set_form<parts_of_rate>(Y, S(-1.0), rate);
-    for (int c = 0; c < T; ++c) add_form<parts>(Y, half_bend(a, c, drift, stiffness), x[c]);
+    for (int c = 0; c < T; ++c) add_form<parts>(Y, half_bend(a, c, derivative, stiffness), x[c]);
   }
   // dt_a or, if Joined, Y_a + dt_a
   template <bool Joined>
-  static ENTS_INLINE void set_P(int a, const Drift& drift, const S& stiffness, const Form<B, S>& rate,
-                                const Form<B, S> (&x)[T], const ChangeOfForce& change,
+  static ENTS_INLINE void set_P(int a, const Derivative& derivative, const S& stiffness,
+                                const Form<B, S>& rate, const Form<B, S> (&x)[T], const ChangeOfForce& change,
                                 const Form<B, S>& limit, Form<B, S>& P) {
     if constexpr (Joined) set_form<parts_of_rate>(P, S(-1.0), rate);
     for (int c = 0; c < T; ++c) {
       if constexpr (Joined)
-        add_form<parts>(P, half_bend(a, c, drift, stiffness) + change.by_xi[a][c], x[c]);
+        add_form<parts>(P, half_bend(a, c, derivative, stiffness) + change.by_xi[a][c], x[c]);
       else if (c == 0)
         set_form<parts>(P, change.by_xi[a][c], x[c]);
       else
         add_form<parts>(P, change.by_xi[a][c], x[c]);
     }
-    change.add_to(a, drift.p.s, P);
+    change.add_to(a, derivative.p.s, P);
     add_form<parts_of_p<H>>(P, change.slips[a], limit);
   }
 
   static constexpr bool by_third =
-      H && !Rigid && Drift::bend_changes; // do forms of second derivatives change?
+      H && !Rigid && Derivative::bend_changes; // do forms of second derivatives change?
   // d2: y^c N_,abc
   static ENTS_INLINE void set_shape_rates(const S (&xi)[T], const S (&y)[T], Shape<S, T, B::nodes>& of) {
     B::template shape<3>(xi, of);
@@ -219,20 +220,20 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
         change[i] = y[0] * N.d2[a][i] + y[1] * N.d2[a + 1][i];
   }
   // The rate of w_a
-  static ENTS_INLINE void expand_turn_rate(int a, const Drift& drift, DofArray<S, N>& w1) {
+  static ENTS_INLINE void expand_turn_rate(int a, const Derivative& derivative, DofArray<S, N>& w1) {
     S change[B::nodes];
-    set_slope_rates(a, drift.p.N, drift.y, change);
+    set_slope_rates(a, derivative.p.N, derivative.y, change);
     DofArray<S, N> now, turned;
-    expand_to_nodes<B>(change, drift.p.s.n, now);
-    expand_to_nodes<B>(drift.p.N.d1[a], derivative_of(drift.s.n), turned);
+    expand_to_nodes<B>(change, derivative.p.s.n, now);
+    expand_to_nodes<B>(derivative.p.N.d1[a], derivative_of(derivative.s.n), turned);
     for_each_dof(
         w1, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
   }
 
-  static ENTS_INLINE void set_Z(const Form<B, Dual<S>>& moving_z, const Drift& drift, const S& stiffness,
-                                Form<B, S>& z, Form<B, S>& Z) {
+  static ENTS_INLINE void set_Z(const Form<B, Dual<S>>& moving_z, const Derivative& derivative,
+                                const S& stiffness, Form<B, S>& z, Form<B, S>& Z) {
     value_of_form<parts_of_z>(moving_z, z);
-    set_form_rate<parts_of_z>(moving_z, drift.y, Z);
+    set_form_rate<parts_of_z>(moving_z, derivative.y, Z);
     add_form<parts_of_z>(Z, stiffness, z);
   }
 };

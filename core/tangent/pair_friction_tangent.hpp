@@ -11,7 +11,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
   using Base = SecondXi<B, H, Rigid, S>;
   using Base::D, Base::T, Base::N, Base::K, Base::turns, Base::bends, Base::parts, Base::parts_of_rate;
   using Base::x, Base::Y, Base::w, Base::Z, Base::w1, Base::z;
-  using typename Base::Drift;
+  using typename Base::Derivative;
   using typename Base::Forms;
   static constexpr bool symmetric = H && !is_flat<B>, has_rest = symmetric; // but for that rest, x_a P_a^T
   static constexpr bool one_by_one = !turns;
@@ -28,13 +28,13 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
     S inverse[K], y[T];
     Forms::set_direction(pair, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-      const Drift drift(p, pair.xi, y);
-      Base::set_weights(stiffness, drift);
-      Forms::in_part([&]()
-                         ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
+      const Derivative derivative(p, pair.xi, y);
+      Base::set_weights(stiffness, derivative);
+      Forms::in_part(
+          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, derivative); });
       if constexpr (turns)
         Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-          Base::set_height_terms(stiffness, drift, [](int, Form<B, S>&) ENTS_LAMBDA_INLINE {});
+          Base::set_height_terms(stiffness, derivative, [](int, Form<B, S>&) ENTS_LAMBDA_INLINE {});
         });
     });
     curved_law = set_g<Rigid>(plan, pair, g);
@@ -42,8 +42,8 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
 
   // Each lane's to one[lane]
   template <class One, int W>
-  requires(!turns) ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
-    hand_out_tangent(
+  requires(!turns) ENTS_INLINE void scatter_lanes(One (&one)[W]) const {
+    scatter_tangent(
         *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.x; },
         [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.Y; },
         [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.P; });
@@ -68,16 +68,16 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
 private:
   ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
                                         const PairFriction<B, H, S>& friction, const S (&inverse)[K],
-                                        const Drift& drift) {
+                                        const Derivative& derivative) {
     const S stiffness = pair.area * pair.per_gap;
     const typename Forms::ChangeOfForce change(pair, friction, false);
     Form<B, S> limit;
     Forms::form_of_limit(plan, pair, friction, limit);
     Base::set_projection_terms(
-        pair, inverse, drift, stiffness,
+        pair, inverse, derivative, stiffness,
         [&](int a, const Form<B, S>& rate, const Form<B, S>(&xf)[T], const Form<B, S>&) ENTS_LAMBDA_INLINE {
           Form<B, S> Pf;
-          Forms::template set_P<!symmetric>(a, drift, stiffness, rate, xf, change, limit, Pf);
+          Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change, limit, Pf);
           expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, pair.projector.N, P[a]);
         });
   }

@@ -145,7 +145,7 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leadi
 }
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
 // A vector of each lane to an element of its own: to(lane)
-template <class To> ENTS_INLINE void hand_out_vector(const Vec<Lanes<4>, 3>& v, To&& to) {
+template <class To> ENTS_INLINE void scatter_vector(const Vec<Lanes<4>, 3>& v, To&& to) {
   typename VectorOf<4>::Numbers r[4] = {v[0].v, v[1].v, v[2].v, v[2].v};
   transpose<4, 2>(r);
   for (int k = 0; k < 4; ++k) to(k).v = r[k];
@@ -157,7 +157,7 @@ ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std:
                                  std::uint32_t used, DeferredCopy* last) {
   constexpr int N = Tangent::N, steps = D * Tangent::fields;
   using S = Lanes<W>;
-  const auto between = [&]() ENTS_LAMBDA_INLINE { copy_beside(last, (W * N * N + steps - 1) / steps); };
+  const auto between = [&]() ENTS_LAMBDA_INLINE { interleave_copy(last, (W * N * N + steps - 1) / steps); };
   S entries[N * N];
   ENTS_ROLLED // as in for_each_coordinate()
       for (int c = 0; c < D; ++c)

@@ -35,10 +35,10 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
     S inverse[K];
     Forms::set_direction(pair, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-      const Drift drift(pair.projector, pair.xi, y);
-      Forms::in_part([&]()
-                         ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, drift); });
-      if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(drift); });
+      const Derivative derivative(pair.projector, pair.xi, y);
+      Forms::in_part(
+          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, derivative); });
+      if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(derivative); });
     });
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
@@ -76,10 +76,10 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
 
 #if defined(ENTS_HAS_LANES) && defined(__AVX__)
   // Each lane's to one[lane]
-  template <class One> ENTS_INLINE void hand_out_lanes(One (&one)[4]) const {
+  template <class One> ENTS_INLINE void scatter_lanes(One (&one)[4]) const {
     const auto form = [&](auto count, auto of) ENTS_LAMBDA_INLINE {
       unroll<count.value>([&](auto field) ENTS_LAMBDA_INLINE {
-        hand_out_vector(
+        scatter_vector(
             on_field<field.value>(of(*this)), [&](int k) ENTS_LAMBDA_INLINE -> auto& {
               return on_field<field.value>(of(one[k]));
             });
@@ -100,17 +100,17 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
             Index<slopes>{}, [a](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.z[a]; });
     }
     if constexpr (turns)
-      hand_out_vector(
+      scatter_vector(
           n, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].n; });
     if constexpr (bends)
-      hand_out_vector(
+      scatter_vector(
           n_rate, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].n_rate; });
     if constexpr (bends)
       form(
           Index<slopes>{}, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.bent_z[0]; });
     if (curved_law)
       for (int m = 0; m < M; ++m)
-        hand_out_vector(
+        scatter_vector(
             g[m], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g[m]; });
     for (int k = 0; k < 4; ++k) {
       one[k].curved_law = curved_law;
@@ -124,7 +124,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
 #endif
 
 private:
-  using Drift = typename Forms::Drift;
+  using Derivative = typename Forms::Derivative;
 
   template <bool First = false> static ENTS_INLINE void add(V& sum, const S& factor, const V& v) {
     if constexpr (First)
@@ -153,9 +153,9 @@ private:
 
   ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
                                         const PairFriction<B, H, S>& friction, const S (&inverse)[K],
-                                        const Drift& drift) {
+                                        const Derivative& derivative) {
     Form<B, Dual<S>> f[T];
-    forms_of_f(drift.s, f);
+    forms_of_f(derivative.s, f);
     // (what is added to stays in registers where it is known to be nobody else's)
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
@@ -164,33 +164,33 @@ private:
     Forms::form_of_limit(plan, pair, friction, limit);
     for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> rate, Yf, Pf;
-      Forms::set_Y(a, drift, stiffness, f, xf, rate, Yf);
-      Forms::template set_P<true>(a, drift, stiffness, rate, xf, change, limit, Pf);
+      Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
+      Forms::template set_P<true>(a, derivative, stiffness, rate, xf, change, limit, Pf);
       keep<Forms::parts>(xf[a], x[a]);
       keep<Forms::parts_of_rate>(Yf, Y[a]);
       keep<Forms::parts_of_rate>(Pf, P[a]);
     });
   }
 
-  ENTS_INLINE void set_height_terms(const Drift& drift) {
+  ENTS_INLINE void set_height_terms(const Derivative& derivative) {
     Form<B, Dual<S>> moving_z[T];
-    forms_of_z<B>(drift.s, moving_z);
-    n = drift.p.s.n;
+    forms_of_z<B>(derivative.s, moving_z);
+    n = derivative.p.s.n;
     Form<B, S> zf[T];
     for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> Zf;
-      Forms::set_Z(moving_z[a], drift, stiffness, zf[a], Zf);
+      Forms::set_Z(moving_z[a], derivative, stiffness, zf[a], Zf);
       keep<Forms::parts_of_z_rate>(Zf, Z[a]);
       if constexpr (bends) keep<Forms::parts_of_z>(zf[a], z[a]);
     });
     if constexpr (bends) {
-      n_rate = derivative_of(drift.s.n);
+      n_rate = derivative_of(derivative.s.n);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
         constexpr int a = k / 2, b = (k + 1) / 2;
         if constexpr (B::second[k]) {
           Form<B, S> sum;
-          set_form<Forms::parts_of_z>(sum, drift.y[b], zf[a]);
-          if constexpr (a != b) add_form<Forms::parts_of_z>(sum, drift.y[a], zf[b]);
+          set_form<Forms::parts_of_z>(sum, derivative.y[b], zf[a]);
+          if constexpr (a != b) add_form<Forms::parts_of_z>(sum, derivative.y[a], zf[b]);
           keep<Forms::parts_of_z>(sum, bent_z[OnCurvatures<B, V>::before(k)]);
         }
       });

@@ -83,8 +83,8 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
 
   // Each lane's to one[lane]
   template <class One, int W>
-  requires(!turns) ENTS_INLINE void hand_out_lanes(One (&one)[W]) const {
-    hand_out_tangent(
+  requires(!turns) ENTS_INLINE void scatter_lanes(One (&one)[W]) const {
+    scatter_tangent(
         *this, one, [](auto& t) ENTS_LAMBDA_INLINE -> auto& { return t.v; });
   }
 

@@ -8,7 +8,7 @@
 // expressions in the same order, so the bits are the same.
 #pragma once
 
-#include "core/numbers/past_caches.hpp"
+#include "core/numbers/streaming.hpp"
 #include "core/tangent/dof_rows.hpp"
 
 namespace ents::ENTS_ISA {
@@ -230,7 +230,7 @@ template <int W> ENTS_INLINE Lanes<W> read_lanes(const double* from, std::int64_
 }
 
 // Each lane's numbers to an element of its own: to(lane)
-template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&numbers)[N], To&& to) {
+template <int W, int N, class To> ENTS_INLINE void scatter(const Lanes<W> (&numbers)[N], To&& to) {
   static_assert(width_for(N) == W);
   unroll<pieces(N, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
     constexpr int p = piece.value, first = piece_at(N, W, p);
@@ -255,7 +255,7 @@ template <int W, int N, class To> ENTS_INLINE void hand_out(const Lanes<W> (&num
 // The same of a tangent: its weights, g and the arrays that pick(tangent) names, one of each natural
 // coordinate
 template <class Tangent, class One, int W, class... Pick>
-ENTS_INLINE void hand_out_tangent(const Tangent& t, One (&one)[W], Pick... pick) {
+ENTS_INLINE void scatter_tangent(const Tangent& t, One (&one)[W], Pick... pick) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>;
   for (std::size_t r = 0; r < std::extent_v<decltype(t.weights)>; ++r) {
     double* of_lane[W];
@@ -264,12 +264,12 @@ ENTS_INLINE void hand_out_tangent(const Tangent& t, One (&one)[W], Pick... pick)
   }
   const auto each = [&](auto of) ENTS_LAMBDA_INLINE {
     for (int a = 0; a < Tangent::T; ++a)
-      hand_out(
+      scatter(
           of(t)[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return of(one[k])[a]; });
   };
   (each(pick), ...);
   if (t.curved_law)
-    hand_out(
+    scatter(
         t.g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
   for (int k = 0; k < W; ++k) one[k].curved_law = t.curved_law;
 }
@@ -303,13 +303,13 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
                 weights = std::extent_v<decltype(t.weights)>;
   using S = Lanes<W>;
   constexpr bool few = N < W; // columns: then all at once
-  if constexpr (few) copy_beside(last, W * N * N);
+  if constexpr (few) interleave_copy(last, W * N * N);
   S kept[Tangent::symmetric ? N * (N + 1) / 2 : N * N];
   S* entry = kept;
   for (int n = 0; n < M; ++n)
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
-      if constexpr (!few) copy_beside(last, W * N);
+      if constexpr (!few) interleave_copy(last, W * N);
       S of_column[weights];
       for (int k = 0; k < weights; ++k) of_column[k] = t.weights[k][n];
       const auto add = [&](int m, auto r) ENTS_LAMBDA_INLINE {

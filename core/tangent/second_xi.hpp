@@ -11,7 +11,7 @@ namespace ents::ENTS_ISA {
 
 template <class B, bool H, bool Rigid, class S> struct SecondXi {
   using Forms = PairFrictionForms<B, H, Rigid, S>;
-  using Drift = typename Forms::Drift;
+  using Derivative = typename Forms::Derivative;
   static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
   static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
@@ -20,34 +20,34 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
   DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
 
   // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
-  ENTS_INLINE void set_weights(const S& stiffness, const Drift& drift) {
+  ENTS_INLINE void set_weights(const S& stiffness, const Derivative& derivative) {
     const S half = 0.5 * stiffness;
     weights[0][0] = S(1.0);
     weights[1][0] = half;
     if constexpr (!Rigid)
       for (int i = 0; i < B::nodes; ++i) {
-        S change = drift.y[0] * drift.p.N.d1[0][i];
-        if constexpr (T == 2) change = change + drift.y[1] * drift.p.N.d1[1][i];
-        weights[0][i + 1] = -drift.p.N.n[i];
-        weights[1][i + 1] = -change - half * drift.p.N.n[i];
+        S change = derivative.y[0] * derivative.p.N.d1[0][i];
+        if constexpr (T == 2) change = change + derivative.y[1] * derivative.p.N.d1[1][i];
+        weights[0][i + 1] = -derivative.p.N.n[i];
+        weights[1][i + 1] = -change - half * derivative.p.N.n[i];
       }
   }
 
   // x_a and Y_a; beside(a, f', x, Y) may add to the forms of Y_a.
   template <class Beside>
-  ENTS_INLINE void set_projection_terms(const Pair<B, H, S>& pair, const S (&inverse)[K], const Drift& drift,
-                                        const S& stiffness, Beside&& beside) {
+  ENTS_INLINE void set_projection_terms(const Pair<B, H, S>& pair, const S (&inverse)[K],
+                                        const Derivative& derivative, const S& stiffness, Beside&& beside) {
     const auto& p = pair.projector;
     Form<B, Dual<S>> f[T];
-    forms_of_f(drift.s, f);
+    forms_of_f(derivative.s, f);
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
     Shape<S, T, B::nodes> shape_rates;
-    if constexpr (Forms::by_third) Forms::set_shape_rates(pair.xi, drift.y, shape_rates);
+    if constexpr (Forms::by_third) Forms::set_shape_rates(pair.xi, derivative.y, shape_rates);
     for (int a = 0; a < T; ++a) {
       Form<B, S> rate, Yf;
-      Forms::set_Y(a, drift, stiffness, f, xf, rate, Yf);
+      Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
       beside(a, rate, xf, Yf);
       expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
       if constexpr (Forms::by_third) Forms::subtract_third(value[a], shape_rates, Y[a]);
@@ -56,19 +56,19 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
 
   // w_a, Z_a and their changes; beside(a, Z) may add to the form of Z_a.
   template <class Beside>
-  ENTS_INLINE void set_height_terms(const S& stiffness, const Drift& drift, Beside&& beside) {
-    const auto& p = drift.p;
+  ENTS_INLINE void set_height_terms(const S& stiffness, const Derivative& derivative, Beside&& beside) {
+    const auto& p = derivative.p;
     Form<B, Dual<S>> moving_z[T];
-    forms_of_z<B>(drift.s, moving_z);
+    forms_of_z<B>(derivative.s, moving_z);
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
       Form<B, S> zf, Zf;
-      Forms::set_Z(moving_z[a], drift, stiffness, zf, Zf);
+      Forms::set_Z(moving_z[a], derivative, stiffness, zf, Zf);
       beside(a, Zf);
       expand_to_dofs<B, Rigid, Forms::parts_of_z_rate>(Zf, p.N, Z[a]);
       expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
       if constexpr (bends) {
         expand_to_dofs<B, Rigid, Forms::parts_of_z>(zf, p.N, z[a]);
-        Forms::expand_turn_rate(a, drift, w1[a]);
+        Forms::expand_turn_rate(a, derivative, w1[a]);
       }
     });
   }

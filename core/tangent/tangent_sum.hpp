@@ -64,7 +64,7 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   using Base = SecondXi<B, H, false, S>;
   using Base::D, Base::T, Base::N, Base::K, Base::M, Base::turns, Base::bends, Base::parts;
   using Base::weights, Base::x, Base::Y, Base::w, Base::Z, Base::w1, Base::z;
-  using typename Base::Drift;
+  using typename Base::Derivative;
   using typename Base::Forms;
   static constexpr bool friction = Friction, symmetric = true, has_rest = Friction; // as write_tangent() asks
   static constexpr int products = 1 + 5 * T;
@@ -270,12 +270,12 @@ private:
       if (has_second_xi) {
         S inverse[K], y[T];
         Forms::set_direction(at.pair, sum.force, inverse, y);
-        const Drift drift(p, at.pair.xi, y);
-        Base::set_weights(S(0.0), drift);
-        Base::set_projection_terms(at.pair, inverse, drift, S(0.0),
+        const Derivative derivative(p, at.pair.xi, y);
+        Base::set_weights(S(0.0), derivative);
+        Base::set_projection_terms(at.pair, inverse, derivative, S(0.0),
                                    [&](int a, const Form<B, S>&, const Form<B, S>(&)[T], Form<B, S>& Y_a)
                                        ENTS_LAMBDA_INLINE { add_form<parts>(Y_a, S(1.0), Yf[a]); });
-        if constexpr (turns) Base::set_height_terms(S(0.0), drift, add_z);
+        if constexpr (turns) Base::set_height_terms(S(0.0), derivative, add_z);
         return;
       }
     for (int a = 0; a < T; ++a) {

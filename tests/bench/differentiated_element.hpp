@@ -193,7 +193,7 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
     for (int a = 0; a < T; ++a) start[a] = in.start[a];
     Pair<B, H, double> pair(nodes, start);
     pair.project();
-    pair.arrive();
+    pair.evaluate_at_solution();
     const double(&f2)[symmetric_size<T>] = second_derivatives(pair);
 
     // master nodes relative to the slave node, their derivatives with respect to the dofs: 1, and -1 for the

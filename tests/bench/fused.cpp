@@ -2,7 +2,7 @@
 // where the compiler can, which is what equal bits on every machine cost; and without any computation.
 #if defined(ENTS_BENCH_FUSED)
 #define ENTS_ISA fused
-#include "core/element/pair_table.hpp"
+#include "core/element/pair_kernel.hpp"
 #endif
 
 #include "block_kernel.hpp"
@@ -52,11 +52,16 @@ ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool fri
   if (basis == "quad4") return moving_kernel_of<Quad4>(enriched, friction);
   return moving_kernel_of<Quad9>(enriched, friction);
 }
+template <class B> ents::PairKernel fused_kernel_of(bool enriched, bool friction) {
+  using namespace ents::fused;
+  if (enriched) return friction ? evaluate_pairs<B, true, true> : evaluate_pairs<B, true, false>;
+  return friction ? evaluate_pairs<B, false, true> : evaluate_pairs<B, false, false>;
+}
 ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
   using namespace ents::fused;
-  if (basis == "line2") return pair_kernels_of<Line2>.of[enriched][friction];
-  if (basis == "tri3") return pair_kernels_of<Tri3>.of[enriched][friction];
-  if (basis == "quad4") return pair_kernels_of<Quad4>.of[enriched][friction];
+  if (basis == "line2") return fused_kernel_of<Line2>(enriched, friction);
+  if (basis == "tri3") return fused_kernel_of<Tri3>(enriched, friction);
+  if (basis == "quad4") return fused_kernel_of<Quad4>(enriched, friction);
   return nullptr;
 }
 #else

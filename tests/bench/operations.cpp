@@ -95,8 +95,8 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   PairFriction<B, H, Counted> rub;
   pair.area = 1.0;
   pair.project();
-  pair.arrive();
-  pair.press(plan, friction);
+  pair.evaluate_at_solution();
+  pair.evaluate_law(plan, friction);
   if (!pair.ordinary || !pair.contact) return std::nan("");
   Counted residual[N];
   if (friction) {

@@ -23,7 +23,7 @@ constexpr Sine<double> sine = {0.75, {1.0, 0.0}, 0.0625};
 // As an iteration goes: from a first point by steps that are far, next to it, at the border of both, tiny,
 // none.
 double step(std::mt19937_64& generator, int i) {
-  constexpr double sizes[] = {0.4, 1e-2, next_to, 1e-5, 1e-9, 1e-14, 0.0};
+  constexpr double sizes[] = {0.4, 1e-2, reuse_radius_turns, 1e-5, 1e-9, 1e-14, 0.0};
   std::uniform_real_distribution<double> part(0.98, 1.02);
   const double size = sizes[(generator() + static_cast<std::uint64_t>(i)) % 7] * part(generator);
   return generator() % 2 ? size : -size;
@@ -88,7 +88,7 @@ TEST(MovedSine, EveryLaneMovesAsTheNumberAlone) {
       }
       double steps[W];
       for (int k = 0; k < W; ++k) turns[k] += steps[k] = step(generator, i + k);
-      mixed += (std::fabs(steps[0]) < next_to) != (std::fabs(steps[1]) < next_to);
+      mixed += (std::fabs(steps[0]) < reuse_radius_turns) != (std::fabs(steps[1]) < reuse_radius_turns);
     }
   }
   EXPECT_GT(mixed, 1000);

@@ -15,7 +15,7 @@ template <class B> constexpr bool has_third_derivatives() {
   return false;
 }
 
-template <class B, bool H, class S> struct PairDrift {
+template <class B, bool H, class S> struct DirectionalDerivative {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool bend_changes = has_third_derivatives<B>(); // y^c rho_,abc
   using U = Dual<S>;
@@ -26,7 +26,8 @@ template <class B, bool H, class S> struct PairDrift {
   Surface<B, H, U> s; // plain: d and e only
   S f2[K];            // F_,xixi'
 
-  ENTS_INLINE PairDrift(const PairProjector<B, H, S>& projector, const S (&xi)[T], const S (&direction)[T])
+  ENTS_INLINE DirectionalDerivative(const PairProjector<B, H, S>& projector, const S (&xi)[T],
+                                    const S (&direction)[T])
       : p(projector) {
     for (int a = 0; a < T; ++a) y[a] = direction[a];
     if constexpr (!H) {

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/element/general_block.hpp"
+
+namespace ents::ENTS_ISA {
+ENTS_GENERAL_KERNELS(Quad4)
+ENTS_GENERAL_KERNELS(Quad8)
+ENTS_GENERAL_KERNELS(Quad9)
+} // namespace ents::ENTS_ISA

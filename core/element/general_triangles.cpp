@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/element/general_block.hpp"
+
+namespace ents::ENTS_ISA {
+ENTS_GENERAL_KERNELS(Tri3)
+ENTS_GENERAL_KERNELS(Tri6)
+} // namespace ents::ENTS_ISA
