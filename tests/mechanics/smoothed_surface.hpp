@@ -61,20 +61,31 @@ inline HostMesh squares(
   return mesh;
 }
 
-// n sectors of k x k facets around a node; a sector's sides have length 1.
+// Nodes of n sectors around one node; a sector's sides have length 1 and k facets. (s, a, b): sector, steps
+// along its two sides.
+class StarNodes {
+public:
+  StarNodes(HostMesh& mesh, int n, int k) : nodes_(mesh), n_(n), k_(k) {}
+  std::int64_t operator()(int s, int a, int b) {
+    const Vec3 x = (1.0 * a / k_) * ray(s) + (1.0 * b / k_) * ray(s + 1);
+    if (a == 0 && b == 0) return nodes_.at(0, 0, 0, x);
+    if (a == 0) return nodes_.at((s + 1) % n_, b, 0, x);
+    return nodes_.at(s, a, b, x);
+  }
+
+private:
+  Vec3 ray(int s) const {
+    const double angle = 2.0 * 3.141592653589793 * s / n_;
+    return {std::cos(angle), std::sin(angle), 0.0};
+  }
+  Nodes nodes_;
+  int n_, k_;
+};
+
+// Each sector has k x k facets.
 inline HostMesh star(int n, int k) {
   HostMesh mesh{"quad4", {}, {}};
-  Nodes nodes(mesh);
-  const auto ray = [&](int s) {
-    const double angle = 2.0 * 3.141592653589793 * s / n;
-    return Vec3{std::cos(angle), std::sin(angle), 0.0};
-  };
-  const auto node = [&](int s, int a, int b) {
-    const Vec3 x = (1.0 * a / k) * ray(s) + (1.0 * b / k) * ray(s + 1);
-    if (a == 0 && b == 0) return nodes.at(0, 0, 0, x);
-    if (a == 0) return nodes.at((s + 1) % n, b, 0, x);
-    return nodes.at(s, a, b, x);
-  };
+  StarNodes node(mesh, n, k);
   for (int s = 0; s < n; ++s)
     for (int b = 0; b < k; ++b)
       for (int a = 0; a < k; ++a)
@@ -83,20 +94,10 @@ inline HostMesh star(int n, int k) {
   return mesh;
 }
 
-// The same of triangles: each sector is a triangle of k^2 facets.
+// Each sector is a triangle of k^2 facets.
 inline HostMesh triangle_star(int n, int k) {
   HostMesh mesh{"tri3", {}, {}};
-  Nodes nodes(mesh);
-  const auto ray = [&](int s) {
-    const double angle = 2.0 * 3.141592653589793 * s / n;
-    return Vec3{std::cos(angle), std::sin(angle), 0.0};
-  };
-  const auto node = [&](int s, int a, int b) {
-    const Vec3 x = (1.0 * a / k) * ray(s) + (1.0 * b / k) * ray(s + 1);
-    if (a == 0 && b == 0) return nodes.at(0, 0, 0, x);
-    if (a == 0) return nodes.at((s + 1) % n, b, 0, x);
-    return nodes.at(s, a, b, x);
-  };
+  StarNodes node(mesh, n, k);
   for (int s = 0; s < n; ++s)
     for (int b = 0; b < k; ++b)
       for (int a = 0; a + b < k; ++a) {
