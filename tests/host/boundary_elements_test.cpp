@@ -73,7 +73,7 @@ TEST(BoundaryElements, DoubleSine) {
 
 // A sphere over the corner of a quarter of its period; its images change the pressure by the third power of
 // the share. The field is off where contact ends: by the inverse of the cells in the radius.
-// ENTS_TEST_CELLS=2048 (a minute): 205 in the radius, 0.1 %.
+// ENTS_TEST_CELLS=2048 (minutes): 205 in the radius, 0.1 %.
 TEST(BoundaryElements, Hertz) {
   const char* text = std::getenv("ENTS_TEST_CELLS");
   const Eigen::Index n = text ? std::atoi(text) : 256;
