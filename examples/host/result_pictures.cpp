@@ -15,10 +15,10 @@
 namespace host {
 namespace {
 
-using std::numbers::pi;
 using pictures::Chart;
 using pictures::Curve;
 using pictures::Style;
+using std::numbers::pi;
 
 const Quantity* find(const StepRecord& record, const std::string& name) {
   for (const Quantity& quantity : record.exact)
