@@ -215,8 +215,8 @@ typedef struct ents_layout {
   int32_t friction;            /* 1 if the law has friction */
   int32_t augmentable;         /* 1 if the multipliers live in the state: ents_state_augment */
   int32_t needs;               /* ENTS_NEEDS_... bits (since contract 1.3, as what follows; `reserved` before) */
-  const char *instruction_set; /* of the kernels of its residuals and tangents: "portable", "avx2", "avx512". Static text. The
-                                  bits of the results do not depend on it */
+  const char *instruction_set; /* of the kernels of its residuals and tangents: "portable", "avx2", "avx512", to the same bits; "none":
+                                  the library has none for this processor, is slower, and right to rounding. Static text */
   int32_t named_parameters;    /* of the model's key "parameters": ents_model_bind (since contract 1.6, as what follows) */
   int32_t fields;              /* heights of type "field": ents_model_bind */
   int32_t worn;                /* wear: place in the state of three numbers: depth lost by the slave surface [L]; depth lost by the

@@ -120,7 +120,7 @@ if(ENTS_MAINTAINER STREQUAL nobody)
   string(APPEND warnings "message(WARNING \"The packages name no real maintainer (${nobody}), to whom their users could write. \"
   \"Before you give them away, configure with -DENTS_MAINTAINER=\\\"NAME <ADDRESS>\\\".\")\n")
 endif()
-if(ENTS_INSTRUCTION_SETS STREQUAL "native")
+if("native" IN_LIST ENTS_INSTRUCTION_SETS)
   string(APPEND warnings "message(WARNING \"The library has the fast kernels of this machine's processor only; on others it is slower. \"
   \"Before you give it away, configure with -DENTS_INSTRUCTION_SETS=all.\")\n")
 endif()

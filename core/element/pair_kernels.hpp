@@ -19,7 +19,7 @@ struct PairKernelsOfBasis {
 };
 struct PairKernels {
   const char* instruction_set;
-  const PairKernelsOfBasis* of_basis;                                      // [basis]
+  const PairKernelsOfBasis* of_basis;                                      // [basis]; null: one by one
   void (*stream_copy)(const double* from, std::int64_t count, double* to); // streaming.hpp
   ExternalHeight::Jets expression_jets;                                    // see expression.hpp
 };
@@ -37,7 +37,7 @@ extern const PairKernels pair_kernels;
 }
 #endif
 
-// That for blocks of elements of a model.
+// That for blocks of elements of a model; null: evaluate_element() takes them one by one.
 PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels);
 
 // Those of the best instruction set of this processor.

@@ -13,16 +13,21 @@ std::uint64_t evaluate_general(const Plan&, const PairBlock&, std::int32_t count
 void expression_jets(const ExternalHeight&, std::int32_t, std::int32_t, const double*,
                      double*); // expression.hpp
 
+#if defined(ENTS_NO_BLOCKS) // evaluate_element() takes all elements
+static constexpr const PairKernelsOfBasis* of_basis = nullptr;
+static constexpr const char* instruction_set = "none";
+#else
 #define ENTS_BASIS(name, type, ...)                                                                          \
   {{{evaluate_pairs<type, false, false>, evaluate_pairs<type, false, true>},                                 \
     {evaluate_pairs<type, true, false>, evaluate_pairs<type, true, true>}},                                  \
    {evaluate_general<type, false>, evaluate_general<type, true>}},
 static constexpr PairKernelsOfBasis of_basis[] = {ENTS_BASES(ENTS_BASIS)};
 #undef ENTS_BASIS
-
 #define ENTS_TEXT_OF(name) #name
 #define ENTS_TEXT(name) ENTS_TEXT_OF(name)
+static constexpr const char* instruction_set = ENTS_TEXT(ENTS_ISA);
+#endif
 
-extern const PairKernels pair_kernels = {ENTS_TEXT(ENTS_ISA), of_basis, stream_copy, expression_jets};
+extern const PairKernels pair_kernels = {instruction_set, of_basis, stream_copy, expression_jets};
 
 } // namespace ents::ENTS_ISA

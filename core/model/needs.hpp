@@ -38,11 +38,6 @@ constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection,
   return projection == ProjectionKind::normal && law.force_has_slope() && tangent == TangentKind::consistent;
 }
 
-// Are the elements of a call evaluated one after the other? patch: the element has several segments.
-inline bool is_one_by_one(const Model& model, bool patch) {
-  return patch || model.law.flattening.parameter != 0;
-}
-
 // Does the force depend on the state of the begin of the increment?
 inline bool has_history(const Plan& plan) {
   return plan.state.anchor_at >= 0 || plan.state.multiplier_at >= 0 || plan.law.wear.on;

@@ -19,6 +19,7 @@ constexpr const KernelSet* kernels_of[] = {ENTS_BASES(ENTS_BASIS)}; // [basis]
 } // namespace
 
 PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
+  if (!kernels.of_basis) return nullptr;
   const ContactLaw& law = model.law;
   const PairKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
   return has_fast_kernel(law, model.projection, model.tangent) ? of.of[enriched][law.has_friction()]
@@ -89,7 +90,6 @@ Plan make(const Model& model, bool enriched) {
   plan.finish = kernels.finish[enriched];
   plan.rest = kernels.rest[enriched];
   plan.pairs = block_kernel_of(model, enriched, best_pair_kernels());
-  plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
   plan.project = kernels.project[enriched];
@@ -124,8 +124,9 @@ Plan make(const Model& model, bool enriched) {
     plan.unflattened = plan.element;
     plan.element = evaluate_flattened;
     plan.pairs = nullptr;
-    plan.block_results = 0;
   }
+  if (plan.pairs)
+    plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
   return plan;
 }
 

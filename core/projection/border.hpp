@@ -54,8 +54,10 @@ template <class B, bool H> struct ClosestOnBorder {
     Surface<B, H, Ball> s;
     const bool normal = evaluate_surface<1>(g, xi, N, s);
     if (!normal && H) { // the height is anywhere within its bound
-      consider(e, centre, distance(centre));
-      return least_length(s.d) - height_bound < limit;
+      constexpr double narrow = 1e-3; // without a surface at its centre: an edge that is crushed has none
+      const double at = distance(centre);
+      consider(e, centre, at);
+      return (at < no_bound || half > narrow) && least_length(s.d) - height_bound < limit;
     }
     Vec<double, D> d;
     for (int k = 0; k < D; ++k) d[k] = s.d[k].v;

@@ -11,7 +11,7 @@
 namespace host {
 namespace {
 
-constexpr double border = 0.25; // in natural coordinates: an eighth of a segment's length
+constexpr double border_width = 0.25; // in natural coordinates: an eighth of a segment's length
 
 std::string where(const Scene& scene) { return scene.contact->model_where; }
 
@@ -134,7 +134,7 @@ Master explicit_master(const EntsLibrary& library, const Scene& scene, int divis
   model["segment"] = d == 2 ? "line2" : "quad4";
   model["height"] = nullptr;
   model["master"] = "rigid";
-  model["border"] = border;
+  model["border"] = border_width;
   model["contact"] = contact.model.contains("contact") ? contact.model.at("contact") : Json();
   if (contact.model.contains("penetration_limit"))
     model["penetration_limit"] = contact.model.at("penetration_limit");

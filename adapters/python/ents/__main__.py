@@ -54,7 +54,8 @@ def main():
     layout = ents.Model(FIRST).layout
     print(f"ents               {library.version()}, contract {ents.CONTRACT_MAJOR}.{ents.CONTRACT_MINOR}")
     print(f"library            {library.path}")
-    print(f"instruction set    {layout.instruction_set.decode()} (results do not depend on it)")
+    kernels = layout.instruction_set.decode()
+    print(f"instruction set    {kernels} ({'slow: the library is built for other processors' if kernels == 'none' else 'results do not depend on it'})")
     print(f"Python, NumPy      {platform.python_version()}, {np.__version__}")
     for name, purpose, package in (("scipy", "ents.Contact", "python3-scipy"), ("matplotlib", "Contact.plot", "python3-matplotlib")):
         try:
