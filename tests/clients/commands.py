@@ -27,7 +27,7 @@ LONG = {  # a part of a command: why it is not run
     "host_friction_test": "tests of this build", "adapters_scenes_table": "half an hour",
     "mutations.py": "minutes", "compare_peers.py": "a test of its own", "curved.py": "half an hour", "_block.py": "tests of their own",
     "joint.py": "bolted_joint_test.py runs it with --quick", "torque.py": "minutes",
-    "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "gallery.sh": "minutes",
+    "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "rough_afm/scene.json --out": "package.debian runs it", "gallery.sh": "minutes",
     "setup.sh": "builds", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
     "--variant layer": "a minute of boundary elements; Accuracy.* and LayerBody.* run it", "variants examples/cattaneo": "a minute; that of hertz2d is run",
