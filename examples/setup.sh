@@ -13,8 +13,8 @@ package, too; with --try, that package, too, if it can be had. -D... goes to CMa
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
   -DENTS_INSTRUCTION_SETS=all            kernels for every processor of this family, as in packages; default: for this processor, in
                                          about half the time
-  -DENTS_GROUPED=OFF                     every source file of ents-host on its own: sooner built after a change of one, in twice the time
-                                         from nothing
+  -DENTS_GROUPED=OFF                     every source file of ents-host and of the tests on its own: sooner built after a change of
+                                         one, in twice the time from nothing
 They stay in force in build/ until changed or until build/ is removed. Packages that are used where they are installed:
   --with libtrilinos-sacado-dev          Sacado, which ents-bench --differentiation compares with
 

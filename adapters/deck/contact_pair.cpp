@@ -11,12 +11,6 @@ namespace {
 
 using std::string;
 
-string shown(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
 /// Numbers of a data line; missing ones are absent.
 std::vector<std::optional<double>> numbers_of(const Source& source, const Line& line) {
   std::vector<std::optional<double>> out;
@@ -62,7 +56,7 @@ struct Normal {
 double proposed_stiffness(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Program program,
                           std::vector<string>& remarks) {
   if (program == Program::calculix && bodies.first_young > 0) {
-    remarks.push_back("stiffness " + shown(50 * bodies.first_young) +
+    remarks.push_back("stiffness " + shown(50 * bodies.first_young, 6) +
                       ": ccx's own default, 50 times Young's modulus of the first material");
     return 50 * bodies.first_young;
   }
@@ -70,9 +64,9 @@ double proposed_stiffness(const Mesh& mesh, const ContactPair& pair, const Bodie
     mesh.source.fail(pair.line, "no stiffness of the contact is given, and there is no *ELASTIC to propose "
                                 "one from; write --stiffness or a model with \"contact\"");
   const double value = 10 * bodies.largest_young / bodies.face_size;
-  remarks.push_back("stiffness " + shown(value) +
-                    " proposed: 10 E / h with E = " + shown(bodies.largest_young) +
-                    " and faces of size h = " + shown(bodies.face_size) + "; --stiffness for another one");
+  remarks.push_back("stiffness " + shown(value, 6) +
+                    " proposed: 10 E / h with E = " + shown(bodies.largest_young, 6) +
+                    " and faces of size h = " + shown(bodies.face_size, 6) + "; --stiffness for another one");
   return value;
 }
 
@@ -125,7 +119,7 @@ Normal normal_law(const Mesh& mesh, const ContactPair& pair, const Statement* s,
       if (std::abs(table[i].second - slope * table[i].first) > 1e-3 * q)
         source.fail(s->lines[i].place, "no law fits this table: it is not a straight line within 1e-3 of its "
                                        "largest pressure. Write the law into the model's \"contact\"");
-    remarks.push_back("the table is a straight line: stiffness " + shown(slope));
+    remarks.push_back("the table is a straight line: stiffness " + shown(slope, 6));
     return penalty(slope);
   }
   source.fail(
@@ -150,7 +144,7 @@ nlohmann::ordered_json friction_law(const Mesh& mesh, const Statement& s, double
   double slope = program == Program::calculix && data.size() > 1 && data[1] ? *data[1] : 0;
   if (!(slope > 0)) {
     slope = program == Program::calculix && bodies.first_young > 0 ? bodies.first_young / 2 : stiffness / 2;
-    remarks.push_back("friction: tangential stiffness " + shown(slope) +
+    remarks.push_back("friction: tangential stiffness " + shown(slope, 6) +
                       (program == Program::calculix
                            ? ", ccx's own default (half of Young's modulus of the first material)"
                            : " proposed, half of the normal one"));

@@ -28,12 +28,6 @@ struct CommandLine {
   bool explain = false, pictures = true;
 };
 
-string shown(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 string counted(std::size_t n, const string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }

@@ -16,12 +16,6 @@ namespace {
 
 using Edge = std::pair<int, int>;
 
-std::string shown(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// The master surface with its neighbourhoods.
 class Neighbours {
 public:

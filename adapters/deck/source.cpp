@@ -200,4 +200,10 @@ bool parse(std::string_view text, double& value) {
   return error == std::errc{} && end == copy.data() + copy.size() && std::isfinite(value);
 }
 
+std::string shown(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
 } // namespace ents_deck

@@ -81,4 +81,7 @@ std::vector<std::string_view> fields_of(std::string_view line);
 bool parse(std::string_view text, std::int64_t& value);
 bool parse(std::string_view text, double& value);
 
+/// With so many significant digits, for people.
+std::string shown(double value, int digits = 4);
+
 } // namespace ents_deck

@@ -14,11 +14,10 @@
 namespace {
 
 using namespace test;
-using mechanics::Random;
 
 // Slaves that move over a surface whose nodes move, too.
 struct Motion {
-  Motion(const Model& m, Surface& s, Random& random)
+  Motion(const Model& m, Surface& s, mechanics::Random& random)
       : model(m), surface(s), system(m, s, random), tree(tree_of(m, s)), size(m.layout.state_size),
         begin(states()), segment(Surface::slaves, -1), xi(2 * Surface::slaves), positions_begin(s.positions) {
     call::state_init(model.get(), int64_t{Surface::slaves}, begin.data(), int64_t{size}, nullptr);
@@ -26,7 +25,7 @@ struct Motion {
   std::vector<double> states() const {
     return std::vector<double>(static_cast<std::size_t>(size) * Surface::slaves);
   }
-  void move(Random& random) {
+  void move(mechanics::Random& random) {
     const auto d = static_cast<std::size_t>(surface.dimension);
     for (std::size_t i = 0; i < surface.slave.size(); ++i) {
       double& x = surface.slave[i];
@@ -109,7 +108,7 @@ struct Motion {
 };
 
 TEST(IterateFriction, IsDetectionTransferAndAssembly) {
-  Random random(53);
+  mechanics::Random random(53);
   int moved = 0, contacts = 0;
   for (int trial = 0; trial < samples(60); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;
@@ -189,7 +188,7 @@ TEST(IterateFriction, IsDetectionTransferAndAssembly) {
 
 // The positions of now would move the anchor to another place: those of the begin count.
 TEST(IterateFriction, StatesMoveInThePositionsOfTheBegin) {
-  Random random(59);
+  mechanics::Random random(59);
   int others = 0;
   for (int trial = 0; trial < samples(20); ++trial) {
     Surface surface(random, 2);
@@ -215,7 +214,7 @@ TEST(IterateFriction, StatesMoveInThePositionsOfTheBegin) {
 }
 
 TEST(IterateFriction, RefusesWhatItCannotMove) {
-  Random random(61);
+  mechanics::Random random(61);
   Surface surface(random, 2);
   const Model model(text_of(2, coulomb)), rigid(text_of(2, coulomb, R"(, "master": "rigid")"));
   Motion motion(model, surface, random);
@@ -261,7 +260,7 @@ TEST(IterateFriction, RefusesWhatItCannotMove) {
 
 // The anchor has no place on the new segment: a status of the element, as ents_state_transfer has it.
 TEST(IterateFriction, AStateThatCannotMoveIsTheElementsStatus) {
-  Random random(67);
+  mechanics::Random random(67);
   Surface surface(random, 2);
   const Model model(text_of(2, coulomb));
   Motion motion(model, surface, random);

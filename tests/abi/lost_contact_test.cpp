@@ -13,7 +13,6 @@
 namespace {
 
 using namespace test;
-using mechanics::Random;
 
 // A flat sheet of n x n squares of length 1 (2D: a line of n segments) in the plane of the first axes.
 struct Sheet {
@@ -80,7 +79,7 @@ Fate fate(const Sheet& sheet, const double* at, double reach, double amplitude) 
 }
 
 TEST(LostContact, IsToldOfEverySlaveThatDoesNotRise) {
-  Random random(41);
+  mechanics::Random random(41);
   int count[4] = {};
   for (int trial = 0; trial < samples(4000); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;
@@ -126,7 +125,7 @@ TEST(LostContact, IsToldOfEverySlaveThatDoesNotRise) {
 
 // How a texture goes on beyond the edge is unknown: a slave that is not above its crests has not risen.
 TEST(LostContact, ATextureCountsWithItsGreatestHeight) {
-  Random random(43);
+  mechanics::Random random(43);
   int lost = 0, open = 0;
   constexpr double amplitude = 0.1;
   for (int trial = 0; trial < samples(1000); ++trial) {
@@ -159,7 +158,7 @@ TEST(LostContact, ATextureCountsWithItsGreatestHeight) {
 // Kinks and ridges inside a surface are no free edges: a slave that moves over them by small steps is not
 // lost, as long as it is not behind an edge.
 TEST(LostContact, NoSlaveIsLostInsideASurface) {
-  Random random(47);
+  mechanics::Random random(47);
   int steps = 0, opened = 0;
   for (int trial = 0; trial < samples(400); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;

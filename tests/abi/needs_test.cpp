@@ -19,7 +19,7 @@ struct Case {
 };
 
 const std::string sine = R"("height": {"type": "sine", "amplitude": 0.1, "wave_vector": [1]})";
-const std::string penalty = R"("normal": {"type": "penalty", "stiffness": 1})";
+const std::string unit_penalty = R"("normal": {"type": "penalty", "stiffness": 1})";
 const std::string coulomb = R"("friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1})";
 
 std::string line(const std::string& more) { return R"({"segment": "line2", )" + more + "}"; }
@@ -29,13 +29,13 @@ TEST(Needs, AreThoseOfTheModel) {
   constexpr int32_t plain = ENTS_NEEDS_MASTER;
   constexpr int32_t flat_enriched = plain | ENTS_NEEDS_HEIGHT | ENTS_NEEDS_SLOPE | ENTS_NEEDS_ITERATION;
   const auto height = [](const std::string& keys) {
-    return line(R"("height": )" + keys + ", " + law(penalty));
+    return line(R"("height": )" + keys + ", " + law(unit_penalty));
   };
   const auto normal = [](const std::string& keys) { return line(law(R"("normal": )" + keys)); };
   const Case cases[] = {
-      {"plain", line(law(penalty)), plain},
+      {"plain", line(law(unit_penalty)), plain},
       {"power", normal(R"({"type": "power", "coefficient": 2, "exponent": 1.5})"), plain},
-      {"sine", line(sine + ", " + law(penalty)), flat_enriched},
+      {"sine", line(sine + ", " + law(unit_penalty)), flat_enriched},
       {"constant", height(R"({"type": "constant", "value": 0.1})"), flat_enriched & ~ENTS_NEEDS_SLOPE},
       {"constant zero", height(R"({"type": "constant", "value": 0})"), plain},
       {"sine without amplitude", height(R"({"type": "sine", "amplitude": 0, "wave_vector": [1]})"), plain},
@@ -43,28 +43,31 @@ TEST(Needs, AreThoseOfTheModel) {
        height(
            R"({"type": "product", "of": [{"type": "polynomial", "coefficients": [1, 2]}, {"type": "constant", "value": 0}]})"),
        plain},
-      {"friction", line(law(penalty + ", " + coulomb)), plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
-      {"symmetrised", line(law(penalty + ", " + coulomb + R"(, "symmetrised": true)")),
+      {"friction", line(law(unit_penalty + ", " + coulomb)),
+       plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
+      {"symmetrised", line(law(unit_penalty + ", " + coulomb + R"(, "symmetrised": true)")),
        plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
       {"augmented", normal(R"({"type": "augmented", "stiffness": 1})"), plain | ENTS_NEEDS_HISTORY},
       {"multiplier", normal(R"({"type": "multiplier", "stiffness": 1})"), plain | ENTS_NEEDS_MULTIPLIERS},
       {"exponential", normal(R"({"type": "exponential", "pressure": 1, "clearance": 0.01})"), plain},
-      {"shadow", line(R"("projection": {"type": "shadow_direction", "direction": [0, 1]}, )" + law(penalty)),
+      {"shadow",
+       line(R"("projection": {"type": "shadow_direction", "direction": [0, 1]}, )" + law(unit_penalty)),
        plain},
-      {"small gap", line(R"("tangent": "small_gap", )" + law(penalty)), plain},
-      {"first variation", line(R"("tangent": "first_variation", )" + law(penalty)), plain},
-      {"patch", line(R"("patch": [[0, 1], [1, 2]], )" + law(penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
+      {"small gap", line(R"("tangent": "small_gap", )" + law(unit_penalty)), plain},
+      {"first variation", line(R"("tangent": "first_variation", )" + law(unit_penalty)), plain},
+      {"patch", line(R"("patch": [[0, 1], [1, 2]], )" + law(unit_penalty)), plain | ENTS_NEEDS_ONE_BY_ONE},
       {"kinematics", line(sine), flat_enriched},
   };
   for (const Case& c : cases) EXPECT_EQ(Model(c.text).layout.needs, c.needs) << c.what;
   // whether it goes one by one is not a matter of dofs
-  const Model rigid(line(R"("master": "rigid", )" + law(penalty)));
+  const Model rigid(line(R"("master": "rigid", )" + law(unit_penalty)));
   EXPECT_EQ(rigid.layout.needs & ~ENTS_NEEDS_ONE_BY_ONE, 0);
 }
 
 TEST(Needs, TheInstructionSetIsThatOfTheProcessor) {
-  const std::string ordinary = Model(line(law(penalty))).layout.instruction_set;
-  EXPECT_TRUE(ordinary == "avx512" || ordinary == "avx2" || ordinary == "portable" || ordinary == "none") << ordinary;
+  const std::string ordinary = Model(line(law(unit_penalty))).layout.instruction_set;
+  EXPECT_TRUE(ordinary == "avx512" || ordinary == "avx2" || ordinary == "portable" || ordinary == "none")
+      << ordinary;
   for (const Model& model : make(all_kinds())) {
     EXPECT_EQ(model.layout.instruction_set, ordinary) << model.text();
     EXPECT_EQ(model.layout.needs & ~all_bits, 0) << model.text();
@@ -73,7 +76,7 @@ TEST(Needs, TheInstructionSetIsThatOfTheProcessor) {
 
 // A caller who was built before there were needs has a shorter struct.
 TEST(Needs, OlderCallersAreServed) {
-  const Model model(line(law(penalty)));
+  const Model model(line(law(unit_penalty)));
   ents_layout layout{};
   layout.struct_size = offsetof(ents_layout, instruction_set);
   ASSERT_EQ(call::model_layout(model.get(), &layout, nullptr), ENTS_OK);

@@ -11,7 +11,6 @@
 namespace {
 
 using namespace test;
-using mechanics::Random;
 
 struct Array {
   const char* name;
@@ -26,7 +25,7 @@ const Array arrays[] = {{"slave", ENTS_SHARED_SLAVE, &ents_input::slave_stride},
                         {"slave_values", ENTS_SHARED_SLAVE_VALUES, &ents_input::slave_values_stride}};
 
 TEST(Shared, AStrideOfZeroHasToBeMeant) {
-  Random random(71);
+  mechanics::Random random(71);
   const Surface surface(random, 3);
   const Model model(
       text_of(3, R"({"normal": {"type": "augmented_multiplier", "stiffness": 10}, "offset": 0})"));
@@ -76,7 +75,7 @@ TEST(Shared, AStrideOfZeroHasToBeMeant) {
 
 // Without states friction would never act, and no number would say so.
 TEST(Shared, StatesAreLeftOutOnPurposeOnly) {
-  Random random(74);
+  mechanics::Random random(74);
   const Surface surface(random, 2);
   const struct {
     std::string contact;
@@ -125,7 +124,7 @@ TEST(Shared, StatesAreLeftOutOnPurposeOnly) {
 }
 
 TEST(Shared, IterateAsksAsAssembleDoes) {
-  Random random(73);
+  mechanics::Random random(73);
   const Surface surface(random, 2);
   const Model model(text_of(2, penalty));
   const std::vector<double> tree = tree_of(model, surface), area(Surface::slaves, 1.0);

@@ -16,10 +16,9 @@
 namespace {
 
 using namespace test;
-using mechanics::Random;
 
 TEST(SilentMistakes, ATreeOfAnotherHeightIsRefusedUntilItIsRefitted) {
-  Random random(3);
+  mechanics::Random random(3);
   int64_t moved = 0;
   for (int trial = 0; trial < samples(200); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;
@@ -52,7 +51,7 @@ TEST(SilentMistakes, ATreeOfAnotherHeightIsRefusedUntilItIsRefitted) {
 }
 
 TEST(SilentMistakes, ATreeWithNaNOrAForeignSegmentIsRefused) {
-  Random random(5);
+  mechanics::Random random(5);
   int64_t refused = 0;
   for (int trial = 0; trial < samples(2000); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;
@@ -75,7 +74,7 @@ TEST(SilentMistakes, ATreeWithNaNOrAForeignSegmentIsRefused) {
 }
 
 TEST(SilentMistakes, TheTwoSidesOfASheetWithoutThicknessAreAmbiguous) {
-  Random random(7);
+  mechanics::Random random(7);
   for (int trial = 0; trial < samples(200); ++trial) {
     Surface surface(random, trial % 2 == 0 ? 2 : 3);
     const std::size_t m = surface.dimension == 2 ? 2 : 4;
@@ -96,7 +95,7 @@ TEST(SilentMistakes, TheTwoSidesOfASheetWithoutThicknessAreAmbiguous) {
 }
 
 TEST(SilentMistakes, ASlaveThatIsAMasterNodeIsNotProjectedOnItsOwnSegments) {
-  Random random(11);
+  mechanics::Random random(11);
   for (int trial = 0; trial < samples(200); ++trial) {
     const Surface surface(random, trial % 2 == 0 ? 2 : 3);
     const Model model(text_of(surface.dimension, penalty));
@@ -120,7 +119,7 @@ TEST(SilentMistakes, ASlaveThatIsAMasterNodeIsNotProjectedOnItsOwnSegments) {
 }
 
 TEST(SilentMistakes, PlacesNoticeOtherNodesUnderTheSameSegmentNumbers) {
-  Random random(13);
+  mechanics::Random random(13);
   for (int trial = 0; trial < samples(100); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;
     Surface surface(random, d);
@@ -161,7 +160,7 @@ TEST(SilentMistakes, PlacesNoticeOtherNodesUnderTheSameSegmentNumbers) {
 }
 
 TEST(SilentMistakes, RowsCountedFromOneOrBeyondTheArrayAreRefused) {
-  Random random(17);
+  mechanics::Random random(17);
   const Surface surface(random, 3);
   const Model model(text_of(3, penalty));
   Found found;
@@ -219,7 +218,7 @@ TEST(SilentMistakes, AStateOfAnotherBasisOrLawIsRefused) {
 }
 
 TEST(SilentMistakes, FrictionOnAnotherSegmentNeedsATransfer) {
-  Random random(23);
+  mechanics::Random random(23);
   int64_t refused = 0, transferred = 0;
   for (int trial = 0; trial < samples(100); ++trial) {
     const int d = trial % 2 == 0 ? 2 : 3;

@@ -18,6 +18,11 @@ std::vector<AbaqusMessage> abaqus_messages() {
   const std::lock_guard lock(mutex);
   return std::exchange(messages, {});
 }
+
+std::string only_message() {
+  const auto told = abaqus_messages();
+  return told.size() == 1 ? told[0].text : std::to_string(told.size()) + " messages";
+}
 } // namespace adapters
 
 extern "C" {

@@ -15,5 +15,7 @@ struct AbaqusMessage {
 
 /// What it has been told since the last call.
 std::vector<AbaqusMessage> abaqus_messages();
+/// Its text if it was one; otherwise how many.
+std::string only_message();
 
 } // namespace adapters

@@ -21,8 +21,6 @@ extern "C" void userelem_(int* elId, int* matId, int* keyMtx, int* lumpm, int* n
 namespace adapters {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 class AnsysHost : public HostWithHistory {
 public:
   explicit AnsysHost(const Elements& elements) : HostWithHistory(elements, 1), last_(elements.nodes.size()) {}

@@ -30,8 +30,6 @@ Vector3d vector_of(const Matrix3d& rotation) {
   return axis.angle() * axis.axis();
 }
 
-void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
-
 const char* const model_text = R"({"segment": "quad4", "master": "rigid",
   "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6, 0.35]},
   "contact": {"normal": {"type": "penalty", "stiffness": 400},
@@ -40,11 +38,6 @@ const char* const plane_text = R"({"segment": "line2", "master": "rigid",
   "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.6]},
   "contact": {"normal": {"type": "penalty", "stiffness": 400}}})";
 const char* const body_text = "body -1 -1 0.1\nbody 1 -1 0\nbody 1.1 1 0\nbody -1 1 0\n";
-
-std::string only_message() {
-  const auto messages = abaqus_messages();
-  return messages.size() == 1 ? messages[0].text : std::to_string(messages.size()) + " messages";
-}
 
 /// An element in space in the middle of an increment.
 struct Motion {

@@ -26,11 +26,7 @@ int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, co
 }
 
 namespace adapters {
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-} // namespace
+namespace {} // namespace
 
 CalculixHost::CalculixHost(const Elements& elements, const std::string& element_type)
     : EmulatedHost(elements), co_(elements.reference), nstate_(elements.state_size + 2),

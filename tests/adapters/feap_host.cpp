@@ -30,8 +30,6 @@ void elmt07_(double* d, double* ul, double* xl, int* ix, double* tl, double* s, 
 namespace adapters {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 std::vector<double> material_line; ///< what pinput reads
 
 class FeapHost : public EmulatedHost {

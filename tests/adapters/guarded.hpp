@@ -12,6 +12,8 @@
 
 namespace adapters {
 
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 class Guarded {
 public:
   explicit Guarded(std::size_t size) : memory_(size + 2 * zone, guard), size_(size) { poison(); }

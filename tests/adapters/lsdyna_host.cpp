@@ -23,7 +23,6 @@ namespace adapters {
 namespace {
 
 constexpr int nlq = 192;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class LsDynaHost : public HostWithHistory {
 public:

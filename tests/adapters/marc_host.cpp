@@ -14,8 +14,6 @@ extern "C" void quit_(int*) { throw adapters::HostStopped("quit"); }
 namespace adapters {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 class MarcHost : public HostWithHistory {
 public:
   explicit MarcHost(const Elements& elements) : HostWithHistory(elements, 2) {}

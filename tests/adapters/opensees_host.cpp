@@ -23,8 +23,6 @@ void entsContact(eleObject*, modelState*, double* tang, double* resid, int* isw,
 namespace adapters {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// What the functions below are asked for, by each thread. (OpenSees has one.)
 thread_local struct Domain {
   std::vector<int> integers; ///< left on the command line

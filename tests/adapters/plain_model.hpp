@@ -2,6 +2,7 @@
 // A model and its layout, through the plain ABI.
 #pragma once
 
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 namespace adapters {
+
+inline void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
 
 template <class Struct> Struct ents_struct() {
   Struct value{};

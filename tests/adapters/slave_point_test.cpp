@@ -23,13 +23,6 @@ struct Random {
   }
 };
 
-void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
-
-std::string only_message() {
-  const auto messages = abaqus_messages();
-  return messages.size() == 1 ? messages[0].text : std::to_string(messages.size()) + " messages";
-}
-
 UelCall call_of(const Values& props, const Values& positions, int d, int state_size) {
   UelCall c(static_cast<int>(positions.size()) / d, d, state_size);
   c.props = props;

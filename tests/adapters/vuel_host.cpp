@@ -18,8 +18,6 @@ extern "C" void vuel_(int* nblock, double* rhs, double* amass, double* dtime_sta
 namespace adapters {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 class VuelHost : public HostWithHistory {
 public:
   explicit VuelHost(const Elements& elements) : HostWithHistory(elements, 1) {}

@@ -19,10 +19,6 @@ double length_of(const double* v, std::size_t d) {
   return std::sqrt(s);
 }
 
-const Method coulomb = {"coulomb",
-                        {{"type", "penalty"}, {"stiffness", 100.0}},
-                        {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}};
-
 // |t| = |A^ab t_b rho_e,a|: two multiplications with the metric and its inverse and a norm, each within a few
 // units in the last place times the metric's condition (below 10 here).
 TEST(Cone, TractionNeverExceedsMuTimesPressure) {

@@ -22,15 +22,15 @@ json model_with(double height) {
             {"flattening", {{"scale", "flat"}, {"pressure", pressure_0}, {"least", least}}}}}};
 }
 
-struct Answer {
+struct FlattenedAnswer {
   std::int32_t status;
   double gap, pressure;
 };
 // A slave at height y over a line whose surface is `height` above it
-Answer evaluate_at(double height, double y) {
+FlattenedAnswer evaluate_at(double height, double y) {
   const mechanics::Model model(model_with(height).dump());
   const double slave[2] = {0.3, y}, master[4] = {-1, 0, 1, 0}, start = 0.3;
-  Answer answer{};
+  FlattenedAnswer answer{};
   ents_input in{};
   in.struct_size = sizeof in, in.slave = slave, in.master = master, in.start = &start;
   ents_output out{};
@@ -65,7 +65,7 @@ TEST(Flattening, TheScaleFollowsFromThePressure) {
   int closed = 0, hollows = 0;
   for (int i = 0; i < 2000; ++i) {
     const double height = random.uniform(-0.02, 0.06), y = height + random.uniform(-0.06, 0.02);
-    const Answer answer = evaluate_at(height, y);
+    const FlattenedAnswer answer = evaluate_at(height, y);
     const std::vector<double> s = scales(height, y);
     if (eps * -height / pressure_0 * (1 - least) >= 1) continue; // may have several
     if (eps * (height - y) <= 0) {
@@ -93,7 +93,7 @@ TEST(Flattening, SeveralAnswersAreRefused) {
     constexpr int steps = 1600;
     int risen = 0;
     for (int k = 0; k <= steps; ++k) risen += miss(height, y, least + (1 - least) * k / steps) > 0;
-    const Answer answer = evaluate_at(height, y);
+    const FlattenedAnswer answer = evaluate_at(height, y);
     if (risen == 0) {
       ++one;
       EXPECT_EQ(answer.status, ENTS_OK) << height << " " << y;

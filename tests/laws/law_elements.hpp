@@ -23,6 +23,10 @@ struct Method {
 };
 inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
+inline const Method coulomb = {"coulomb",
+                               {{"type", "penalty"}, {"stiffness", 100.0}},
+                               {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}};
+
 // Every normal law with every kind of friction. Lengths are of order 1, gaps of order 0.05.
 inline std::vector<Method> methods() {
   const std::vector<json> normals = {{{"type", "penalty"}, {"stiffness", 100.0}},

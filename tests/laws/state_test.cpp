@@ -12,10 +12,6 @@
 namespace laws {
 namespace {
 
-const Method coulomb = {"coulomb",
-                        {{"type", "penalty"}, {"stiffness", 100.0}},
-                        {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}}};
-
 // A slave node over a flat line2 from (0, 0) to (length, 0), pressed in by 0.01.
 struct Slide {
   explicit Slide(const std::string& normal = R"({"type": "penalty", "stiffness": 100})",

@@ -1,5 +1,7 @@
 #include "bases.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <complex>
 #include <initializer_list>
 #include <stdexcept>
@@ -191,6 +193,12 @@ Shape shape_functions(const Basis& basis, const double* xi) {
     out.d2.push_back(basis.dimension == 3 ? shape(basis, i, Complex(xi[0]), Complex(y, h)).imag() / h : 0.0);
   }
   return out;
+}
+
+bool is_on_border(const Basis& basis, const std::array<double, 2>& xi) {
+  const double inside = basis.simplex ? std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]})
+                                      : 1.0 - std::max(std::fabs(xi[0]), std::fabs(xi[1]));
+  return inside < 1e-5;
 }
 
 } // namespace mechanics

@@ -38,4 +38,7 @@ struct Shape {
 };
 Shape shape_functions(const Basis& basis, const double* xi);
 
+// Is xi, from a sweep that knows it to 3e-7, on the border of the segment or beyond?
+bool is_on_border(const Basis& basis, const std::array<double, 2>& xi);
+
 } // namespace mechanics

@@ -11,17 +11,13 @@
 namespace mechanics {
 namespace {
 
-// Of the segment's size: the sweep knows the distance to 1e-12, the search to rounding.
-constexpr double tolerance = 1e-10;
 constexpr double same_point = 1e-13; // positions up to 8, as in surface_test.cpp
 
-bool is_on_border(const Basis& basis, const std::array<double, 2>& xi) {
-  const double inside = basis.simplex ? std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]})
-                                      : 1.0 - std::max(std::fabs(xi[0]), std::fabs(xi[1]));
-  return inside < 1e-5; // the sweep knows xi to 3e-7
-}
-
-class ClosestPoint : public testing::TestWithParam<std::string> {};
+class ClosestPoint : public testing::TestWithParam<std::string> {
+protected:
+  // Of the segment's size: the sweep knows the distance to 1e-12, the search to rounding.
+  static constexpr double tolerance = 1e-10;
+};
 
 TEST_P(ClosestPoint, IsFoundByTheSearch) {
   const Basis& basis = basis_named(GetParam());

@@ -13,18 +13,11 @@
 namespace mechanics {
 namespace {
 
-// The segments' size is 2, the sweep knows distances to 1e-12.
-constexpr double tolerance = 1e-10, reach = 0.5;
+constexpr double reach = 0.5;
 
 std::uint64_t seed() {
   const char* text = std::getenv("ENTS_TEST_SEED");
   return text ? static_cast<std::uint64_t>(std::atoll(text)) : 0;
-}
-
-bool is_on_border(const Basis& basis, const std::array<double, 2>& xi) {
-  const double inside = basis.simplex ? std::min({xi[0], xi[1], 1.0 - xi[0] - xi[1]})
-                                      : 1.0 - std::max(std::fabs(xi[0]), std::fabs(xi[1]));
-  return inside < 1e-5; // the sweep knows xi to 3e-7
 }
 
 nlohmann::json model_of(const Basis& basis, const nlohmann::json& height,
@@ -114,7 +107,11 @@ std::vector<double> draw_slaves(Random& random, const MeshSurface& mesh, const S
   return out;
 }
 
-class Detection : public testing::TestWithParam<std::string> {};
+class Detection : public testing::TestWithParam<std::string> {
+protected:
+  // The segments' size is 2, the sweep knows distances to 1e-12.
+  static constexpr double tolerance = 1e-10;
+};
 
 TEST_P(Detection, FindsTheClosestPointOfTheSurface) {
   const Basis& basis = basis_named(GetParam());

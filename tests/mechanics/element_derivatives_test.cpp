@@ -12,15 +12,6 @@
 namespace mechanics {
 namespace {
 
-// Rounding: a gap is the difference of positions up to 4, so that W and R carry errors of about 1e-15 times
-// the force or the stiffness; the formula multiplies them by 1.5 / step: 4e-12. Truncation: step^4 / 30 over
-// the fourth power of the length in which the element's response changes; 1e-15 for length 1 and 1e-8 for
-// 0.02 (sharply bent segments, slave nodes near a centre of curvature). Where that length is smaller still
-// the error must fall with the step: those elements, a few in a million, are repeated with an eighth of it
-// and have to pass then.
-constexpr double step = 4e-4;
-constexpr double tolerance = 1e-7;
-
 struct Count {
   std::int64_t drawn = 0, checked = 0, flagged = 0, open = 0, on_knot = 0, repeated = 0;
 };
@@ -31,6 +22,14 @@ struct Errors {
 
 class ElementDerivatives : public testing::TestWithParam<std::string> {
 protected:
+  // Rounding: a gap is the difference of positions up to 4, so that W and R carry errors of about 1e-15 times
+  // the force or the stiffness; the formula multiplies them by 1.5 / step: 4e-12. Truncation: step^4 / 30
+  // over the fourth power of the length in which the element's response changes; 1e-15 for length 1 and 1e-8
+  // for 0.02 (sharply bent segments, slave nodes near a centre of curvature). Where that length is smaller
+  // still the error must fall with the step: those elements, a few in a million, are repeated with an eighth
+  // of it and have to pass then.
+  static constexpr double step = 4e-4, tolerance = 1e-7;
+
   enum class Outcome { checked, flagged, open, on_knot };
 
   // Relative to the largest entry of R and K.

@@ -12,12 +12,6 @@
 namespace mechanics {
 namespace {
 
-// 1e-12 relative: rounding of positions (1e-16 times their distance from the origin, up to 10 here) through
-// condition numbers of the projection and its second variation up to 1e3.
-constexpr double tolerance = 1e-12;
-
-constexpr std::int32_t kinematics = ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL | ENTS_GAP_GRADIENT |
-                                    ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_XI_HESSIAN;
 constexpr std::int32_t element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT;
 
 using Matrix = std::array<Vec3, 3>; // rows
@@ -56,6 +50,10 @@ struct Change {
 
 class Invariance : public testing::TestWithParam<std::string> {
 protected:
+  // 1e-12 relative: rounding of positions (1e-16 times their distance from the origin, up to 10 here) through
+  // condition numbers of the projection and its second variation up to 1e3.
+  static constexpr double tolerance = 1e-12;
+
   const Basis& basis() const { return basis_named(GetParam()); }
 
   // Calls f(scene, model, elements) for every height and projection, about 1000 elements in all per basis.

@@ -27,6 +27,10 @@ struct Elements {
   std::vector<double> area;                // [count]
 };
 
+inline constexpr std::int32_t kinematics = ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL |
+                                           ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT |
+                                           ENTS_XI_HESSIAN;
+
 // Outputs of `count` elements; only what was wanted has entries.
 struct Results {
   std::int32_t status = 0; // of the call

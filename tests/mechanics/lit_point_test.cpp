@@ -11,11 +11,12 @@
 namespace mechanics {
 namespace {
 
-// The casting knows a gap to rounding (bisection or Newton's method to the end); 1e-10 of the segment's size
-// as for the closest point.
-constexpr double tolerance = 1e-10;
-
-class LitPoint : public testing::TestWithParam<std::string> {};
+class LitPoint : public testing::TestWithParam<std::string> {
+protected:
+  // The casting knows a gap to rounding (bisection or Newton's method to the end); 1e-10 of the segment's
+  // size as for the closest point.
+  static constexpr double tolerance = 1e-10;
+};
 
 TEST_P(LitPoint, IsFoundByTheSearch) {
   const Basis& basis = basis_named(GetParam());

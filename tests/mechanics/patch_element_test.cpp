@@ -28,7 +28,7 @@ struct Evaluation {
 };
 Evaluation evaluate(const Model& model, const std::vector<double>& slave, const std::vector<double>& master,
                     const double* coordinates, const std::vector<double>& state, const double* start,
-                    bool kinematics) {
+                    bool with_kinematics) {
   const ents_layout layout = layout_of(model);
   const auto n = static_cast<std::size_t>(layout.dofs), t = static_cast<std::size_t>(layout.parameters);
   Evaluation e;
@@ -42,7 +42,8 @@ Evaluation evaluate(const Model& model, const std::vector<double>& slave, const 
   ents_output out{};
   out.struct_size = sizeof out;
   out.wanted = ENTS_GAP | ENTS_ENERGY | ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE | ENTS_FLAGS;
-  if (kinematics) out.wanted |= ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_XI_HESSIAN;
+  if (with_kinematics)
+    out.wanted |= ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_XI_HESSIAN;
   out.gap = &e.gap, out.energy = &e.energy, out.flags = &e.flags;
   out.residual = e.residual.data(), out.tangent = e.tangent.data(), out.state_end = e.state.data();
   out.gap_gradient = e.gap_gradient.data(), out.gap_hessian = e.gap_hessian.data();

@@ -10,15 +10,15 @@
 namespace mechanics {
 namespace {
 
-struct Case {
+struct SmoothedCase {
   const char* name;
   const char* basis;
   HostMesh mesh;
   std::int32_t ends;
 };
 
-const std::vector<Case>& cases() {
-  static const std::vector<Case> all = {
+const std::vector<SmoothedCase>& smoothed_cases() {
+  static const std::vector<SmoothedCase> all = {
       {"open_chain", "catmull_rom4", chain(6, false), ENTS_ENDS_STRAIGHT},
       {"closed_chain", "bspline4", chain(8, true), ENTS_ENDS_STRAIGHT},
       {"squares", "catmull_rom16", squares(3), ENTS_ENDS_STRAIGHT},
@@ -40,17 +40,17 @@ protected:
     return mesh;
   }
   static std::string text() {
-    const bool line = cases()[static_cast<std::size_t>(GetParam())].mesh.dimension() == 2;
+    const bool line = smoothed_cases()[static_cast<std::size_t>(GetParam())].mesh.dimension() == 2;
     nlohmann::json wave = line ? nlohmann::json{0.6} : nlohmann::json{0.5, 0.4};
     return nlohmann::json{
-        {"segment", cases()[static_cast<std::size_t>(GetParam())].basis},
+        {"segment", smoothed_cases()[static_cast<std::size_t>(GetParam())].basis},
         {"height", {{"type", "sine"}, {"amplitude", 0.02}, {"wave_vector", wave}, {"phase", 0.4}}},
         {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 5.0}}}}}}
         .dump();
   }
 
   SmoothedAssembly()
-      : case_(cases()[static_cast<std::size_t>(GetParam())]), mesh_(shaken(case_.mesh)),
+      : case_(smoothed_cases()[static_cast<std::size_t>(GetParam())]), mesh_(shaken(case_.mesh)),
         smoothed_(case_.basis, mesh_, case_.ends), model_(text()),
         d_(static_cast<std::size_t>(mesh_.dimension())) {
     smoothed_.carry_texture();
@@ -124,7 +124,7 @@ protected:
     if (status != ENTS_OK) throw std::runtime_error(report_.message);
   }
 
-  const Case& case_;
+  const SmoothedCase& case_;
   const HostMesh mesh_;
   SmoothedSurface smoothed_;
   Model model_;
@@ -193,12 +193,12 @@ TEST_P(SmoothedAssembly, BalancesForcesAndMoments) {
   EXPECT_LE(norm(moment), 6.0 * rounding * size);
 }
 
-std::string case_name(const testing::TestParamInfo<int>& info) {
-  return cases()[static_cast<std::size_t>(info.param)].name;
+std::string smoothed_case_name(const testing::TestParamInfo<int>& info) {
+  return smoothed_cases()[static_cast<std::size_t>(info.param)].name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, SmoothedAssembly, testing::Range(0, static_cast<int>(cases().size())),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(Surfaces, SmoothedAssembly,
+                         testing::Range(0, static_cast<int>(smoothed_cases().size())), smoothed_case_name);
 
 } // namespace
 } // namespace mechanics

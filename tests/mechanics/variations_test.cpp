@@ -12,12 +12,6 @@
 namespace mechanics {
 namespace {
 
-// As for the element (element_derivatives_test.cpp): rounding 1e-15 of the differentiated quantity times 1.5
-// / step, truncation step^4 / 30 over a length to the fourth. The gradient of xi changes faster than that of
-// the gap: lengths down to 0.02.
-constexpr double step = 4e-4;
-constexpr double tolerance = 1e-7;
-
 // A quantity, its derivative, and how many entries the quantity has.
 struct Pair {
   const char* name;
@@ -28,6 +22,11 @@ struct Pair {
 
 class Variations : public testing::TestWithParam<std::string> {
 protected:
+  // As for the element (element_derivatives_test.cpp): rounding 1e-15 of the differentiated quantity
+  // times 1.5 / step, truncation step^4 / 30 over a length to the fourth. The gradient of xi changes faster
+  // than that of the gap: lengths down to 0.02.
+  static constexpr double step = 4e-4, tolerance = 1e-7;
+
   static std::vector<Pair> pairs_of(const Basis& basis) {
     const std::size_t n = static_cast<std::size_t>(basis.dofs()),
                       t = static_cast<std::size_t>(basis.parameters());
