@@ -20,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 template <class... A> int32_t contact_area(A... a) { return call::in_host(ents_contact_area, a...); }
 
 /// A slave surface with results at its nodes.
-struct Surface {
+struct CoarseSurface {
   const char* facet = "quad4";
   std::vector<int64_t> connectivity;
   std::vector<double> positions, gap, pressure;
@@ -45,8 +45,8 @@ struct Surface {
 };
 
 /// n x n squares of a side in the plane of x and y, as quadrilaterals or two triangles each.
-template <class Fields> Surface sheet(const char* facet, int n, double side, const Fields& fields) {
-  Surface s;
+template <class Fields> CoarseSurface sheet(const char* facet, int n, double side, const Fields& fields) {
+  CoarseSurface s;
   s.facet = facet;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
@@ -82,7 +82,7 @@ TEST(ContactArea, ALineEndsWhereItsPressureDoes) {
   for (const double border : {1.01, 1.3, 1.5, 1.77, 1.99})
     for (const double thickness : {2., 0.}) {
       constexpr double modulus = 300, slope = 7;
-      Surface line{"line2", {0, 1, 1, 2, 2, 3}, {0, 5, 1, 5, 2, 5, 3, 5}, {}, {}, thickness, modulus};
+      CoarseSurface line{"line2", {0, 1, 1, 2, 2, 3}, {0, 5, 1, 5, 2, 5, 3, 5}, {}, {}, thickness, modulus};
       for (const double x : {0., 1., 2., 3.}) {
         line.pressure.push_back(x < border ? slope * std::sqrt(border - x) : 0);
         line.gap.push_back(x < border ? -1e-3 : 4 * slope / (3 * modulus) * std::pow(x - border, 1.5));
@@ -132,7 +132,7 @@ TEST(ContactArea, HertzOnCoarseMeshes) {
       for (int i = 0; i < tries; ++i) {
         const double x0 = 25 + share(random), y0 = 25 + share(random), true_radius = radius + share(random);
         const Hertz hertz{true_radius, 500, 1000};
-        Surface s =
+        CoarseSurface s =
             sheet(facet, 50, 1, [&](double x, double y) { return hertz.at(std::hypot(x - x0, y - y0)); });
         s.modulus = hertz.modulus;
         const ents_area area = s.area();
@@ -154,13 +154,13 @@ TEST(ContactArea, HertzOnCoarseMeshes) {
 
 TEST(ContactArea, UnitsAndPlaceDoNotMatter) {
   const Hertz hertz{5.3, 500, 1000};
-  Surface s =
+  CoarseSurface s =
       sheet("quad4", 16, 1, [&](double x, double y) { return hertz.at(std::hypot(x - 8.2, y - 7.9)); });
   s.modulus = hertz.modulus;
   const ents_area before = s.area();
   for (const double length : {1e-9, 1e6})
     for (const double stress : {1e-6, 1e9}) {
-      Surface t = s;
+      CoarseSurface t = s;
       for (std::size_t i = 0; i < t.gap.size(); ++i) {
         const double x = s.positions[3 * i], y = s.positions[3 * i + 1];
         t.positions[3 * i] = length * (3 + 0.6 * x), t.positions[3 * i + 1] = length * y;
@@ -201,7 +201,7 @@ TEST(ContactArea, APeakOnOneNodeIsNotResolved) {
 // The error is the larger of: what the two corrections differ by, and half of what they change.
 TEST(ContactArea, ErrorOfAStraightBorder) {
   for (const double pressure : {0.02, 2.}) {
-    Surface s =
+    CoarseSurface s =
         sheet("quad4", 4, 1, [&](double x, double) { return std::pair(x < 2.5 ? pressure : 0., 0.01); });
     const ents_area area = s.area();
     EXPECT_NEAR(area.estimate, (area.border_corrected + area.zero_line) / 2, 1e-14);
@@ -215,7 +215,7 @@ TEST(ContactArea, ErrorOfAStraightBorder) {
 // Two opposite corners in contact: joined through the middle if the contacts of the edges reach beyond it.
 TEST(ContactArea, OppositeCorners) {
   for (const double pressure : {0.005, 0.01, 0.05, 0.5}) {
-    const Surface edge{"line2", {0, 1}, {0, 0, 1, 0}, {0, 0.01}, {pressure, 0}, 1, 1};
+    const CoarseSurface edge{"line2", {0, 1}, {0, 0, 1, 0}, {0, 0.01}, {pressure, 0}, 1, 1};
     const double t = edge.area().zero_line;
     const auto corners = sheet("quad4", 1, 1, [&](double x, double y) {
       return x == y ? std::pair(pressure, 0.) : std::pair(0., 0.01);
@@ -225,12 +225,12 @@ TEST(ContactArea, OppositeCorners) {
 }
 
 TEST(ContactArea, Mistakes) {
-  Surface s = sheet("quad4", 1, 1, [](double, double) { return std::pair(1., 0.); });
+  CoarseSurface s = sheet("quad4", 1, 1, [](double, double) { return std::pair(1., 0.); });
   ents_area area{};
   ents_report report{};
   report.struct_size = sizeof report;
   const auto call_with = [&](const auto& change) {
-    Surface t = s;
+    CoarseSurface t = s;
     area = {};
     area.struct_size = sizeof area;
     change(t, area);
@@ -242,18 +242,18 @@ TEST(ContactArea, Mistakes) {
     return status;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(call_with([](Surface& t, ents_area&) { t.facet = "quad8"; }), ENTS_BAD_VALUE);
+  EXPECT_EQ(call_with([](CoarseSurface& t, ents_area&) { t.facet = "quad8"; }), ENTS_BAD_VALUE);
   EXPECT_NE(std::string(report.message).find("'facet' must be line2, tri3 or quad4"), std::string::npos);
-  EXPECT_EQ(call_with([](Surface& t, ents_area&) { t.modulus = -1; }), ENTS_BAD_VALUE);
+  EXPECT_EQ(call_with([](CoarseSurface& t, ents_area&) { t.modulus = -1; }), ENTS_BAD_VALUE);
   EXPECT_NE(std::string(report.message).find("'modulus'"), std::string::npos);
-  EXPECT_EQ(call_with([](Surface& t, ents_area&) { t.connectivity[2] = 4; }), ENTS_BAD_VALUE);
+  EXPECT_EQ(call_with([](CoarseSurface& t, ents_area&) { t.connectivity[2] = 4; }), ENTS_BAD_VALUE);
   EXPECT_EQ(report.element, 0);
-  EXPECT_EQ(call_with([&](Surface& t, ents_area&) { t.pressure[3] = nan; }), ENTS_NON_FINITE);
+  EXPECT_EQ(call_with([&](CoarseSurface& t, ents_area&) { t.pressure[3] = nan; }), ENTS_NON_FINITE);
   EXPECT_NE(std::string(report.message).find("pressure[3]"), std::string::npos);
-  EXPECT_EQ(call_with([&](Surface& t, ents_area&) { t.positions[4] = nan; }), ENTS_NON_FINITE);
-  EXPECT_EQ(call_with([](Surface&, ents_area& a) { a.struct_size = 3; }), ENTS_STRUCT_SIZE);
-  EXPECT_EQ(call_with([](Surface&, ents_area& a) { a.reserved = 1; }), ENTS_STRUCT_SIZE);
-  EXPECT_EQ(call_with([](Surface& t, ents_area&) { t.positions.assign(t.positions.size(), 0.); }),
+  EXPECT_EQ(call_with([&](CoarseSurface& t, ents_area&) { t.positions[4] = nan; }), ENTS_NON_FINITE);
+  EXPECT_EQ(call_with([](CoarseSurface&, ents_area& a) { a.struct_size = 3; }), ENTS_STRUCT_SIZE);
+  EXPECT_EQ(call_with([](CoarseSurface&, ents_area& a) { a.reserved = 1; }), ENTS_STRUCT_SIZE);
+  EXPECT_EQ(call_with([](CoarseSurface& t, ents_area&) { t.positions.assign(t.positions.size(), 0.); }),
             ENTS_DEGENERATE_SEGMENT);
   EXPECT_EQ(report.element, 0);
   EXPECT_EQ(contact_area("quad4", int64_t{-1}, nullptr, int64_t{0}, nullptr, 1., nullptr, nullptr, 1., &area,

@@ -116,8 +116,8 @@ TEST(FloatingPointEnvironment, IsKeptByTenThousandEvaluationsAndTheirErrors) {
 }
 
 // A slave over one quad4 as a host sees it: a tree, equations of nodes, an iteration.
-struct Surface {
-  Surface(const Model& its_model, std::vector<double> slave_position, std::vector<double> nodes)
+struct OneSegment {
+  OneSegment(const Model& its_model, std::vector<double> slave_position, std::vector<double> nodes)
       : model(its_model), slave(std::move(slave_position)), positions(std::move(nodes)),
         state(size(model.layout.state_size)), end(state.size()), residual(15), values(15 * 15),
         points(positions.size()) {
@@ -177,14 +177,14 @@ TEST(FloatingPointEnvironment, IsKeptByFunctionsOfWholeSurfaces) {
       SCOPED_TRACE(scale);
       std::vector<double> nodes = e[master];
       for (double& x : nodes) x *= scale;
-      Surface s(model, e[slave], nodes);
+      OneSegment s(model, e[slave], nodes);
       const ents_model* m = model.get();
       const std::int64_t facet[] = {0, 1, 2, 3};
       std::int32_t status = 0;
       std::int64_t size = 0;
       EXPECT_KEPT(setting, [&] { status = ents_tree_size(m, 1, &size, nullptr); });
       EXPECT_EQ(status, ENTS_OK);
-      s.tree.resize(Surface::size(size));
+      s.tree.resize(OneSegment::size(size));
       double* const tree = s.tree.data();
       EXPECT_KEPT(setting, [&] { status = ents_tree_build(m, &s.mesh, tree, size, nullptr); });
       EXPECT_EQ(status == ENTS_OK, std::isfinite(scale)) << status;

@@ -20,7 +20,7 @@ using namespace test;
 std::string model_text(const std::string& law, const std::string& more = "") {
   return R"({"segment": "line2", "contact": {"normal": )" + law + "}" + more + "}";
 }
-const std::string penalty = R"({"type": "penalty", "stiffness": 100})",
+const std::string stiff_penalty = R"({"type": "penalty", "stiffness": 100})",
                   multiplier = R"({"type": "augmented_multiplier", "stiffness": 100})";
 
 // Slaves above two segments along x, each 2 long.
@@ -123,7 +123,7 @@ TEST(Iterate, StartsFromWhatItFinds) {
 }
 
 TEST(Iterate, PaddingOfTangentsIsTheCallers) {
-  Iteration it(model_text(penalty), {50.0, 50.0, 0.5, -0.01});
+  Iteration it(model_text(stiff_penalty), {50.0, 50.0, 0.5, -0.01});
   std::vector<double> tangent(120, -7.0);
   it.output.wanted = ENTS_TANGENT;
   it.output.tangent = tangent.data(), it.output.tangent_stride = 60, it.output.tangent_leading_dimension = 10;
@@ -138,7 +138,8 @@ TEST(Iterate, PaddingOfTangentsIsTheCallers) {
 }
 
 TEST(Iterate, TellsTheFirstOfTheRefused) {
-  Iteration it(model_text(penalty, R"(, "penetration_limit": 0.05)"), {0.5, -0.1, 50.0, 50.0, 1.5, -0.2});
+  Iteration it(model_text(stiff_penalty, R"(, "penetration_limit": 0.05)"),
+               {0.5, -0.1, 50.0, 50.0, 1.5, -0.2});
   std::vector<double> energy(3);
   std::vector<int32_t> status(3, -9);
   it.output.wanted = ENTS_ENERGY;
@@ -166,14 +167,14 @@ TEST(Iterate, RefusesBeforeItWrites) {
   const std::string rough = R"(, "friction": {"type": "rough", "stiffness": 10}}})",
                     segment = R"({"segment": "line2", )";
   {
-    Iteration it(segment + R"("contact": {"normal": )" + penalty + rough, {0.5, -0.01});
+    Iteration it(segment + R"("contact": {"normal": )" + stiff_penalty + rough, {0.5, -0.01});
     want_gap(it);
     const std::vector<double> state(static_cast<std::size_t>(it.model.layout.state_size));
     it.input.state_begin = state.data();
     refused(it, ENTS_NULL_ARGUMENT, "input.positions_begin is null");
   }
   {
-    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + penalty + "}}",
+    Iteration it(segment + R"("patch": [[0, 1], [1, 2]], "contact": {"normal": )" + stiff_penalty + "}}",
                  {0.5, -0.01});
     want_gap(it);
     refused(it, ENTS_BAD_VALUE, "patches");
@@ -191,7 +192,7 @@ TEST(Iterate, RefusesBeforeItWrites) {
     want_gap(it);
     refused(it, ENTS_NULL_ARGUMENT, "input.multiplier");
   }
-  Iteration it(model_text(penalty), {0.5, -0.01});
+  Iteration it(model_text(stiff_penalty), {0.5, -0.01});
   want_gap(it);
   it.output.wanted = 1 << 25;
   refused(it, ENTS_BAD_MASK, "output.wanted has unknown bits");
@@ -212,7 +213,7 @@ TEST(Iterate, RefusesBeforeItWrites) {
 // lost is reported nevertheless.
 TEST(Iterate, FlagsOfTheDetectionAreOptional) {
   for (const bool older : {false, true}) {
-    Iteration it(model_text(penalty), {0.5, -0.01, 2.0, -0.2});
+    Iteration it(model_text(stiff_penalty), {0.5, -0.01, 2.0, -0.2});
     it.positions[1] = it.positions[5] = 0.5; // a groove
     ASSERT_EQ(ents_tree_refit(it.model.get(), &it.mesh, it.tree.data(), static_cast<int64_t>(it.tree.size()),
                               nullptr),
@@ -257,7 +258,7 @@ TEST(Assemble, AreasOfOpenElementsAreChecked) {
     for (const std::size_t count : {1u, 9u}) { // one by one, and in lanes
       std::vector<double> where;
       for (std::size_t i = 0; i < count; ++i) where.insert(where.end(), {0.5, 0.3});
-      Iteration it(model_text(penalty, height), where);
+      Iteration it(model_text(stiff_penalty, height), where);
       for (const double bad :
            {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         std::vector<double> area(count, 1.0);
@@ -334,7 +335,7 @@ TEST(Assemble, InputsOfElementsWithoutASegmentAreChecked) {
                   {"multiplier", nan, ENTS_NON_FINITE}, {"multiplier", 1e200, ENTS_OUT_OF_RANGE},
                   {"state_begin", 0.0, ENTS_BAD_STATE}, {"state_begin", nan, ENTS_BAD_STATE}};
   for (const bool has_multiplier : {false, true}) {
-    Iteration it(model_text(has_multiplier ? multiplier : penalty), {50.0, 50.0, 50.0, 50.0});
+    Iteration it(model_text(has_multiplier ? multiplier : stiff_penalty), {50.0, 50.0, 50.0, 50.0});
     const std::size_t size = static_cast<std::size_t>(it.model.layout.state_size);
     std::vector<double> area(2, 1.0), lambda(2, 1.0), state(2 * size);
     const int64_t equation[] = {10, 11};

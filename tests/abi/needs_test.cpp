@@ -20,7 +20,7 @@ struct Case {
 
 const std::string sine = R"("height": {"type": "sine", "amplitude": 0.1, "wave_vector": [1]})";
 const std::string unit_penalty = R"("normal": {"type": "penalty", "stiffness": 1})";
-const std::string coulomb = R"("friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1})";
+const std::string unit_coulomb = R"("friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1})";
 
 std::string line(const std::string& more) { return R"({"segment": "line2", )" + more + "}"; }
 std::string law(const std::string& keys) { return R"("contact": {)" + keys + "}"; }
@@ -43,9 +43,9 @@ TEST(Needs, AreThoseOfTheModel) {
        height(
            R"({"type": "product", "of": [{"type": "polynomial", "coefficients": [1, 2]}, {"type": "constant", "value": 0}]})"),
        plain},
-      {"friction", line(law(unit_penalty + ", " + coulomb)),
+      {"friction", line(law(unit_penalty + ", " + unit_coulomb)),
        plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
-      {"symmetrised", line(law(unit_penalty + ", " + coulomb + R"(, "symmetrised": true)")),
+      {"symmetrised", line(law(unit_penalty + ", " + unit_coulomb + R"(, "symmetrised": true)")),
        plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
       {"augmented", normal(R"({"type": "augmented", "stiffness": 1})"), plain | ENTS_NEEDS_HISTORY},
       {"multiplier", normal(R"({"type": "multiplier", "stiffness": 1})"), plain | ENTS_NEEDS_MULTIPLIERS},

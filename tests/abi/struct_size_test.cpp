@@ -43,12 +43,12 @@ template <class Struct> std::vector<int32_t> sizes() {
   return all;
 }
 
-enum class Verdict { served, refused };
-template <class Struct> Verdict verdict(int32_t size, bool zero_tail) {
+enum class SizeVerdict { served, refused };
+template <class Struct> SizeVerdict verdict(int32_t size, bool zero_tail) {
   const auto known = static_cast<int32_t>(sizeof(Struct));
   if (size < 8 || size > 1 << 16 || size % static_cast<int32_t>(alignof(Struct)) != 0)
-    return Verdict::refused;
-  return size <= known || zero_tail ? Verdict::served : Verdict::refused;
+    return SizeVerdict::refused;
+  return size <= known || zero_tail ? SizeVerdict::served : SizeVerdict::refused;
 }
 
 // `call` must end with ENTS_OK, or with `short_status` where the struct is too short for what the call needs.
@@ -65,7 +65,7 @@ void try_sizes(const char* name, const Struct& known,
       Callers<Struct> callers(known, size, zero_tail);
       ents_report report = new_report();
       const int32_t status = call(callers.get(), &report);
-      if (verdict<Struct>(size, zero_tail) == Verdict::refused) {
+      if (verdict<Struct>(size, zero_tail) == SizeVerdict::refused) {
         EXPECT_EQ(status, ENTS_STRUCT_SIZE);
         EXPECT_NE(std::string(report.message).find(name), std::string::npos) << report.message;
         EXPECT_TRUE(callers.untouched(known, sizeof(int32_t), zero_tail));
@@ -216,7 +216,7 @@ TEST(StructSize, Data) {
       Callers<ents_data> callers(data, size, zero_tail);
       ents_report report = new_report();
       const int32_t status = create(callers.get(), 1, &report);
-      if (verdict<ents_data>(size, zero_tail) == Verdict::refused)
+      if (verdict<ents_data>(size, zero_tail) == SizeVerdict::refused)
         EXPECT_EQ(status, ENTS_STRUCT_SIZE) << report.message;
       else if (size < static_cast<int32_t>(offsetof(ents_data, rows)))
         EXPECT_EQ(status, ENTS_NULL_ARGUMENT) << report.message;
@@ -250,7 +250,7 @@ TEST(StructSize, Report) {
         std::memset(known.message, 'x', sizeof known.message);
         Callers<ents_report> callers(known, size, zero_tail);
         const int32_t status = call::check_contract(good ? ENTS_CONTRACT_MAJOR : 99, 0, callers.get());
-        if (verdict<ents_report>(size, zero_tail) == Verdict::refused) {
+        if (verdict<ents_report>(size, zero_tail) == SizeVerdict::refused) {
           EXPECT_EQ(status, ENTS_STRUCT_SIZE);
           EXPECT_TRUE(callers.untouched(known, sizeof(int32_t), zero_tail));
           continue;
