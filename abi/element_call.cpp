@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/law/open_multiplier.hpp"
+
 namespace ents {
 
 std::int32_t refuse_without_contact(const char* asks, ents_report* report) {
@@ -195,24 +197,21 @@ void ElementCall::write_open(std::int64_t e) const {
   }
 }
 
-// R = -A / eps lambda, K = -A / eps; in each the roundings of the element kernel. A slave without area has
-// its equations, too.
+// A slave without area has its equations, too.
 void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tangent,
                                    std::int64_t leading) const {
   const double given = in->area ? *at(in->area, in->area_stride, e) : 1.0, area = given == 0.0 ? 1.0 : given;
   const double* lambda = at(in->multiplier, in->multiplier_stride, e);
   const std::int64_t size = plan->multipliers, first = model->sizes.dofs - size;
   for (std::int64_t a = 0; residual && a < size; ++a)
-    residual[first + a] = a == 0 ? -area / plan->law.stiffness * lambda[0]
-                                 : (0.0 - area * lambda[a]) / plan->law.friction_stiffness;
+    residual[first + a] = ENTS_ISA::open_multiplier_residual(plan->law, static_cast<int>(a), area, lambda[a]);
   for (std::int64_t a = 0; tangent && a < size; ++a)
     for (std::int64_t b = 0; b < size; ++b)
-      tangent[(first + b) * leading + first + a] = a != b ? 0.0
-                                                   : a == 0
-                                                       ? -area / plan->law.stiffness
-                                                       : 1.0 / plan->law.friction_stiffness * (0.0 - area);
-  if ((out->wanted & ENTS_ENERGY) != 0) // of the normal one; friction has none
-    *at(out->energy, out->energy_stride, e) = area * (-0.5 * lambda[0] * lambda[0] / plan->law.stiffness);
+      tangent[(first + b) * leading + first + a] =
+          a == b ? ENTS_ISA::open_multiplier_tangent(plan->law, static_cast<int>(a), area) : 0.0;
+  if ((out->wanted & ENTS_ENERGY) != 0)
+    *at(out->energy, out->energy_stride, e) =
+        area * ENTS_ISA::open_multiplier_energy(plan->law.stiffness, lambda[0]);
 }
 
 // As the element kernel, but without `start`, which elements without a segment do not have.

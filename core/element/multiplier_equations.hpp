@@ -19,8 +19,9 @@ template <class B, bool H, class S> struct MultiplierEquations {
 
   ENTS_INLINE void write_residual(int k, double* out) const {
     const double area = area_of(k);
-    out[0] = bits_of(at.pair.contact) >> k & 1 ? -area * lane(at.law_gap, k)
-                                               : -area / plan.law.stiffness * lane(multiplier[0], k);
+    out[0] = bits_of(at.pair.contact) >> k & 1
+                 ? -area * lane(at.law_gap, k)
+                 : open_multiplier_residual(plan.law, 0, area, lane(multiplier[0], k));
     for (int a = 1; a < plan.multipliers; ++a)
       out[a] =
           (lane(at.friction.force[a - 1], k) - area * lane(multiplier[a], k)) / plan.law.friction_stiffness;
@@ -38,9 +39,8 @@ template <class B, bool H, class S> struct MultiplierEquations {
   // Of an open one
   ENTS_INLINE void write_open(int k, int n, double* out, std::int64_t leading) const {
     clear(n, out, leading);
-    out[n * leading + n] = -area_of(k) / plan.law.stiffness;
-    for (int a = 1; a < plan.multipliers; ++a)
-      out[(n + a) * leading + n + a] = 1.0 / plan.law.friction_stiffness * -area_of(k);
+    for (int a = 0; a < plan.multipliers; ++a)
+      out[(n + a) * leading + n + a] = open_multiplier_tangent(plan.law, a, area_of(k));
   }
 
   // No entry of these rows and columns is larger.

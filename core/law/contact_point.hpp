@@ -71,9 +71,8 @@ template <class B, bool H, class S> struct ContactPoint {
       outside = either(outside, held);
     }
     pair.contact = without(law.contact, outside);
-    const S held_energy = plan.law.multiplier_is_dof()
-                              ? -(0.5 * multiplier[0] * multiplier[0] * (1.0 / plan.law.stiffness))
-                              : none;
+    const S held_energy =
+        plan.law.multiplier_is_dof() ? open_multiplier_energy(plan.law.stiffness, multiplier[0]) : none;
     law.energy = select(outside, held_energy, law.energy);
     law.force = select(pair.contact, law.force, none);
     law.stiffness = select(pair.contact, law.stiffness, none);

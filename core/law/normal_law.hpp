@@ -5,6 +5,7 @@
 
 #include "core/law/contact_law.hpp"
 #include "core/law/law_table.hpp"
+#include "core/law/open_multiplier.hpp"
 #include "core/numbers/lanes.hpp"
 
 namespace ents::ENTS_ISA {
@@ -94,7 +95,7 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
   case NormalKind::augmented:
   case NormalKind::augmented_multiplier: {
     const S p = multiplier - eps * gap;
-    held = -(0.5 * multiplier * multiplier * (1.0 / eps));
+    held = open_multiplier_energy(eps, multiplier);
     f = {-p, eps, 0.5 * p * p * (1.0 / eps) + held, p > 0.0};
     break;
   }
@@ -102,7 +103,7 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
     f = tabular_force(law, gap, of_table);
     break;
   case NormalKind::multiplier:
-    held = -(0.5 * multiplier * multiplier * (1.0 / eps));
+    held = open_multiplier_energy(eps, multiplier);
     f = {-multiplier, S(0.0), -(multiplier * gap), multiplier - eps * gap > 0.0};
     break;
   }
