@@ -10,16 +10,6 @@
 namespace host {
 namespace {
 
-/// What reading the scene says; empty: nothing.
-std::string refusal(const Json& json) {
-  try {
-    test::scene_from(json);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Json shipped(const std::string& name) {
   Json json = parse_json_file(test::scene_file(name));
   for (const char* key : {"variants", "compare"}) json.erase(key);
@@ -63,7 +53,7 @@ TEST(ExactScope, SolutionsOfAnotherFormulationAreRefused) {
       const std::string here = *formulation == 0                            ? "space"
                                : formulation == std::string("axisymmetric") ? "axis"
                                                                             : "plane";
-      const std::string said = refusal(json);
+      const std::string said = test::refusal(json);
       if (solved_in.at(type).find(here) != std::string::npos)
         EXPECT_EQ(said, "") << type << " " << formulation;
       else
@@ -74,19 +64,19 @@ TEST(ExactScope, SolutionsOfAnotherFormulationAreRefused) {
 
 TEST(ExactScope, BodiesAndMotionsThatAreNotSolvedForAreRefused) {
   Json json = shipped("cattaneo_mindlin");
-  EXPECT_EQ(refusal(json), "");
+  EXPECT_EQ(test::refusal(json), "");
   json["materials"]["other"] = {{"law", "linear_elastic"}, {"young", 2000}, {"poisson", 0.3}};
   json["parts"][1]["material"] = "other";
-  EXPECT_NE(refusal(json).find(
+  EXPECT_NE(test::refusal(json).find(
                 "/exact: \"cattaneo\" is for two bodies of equal elasticity; upper and lower differ"),
             std::string::npos);
   json = shipped("hertz2d");
   json["contact"]["master"]["direction"] = {0.1, -1};
-  EXPECT_NE(refusal(json).find("/contact/master/direction: the exact solution is for a motion along y"),
+  EXPECT_NE(test::refusal(json).find("/contact/master/direction: the exact solution is for a motion along y"),
             std::string::npos);
   json = shipped("slope");
   json["contact"]["master"]["nodes"] = {{-3, 0}, {3, 1}};
-  EXPECT_NE(refusal(json).find("/contact/master/nodes: the slope"), std::string::npos);
+  EXPECT_NE(test::refusal(json).find("/contact/master/nodes: the slope"), std::string::npos);
 }
 
 // E* = E in plane stress; with that of plane strain the error of the peak pressure is 5 % and more.

@@ -50,7 +50,7 @@ TEST(ThinSheet, EachSideIsFound) {
     }
 }
 
-std::string refusal(const Json& json) {
+std::string refusal_of_simulation(const Json& json) {
   const Scene scene = test::scene_from(json);
   try {
     Simulation simulation(scene, &test::library());
@@ -63,7 +63,7 @@ std::string refusal(const Json& json) {
 TEST(ThinSheet, WithoutThicknessIsRefused) {
   for (const Json& height : {Json(), Json{{"type", "constant"}, {"value", 0}},
                              Json{{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1}}}})
-    EXPECT_NE(refusal(beside_a_sheet(false, false, height))
+    EXPECT_NE(refusal_of_simulation(beside_a_sheet(false, false, height))
                   .find("/contact/model: two segments of the master have the same nodes"),
               std::string::npos)
         << height;
@@ -91,7 +91,8 @@ TEST(ThinSheet, ASurfaceThatTouchesItselfIsRefused) {
   for (const char* slave : {"b.y_min", "b.x_min"}) { // the same faces, and faces that meet them in a corner
     scene["contact"]["slave"] = slave;
     scene["contact"]["master"] = {{"faces", "b.y_min"}};
-    EXPECT_NE(refusal(scene).find("/contact/slave: slave and master faces share nodes"), std::string::npos)
+    EXPECT_NE(refusal_of_simulation(scene).find("/contact/slave: slave and master faces share nodes"),
+              std::string::npos)
         << slave;
   }
 }

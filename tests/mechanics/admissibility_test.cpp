@@ -3,21 +3,14 @@
 // neighbouring segments (panel d, second case) takes two segments; ents_model_check sees one.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-#include <numbers>
-
-#include "library.hpp"
+#include "checked_surface.hpp"
 #include "ray_casting.hpp"
 
 namespace mechanics {
 namespace {
 
-using nlohmann::json;
-
-constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-12; // of formulae with second derivatives
-
-Model model(const std::string& segment, const json& height, const json& projection = {{"type", "normal"}}) {
+Model projected_model(const std::string& segment, const json& height,
+                      const json& projection = {{"type", "normal"}}) {
   return Model(json{
       {"segment", segment},
       {"height", height},
@@ -30,17 +23,12 @@ Model model(const std::string& segment, const json& height, const json& projecti
 const std::vector<double> straight_line = {-1.0, 0.0, 1.0, 0.0};
 const std::vector<double> square = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0};
 
-// y = amplitude sin(2 pi waves x) over x = -1 .. 1
-json waves(double amplitude, double waves_per_unit) {
-  return {{"type", "sine"}, {"amplitude", amplitude}, {"wave_vector", {waves_per_unit}}};
-}
-
 // Panel a: within the reach of rho_e, its smallest radius of curvature, there is one normal projection;
 // beyond, several.
 TEST(Admissibility, BeyondTheReachThereAreSeveralProjections) {
   const double amplitude = 0.05, k = 2.0 * pi * 1.0;
   const json height = waves(amplitude, 1.0);
-  const Model m = model("line2", height);
+  const Model m = projected_model("line2", height);
   // 801 points: crests and valleys, at odd multiples of 1/4, are among them
   const ents_admissibility a = check_admissibility(m, straight_line, {}, 801);
   const double radius = 1.0 / (amplitude * k * k);
@@ -77,7 +65,7 @@ TEST(Admissibility, ReachOfABump) {
   const json bump = {
       {"type", "gaussian"}, {"amplitude", amplitude}, {"center", {0.25, -0.5}}, {"width", width}};
   const ents_admissibility a =
-      check_admissibility(model("quad4", bump), square, {}, 41); // step 1/20: the top is a sample
+      check_admissibility(projected_model("quad4", bump), square, {}, 41); // step 1/20: the top is a sample
   EXPECT_NEAR(a.reach, width * width / amplitude, rounding);
   EXPECT_NEAR(a.reach_xi[0], 0.25, 1e-12);
   EXPECT_NEAR(a.reach_xi[1], -0.5, 1e-12);
@@ -98,7 +86,8 @@ TEST(Admissibility, SelfShadowMeansSeveralIntersections) {
   const double limit = std::atan(1.0 / slope); // the ray parallel to the steepest flank
   for (const double angle : {0.0, 0.5 * limit, 0.99 * limit, 1.01 * limit, 1.2 * limit}) {
     const Vec3 ray = {std::sin(angle), std::cos(angle), 0.0};
-    const Model m = model("line2", height, {{"type", "shadow_direction"}, {"direction", {ray[0], ray[1]}}});
+    const Model m =
+        projected_model("line2", height, {{"type", "shadow_direction"}, {"direction", {ray[0], ray[1]}}});
     const ents_admissibility a = check_admissibility(m, straight_line, {}, 801);
     const double exact = (std::cos(angle) - slope * std::sin(angle)) / std::sqrt(1.0 + slope * slope);
     // at angle 0 both flanks are equally steep
@@ -115,7 +104,8 @@ TEST(Admissibility, SelfShadowMeansSeveralIntersections) {
 TEST(Admissibility, ShadowOfAnEmitterIsTheSmallestCosine) {
   const Vec3 emitter = {0.3, 2.0, 0.0};
   const json height = waves(0.08, 1.5);
-  const Model m = model("line2", height, {{"type", "shadow_point"}, {"emitter", {emitter[0], emitter[1]}}});
+  const Model m =
+      projected_model("line2", height, {{"type", "shadow_point"}, {"emitter", {emitter[0], emitter[1]}}});
   const ents_admissibility a = check_admissibility(m, straight_line, {}, 501);
   std::vector<double> xi;
   for (int i = 0; i <= 500; ++i) xi.push_back(2.0 * (i / 500.0) - 1.0);
@@ -139,7 +129,7 @@ TEST(Admissibility, HeightOnTheEdgeIsAJumpBetweenSegments) {
   for (const double edge : {0.0, 0.03}) {
     const json height = {{"type", "polynomial"},
                          {"coefficients", {0.1 + edge, 0.0, -0.1}}}; // 0.1 (1 - s^2) + edge
-    const Model m = model("line2", height);
+    const Model m = projected_model("line2", height);
     const double angle = 0.4;
     const std::vector<double> left = {-2.0, 0.0, 0.0, 0.0},
                               right = {0.0, 0.0, 2.0 * std::cos(angle), 2.0 * std::sin(angle)};
@@ -156,17 +146,17 @@ TEST(Admissibility, EdgeHeightOfQuadranglesAndTriangles) {
   // (1 - s1^2)(1 - s2^2) and s1 s2 (1 - s1 - s2): zero on every edge, not inside
   const json on_square = polynomial({{1.0, 0.0, -1.0}, {0.0}, {-1.0, 0.0, 1.0}});
   const json on_triangle = polynomial({{0.0}, {0.0, 1.0, -1.0}, {0.0, -1.0}});
-  EXPECT_EQ(check_admissibility(model("quad4", on_square), square, {}, 33).edge_height, 0.0);
+  EXPECT_EQ(check_admissibility(projected_model("quad4", on_square), square, {}, 33).edge_height, 0.0);
   const std::vector<double> triangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  const ents_admissibility t = check_admissibility(model("tri3", on_triangle), triangle, {}, 31);
+  const ents_admissibility t = check_admissibility(projected_model("tri3", on_triangle), triangle, {}, 31);
   EXPECT_LE(t.edge_height, 1e-16);
   EXPECT_NEAR(t.height_max, 1.0 / 27.0, 1e-15); // at the centre, a sample
   // the plane s1: largest on the far corner or edge
   const json plane = polynomial({{0.0}, {0.3}});
-  const ents_admissibility q = check_admissibility(model("quad4", plane), square, {}, 9);
+  const ents_admissibility q = check_admissibility(projected_model("quad4", plane), square, {}, 9);
   EXPECT_NEAR(q.edge_height, 0.3, 1e-16);
   EXPECT_EQ(std::fabs(q.edge_height_xi[0]), 1.0);
-  EXPECT_NEAR(check_admissibility(model("tri3", plane), triangle, {}, 9).edge_height, 0.3, 1e-16);
+  EXPECT_NEAR(check_admissibility(projected_model("tri3", plane), triangle, {}, 9).edge_height, 0.3, 1e-16);
 }
 
 // Panel d: |h| kappa >= 1 folds rho_e over itself. A parabola y = c (1 - x^2): kappa = 2 c at its top, centre
@@ -176,7 +166,7 @@ TEST(Admissibility, AFoldedSurfaceRunsBackwards) {
   const std::vector<double> parabola = {-1.0, 0.0, 1.0, 0.0, 0.0, c};
   for (const double part : {0.5, 0.99, 1.01, 1.5}) { // of the radius of curvature
     const double height = -part / (2.0 * c);
-    const Model m = model("line3", {{"type", "constant"}, {"value", height}});
+    const Model m = projected_model("line3", {{"type", "constant"}, {"value", height}});
     const ents_admissibility a = check_admissibility(m, parabola, {}, 101);
     EXPECT_NEAR(a.fold, part, rounding);
     EXPECT_NEAR(a.fold_xi[0], 0.0, 1e-15);
@@ -188,11 +178,11 @@ TEST(Admissibility, AFoldedSurfaceRunsBackwards) {
     }
   }
   // without a height, and on a flat segment, nothing folds
-  EXPECT_EQ(check_admissibility(model("line3", nullptr), parabola, {}, 101).fold, 0.0);
-  EXPECT_EQ(
-      check_admissibility(model("line2", {{"type", "constant"}, {"value", 5.0}}), straight_line, {}, 101)
-          .fold,
-      0.0);
+  EXPECT_EQ(check_admissibility(projected_model("line3", nullptr), parabola, {}, 101).fold, 0.0);
+  EXPECT_EQ(check_admissibility(projected_model("line2", {{"type", "constant"}, {"value", 5.0}}),
+                                straight_line, {}, 101)
+                .fold,
+            0.0);
 }
 
 // A segment without a normal of its own is degenerate, and no height can mend that; nor is it the height's
@@ -203,7 +193,7 @@ TEST(Admissibility, ADegenerateSegmentIsNoFold) {
   for (const json& height : {json(), waves(0.1, 0.5)}) {
     json sheet = height;
     if (!sheet.is_null()) sheet["wave_vector"] = {0.5, 0.5};
-    const Model m = model("quad4", sheet);
+    const Model m = projected_model("quad4", sheet);
     for (const auto& nodes : {point, bow_tie}) {
       ents_admissibility result{};
       result.struct_size = sizeof result;
@@ -221,13 +211,13 @@ TEST(Admissibility, SamplesFollowTheHeight) {
   const double amplitude = 1e-3, waves_per_unit = 20.3;
   const double k = 2.0 * pi * waves_per_unit, radius = 1.0 / (amplitude * k * k);
   const ents_admissibility a =
-      check_admissibility(model("line2", waves(amplitude, waves_per_unit)), straight_line, {}, 0);
+      check_admissibility(projected_model("line2", waves(amplitude, waves_per_unit)), straight_line, {}, 0);
   EXPECT_GE(a.samples, 40 * 16);
   EXPECT_GE(a.reach, radius * (1.0 - rounding));
   EXPECT_LE(a.reach, radius * 1.06);
   // surface coordinates stretch the texture: with s = 0.5 xi half the waves, half the samples
-  const ents_admissibility b =
-      check_admissibility(model("line2", waves(amplitude, waves_per_unit)), straight_line, {-0.5, 0.5}, 0);
+  const ents_admissibility b = check_admissibility(projected_model("line2", waves(amplitude, waves_per_unit)),
+                                                   straight_line, {-0.5, 0.5}, 0);
   EXPECT_NEAR(b.samples, 0.5 * a.samples, 2.0);
   EXPECT_NEAR(b.reach, 4.0 * radius, 0.06 * 4.0 * radius);
 }
