@@ -14,8 +14,9 @@ awk '
               next }
   /^[0-9]+\/[0-9]+ Testing: / { name = $3; last = "no reason given" }
   /^Output:$/ { inside = 1; getline; next }
-  /^<end of output>$/ { if (inside && name in skipped) print last "\t" name; inside = 0 }
+  /^<end of output>$/ { if (inside && name in skipped) { print last "\t" name; delete skipped[name] }; inside = 0 }
   inside && NF && !/^\[/ { last = $0 }
+  END { for (name in skipped) print "the log does not say why\t" name }
 ' "$output" "$log" | sort -u | awk -F '\t' -v emulated="$emulated" '
   $1 != reason { if (NR > 1) line = line " (" reason "); "; reason = $1; line = line $2; next }
   { line = line ", " $2 }

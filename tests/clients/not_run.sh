@@ -19,6 +19,9 @@ said=$(sh "$here/../not_run.sh" output.log Testing/Temporary/LastTest.log)
 emulated="Abaqus, Ansys, FEAP, LS-DYNA, Marc, MOOSE, OOFEM, OpenSees are emulated"
 wanted="not run: python, python_2 (no NumPy); freefem (no ff-c++ (Debian: freefem++)); silent (no reason given); $emulated"
 [ "$said" = "$wanted" ] || { printf '%s\n%s\n' "wanted: $wanted" "got:    $said"; exit 1; }
+: > empty.log # as another ctest in the same folder leaves it
+said=$(sh "$here/../not_run.sh" output.log empty.log)
+case $said in "not run: "*freefem*"(the log does not say why); $emulated") ;; *) echo "reasons are lost, and got: $said"; exit 1 ;; esac
 "$ctest" -R good --output-log output.log >/dev/null 2>&1
 said=$(sh "$here/../not_run.sh" output.log Testing/Temporary/LastTest.log)
 [ "$said" = "not run: $emulated" ] || { echo "nothing was skipped, and got: $said"; exit 1; }

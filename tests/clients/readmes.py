@@ -19,6 +19,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import textwrap
 
 root, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
@@ -77,8 +78,10 @@ def check_link(where, folder, target):
 
 
 def ctest_lists(*options):
-    command = [shutil.which("ctest"), "--test-dir", build, "-N", *options]
-    return subprocess.run(command, capture_output=True, text=True).stdout
+    with tempfile.TemporaryDirectory() as folder:  # in `build` it would empty LastTest.log of the ctest that runs this
+        (pathlib.Path(folder) / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
+        command = [shutil.which("ctest"), "--test-dir", folder, "-N", *options]
+        return subprocess.run(command, capture_output=True, text=True).stdout
 
 
 @functools.cache
