@@ -55,7 +55,7 @@ constexpr int piece_at(int n, int width, int piece) {
 template <int W> struct Register { using type = Lanes<W>; };
 template <> struct Register<1> { using type = double; };
 
-template <class R> ENTS_INLINE R load(const double* from) {
+template <class R> ENTS_INLINE R load(const void* from) {
   R r;
   std::memcpy(&r, from, sizeof r);
   return r;

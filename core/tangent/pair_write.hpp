@@ -34,7 +34,7 @@ template <int D, int W> ENTS_INLINE Lanes<W> where_component(const Lanes<W>& x, 
   if constexpr (has_masks<W>)
     mine.v = component_pattern<D>.mask[at];
   else
-    std::memcpy(&mine, component_pattern<D>.of + at, sizeof mine);
+    mine.v = load<typename VectorOf<W>::Integers>(component_pattern<D>.of + at);
   return select(mine, x, Lanes<W>(0.0));
 }
 #endif
