@@ -17,6 +17,7 @@
 #include <unistd.h>
 #endif
 
+namespace allocation_free_test {
 namespace {
 
 using namespace test;
@@ -241,3 +242,4 @@ TEST(AllocationFree, TheWatchSees) {
 #endif
 
 } // namespace
+} // namespace allocation_free_test

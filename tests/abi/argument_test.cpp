@@ -10,6 +10,7 @@
 
 #include "support/element.hpp"
 
+namespace argument_test {
 namespace {
 
 using namespace test;
@@ -551,3 +552,4 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
 }
 
 } // namespace
+} // namespace argument_test

@@ -8,6 +8,7 @@
 
 #include "support/element.hpp"
 
+namespace bad_input_test {
 namespace {
 
 using namespace test;
@@ -224,3 +225,4 @@ TEST(BadInput, LongAndForeignWordsInMessages) {
 }
 
 } // namespace
+} // namespace bad_input_test

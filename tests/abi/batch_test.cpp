@@ -5,6 +5,7 @@
 
 #include "support/element.hpp"
 
+namespace batch_test {
 namespace {
 
 using namespace test;
@@ -250,3 +251,4 @@ TEST(Batch, XiMayTakeThePlaceOfTheStart) {
 }
 
 } // namespace
+} // namespace batch_test

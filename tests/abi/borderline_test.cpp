@@ -11,6 +11,7 @@
 #include "support/pose.hpp"
 #include "worst.hpp"
 
+namespace borderline_test {
 namespace {
 
 using namespace test;
@@ -319,3 +320,4 @@ TEST(Borderline, NoPressureNoTraction) {
 }
 
 } // namespace
+} // namespace borderline_test

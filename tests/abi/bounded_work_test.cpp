@@ -5,6 +5,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace bounded_work_test {
 namespace {
 
 using namespace test;
@@ -79,3 +80,4 @@ TEST(BoundedWork, NearStartsTakeFewIterations) {
 }
 
 } // namespace
+} // namespace bounded_work_test

@@ -13,6 +13,7 @@
 
 #include "support/caller.hpp"
 
+namespace contact_area_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -277,3 +278,4 @@ TEST(ContactArea, Mistakes) {
 }
 
 } // namespace
+} // namespace contact_area_test

@@ -8,6 +8,7 @@
 
 #include "support/pose.hpp"
 
+namespace degenerate_test {
 namespace {
 
 using namespace test;
@@ -115,3 +116,4 @@ TEST(Degenerate, CollapsedEdgeHasNoNormal) { // a quad4 used as a triangle, the 
 }
 
 } // namespace
+} // namespace degenerate_test

@@ -7,6 +7,7 @@
 
 #include "support/pose.hpp"
 
+namespace exact_cases_test {
 namespace {
 
 using namespace test;
@@ -105,3 +106,4 @@ TEST(ExactCases, FarFromTheOriginIsAsNearIt) {
 }
 
 } // namespace
+} // namespace exact_cases_test

@@ -12,6 +12,7 @@
 #include "abi/expression_text.hpp"
 #include "sample_count.hpp"
 
+namespace expression_reference_test {
 namespace {
 
 using namespace ents;
@@ -71,3 +72,4 @@ TEST(Expression, AgreesWithFortyDigits) {
 }
 
 } // namespace
+} // namespace expression_reference_test

@@ -19,6 +19,7 @@
 #include "core/height/expression_steps.hpp"
 #include "core/projection/ball.hpp"
 
+namespace expression_test {
 namespace {
 
 using namespace ents;
@@ -364,3 +365,4 @@ TEST(Expression, PrecedenceIsThatOfMathematics) {
 }
 
 } // namespace
+} // namespace expression_test

@@ -15,6 +15,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace floating_point_environment_test {
 namespace {
 
 using namespace test;
@@ -458,3 +459,4 @@ TEST(FloatingPointEnvironment, SignallingNaNsInATreeDoNotTrap) {
 }
 
 } // namespace
+} // namespace floating_point_environment_test

@@ -12,6 +12,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace height_function_test {
 namespace {
 
 using namespace test;
@@ -389,3 +390,4 @@ TEST_F(HeightFunction, NamesAreCheckedAndModelsKeepTheirFunction) {
 }
 
 } // namespace
+} // namespace height_function_test

@@ -9,6 +9,7 @@
 
 #include "support/element.hpp"
 
+namespace input_bounds_test {
 namespace {
 
 using namespace test;
@@ -199,3 +200,4 @@ TEST(InputBounds, AnyAlignmentGivesTheSameBits) {
 }
 
 } // namespace
+} // namespace input_bounds_test

@@ -11,6 +11,7 @@
 #include "sample_count.hpp"
 #include "support/surface.hpp"
 
+namespace iterate_friction_test {
 namespace {
 
 using namespace test;
@@ -296,3 +297,4 @@ TEST(IterateFriction, AStateThatCannotMoveIsTheElementsStatus) {
 }
 
 } // namespace
+} // namespace iterate_friction_test

@@ -13,6 +13,7 @@
 
 #include "support/model.hpp"
 
+namespace iterate_test {
 namespace {
 
 using namespace test;
@@ -394,3 +395,4 @@ TEST(Assemble, SlavesWithoutAreaHoldTheirMultiplier) {
 }
 
 } // namespace
+} // namespace iterate_test

@@ -10,6 +10,7 @@
 #include "sample_count.hpp"
 #include "support/surface.hpp"
 
+namespace lost_contact_test {
 namespace {
 
 using namespace test;
@@ -341,3 +342,4 @@ TEST(LostContact, IterateEndsBeforeItEvaluates) {
 }
 
 } // namespace
+} // namespace lost_contact_test

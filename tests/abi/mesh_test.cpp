@@ -10,6 +10,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace mesh_test {
 namespace {
 
 using namespace test;
@@ -290,3 +291,4 @@ TEST_F(MeshMistakes, NoSegmentsNoComplaint) {
 }
 
 } // namespace
+} // namespace mesh_test

@@ -15,6 +15,7 @@
 #include "abi/surface_file.hpp"
 #include "model_errors.hpp"
 
+namespace model_fuzz_test {
 namespace {
 
 using namespace ents;
@@ -150,3 +151,4 @@ TEST(ModelFuzz, DamagedFilesEndInAMessage) {
 }
 
 } // namespace
+} // namespace model_fuzz_test

@@ -16,6 +16,7 @@
 #include "core/height/height.hpp"
 #include "model_errors.hpp"
 
+namespace model_json_test {
 namespace {
 
 using namespace ents;
@@ -396,3 +397,4 @@ TEST(ModelJson, SmallAndLongNumbersAreNumbers) {
 }
 
 } // namespace
+} // namespace model_json_test

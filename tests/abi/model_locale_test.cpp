@@ -10,6 +10,7 @@
 #include "core/height/height.hpp"
 #include "model_errors.hpp"
 
+namespace model_locale_test {
 namespace {
 
 char decimal_point[8] = ".";
@@ -56,3 +57,5 @@ extern "C" struct lconv* localeconv() noexcept {
   ++asked;
   return &convention;
 }
+
+} // namespace model_locale_test

@@ -10,6 +10,7 @@
 #include "abi/model_json.hpp"
 #include "model_errors.hpp"
 
+namespace model_mistakes_test {
 namespace {
 
 using namespace ents;
@@ -235,3 +236,4 @@ TEST(ModelJson, SizesHaveLimits) {
 }
 
 } // namespace
+} // namespace model_mistakes_test

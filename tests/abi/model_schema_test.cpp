@@ -19,6 +19,7 @@
 #include "model_errors.hpp"
 #include "schema_validator.hpp"
 
+namespace model_schema_test {
 namespace {
 
 using nlohmann::json;
@@ -526,3 +527,4 @@ TEST_F(ModelSchema, EveryPropertyIsUsed) {
 }
 
 } // namespace
+} // namespace model_schema_test

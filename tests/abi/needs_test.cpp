@@ -4,6 +4,7 @@
 
 #include "support/element.hpp"
 
+namespace needs_test {
 namespace {
 
 using namespace test;
@@ -184,3 +185,4 @@ TEST_F(NeedsOfElements, HistoryMovesTheForce) {
 }
 
 } // namespace
+} // namespace needs_test

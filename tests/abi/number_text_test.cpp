@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+namespace number_text_test {
 namespace {
 
 using ents::NumberText;
@@ -68,3 +69,4 @@ TEST(NumberText, TextToDoubleToTextToDoubleIsTheSameBits) {
 }
 
 } // namespace
+} // namespace number_text_test

@@ -12,6 +12,7 @@
 #include "support/element.hpp"
 #include "support/memory.hpp"
 
+namespace out_of_memory_test {
 namespace {
 
 using namespace test;
@@ -212,3 +213,4 @@ TEST(OutOfMemory, TheWatchSees) {
 }
 
 } // namespace
+} // namespace out_of_memory_test

@@ -8,6 +8,7 @@
 
 #include "support/element.hpp"
 
+namespace output_bounds_test {
 namespace {
 
 using namespace test;
@@ -303,3 +304,4 @@ TEST(OutputBounds, StateSurfaceAndAreas) {
 }
 
 } // namespace
+} // namespace output_bounds_test

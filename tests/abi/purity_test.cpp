@@ -11,6 +11,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace purity_test {
 namespace {
 
 using namespace test;
@@ -153,3 +154,4 @@ TEST(Purity, WantedOutputsDoNotChangeEachOther) {
 }
 
 } // namespace
+} // namespace purity_test

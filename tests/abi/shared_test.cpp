@@ -8,6 +8,7 @@
 
 #include "support/surface.hpp"
 
+namespace shared_test {
 namespace {
 
 using namespace test;
@@ -154,3 +155,4 @@ TEST(Shared, IterateAsksAsAssembleDoes) {
 }
 
 } // namespace
+} // namespace shared_test

@@ -18,6 +18,7 @@
 
 extern char** environ;
 
+namespace silence_test {
 namespace {
 
 using namespace test;
@@ -155,3 +156,4 @@ TEST_F(Silence, FilesAreOnlyRead) {
 }
 
 } // namespace
+} // namespace silence_test

@@ -13,6 +13,7 @@
 #include "sample_count.hpp"
 #include "support/surface.hpp"
 
+namespace silent_mistakes_test {
 namespace {
 
 using namespace test;
@@ -310,3 +311,4 @@ TEST(SilentMistakes, FrictionWithoutStatesIsNoFrictionAndItsAgeIsZero) {
 }
 
 } // namespace
+} // namespace silent_mistakes_test

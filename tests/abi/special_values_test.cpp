@@ -9,6 +9,7 @@
 #include "sample_count.hpp"
 #include "support/element.hpp"
 
+namespace special_values_test {
 namespace {
 
 using namespace test;
@@ -256,3 +257,4 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
 }
 
 } // namespace
+} // namespace special_values_test

@@ -12,6 +12,7 @@
 
 #include "support/element.hpp"
 
+namespace stack_test {
 namespace {
 
 using namespace test;
@@ -127,3 +128,4 @@ TEST(Stack, NeedsNoMoreThanTheHeaderTells) {
 }
 
 } // namespace
+} // namespace stack_test

@@ -7,6 +7,7 @@
 
 #include "support/element.hpp"
 
+namespace state_test {
 namespace {
 
 using namespace test;
@@ -256,3 +257,4 @@ TEST_F(State, PatchesRefuseWhatIsNotFinite) {
 }
 
 } // namespace
+} // namespace state_test

@@ -8,6 +8,7 @@
 
 #include "ents.h"
 
+namespace status_test {
 namespace {
 
 struct Pinned {
@@ -95,3 +96,4 @@ TEST(Status, ContractVersionsAreChecked) {
 }
 
 } // namespace
+} // namespace status_test

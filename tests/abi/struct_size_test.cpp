@@ -8,6 +8,7 @@
 
 #include "support/element.hpp"
 
+namespace struct_size_test {
 namespace {
 
 using namespace test;
@@ -330,3 +331,4 @@ TEST(StructSize, ReservedFieldsAreZero) {
 }
 
 } // namespace
+} // namespace struct_size_test

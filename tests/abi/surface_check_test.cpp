@@ -9,6 +9,7 @@
 
 #include "support/element.hpp"
 
+namespace surface_check_test {
 namespace {
 
 using namespace test;
@@ -123,3 +124,4 @@ TEST_F(SurfaceCheck, DegenerateSegments) {
 }
 
 } // namespace
+} // namespace surface_check_test

@@ -12,6 +12,7 @@
 #include "abi/model_error.hpp"
 #include "abi/text_file.hpp"
 
+namespace surface_file_test {
 namespace {
 
 using ents::ModelError;
@@ -130,3 +131,4 @@ TEST(SurfaceFile, TextFilesThatCannotBeRead) {
 }
 
 } // namespace
+} // namespace surface_file_test

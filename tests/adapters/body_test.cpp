@@ -13,7 +13,7 @@
 #include "plain_model.hpp"
 #include "uel_host.hpp"
 
-namespace adapters {
+namespace adapters::body_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -266,4 +266,4 @@ TEST_F(RigidBodyElement, MistakesSayWhatToWrite) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::body_test

@@ -9,7 +9,7 @@
 extern "C" int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
                                      const double* prop, const int* nprop);
 
-namespace adapters {
+namespace adapters::calculix_test {
 namespace {
 
 class Calculix : public testing::TestWithParam<const char*> {};
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Adapters, Calculix, testing::Values("U1E", "U1A"),
                          [](const auto& test) { return test.param; });
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::calculix_test

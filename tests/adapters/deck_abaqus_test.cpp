@@ -17,7 +17,7 @@
 #include "uel_host.hpp"
 #include "write.hpp"
 
-namespace adapters {
+namespace adapters::deck_abaqus_test {
 namespace {
 
 using namespace ents_deck;
@@ -266,4 +266,4 @@ INSTANTIATE_TEST_SUITE_P(PointsAndCoordinates, DeckAbaqus,
                                          std::tuple{3, "", 700}));
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::deck_abaqus_test

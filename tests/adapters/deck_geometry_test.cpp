@@ -6,7 +6,7 @@
 #include "deck_text.hpp"
 #include "surface_coordinates.hpp"
 
-namespace ents_deck {
+namespace ents_deck::deck_geometry_test {
 namespace {
 
 // ---- areas ----
@@ -257,4 +257,4 @@ TEST(DeckCoordinates, OfAChainAreItsLength) {
 }
 
 } // namespace
-} // namespace ents_deck
+} // namespace ents_deck::deck_geometry_test

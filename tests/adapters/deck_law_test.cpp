@@ -7,7 +7,7 @@
 #include "deck_text.hpp"
 #include "write.hpp"
 
-namespace ents_deck {
+namespace ents_deck::deck_law_test {
 namespace {
 
 Law law(const string& behaviour, Program program, std::optional<double> stiffness = {},
@@ -176,4 +176,4 @@ TEST(DeckPrograms, TablesHaveTheAreaAndTheWeightsOfEachElement) {
 }
 
 } // namespace
-} // namespace ents_deck
+} // namespace ents_deck::deck_law_test

@@ -6,7 +6,7 @@
 #include "deck_text.hpp"
 #include "facet_tree.hpp"
 
-namespace ents_deck {
+namespace ents_deck::deck_patches_test {
 namespace {
 
 // ---- patches ----
@@ -166,4 +166,4 @@ TEST(DeckShells, AndBeamsAreTakenBesideTheContactAndRefusedInIt) {
 }
 
 } // namespace
-} // namespace ents_deck
+} // namespace ents_deck::deck_patches_test

@@ -7,7 +7,7 @@
 #include "deck_text.hpp"
 #include "write.hpp"
 
-namespace ents_deck {
+namespace ents_deck::deck_test {
 namespace {
 
 // ---- faces ----
@@ -340,4 +340,4 @@ TEST(DeckWrites, IncludedFilesAsTheyAre) {
 }
 
 } // namespace
-} // namespace ents_deck
+} // namespace ents_deck::deck_test

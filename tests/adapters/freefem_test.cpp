@@ -7,7 +7,7 @@
 
 #include "freefem/border_contact.hpp"
 
-namespace freefem {
+namespace freefem::freefem_test {
 namespace {
 
 /// A V, and a slave edge over it whose first node touches. Within the border a node projects on both flanks,
@@ -100,4 +100,4 @@ TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
 }
 
 } // namespace
-} // namespace freefem
+} // namespace freefem::freefem_test

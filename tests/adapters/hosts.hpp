@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "emulated_host.hpp"
+#include "problem.hpp"
 
 namespace adapters {
 
@@ -24,6 +25,13 @@ inline void PrintTo(const HostKind& kind, std::ostream* out) { *out << kind.name
 std::vector<HostKind> hosts();
 
 /// Hosts with the problems that they can have.
-std::vector<std::tuple<HostKind, std::string>> hosts_and_problems();
+inline std::vector<std::tuple<HostKind, std::string>> hosts_and_problems() {
+  std::vector<std::tuple<HostKind, std::string>> pairs;
+  for (const HostKind& host : hosts())
+    for (const ProblemName& p : problem_names())
+      if ((host.dimension == 0 || host.dimension == p.dimension) && (host.multipliers || !p.multipliers))
+        pairs.emplace_back(host, p.name);
+  return pairs;
+}
 
 } // namespace adapters

@@ -8,7 +8,7 @@
 #include "problem.hpp"
 #include "worst.hpp"
 
-namespace adapters {
+namespace adapters::hosts_test {
 namespace {
 
 class EveryHost : public testing::TestWithParam<std::tuple<HostKind, std::string>> {};
@@ -64,14 +64,4 @@ INSTANTIATE_TEST_SUITE_P(Adapters, EveryHost, testing::ValuesIn(hosts_and_proble
 });
 
 } // namespace
-
-std::vector<std::tuple<HostKind, std::string>> hosts_and_problems() {
-  std::vector<std::tuple<HostKind, std::string>> pairs;
-  for (const HostKind& host : hosts())
-    for (const ProblemName& p : problem_names())
-      if ((host.dimension == 0 || host.dimension == p.dimension) && (host.multipliers || !p.multipliers))
-        pairs.emplace_back(host, p.name);
-  return pairs;
-}
-
-} // namespace adapters
+} // namespace adapters::hosts_test

@@ -16,7 +16,7 @@
 #include "hosts.hpp"
 #include "problem.hpp"
 
-namespace adapters {
+namespace adapters::mistakes_test {
 namespace {
 
 constexpr int host_stopped = 77, nothing_wrong = 78; // exit statuses of our own
@@ -233,4 +233,4 @@ INSTANTIATE_TEST_SUITE_P(Adapters, Mistakes, testing::ValuesIn(hosts()),
                          [](const auto& test) { return test.param.name; });
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::mistakes_test

@@ -10,7 +10,7 @@
 
 #include "scene_comparison.hpp"
 
-namespace adapters {
+namespace adapters::scenes_test {
 namespace {
 
 class Scenes : public testing::Test {
@@ -240,4 +240,4 @@ TEST_F(Scenes, AnUnknownNameIsToldWithTheList) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::scenes_test

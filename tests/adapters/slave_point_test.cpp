@@ -11,7 +11,7 @@
 #include "plain_model.hpp"
 #include "uel_host.hpp"
 
-namespace adapters {
+namespace adapters::slave_point_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -236,4 +236,4 @@ TEST_F(LeftPatch, SlidesInside) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::slave_point_test

@@ -19,7 +19,7 @@ extern "C" int ents_feap_form(const double* d, const double* xl, const double* u
                               int ndf, int ndm, int nst, int tangent, double factor, const double* begin,
                               double* end, int history, double* s, double* p, char* text, int length);
 
-namespace adapters {
+namespace adapters::threads_test {
 namespace {
 
 bool same(Guarded& a, Guarded& b, std::size_t count) {
@@ -196,4 +196,4 @@ TEST(Threads, ModelIsReadOnce) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::threads_test

@@ -6,7 +6,7 @@
 
 #include "uel_fixture.hpp"
 
-namespace adapters {
+namespace adapters::uel_mistakes_test {
 namespace {
 
 struct Mistake {
@@ -130,4 +130,4 @@ TEST_F(Uel, MistakesInTheDeckStopTheJobWithAdvice) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::uel_mistakes_test

@@ -12,7 +12,7 @@
 
 #include "uel_fixture.hpp"
 
-namespace adapters {
+namespace adapters::uel_test {
 namespace {
 
 bool zero(Guarded& array, std::size_t count) {
@@ -306,4 +306,4 @@ TEST_F(Uel, ZerosAfterThePropertiesAreNoSurfaceCoordinates) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::uel_test

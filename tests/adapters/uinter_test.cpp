@@ -11,7 +11,7 @@
 #include "emulated_host.hpp"
 #include "uinter_host.hpp"
 
-namespace adapters {
+namespace adapters::uinter_test {
 namespace {
 
 using Call = UinterCall;
@@ -196,4 +196,4 @@ TEST_F(Uinter, MistakesStopTheJobWithAdvice) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::uinter_test

@@ -13,7 +13,7 @@ extern "C" void vuel_(int* nblock, double* rhs, double* amass, double* dtime_sta
                       double* dtime_previous, int* kstep, int* kinc, int* lflags, double* mass_scale,
                       double* predef, int* npredef, int* jdltyp, double* adlmag);
 
-namespace adapters {
+namespace adapters::vuel_test {
 namespace {
 
 /// Internal forces of a block of two, of which the second element is lifted and open.
@@ -61,4 +61,4 @@ TEST(Vuel, SelfcheckOfEachElement) {
 }
 
 } // namespace
-} // namespace adapters
+} // namespace adapters::vuel_test

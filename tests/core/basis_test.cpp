@@ -11,6 +11,7 @@
 #include "core/surface/basis.hpp"
 #include "worst.hpp"
 
+namespace basis_test {
 namespace {
 
 using namespace ents::ENTS_ISA;
@@ -258,3 +259,4 @@ TEST(SmoothedBases, CatmullRomIsContinuouslyDifferentiable) {
 TEST(SmoothedBases, BSplineIsTwiceContinuouslyDifferentiable) { meets_its_neighbour<BSpline4>(2); }
 
 } // namespace
+} // namespace basis_test

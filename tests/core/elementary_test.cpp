@@ -18,6 +18,7 @@
 
 #include "worst.hpp"
 
+namespace elementary_test {
 namespace {
 
 using namespace ents::ENTS_ISA;
@@ -183,3 +184,4 @@ TEST(Elementary, EveryLaneHasTheBitsOfThePlainNumber) {
 #endif
 
 } // namespace
+} // namespace elementary_test

@@ -19,6 +19,7 @@
 #include "core/height/height_tree.hpp"
 #include "worst.hpp"
 
+namespace height_map_test {
 namespace {
 
 using namespace ents;
@@ -444,3 +445,4 @@ TEST(HeightMap, RefusesTooFewSamples) {
 }
 
 } // namespace
+} // namespace height_map_test

@@ -22,6 +22,7 @@
 #include "random_heights.hpp"
 #include "worst.hpp"
 
+namespace height_test {
 namespace {
 
 using namespace ents;
@@ -302,3 +303,4 @@ TEST(Height, NaNIsNeverHidden) {
 }
 
 } // namespace
+} // namespace height_test

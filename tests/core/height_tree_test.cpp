@@ -13,6 +13,7 @@
 #include "core/height/thread.hpp"
 #include "random_heights.hpp"
 
+namespace height_tree_test {
 namespace {
 
 using namespace ents;
@@ -150,3 +151,4 @@ TEST(HeightTree, RefusesWhatMakesNoHeight) {
 }
 
 } // namespace
+} // namespace height_tree_test

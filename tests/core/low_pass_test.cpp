@@ -10,7 +10,7 @@
 
 #include "core/height/roughness.hpp"
 
-namespace ents {
+namespace ents::low_pass_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -91,4 +91,4 @@ TEST(LowPass, OfRandomRoughness) {
 }
 
 } // namespace
-} // namespace ents
+} // namespace ents::low_pass_test

@@ -12,6 +12,7 @@
 
 #include "worst.hpp"
 
+namespace pair_sine_test {
 namespace {
 
 using namespace ents;
@@ -96,3 +97,4 @@ TEST(MovedSine, EveryLaneMovesAsTheNumberAlone) {
 #endif
 
 } // namespace
+} // namespace pair_sine_test

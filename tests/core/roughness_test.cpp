@@ -13,6 +13,7 @@
 #include "core/height/height_tree.hpp"
 #include "worst.hpp"
 
+namespace roughness_test {
 namespace {
 
 using namespace ents;
@@ -136,3 +137,4 @@ TEST(Roughness, IsEmptyWithoutWaves) {
 }
 
 } // namespace
+} // namespace roughness_test

@@ -9,7 +9,7 @@
 #include "support.hpp"
 #include "worst.hpp"
 
-namespace host {
+namespace host::accuracy_test {
 namespace {
 
 using test::relative_error;
@@ -152,4 +152,4 @@ TEST(Accuracy, AnApproximateTangentIsSeen) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::accuracy_test

@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::behind_edge_test {
 namespace {
 
 using test::axis;
@@ -154,4 +154,4 @@ TEST(BehindEdge, AnIterationThatStallsInAKinkNamesTheCure) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::behind_edge_test

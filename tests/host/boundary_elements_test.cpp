@@ -12,7 +12,7 @@
 #include "exact.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::boundary_elements_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, half_space = INFINITY;
@@ -227,4 +227,4 @@ TEST(BoundaryElements, OfABlockWithPeriodicSides) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::boundary_elements_test

@@ -12,7 +12,7 @@
 
 #include "program.hpp"
 
-namespace host::chart {
+namespace host::chart::chart_page_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ TEST(ChartPage, ShowsItsChartsInABrowser) {
 }
 
 } // namespace
-} // namespace host::chart
+} // namespace host::chart::chart_page_test

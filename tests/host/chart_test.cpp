@@ -18,7 +18,7 @@
 #include "program.hpp"
 #include "support.hpp"
 
-namespace host::chart {
+namespace host::chart::chart_test {
 namespace {
 
 using test::library;
@@ -217,4 +217,4 @@ TEST(Chart, LeavesPageAndData) {
 }
 
 } // namespace
-} // namespace host::chart
+} // namespace host::chart::chart_test

@@ -13,7 +13,7 @@
 #include "output/pictures.hpp"
 #include "program.hpp"
 
-namespace host::test {
+namespace host::test::check_test {
 namespace {
 
 std::string quoted(const std::filesystem::path& file) {
@@ -345,4 +345,4 @@ TEST_F(Check, ThePictureMarksTheOffences) {
 }
 
 } // namespace
-} // namespace host::test
+} // namespace host::test::check_test

@@ -9,7 +9,7 @@
 
 #include "program.hpp"
 
-namespace host {
+namespace host::convergence_test {
 namespace {
 
 /// @param divisions  each twice the one before and odd: with one segment more or less than a doubling the
@@ -58,4 +58,4 @@ TEST(Convergence, Wavy3d) { expect_second_order("wavy3d", "13,27,55"); }
 TEST(Convergence, Hertz3d) { expect_second_order("hertz3d", "23,47,95"); }
 
 } // namespace
-} // namespace host
+} // namespace host::convergence_test

@@ -23,7 +23,7 @@
 #include "restart.hpp"
 #include "sliding.hpp"
 
-namespace host::test {
+namespace host::test::crash_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -322,11 +322,11 @@ TEST_F(Crash, TwoRunsDoNotWriteIntoOneFolder) {
 }
 
 } // namespace
-} // namespace host::test
+} // namespace host::test::crash_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   for (int i = 1; i < argc; ++i)
-    if (std::string(argv[i]) == "--long") host::test::counts = {500, 50, 100000};
+    if (std::string(argv[i]) == "--long") host::test::crash_test::counts = {500, 50, 100000};
   return RUN_ALL_TESTS();
 }

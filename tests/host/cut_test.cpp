@@ -13,7 +13,7 @@
 #include "polygon.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::cut_test {
 namespace {
 
 // ---- pieces ----------------------------------------------------------------------------------------------
@@ -374,4 +374,4 @@ TEST(Cut, PointsWithAHistoryStay) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::cut_test

@@ -12,7 +12,7 @@
 #include "exact.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::elastic_layer_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -207,4 +207,4 @@ TEST(ElasticLayer, NoContactHasNoPressure) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::elastic_layer_test

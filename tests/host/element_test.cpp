@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::element_test {
 namespace {
 
 struct Case {
@@ -197,4 +197,4 @@ TEST_P(Elements, NodalStressOfAHomogeneousState) {
 INSTANTIATE_TEST_SUITE_P(All, Elements, testing::ValuesIn(all_cases()), case_name);
 
 } // namespace
-} // namespace host
+} // namespace host::element_test

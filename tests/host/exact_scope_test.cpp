@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::exact_scope_test {
 namespace {
 
 Json shipped(const std::string& name) {
@@ -183,4 +183,4 @@ TEST(ExactScope, AMasterOfAnotherShapeIsTold) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::exact_scope_test

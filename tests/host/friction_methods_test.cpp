@@ -7,7 +7,7 @@
 #include "sliding.hpp"
 #include "worst.hpp"
 
-namespace host {
+namespace host::friction_methods_test {
 namespace {
 
 using test::coulomb;
@@ -195,4 +195,4 @@ TEST(Friction, DoesNotDependOnTheSlaveMesh) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::friction_methods_test

@@ -9,7 +9,7 @@
 #include "program.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::friction_scenes_test {
 namespace {
 
 using test::exact;
@@ -256,4 +256,4 @@ TEST(FrictionScene, PenaltyChattersAndRegularisedLawsDoNot) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::friction_scenes_test

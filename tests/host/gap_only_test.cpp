@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::gap_only_test {
 namespace {
 
 /// A block pressed on a rigid line that carries a height.
@@ -72,4 +72,4 @@ TEST(GapOnly, MistakesAreNamed) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::gap_only_test

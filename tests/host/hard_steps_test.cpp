@@ -12,7 +12,7 @@
 #include "holding.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::hard_steps_test {
 namespace {
 
 /// A shipped scene with `divisions` cells in every piece of its axes, pressed by approach from a gap.
@@ -244,4 +244,4 @@ TEST(Advice, NodesThatChangeTheirSegmentsAreNotBlamedOnTheStiffness) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::hard_steps_test

@@ -10,7 +10,7 @@
 #include "program.hpp"
 #include "sliding.hpp"
 
-namespace host {
+namespace host::history_test {
 namespace {
 
 using test::coulomb;
@@ -294,4 +294,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& method) { return method.param.name; });
 
 } // namespace
-} // namespace host
+} // namespace host::history_test

@@ -9,7 +9,7 @@
 
 #include "json_reader.hpp"
 
-namespace host {
+namespace host::json_reader_test {
 namespace {
 
 std::string message(const std::string& text) {
@@ -83,4 +83,4 @@ TEST(JsonReader, DevicesAndFoldersAreNoFiles) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::json_reader_test

@@ -12,7 +12,7 @@
 #include "layer_body.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::layer_body_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -256,4 +256,4 @@ TEST(LayerBody, WhatDoesNotFitIsRefusedByItsKey) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::layer_body_test

@@ -16,7 +16,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::loop_work_test {
 namespace {
 
 struct Loop {
@@ -78,4 +78,4 @@ TEST(CattaneoLoop, WorkIsThatOfTheExactSolution) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::loop_work_test

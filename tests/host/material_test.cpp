@@ -8,7 +8,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::material_test {
 namespace {
 
 Matrix3 random_gradient(test::Random& random, double size) {
@@ -117,4 +117,4 @@ INSTANTIATE_TEST_SUITE_P(Material, FiniteStrain,
                          });
 
 } // namespace
-} // namespace host
+} // namespace host::material_test

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-namespace host {
+namespace host::mesh_test {
 namespace {
 
 TEST(Grid, GradedPieceIsAGeometricProgression) {
@@ -121,4 +121,4 @@ TEST(TributaryAreas, OfADiscWeighWithTheRadius) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::mesh_test

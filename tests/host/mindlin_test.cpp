@@ -16,7 +16,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::mindlin_test {
 namespace {
 
 // Elements across the fine part of the surface, from the axis on: 4, with 3.4 spacings in the contact radius
@@ -207,4 +207,4 @@ TEST(Mindlin, StickRadiusOfSpheresOnASmoothedMasterWithAPlaneOfSymmetry) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::mindlin_test

@@ -9,7 +9,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::patch_test {
 namespace {
 
 struct Pressures {
@@ -162,4 +162,4 @@ TEST(PatchTest, BadKeysAreNamed) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::patch_test

@@ -6,7 +6,7 @@
 #include "check_extent.hpp"
 #include "program_fixture.hpp"
 
-namespace host::test {
+namespace host::test::program_mistakes_test {
 namespace {
 
 // Asked before the mesh is made: later there is no more than "bad_alloc", or the operating system ends the
@@ -149,4 +149,4 @@ TEST_F(Program, AMapIsHeldAgainstTheSurfaceCoordinatesOfTheSegments) {
 }
 
 } // namespace
-} // namespace host::test
+} // namespace host::test::program_mistakes_test

@@ -5,7 +5,7 @@
 #include "advice.hpp"
 #include "program_fixture.hpp"
 
-namespace host::test {
+namespace host::test::program_test {
 namespace {
 
 TEST_F(Program, NamesACommandItDoesNotKnow) {
@@ -307,4 +307,4 @@ TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
 }
 
 } // namespace
-} // namespace host::test
+} // namespace host::test::program_test

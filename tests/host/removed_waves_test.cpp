@@ -8,7 +8,7 @@
 #include "removed_waves.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::removed_waves_test {
 namespace {
 
 Json rough_scene(int cells) {
@@ -113,4 +113,4 @@ TEST(RemovedWaves, WrongScenesAreNamed) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::removed_waves_test

@@ -10,7 +10,7 @@
 #include "program.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::rigid_body_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -190,4 +190,4 @@ TEST(RigidBody, MistakesAreNamed) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::rigid_body_test

@@ -10,7 +10,7 @@
 
 #include "sliding.hpp"
 
-namespace host {
+namespace host::rules_test {
 namespace {
 
 using std::numbers::pi;
@@ -176,4 +176,4 @@ TEST(SurfaceCoordinates, OfFacesOfABody) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::rules_test

@@ -6,7 +6,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::scene_test {
 namespace {
 
 using test::axis;
@@ -195,4 +195,4 @@ TEST(Scene, ShippedScenesAreRead) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::scene_test

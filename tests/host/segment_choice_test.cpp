@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::segment_choice_test {
 namespace {
 
 using test::axis;
@@ -46,4 +46,4 @@ TEST(SegmentChoice, ANodeAtTheBottomOfAGrooveStaysWithOneSegment) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::segment_choice_test

@@ -8,7 +8,7 @@
 #include "result.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::smoothing_test {
 namespace {
 
 struct Pressed {
@@ -185,4 +185,4 @@ TEST(SmoothedMaster, MistakesAreNamed) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::smoothing_test

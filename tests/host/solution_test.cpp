@@ -8,7 +8,7 @@
 #include "half_space.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::solution_test {
 namespace {
 
 using test::axis;
@@ -253,4 +253,4 @@ TEST(Newton, NamesTheReasonWhenAStepCannotBeCutAnyFurther) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::solution_test

@@ -9,7 +9,7 @@
 #include "solver.hpp"
 #include "support.hpp"
 
-namespace host {
+namespace host::system_test {
 namespace {
 
 TEST(DofMap, PrescribedAndTiedDofs) {
@@ -114,4 +114,4 @@ TEST(Solver, SymmetricAndIndefiniteGoesToLu) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::system_test

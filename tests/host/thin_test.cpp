@@ -4,7 +4,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::thin_test {
 namespace {
 
 /// A block above or below a rigid sheet at y = 0, far enough to be open, whatever the order of the sheet's
@@ -98,4 +98,4 @@ TEST(ThinSheet, ASurfaceThatTouchesItselfIsRefused) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::thin_test

@@ -14,7 +14,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::turning_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -245,4 +245,4 @@ TEST(Turning, ARestartGoesOnToTheSameBits) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::turning_test

@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::wear_cylinder_test {
 namespace {
 
 using std::numbers::pi;
@@ -144,4 +144,4 @@ TEST(Wear, ACylinderWearsInTheSameWithAnySegments) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::wear_cylinder_test

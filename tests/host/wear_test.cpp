@@ -10,7 +10,7 @@
 
 #include "support.hpp"
 
-namespace host {
+namespace host::wear_test {
 namespace {
 
 using std::numbers::pi;
@@ -331,4 +331,4 @@ TEST(Scenes, AHistoryThatDoesNotFitIsRefused) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::wear_test

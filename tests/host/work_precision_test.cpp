@@ -18,7 +18,7 @@
 #include "support.hpp"
 #include "worst.hpp"
 
-namespace host::chart {
+namespace host::chart::work_precision_test {
 namespace {
 
 using test::library;
@@ -390,4 +390,4 @@ TEST(WorkPrecision, PlainSegmentsConvergeToTheEnrichedOne) {
 }
 
 } // namespace
-} // namespace host::chart
+} // namespace host::chart::work_precision_test

@@ -10,7 +10,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::cone_test {
 namespace {
 
 double length_of(const double* v, std::size_t d) {
@@ -152,4 +152,4 @@ TEST(Flags, AloneRefuseNoSlaveFarAway) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::cone_test

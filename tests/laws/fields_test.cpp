@@ -9,7 +9,7 @@
 #include "law_elements.hpp"
 #include "model_handle.hpp"
 
-namespace laws {
+namespace laws::fields_test {
 namespace {
 
 // A field through samples is the map through them.
@@ -64,4 +64,4 @@ TEST(Fields, AFieldIsTheMapOfItsSamples) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::fields_test

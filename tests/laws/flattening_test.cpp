@@ -7,7 +7,7 @@
 
 #include "law_elements.hpp"
 
-namespace laws {
+namespace laws::flattening_test {
 namespace {
 
 constexpr double eps = 100.0, pressure_0 = 2.0, least = 0.2;
@@ -141,4 +141,4 @@ TEST(Flattening, MistakesAreNamed) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::flattening_test

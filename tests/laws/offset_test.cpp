@@ -7,7 +7,7 @@
 
 #include "law_elements.hpp"
 
-namespace laws {
+namespace laws::offset_test {
 namespace {
 
 // One slave above a line from (-1, 0) to (1, 0).
@@ -124,4 +124,4 @@ TEST(SlaveValues, ReachTheElementsOfPatches) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::offset_test

@@ -18,7 +18,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::ordinary_elements_test {
 namespace {
 
 constexpr std::int64_t count = 83; // ten registers of eight, and a remainder
@@ -478,4 +478,4 @@ TEST_F(StatesAndStarts, AreRefusedWhereverTheyAreWrong) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::ordinary_elements_test

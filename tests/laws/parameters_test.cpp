@@ -11,7 +11,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::parameters_test {
 namespace {
 
 // In alphabetical order, as the library numbers them; values, and lengths over which results change.
@@ -337,4 +337,4 @@ TEST(Binding, ATreeOfOtherValuesIsRefused) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::parameters_test

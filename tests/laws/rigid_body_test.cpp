@@ -11,7 +11,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::rigid_body_test {
 namespace {
 
 ents_pose pose_of(int d) {
@@ -393,4 +393,4 @@ INSTANTIATE_TEST_SUITE_P(Method, RigidBody, testing::ValuesIn(tried()),
                          [](const auto& parameter) { return parameter.param.name; });
 
 } // namespace
-} // namespace laws
+} // namespace laws::rigid_body_test

@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::state_test {
 namespace {
 
 // A slave node over a flat line2 from (0, 0) to (length, 0), pressed in by 0.01.
@@ -380,4 +380,4 @@ TEST(State, AugmentationMovesTheMultipliersOnly) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::state_test

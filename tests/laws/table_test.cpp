@@ -6,7 +6,7 @@
 
 #include "law_elements.hpp"
 
-namespace laws {
+namespace laws::table_test {
 namespace {
 
 const std::vector<double> gaps = {-0.05, -0.02, 0.0, 0.01, 0.04}, pressures = {9.0, 2.5, 1.0, 0.4, 0.0};
@@ -141,4 +141,4 @@ TEST(Table, WrongScalesAndTablesAreNamed) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::table_test

@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::tangent_test {
 namespace {
 
 // As in tests/mechanics/element_derivatives_test.cpp: rounding 1e-15 / step; truncation step^4 over the
@@ -166,4 +166,4 @@ INSTANTIATE_TEST_SUITE_P(Method, LawTangent, testing::ValuesIn(all_methods()),
                          [](const auto& parameter) { return parameter.param.name; });
 
 } // namespace
-} // namespace laws
+} // namespace laws::tangent_test

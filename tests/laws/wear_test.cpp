@@ -10,7 +10,7 @@
 #include "law_elements.hpp"
 #include "worst.hpp"
 
-namespace laws {
+namespace laws::wear_test {
 namespace {
 
 constexpr double eps = 100.0, k = 0.05;
@@ -335,4 +335,4 @@ TEST(Wear, FieldsLoseTheVolumeOfTheStates) {
 }
 
 } // namespace
-} // namespace laws
+} // namespace laws::wear_test

@@ -6,7 +6,7 @@
 #include "checked_surface.hpp"
 #include "ray_casting.hpp"
 
-namespace mechanics {
+namespace mechanics::admissibility_test {
 namespace {
 
 Model projected_model(const std::string& segment, const json& height,
@@ -223,4 +223,4 @@ TEST(Admissibility, SamplesFollowTheHeight) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::admissibility_test

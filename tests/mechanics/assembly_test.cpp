@@ -10,7 +10,7 @@
 #include "scene.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::assembly_test {
 namespace {
 
 // Points over nodes, as ents_sampling_points fills it or drawn at random.
@@ -488,4 +488,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, AssemblyWithFriction,
                          case_name);
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::assembly_test

@@ -10,7 +10,7 @@
 #include "mesh_surface.hpp"
 #include "samples.hpp"
 
-namespace mechanics {
+namespace mechanics::behind_edge_test {
 namespace {
 
 constexpr int cells = 6;
@@ -284,4 +284,4 @@ TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::behind_edge_test

@@ -4,7 +4,7 @@
 
 #include "scene.hpp"
 
-namespace mechanics {
+namespace mechanics::clearly_open_test {
 namespace {
 
 // Where nothing is wanted but the sum, elements that are clearly open are not projected. The sum is the same
@@ -87,4 +87,4 @@ TEST(ClearlyOpen, AddsNothing) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::clearly_open_test

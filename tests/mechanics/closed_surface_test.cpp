@@ -12,7 +12,7 @@
 #include "mesh_surface.hpp"
 #include "samples.hpp"
 
-namespace mechanics {
+namespace mechanics::closed_surface_test {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -255,4 +255,4 @@ TEST(ClosedSurface, PolyhedraOfTriangles) { expect_right_answers("ball", ball, 3
 TEST(ClosedSurface, WedgesOfQuadrilaterals) { expect_right_answers("wedge", wedge, 4); }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::closed_surface_test

@@ -8,7 +8,7 @@
 #include "scene.hpp"
 #include "sweep.hpp"
 
-namespace mechanics {
+namespace mechanics::closest_point_test {
 namespace {
 
 constexpr double same_point = 1e-13; // positions up to 8, as in surface_test.cpp
@@ -73,4 +73,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, ClosestPoint, testing::ValuesIn(all_basis_names(
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::closest_point_test

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace mechanics {
+namespace mechanics::collapsed_corner_test {
 namespace {
 
 TEST(CollapsedCorner, SlavesOverTheTriangleAreOverTheSegment) {
@@ -92,4 +92,4 @@ TEST(CollapsedCorner, SlavesOverTheTriangleAreOverTheSegment) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::collapsed_corner_test

@@ -10,7 +10,7 @@
 #include "samples.hpp"
 #include "sweep.hpp"
 
-namespace mechanics {
+namespace mechanics::detection_test {
 namespace {
 
 constexpr double reach = 0.5;
@@ -354,4 +354,4 @@ TEST(DetectionRefit, FindsWhatANewTreeFinds) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::detection_test

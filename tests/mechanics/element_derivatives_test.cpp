@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::element_derivatives_test {
 namespace {
 
 struct Count {
@@ -132,4 +132,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, ElementDerivatives, testing::ValuesIn(basis_name
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::element_derivatives_test

@@ -13,7 +13,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::equilibrium_test {
 namespace {
 
 constexpr double force_tolerance = 1e-13;  // sum of up to 17 forces, each exact to 1e-15 of the largest
@@ -233,4 +233,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, Equilibrium, testing::ValuesIn(all_basis_names()
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::equilibrium_test

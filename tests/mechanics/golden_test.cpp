@@ -11,7 +11,7 @@
 #include "library.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::golden_test {
 namespace {
 
 using nlohmann::json;
@@ -180,4 +180,4 @@ TEST_P(Golden, Element) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::golden_test

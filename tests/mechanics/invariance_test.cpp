@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::invariance_test {
 namespace {
 
 constexpr std::int32_t element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT;
@@ -303,4 +303,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, Invariance, testing::ValuesIn(all_basis_names())
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::invariance_test

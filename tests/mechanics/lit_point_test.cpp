@@ -8,7 +8,7 @@
 #include "samples.hpp"
 #include "scene.hpp"
 
-namespace mechanics {
+namespace mechanics::lit_point_test {
 namespace {
 
 class LitPoint : public testing::TestWithParam<std::string> {
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, LitPoint, testing::ValuesIn(basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::lit_point_test

@@ -13,7 +13,7 @@
 #include "mesh_surface.hpp"
 #include "samples.hpp"
 
-namespace mechanics {
+namespace mechanics::patch_answers_test {
 namespace {
 
 using nlohmann::json;
@@ -200,4 +200,4 @@ INSTANTIATE_TEST_SUITE_P(Bases, PatchAnswers,
                                          "quad4", "quad9", "bspline16"));
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::patch_answers_test

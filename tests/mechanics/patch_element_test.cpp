@@ -8,7 +8,7 @@
 #include "mesh_surface.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::patch_element_test {
 namespace {
 
 using nlohmann::json;
@@ -288,4 +288,4 @@ TEST(PatchElement, BadPatchesAreNamed) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::patch_element_test

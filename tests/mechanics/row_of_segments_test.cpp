@@ -8,7 +8,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::row_of_segments_test {
 namespace {
 
 using nlohmann::json;
@@ -178,4 +178,4 @@ TEST(SmoothedSegments, MeetAtTheirEnds) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::row_of_segments_test

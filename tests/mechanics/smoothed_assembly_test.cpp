@@ -7,7 +7,7 @@
 #include "smoothed_surface.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::smoothed_assembly_test {
 namespace {
 
 struct SmoothedCase {
@@ -201,4 +201,4 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, SmoothedAssembly,
                          testing::Range(0, static_cast<int>(smoothed_cases().size())), smoothed_case_name);
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::smoothed_assembly_test

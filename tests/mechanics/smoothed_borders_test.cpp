@@ -8,7 +8,7 @@
 #include "smoothed_surface.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::smoothed_borders_test {
 namespace {
 
 enum Kind {
@@ -198,4 +198,4 @@ TEST(SmoothedBorders, OfTrianglesMeetInPointsNormalsCurvatures) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::smoothed_borders_test

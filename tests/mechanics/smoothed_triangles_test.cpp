@@ -6,7 +6,7 @@
 #include "smoothed_surface.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::smoothed_triangles_test {
 namespace {
 
 const Model& plain() {
@@ -205,4 +205,4 @@ TEST(SmoothedTriangles, RefuseWhatTheyMust) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::smoothed_triangles_test

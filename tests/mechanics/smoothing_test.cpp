@@ -7,7 +7,7 @@
 #include "smoothed_surface.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::smoothing_test {
 namespace {
 
 // A control point of an irregular facet is a sum of Bezier points with weights of (6 + 7 + 2)^2 = 225 in
@@ -431,4 +431,4 @@ TEST(Smoothing, RefusesWhatIsNoSurface) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::smoothing_test

@@ -10,7 +10,7 @@
 
 #include "checked_surface.hpp"
 
-namespace mechanics {
+namespace mechanics::surface_admissibility_test {
 namespace {
 
 // Panel a. A sine over four segments: its crests and valleys have the smallest radius, and a slave at that
@@ -262,4 +262,4 @@ TEST(SurfaceAdmissibility, PanelBNoFalseShadows) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::surface_admissibility_test

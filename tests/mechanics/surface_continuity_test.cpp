@@ -9,7 +9,7 @@
 
 #include "checked_surface.hpp"
 
-namespace mechanics {
+namespace mechanics::surface_continuity_test {
 namespace {
 
 // Panel c. A local height that does not vanish on the edges: the surface is torn by 2 h sin(angle / 2) where
@@ -265,4 +265,4 @@ TEST(SurfaceAdmissibility, RandomSurfacesBelowEveryBound) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::surface_continuity_test

@@ -7,7 +7,7 @@
 #include "differences.hpp"
 #include "samples.hpp"
 
-namespace mechanics {
+namespace mechanics::surface_test {
 namespace {
 
 class EnrichedSurface : public testing::TestWithParam<std::string> {
@@ -197,4 +197,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, EnrichedSurface, testing::ValuesIn(all_basis_nam
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::surface_test

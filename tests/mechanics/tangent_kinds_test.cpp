@@ -8,7 +8,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::tangent_kinds_test {
 namespace {
 
 class TangentKinds : public testing::TestWithParam<std::string> {
@@ -205,4 +205,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, TangentKinds, testing::ValuesIn(all_basis_names(
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::tangent_kinds_test

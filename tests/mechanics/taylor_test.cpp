@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::taylor_test {
 namespace {
 
 constexpr double smallest_slope = 1.9;
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, Taylor, testing::ValuesIn(all_basis_names()),
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::taylor_test

@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::variations_test {
 namespace {
 
 // A quantity, its derivative, and how many entries the quantity has.
@@ -115,4 +115,4 @@ INSTANTIATE_TEST_SUITE_P(Basis, Variations, testing::ValuesIn(all_basis_names())
                          [](const auto& parameter) { return parameter.param; });
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::variations_test

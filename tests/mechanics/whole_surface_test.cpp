@@ -9,7 +9,7 @@
 #include "samples.hpp"
 #include "worst.hpp"
 
-namespace mechanics {
+namespace mechanics::whole_surface_test {
 namespace {
 
 struct Contact {
@@ -213,4 +213,4 @@ TEST(WholeSurface, ATextureDoesNotCareForTheMesh) {
 }
 
 } // namespace
-} // namespace mechanics
+} // namespace mechanics::whole_surface_test

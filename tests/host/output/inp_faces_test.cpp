@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+namespace inp_faces_test {
 namespace {
 
 namespace inp = host::inp;
@@ -148,3 +149,4 @@ TEST(InpFaces, ABodyThatIsInsideOutIsAnError) {
 }
 
 } // namespace
+} // namespace inp_faces_test

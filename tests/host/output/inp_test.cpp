@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+namespace inp_test {
 namespace {
 
 namespace inp = host::inp;
@@ -222,3 +223,4 @@ TEST(InpErrors, CutDecksGiveErrorsOrDecksButNoCrash) {
 }
 
 } // namespace
+} // namespace inp_test

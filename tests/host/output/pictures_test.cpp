@@ -11,6 +11,7 @@
 
 #include "output/gnuplot.hpp"
 
+namespace pictures_test {
 namespace {
 
 using namespace host::pictures;
@@ -148,3 +149,4 @@ TEST_F(Pictures, AFolderThatCannotBeWrittenIsAProblemAndNoException) {
 }
 
 } // namespace
+} // namespace pictures_test

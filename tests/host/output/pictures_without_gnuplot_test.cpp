@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+namespace pictures_without_gnuplot_test {
 namespace {
 
 using namespace host::pictures;
@@ -23,3 +24,4 @@ TEST(PicturesWithoutGnuplot, NameThePackageAndLeaveDataAndScript) {
 }
 
 } // namespace
+} // namespace pictures_without_gnuplot_test

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+namespace table_test {
 namespace {
 
 using host::format_number;
@@ -86,3 +87,4 @@ TEST(DisplayWidth, CountsWhatTheTerminalShows) {
 }
 
 } // namespace
+} // namespace table_test

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace host {
+namespace host::text_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -109,4 +109,4 @@ TEST_F(TextFile, NamesTheFileInAFolderThatIsNotThere) {
 }
 
 } // namespace
-} // namespace host
+} // namespace host::text_file_test

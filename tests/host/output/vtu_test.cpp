@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+namespace vtu_test {
 namespace {
 
 namespace vtu = host::vtu;
@@ -239,3 +240,4 @@ TEST(VtuSeries, NamesTheFileThatCannotBeWritten) {
 }
 
 } // namespace
+} // namespace vtu_test
