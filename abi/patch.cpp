@@ -101,22 +101,28 @@ private:
            segment < static_cast<double>(segments_) && segment == std::floor(segment);
   }
 
+  // Diagonal of the box around a segment
+  double length(std::int64_t segment) const {
+    double low[3], high[3], sum = 0.0;
+    for (int k = 0; k < d_; ++k) low[k] = infinity, high[k] = -infinity;
+    for (int i = 0; i < plan_.nodes; ++i) {
+      const double* x =
+          in_.master + patch_.connectivity[static_cast<std::size_t>(segment * plan_.nodes + i)] * d_;
+      for (int k = 0; k < d_; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+    }
+    for (int k = 0; k < d_; ++k) sum += (high[k] - low[k]) * (high[k] - low[k]);
+    return std::sqrt(sum);
+  }
   // How deep a slave may be: what lies farther is not looked at.
   double reach() const {
     if (plan_.penetration_limit > 0.0) return plan_.penetration_limit;
     double most = 0.0;
-    for (std::int64_t s = 0; s < segments_; ++s) {
-      double low[3], high[3], size = 0.0;
-      for (int k = 0; k < d_; ++k) low[k] = infinity, high[k] = -infinity;
-      for (int i = 0; i < plan_.nodes; ++i) {
-        const double* x =
-            in_.master + patch_.connectivity[static_cast<std::size_t>(s * plan_.nodes + i)] * d_;
-        for (int k = 0; k < d_; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
-      }
-      for (int k = 0; k < d_; ++k) size += (high[k] - low[k]) * (high[k] - low[k]);
-      most = std::max(most, std::sqrt(size));
-    }
+    for (std::int64_t s = 0; s < segments_; ++s) most = std::max(most, length(s));
     return most;
+  }
+  // Is a gap on this segment within reach? Its own length is enough in most cases.
+  bool within_reach(double gap, std::int64_t segment) const {
+    return (plan_.penetration_limit <= 0.0 && std::fabs(gap) <= length(segment)) || std::fabs(gap) <= reach();
   }
 
   // How far the enriched surface is at most: where the slave projects on the segments without their height,
@@ -142,7 +148,7 @@ private:
 
   // By the block kernel, which is the fastest: is the slave still on the segment of before, next to where it
   // was? False: nothing is known.
-  bool follow(Detection& found, double deepest) const {
+  bool follow(Detection& found) const {
     SegmentNodes nodes;
     if (!plan_.pairs || gather(plan_, mesh_, before(), nodes) != Status::ok) return false;
     ElementInput here = in_;
@@ -153,7 +159,7 @@ private:
     look.wanted = want::xi | want::gap | want::flags;
     look.xi = xi, look.gap = &gap, look.flags = &flags;
     if (plan_.pairs(plan_, block_of(here, look, found.at.xi, look.wanted), 1) == 0 ||
-        (flags & flag::outside) != 0 || !(std::fabs(gap) <= deepest))
+        (flags & flag::outside) != 0 || !within_reach(gap, before()))
       return false;
     found.segment = before();
     found.at.gap = gap;
@@ -164,12 +170,11 @@ private:
   // The segment of before while the slave is on it; else the best of all; where none is within reach, the
   // nearest: the slave is open there, or too deep.
   Status choose(Detection& found) {
-    const double deepest = reach();
     found.segment = in_contact() ? before() : -1;
     if (in_contact()) {
       for (int t = 0; t < plan_.parameters; ++t) found.at.xi[t] = in_.state_begin[StateLayout::xi_at + t];
-      if (!follow(found, deepest))
-        if (const Status status = detect_followed(plan_, mesh_, in_.slave, deepest, found);
+      if (!follow(found))
+        if (const Status status = detect_followed(plan_, mesh_, in_.slave, reach(), found);
             status != Status::ok)
           return status;
       if (found.segment >= 0) {
@@ -177,6 +182,7 @@ private:
         return Status::ok;
       }
     }
+    const double deepest = reach();
     Detection base;
     double at_most;
     if (const Status status = look_at_base(base, at_most); status != Status::ok) return status;
@@ -229,14 +235,23 @@ private:
     return d_ * (1 + static_cast<int>(node)) + local % d_;
   }
 
+  // A row of the kernel's element to one of the patch: a node at a time
+  template <int D> void spread_row(const double* from, int n, double* to) const {
+    const int master = plan_.dofs - plan_.multipliers;
+    for (int i = 0; i < master; i += D)
+      for (int c = 0; c < D; ++c) to[places_[i] + c] = from[i + c];
+    for (int i = master; i < n; ++i) to[places_[i]] = from[i];
+  }
+  void spread_row(const double* from, int n, double* to) const {
+    d_ == 2 ? spread_row<2>(from, n, to) : spread_row<3>(from, n, to);
+  }
   void spread_vector(const double* from, int n, int all, double* to) const {
     std::fill_n(to, all, 0.0);
-    for (int i = 0; i < n; ++i) to[places_[i]] = from[i];
+    spread_row(from, n, to);
   }
   void spread_matrix(const double* from, int n, int all, std::int64_t leading, double* to) const {
     for (int j = 0; j < all; ++j) std::fill_n(to + j * leading, all, 0.0);
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) to[places_[j] * leading + places_[i]] = from[j * n + i];
+    for (int j = 0; j < n; ++j) spread_row(from + j * n, n, to + places_[j] * leading);
   }
 
   void spread() {
