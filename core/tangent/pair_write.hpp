@@ -65,12 +65,13 @@ template <int D, int W, int At, int M> ENTS_INLINE auto row_of_weights(const dou
 template <int N> ENTS_INLINE const double* column_of(const double (&numbers)[N]) { return numbers; }
 template <int N> ENTS_INLINE const double* column_of(const DofRow<N>& numbers) { return numbers.column; }
 
-// All entries but g g^T, piece after piece in a loop: where the pieces of a column are many, unrolled code
-// for each of them takes minutes to compile. The last piece overlaps the one before.
+// All entries but g g^T, D pieces after D pieces in a loop, so that components of their rows are known: where
+// the pieces of a column are many, unrolled code for each of them takes minutes to compile. The last piece
+// overlaps the one before.
 template <int D, class Tangent>
 ENTS_INLINE void write_pieces(const Tangent& t, double* out, std::int64_t leading) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N);
-  constexpr int weights = std::extent_v<decltype(t.weights)>;
+  constexpr int weights = std::extent_v<decltype(t.weights)>, last = N - N % (D * W);
   using R = typename Register<W>::type;
   double of_row[weights][N];
   for (int w = 0; w < weights; ++w)
@@ -78,20 +79,24 @@ ENTS_INLINE void write_pieces(const Tangent& t, double* out, std::int64_t leadin
   for (int n = 0; n < M; ++n) {
     double of_column[weights];
     for (int w = 0; w < weights; ++w) of_column[w] = t.weights[w][n];
-    ENTS_ROLLED
-    for (int c = 0; c < D; ++c) {
+    unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
       const int j = D * n + c;
-      ENTS_ROLLED
-      for (int at = 0; at < N; at += W) {
-        const int i = at + W <= N ? at : N - W;
+      const auto write = [&](int i, int component) ENTS_LAMBDA_INLINE {
         R of_piece[weights];
         for (int w = 0; w < weights; ++w) of_piece[w] = load<R>(of_row[w] + i);
         const auto row = [i](const auto& numbers)
                              ENTS_LAMBDA_INLINE { return load<R>(column_of(numbers) + i); };
-        const R k = where_component<D>(product_of_weights(of_piece, of_column), i, c);
+        const R k = where_component<D>(product_of_weights(of_piece, of_column), component, c.value);
         store(out + j * leading + i, t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j));
-      }
-    }
+      };
+      ENTS_ROLLED
+      for (int at = 0; at < last; at += D * W)
+        unroll<D>([&](auto p) ENTS_LAMBDA_INLINE { write(at + p * W, p * W % D); });
+      unroll<pieces(N - last, W)>([&](auto p) ENTS_LAMBDA_INLINE {
+        constexpr int at = last + (p + 1) * W <= N ? last + p * W : N - W;
+        write(at, at % D);
+      });
+    });
   }
 }
 
