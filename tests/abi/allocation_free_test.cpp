@@ -6,7 +6,7 @@
 #include <memory>
 #include <mutex>
 
-#include "support/element.hpp"
+#include "support/batch.hpp"
 #include "support/memory.hpp"
 
 #if ENTS_TEST_OWN_MALLOC
@@ -26,8 +26,10 @@ using namespace test;
 // before.
 class Work {
 public:
-  explicit Work(const ModelKind& kind) : model_(text(kind)), results_(model_.layout) {
-    Random random(3);
+  explicit Work(const ModelKind& kind) : Work(kind, Random(3)) {}
+  Work(const ModelKind& kind, Random random)
+      : model_(text(kind)), results_(model_.layout),
+        many_(model_, draw_batch(model_, basis(kind.basis), random, true), 0, 0, in_blocks) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (int i = 0; i < 4; ++i) elements_.push_back(draw(model_, basis(kind.basis), random));
     elements_[1][start].clear(); // searched
@@ -66,6 +68,8 @@ public:
       ents_evaluate(model_.get(), 0, 1, &input, &output_, &report_);
       ents_evaluate(model_.get(), 0, 1, &input, &element_output_, nullptr);
     }
+    done_.many +=
+        ents_evaluate(model_.get(), 0, batch_size, &many_.input, &many_.output, &report_) >= ENTS_OK;
     ents_evaluate(nullptr, 0, 1, &input_[0], &output_, &report_);
     ents_evaluate(model_.get(), 0, -1, &input_[0], &output_, &report_);
     ents_state_init(model_.get(), 1, state_.data(), model_.layout.state_size, &report_);
@@ -86,7 +90,7 @@ public:
 
   // What of an iteration ended in ENTS_OK
   struct Done {
-    int combined = 0, assembled = 0, iterated = 0, augmented = 0, transferred = 0;
+    int many = 0, combined = 0, assembled = 0, iterated = 0, augmented = 0, transferred = 0;
   };
   const Done& done() const { return done_; }
 
@@ -158,6 +162,7 @@ private:
 
   Model model_;
   Results results_;
+  Batch many_;
   std::vector<Element> elements_;
   std::vector<double> state_, begin_, end_, moved_, xi_, tree_, positions_, points_, weights_, residual_,
       values_;
@@ -189,11 +194,12 @@ TEST(AllocationFree, NoHeapAndNoLocksInAnyEvaluation) {
     ASSERT_EQ(memory_allocations(), 0) << text(kind);
     ASSERT_EQ(memory_locks(), 0) << text(kind);
     ++kinds;
-    all.combined += work.done().combined, all.assembled += work.done().assembled,
-        all.iterated += work.done().iterated;
+    all.many += work.done().many, all.combined += work.done().combined,
+        all.assembled += work.done().assembled, all.iterated += work.done().iterated;
     all.augmented += work.done().augmented, all.transferred += work.done().transferred;
   }
   // All but what a law refuses: to iterate with friction, to augment what has no multipliers
+  EXPECT_EQ(all.many, kinds);
   EXPECT_EQ(all.combined, kinds);
   EXPECT_EQ(all.assembled, 3 * kinds);
   EXPECT_GT(all.iterated, kinds);

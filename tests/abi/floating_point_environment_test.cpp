@@ -13,7 +13,7 @@
 #endif
 
 #include "sample_count.hpp"
-#include "support/element.hpp"
+#include "support/batch.hpp"
 
 namespace floating_point_environment_test {
 namespace {
@@ -338,6 +338,40 @@ TEST(FloatingPointEnvironment, DoesNotChangeResults) {
     }
   }
   EXPECT_GT(compared, 4000);
+}
+
+// One element per lane: some far away, from a start elsewhere, with denormal parts, or with another status.
+TEST(FloatingPointEnvironment, DoesNotChangeCallsOfMany) {
+  Random random(45);
+  int compared = 0;
+  for (const ModelKind& kind : some_kinds()) {
+    const Model model(text(kind));
+    std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, true);
+    for (double& x : elements[3][slave]) x = 1e9;
+    for (double& x : elements[5][start]) x += 0.5;
+    elements[7][slave][0] += 3e-310;
+    elements[9][master].assign(elements[9][master].size(), 0.5);
+    const auto evaluate = [&](Batch& batch) {
+      return ents_evaluate(model.get(), 0, batch_size, &batch.input, &batch.output, nullptr);
+    };
+    Batch expected(model, elements, 0, 0, in_blocks);
+    const int32_t expected_status = evaluate(expected);
+    EXPECT_GE(expected_status, ENTS_OK);
+    for (const Setting& setting : settings) {
+      Batch batch(model, elements, 0, 0, in_blocks);
+      int32_t status = -1;
+      EXPECT_KEPT(setting, [&] { status = evaluate(batch); });
+      ASSERT_EQ(status, expected_status) << setting.name << " " << text(kind);
+      EXPECT_EQ(batch.integers, expected.integers) << setting.name << " " << text(kind);
+      for (int i = 0; i < output_count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        EXPECT_TRUE(same_bits(batch.out[at], expected.out[at]))
+            << outputs[i].name << ", " << setting.name << " " << text(kind);
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 250);
 }
 
 // Coordinates that are denormal as a whole: flushed they would be one point, and another verdict.
