@@ -3,6 +3,7 @@
 // when some of the elements fail.
 #include <gtest/gtest.h>
 
+#include "sample_count.hpp"
 #include "support/batch.hpp"
 
 namespace batch_test {
@@ -12,13 +13,14 @@ using namespace test;
 
 constexpr std::size_t count = batch_size;
 
-// Each element of the batch against a call of its own.
-void expect_singles(const Model& model, const Batch& batch, std::size_t first, std::size_t last) {
+// Each element of the batch against a call of its own, which may want more.
+void expect_singles(const Model& model, const Batch& batch, std::size_t first, std::size_t last,
+                    int32_t wanted = want_all) {
   for (std::size_t e = first; e < last; ++e) {
     Results single(model.layout);
     for (auto& array : single.real) array.assign(array.size(), -7.0);
     single.flags = single.iterations = -7;
-    const int32_t status = test::evaluate(model, batch.elements[e], want_all, single);
+    const int32_t status = test::evaluate(model, batch.elements[e], wanted, single);
     const std::size_t s = static_cast<std::size_t>(batch.output.status_stride);
     ASSERT_EQ(batch.integers[0][e * s], single.flags) << e;
     ASSERT_EQ(batch.integers[1][e * s], single.iterations) << e;
@@ -106,6 +108,59 @@ TEST(Batch, RecoverableElementsLeaveTheOthersAlone) {
   EXPECT_GT(report.step_factor, 0.0);
   EXPECT_LT(report.step_factor, 1.0);
   expect_singles(model, batch, 0, count);
+}
+
+// Any number in any input of two elements, which are computed beside others in a register: each element has
+// the results and the status of a call of its own.
+TEST(Batch, AnyNumberInAnyElement) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double special[] = {std::numeric_limits<double>::quiet_NaN(),
+                            infinity,
+                            -infinity,
+                            1e308,
+                            -1e308,
+                            1e154,
+                            -1e30,
+                            1e-30,
+                            5e-324,
+                            -1.0,
+                            0.0};
+  Random random(87);
+  int recoverable = 0, mistakes = 0, fine = 0;
+  for (const ModelKind& kind : some_kinds()) {
+    const Model model(text(kind));
+    const std::vector<Element> good = draw_batch(model, basis(kind.basis), random, true);
+    for (int i = 0; i < samples(60); ++i) {
+      std::vector<Element> elements = good;
+      for (int k = 0; k < 2; ++k) {
+        Element& e = elements[static_cast<std::size_t>(random.below(batch_size))];
+        std::vector<double>& numbers = e[random.below(input_count)];
+        if (numbers.empty()) continue;
+        numbers[static_cast<std::size_t>(random.below(static_cast<int>(numbers.size())))] =
+            special[random.below(std::size(special))];
+      }
+      std::size_t before = 0; // elements before the first mistake
+      int32_t expected = ENTS_OK;
+      for (; before < count && expected >= ENTS_OK; ++before) {
+        Results single(model.layout);
+        const int32_t status = test::evaluate(model, elements[before], in_blocks, single);
+        if (status < ENTS_OK || expected == ENTS_OK) expected = status;
+        recoverable += status > ENTS_OK, mistakes += status < ENTS_OK, fine += status == ENTS_OK;
+      }
+      Batch batch(model, elements, 0, 0, in_blocks);
+      ASSERT_EQ(call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count), &batch.input,
+                               &batch.output, nullptr),
+                expected)
+          << text(kind);
+      expect_singles(model, batch, 0, before - (expected < ENTS_OK), in_blocks);
+      if (HasFatalFailure()) FAIL() << text(kind);
+    }
+  }
+  if (sample_divisor == 1) {
+    EXPECT_GT(recoverable, 100);
+    EXPECT_GT(mistakes, 500);
+    EXPECT_GT(fine, 5000);
+  }
 }
 
 // A caller's mistake ends the batch: elements before it are done, elements after it are not.
