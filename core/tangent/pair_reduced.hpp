@@ -93,11 +93,12 @@ template <class S, int D> ENTS_INLINE void add_to_component(Vec<S, D>& v, int c,
 }
 #if defined(__AVX__) && defined(__GNUC__) && !defined(__clang__)
 inline constexpr long long component_masks[5] = {0, 0, -1, 0, 0};
+// -0 to the other components, which leaves a zero its sign
 ENTS_INLINE void add_to_component(Vec<double, 3>& v, int c, double x) {
   using V = Vec<double, 3>::Numbers;
   using I = Vec<double, 3>::Integers;
   const I mask = {component_masks[2 - c], component_masks[3 - c], component_masks[4 - c], 0};
-  v.v = v.v + (V)((I)V{x, x, x, x} & mask);
+  v.v = v.v + (V)(((I)V{x, x, x, x} & mask) | ((I)V{-0.0, -0.0, -0.0, -0.0} & ~mask));
 }
 #endif
 

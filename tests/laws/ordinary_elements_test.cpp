@@ -93,7 +93,8 @@ protected:
     mechanics::Scene scene;
     LawElements elements;
   };
-  // Every seventh start is far off, so that calls mix elements that are ordinary with others.
+  // Every seventh start is far off, so that calls mix elements that are ordinary with others. Every eleventh
+  // has no area: zeros, whose signs are bits, too.
   static Drawn draw_mixed(const Case& c, std::size_t round = 0) {
     Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name) + 7919 * round);
     Drawn d;
@@ -101,6 +102,7 @@ protected:
     d.elements = draw(random, d.scene, model_of(d.scene, c), count, 0.05);
     for (std::size_t e = 0; e < static_cast<std::size_t>(count); e += 7)
       d.elements.state[e * static_cast<std::size_t>(d.elements.layout.state_size) + 3] += 0.7;
+    for (std::size_t e = 5; e < static_cast<std::size_t>(count); e += 11) d.elements.at.area[e] = 0.0;
     return d;
   }
 
