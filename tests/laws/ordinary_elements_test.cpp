@@ -10,22 +10,16 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <limits>
 #include <map>
-#include <utility>
 
 #include "abi/handle.hpp"
 #include "core/element/pair_kernels.hpp"
-#include "law_elements.hpp"
+#include "parts_of_calls.hpp"
 #include "samples.hpp"
 #include "worst.hpp"
 
 namespace laws::ordinary_elements_test {
 namespace {
-
-constexpr std::int64_t count = 83; // ten registers of eight, and a remainder
-constexpr std::int32_t wanted =
-    ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE | ENTS_FLAGS | ENTS_GAP | ENTS_PRESSURE;
 
 // From now on the model takes the kernels of this instruction set; null: it takes elements one by one.
 void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
@@ -99,10 +93,10 @@ protected:
     Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name) + 7919 * round);
     Drawn d;
     d.scene = mechanics::draw_scene(random, mechanics::basis_named(c.basis), c.height, c.projection);
-    d.elements = draw(random, d.scene, model_of(d.scene, c), count, 0.05);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(count); e += 7)
+    d.elements = draw(random, d.scene, model_of(d.scene, c), call_size, 0.05);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(call_size); e += 7)
       d.elements.state[e * static_cast<std::size_t>(d.elements.layout.state_size) + 3] += 0.7;
-    for (std::size_t e = 5; e < static_cast<std::size_t>(count); e += 11) d.elements.at.area[e] = 0.0;
+    for (std::size_t e = 5; e < static_cast<std::size_t>(call_size); e += 11) d.elements.at.area[e] = 0.0;
     return d;
   }
 
@@ -115,40 +109,11 @@ protected:
       for (const Case& c : cases()) {
         if (HasFatalFailure()) return;
         f(c, draw_mixed(c, round));
-        elements[c.method.name] += count;
+        elements[c.method.name] += call_size;
       }
     std::int64_t least = elements.begin()->second;
     for (const auto& law : elements) least = std::min(least, law.second);
     std::cout << elements.size() << " laws, at least " << least << " elements of each\n";
-  }
-
-  // Elements first .. of e as a call of their own.
-  static LawElements part(const LawElements& e, std::int64_t first, std::int64_t size) {
-    LawElements p = e;
-    const auto cut = [&](std::vector<double>& v) {
-      if (v.empty()) return;
-      const std::ptrdiff_t each = static_cast<std::ptrdiff_t>(v.size()) / e.at.count;
-      v = std::vector<double>(v.begin() + first * each, v.begin() + (first + size) * each);
-    };
-    cut(p.at.slave), cut(p.at.master), cut(p.at.surface_coordinates), cut(p.at.start), cut(p.at.area),
-        cut(p.state), cut(p.multiplier), cut(p.slave_values);
-    p.at.count = size;
-    return p;
-  }
-
-  template <class T>
-  static bool same(const std::vector<T>& a, const std::vector<T>& b, std::int64_t first = 0) {
-    return b.empty() || std::memcmp(a.data() + first, b.data(), sizeof(T) * b.size()) == 0;
-  }
-  // The results of elements first .. in `all`, and `of_part`: the same bits?
-  static bool same(const LawResults& all, const LawResults& of_part, std::int64_t first,
-                   const ents_layout& l) {
-    const std::int64_t n = l.dofs;
-    return same(all.status, of_part.status, first) && same(all.flags, of_part.flags, first) &&
-           same(all.gap, of_part.gap, first) && same(all.pressure, of_part.pressure, first) &&
-           same(all.residual, of_part.residual, first * n) &&
-           same(all.tangent, of_part.tangent, first * n * n) &&
-           same(all.state, of_part.state, first * l.state_size);
   }
 };
 
@@ -156,11 +121,11 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
   for_each_case([](const Case& c, const Drawn& d) {
     const mechanics::Model model = model_of(d.scene, c);
     LawResults all;
-    evaluate(model, d.elements, wanted, all);
+    evaluate(model, d.elements, call_results, all);
     for (const std::int64_t size : {std::int64_t{1}, std::int64_t{13}, std::int64_t{64}})
-      for (std::int64_t first = 0; first + size <= count; first += size) {
+      for (std::int64_t first = 0; first + size <= call_size; first += size) {
         LawResults some;
-        evaluate(model, part(d.elements, first, size), wanted, some);
+        evaluate(model, part(d.elements, first, size), call_results, some);
         ASSERT_TRUE(same(all, some, first, d.elements.layout))
             << testing::PrintToString(c) << " elements " << first << " + " << size;
       }
@@ -168,7 +133,7 @@ TEST_F(OrdinaryElements, HaveTheSameBitsAloneAndInAnyCall) {
     evaluate(model, d.elements, ENTS_RESIDUAL, residual);
     ASSERT_TRUE(same(all.residual, residual.residual)) << testing::PrintToString(c);
     LawResults more;
-    evaluate(model, d.elements, wanted | ENTS_TRACTION, more);
+    evaluate(model, d.elements, call_results | ENTS_TRACTION, more);
     ASSERT_TRUE(same(all, more, 0, d.elements.layout)) << testing::PrintToString(c);
   });
 }
@@ -192,7 +157,7 @@ TEST_F(OrdinaryElements, HaveTheSameBitsInLongCallsOfEveryKind) {
         const ents_layout& l = elements.layout;
         for (std::int64_t e = 70; e < many; e += 200) // blocks that are not ordinary as a whole
           elements.state[static_cast<std::size_t>(e * l.state_size + 3)] += 0.7;
-        for (const std::int32_t results : {wanted, ENTS_RESIDUAL | ENTS_TANGENT, +ENTS_TANGENT}) {
+        for (const std::int32_t results : {call_results, ENTS_RESIDUAL | ENTS_TANGENT, +ENTS_TANGENT}) {
           LawResults all;
           evaluate(model, elements, results, all);
           for (std::int64_t first = 0; first < many; first += 60) {
@@ -216,10 +181,10 @@ TEST_F(OrdinaryElements, HaveTheSameBitsInLongCalls) {
   for (std::int64_t e = 0; e < many; e += 1000) // blocks that are not ordinary as a whole
     elements.state[static_cast<std::size_t>(e * l.state_size + 3)] += 0.7;
   LawResults all;
-  evaluate(model, elements, wanted, all);
+  evaluate(model, elements, call_results, all);
   for (std::int64_t first = 0; first < many; first += 60) {
     LawResults some;
-    evaluate(model, part(elements, first, 60), wanted, some);
+    evaluate(model, part(elements, first, 60), call_results, some);
     ASSERT_TRUE(same(all, some, first, l)) << first;
   }
   std::vector<double> tangent(static_cast<std::size_t>(many * padded), -7.0);
@@ -259,16 +224,16 @@ TEST_F(OrdinaryElements, OfARigidMasterAreAPartOfThoseOfADeformableOne) {
     if (std::strcmp(c.master, "rigid") == 0) continue;
     Drawn d = draw_mixed(c);
     LawResults whole, rigid;
-    evaluate(model_of(d.scene, c.method), d.elements, wanted, whole);
+    evaluate(model_of(d.scene, c.method), d.elements, call_results, whole);
     const std::size_t n = static_cast<std::size_t>(d.elements.layout.dofs),
                       dim = static_cast<std::size_t>(d.elements.layout.dimension);
     const mechanics::Model model = model_of(d.scene, c.method, "rigid");
     d.elements.layout = layout_of(model.handle());
-    evaluate(model, d.elements, wanted, rigid);
+    evaluate(model, d.elements, call_results, rigid);
     ASSERT_EQ(rigid.status, whole.status) << testing::PrintToString(c);
     ASSERT_EQ(rigid.flags, whole.flags) << testing::PrintToString(c);
     ASSERT_TRUE(same(rigid.state, whole.state)) << testing::PrintToString(c);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(count); ++e) {
+    for (std::size_t e = 0; e < static_cast<std::size_t>(call_size); ++e) {
       if (whole.status[e] != ENTS_OK) continue;
       in_contact += whole.flags[e] & ENTS_FLAG_CONTACT;
       for (std::size_t i = 0; i < dim; ++i) {
@@ -298,11 +263,11 @@ TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
   for_each_case([&](const Case& c, const Drawn& d) {
     const mechanics::Model model = model_of(d.scene, c);
     LawResults of_best;
-    evaluate(model, d.elements, wanted, of_best);
+    evaluate(model, d.elements, call_results, of_best);
     for (const ents::PairKernels* kernels : others) {
       LawResults other;
       use(model, kernels);
-      evaluate(model, d.elements, wanted, other);
+      evaluate(model, d.elements, call_results, other);
       ASSERT_TRUE(same(of_best, other, 0, d.elements.layout))
           << testing::PrintToString(c) << " " << kernels->instruction_set;
     }
@@ -350,12 +315,12 @@ TEST_F(OrdinaryElements, SayWhatElementsOneByOneSay) {
     const Drawn d = draw_mixed(c);
     LawResults block, alone;
     const mechanics::Model model = model_of(d.scene, c);
-    evaluate(model, d.elements, wanted, block);
+    evaluate(model, d.elements, call_results, block);
     use(model, nullptr);
-    evaluate(model, d.elements, wanted, alone);
+    evaluate(model, d.elements, call_results, alone);
     const std::size_t n = static_cast<std::size_t>(d.elements.layout.dofs),
                       size = static_cast<std::size_t>(d.elements.layout.state_size);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(count); ++e) {
+    for (std::size_t e = 0; e < static_cast<std::size_t>(call_size); ++e) {
       ASSERT_EQ(block.status[e], alone.status[e]) << testing::PrintToString(c) << " element " << e;
       if (alone.status[e] != ENTS_OK) continue;
       if (block.flags[e] != alone.flags[e]) {
@@ -384,106 +349,6 @@ TEST_F(OrdinaryElements, SayWhatElementsOneByOneSay) {
   EXPECT_LT(across, compared / 1000);
   std::cout << compared << " elements, " << contact << " in contact; " << across
             << " on the other side of a border of the law\n";
-}
-
-// Many elements at once look at starts and states in registers, one element at its numbers. Where the
-// projection starts, and what is wrong, is the same for both and for the kernels that take elements one by
-// one.
-class StatesAndStarts : public OrdinaryElements {
-protected:
-  struct Starting : Drawn {
-    std::string name;
-    Method method;
-    std::vector<double> start; // empty: none
-  };
-  // In contact, open without and with a history, and starts that matter only for those
-  static Starting draw_starting(const std::string& basis, const std::string& height, const Method& method,
-                                bool with_start) {
-    Random random(8);
-    Starting d;
-    d.method = method;
-    d.name = basis + " " + height + " " + method.friction.dump() + (with_start ? " with start" : "");
-    d.scene = mechanics::draw_scene(random, mechanics::basis_named(basis), height, "normal");
-    d.elements = draw(random, d.scene, model_of(d.scene, method), count, 0.05);
-    if (with_start) d.start = d.elements.at.start;
-    const std::size_t size = static_cast<std::size_t>(d.elements.layout.state_size),
-                      t = static_cast<std::size_t>(d.elements.layout.parameters);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(count); ++e) {
-      d.elements.state[e * size + 1] = static_cast<double>(e % 4);
-      if (with_start && e % 4 > 1) d.start[e * t] += 0.4;
-    }
-    return d;
-  }
-  static std::vector<Starting> all_starting() {
-    const Method frictionless = {"penalty", {{"type", "penalty"}, {"stiffness", 100.0}}, nullptr};
-    Method friction = frictionless;
-    friction.friction = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 80.0}};
-    std::vector<Starting> all;
-    for (const char* basis : {"line2", "tri3", "quad4", "quad9"})
-      for (const char* height : {"none", "sine"})
-        for (const Method& method : {frictionless, friction})
-          for (const bool starts : {false, true}) all.push_back(draw_starting(basis, height, method, starts));
-    return all;
-  }
-};
-
-TEST_F(StatesAndStarts, AreThoseOfTheElementAlone) {
-  std::int64_t followed = 0, all_of_them = 0;
-  for (const Starting& d : all_starting()) {
-    const mechanics::Model model = model_of(d.scene, d.method);
-    LawResults all;
-    ents_report report;
-    ASSERT_GE(try_evaluate(model.handle(), d.elements, wanted, all, report, d.start), 0)
-        << d.name << ": " << report.message;
-    for (std::int64_t e = 0; e < count; ++e) {
-      const std::ptrdiff_t t = d.elements.layout.parameters;
-      LawResults one;
-      try_evaluate(model.handle(), part(d.elements, e, 1), wanted, one, report,
-                   d.start.empty()
-                       ? d.start
-                       : std::vector<double>(d.start.begin() + e * t, d.start.begin() + (e + 1) * t));
-      ASSERT_EQ(all.status[static_cast<std::size_t>(e)], one.status[0]) << d.name << " element " << e;
-      if (one.status[0] != ENTS_OK) continue;
-      ASSERT_TRUE(same(all, one, e, d.elements.layout)) << d.name << " element " << e;
-      followed += e % 4 > 1;
-      ++all_of_them;
-    }
-  }
-  EXPECT_GT(followed, all_of_them / 3); // from their states
-  EXPECT_GT(all_of_them - followed, all_of_them / 3);
-}
-
-TEST_F(StatesAndStarts, AreRefusedWhereverTheyAreWrong) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
-                   infinite = std::numeric_limits<double>::infinity();
-  for (const Starting& d : all_starting()) {
-    const mechanics::Model model = model_of(d.scene, d.method);
-    const int t = d.elements.layout.parameters, size = d.elements.layout.state_size;
-    const std::vector<std::pair<int, double>> wrong = {{0, d.elements.state[0] + 1.0},
-                                                       {0, nan},
-                                                       {1, 1.5},
-                                                       {1, 4.0},
-                                                       {1, -1.0},
-                                                       {2, infinite},
-                                                       {3 + t - 1, nan},
-                                                       {size - 1, -infinite}};
-    for (std::size_t k = 0; k < wrong.size() + !d.start.empty(); ++k) {
-      const std::size_t e = 3 + 9 * k; // in registers, each time at another place
-      Starting spoilt = d;
-      const bool in_state = k < wrong.size();
-      if (in_state)
-        spoilt.elements.state[e * static_cast<std::size_t>(size) + static_cast<std::size_t>(wrong[k].first)] =
-            wrong[k].second;
-      else
-        spoilt.start[(e + 1) * static_cast<std::size_t>(t) - 1] = nan;
-      LawResults r;
-      ents_report report;
-      EXPECT_EQ(try_evaluate(model.handle(), spoilt.elements, wanted, r, report, spoilt.start),
-                in_state ? ENTS_BAD_STATE : ENTS_NON_FINITE)
-          << d.name << " wrong " << k;
-      EXPECT_EQ(report.element, static_cast<std::int64_t>(e)) << d.name << " wrong " << k;
-    }
-  }
 }
 
 } // namespace
