@@ -46,6 +46,7 @@ TimedElements::TimedElements(const char* basis, const Timed& timed) {
       throw std::runtime_error(text.dump() + ": wrong elements");
   for (std::size_t i = 0; i < at.xi.size(); ++i)
     elements_.start[i] = at.xi[i] + (random.coin() ? 1e-2 : -1e-2);
+  starts_ = elements_.start;
   const bool friction = text["contact"].contains("friction"), patch = text.contains("patch");
   if (friction || patch) set_states(random, timed.contact, friction, patch);
 

@@ -37,10 +37,12 @@ public:
       ents_evaluate(model_->handle(), e, 1, &input_, &output_, nullptr);
   }
   void evaluate(std::int64_t e) { ents_evaluate(model_->handle(), e, 1, &input_, &output_, nullptr); }
-  // Its start is so bad that the whole segment is searched.
-  void make_hard(std::int64_t e) {
-    for (std::int64_t a = 0; a < layout_.parameters; ++a)
-      elements_.start[static_cast<std::size_t>(e * layout_.parameters + a)] = 1e6;
+  // hard: its start is so bad that the whole segment is searched.
+  void set_start(std::int64_t e, bool hard) {
+    for (std::int64_t a = 0; a < layout_.parameters; ++a) {
+      const auto i = static_cast<std::size_t>(e * layout_.parameters + a);
+      elements_.start[i] = hard ? 1e6 : starts_[i];
+    }
   }
   void evaluate_all() { check(ents_evaluate(model_->handle(), 0, count, &input_, &output_, &report_)); }
   // To be called before assemble_all()
@@ -63,7 +65,7 @@ private:
   ents_layout layout_{};
   ents_report report_{};
   mechanics::Elements elements_;
-  std::vector<double> states_, residual_, tangent_, values_, multipliers_, variations_;
+  std::vector<double> starts_, states_, residual_, tangent_, values_, multipliers_, variations_;
   std::vector<std::int64_t> connectivity_, segment_, slave_equations_, master_equations_, places_;
   std::vector<std::int32_t> row_begin_, columns_;
   ents_input input_{}, assembly_input_{};
