@@ -28,7 +28,7 @@ def described(text):
 
 def entry_of(source, name):
     """The schema of one formula: its name, and lines."""
-    said = re.search(r"struct " + name + r" \{\s*static constexpr char type\[\] = " + STRING + r",\s*formula\[\] = " + STRING
+    said = re.search(r"struct " + name + r" \{\s*static constexpr char\s+type\[\] = " + STRING + r",\s*formula\[\] = " + STRING
                      + r";\s*static constexpr FormulaNumber table\[\] = \{(.*?)\};", source, re.S)
     if not said:
         sys.exit(f"schema.py: no type, formula and table of {name}")
