@@ -257,8 +257,8 @@ ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout,
  *                the same model: it gets the new values; that allocates nothing and takes less than 1 us for small heights
  * Bind again after a field has changed. No thread may use `bound` during the call. Trees of ents_tree_build have to be refitted when the
  * values of the height have changed (else BAD_STATE). Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_HANDLE (`bound` is no model bound to
- * `model`), NON_FINITE, BAD_VALUE (a stiffness or coefficient that is not positive), BAD_STATE (a field that is missing, or whose block was not
- * made by ents_field_init), NO_MEMORY. After an error `bound` is as it was. */
+ * `model`), NON_FINITE, BAD_VALUE (a stiffness that is not positive, a coefficient of friction or wear that is negative), BAD_STATE (a
+ * field that is missing, or whose block was not made by ents_field_init), NO_MEMORY. After an error `bound` is as it was. */
 ENTS_API int32_t ents_model_bind(const ents_model *model, const double *parameters, const ents_data *fields, int64_t field_count,
                                  ents_model **bound, ents_report *report);
 
@@ -453,7 +453,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_FAR_SIDE 4   /* the slave node is beyond a centre of curvature: the projection is no minimum of the distance */
 #define ENTS_FLAG_SEARCHED 8   /* the whole segment was searched */
 #define ENTS_FLAG_STICK    16  /* friction: elastic */
-#define ENTS_FLAG_SLIP     32  /* friction: |t| = limit */
+#define ENTS_FLAG_SLIP     32  /* friction: |t| = limit; with a coefficient of 0 every element that was in contact before */
 #define ENTS_FLAG_SHEAR_LIMIT 64 /* the limit is the model's shear_limit */
 #define ENTS_FLAG_AMBIGUOUS 256 /* ents_detect: two projections are equally good, or it is not proved that they are not */
 #define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: the closest point is on an edge between segments and the slave node is behind it: it has

@@ -57,7 +57,7 @@ std::string list(const std::vector<std::string_view>& names, std::string_view la
 bool within(const json& value, Range range) {
   if (!value.is_number()) return false;
   const double number = value.get<double>();
-  return number >= (range == Range::positive ? 1e-100 : -1e100) && number <= 1e100;
+  return number >= least_of(range) && number <= 1e100;
 }
 
 } // namespace
@@ -125,9 +125,8 @@ void check_keys(const json& value, const std::string& path, std::vector<std::str
 double read_double(const json& value, const std::string& path, Range range) {
   if (within(value, range)) return value.get<double>();
   fail(ENTS_BAD_VALUE, path,
-       "is " + (value.is_number() ? shown(value.get<double>()) : kind_of(value)) +
-           (range == Range::positive ? "; write a number from 1e-100 to 1e100"
-                                     : "; write a number from -1e100 to 1e100"));
+       "is " + (value.is_number() ? shown(value.get<double>()) : kind_of(value)) + "; write a number from " +
+           shown(least_of(range)) + " to 1e100");
 }
 
 double read_double(const json& object, const std::string& path, const char* key, Range range) {

@@ -33,7 +33,14 @@ void check_keys(const nlohmann::json& value, const std::string& path, std::vecto
                 std::vector<std::string_view> optional);
 
 // Magnitudes are limited so that squares and products of two stay within double precision.
-enum class Range { any /* |x| <= 1e100 */, positive /* 1e-100 <= x <= 1e100 */ };
+enum class Range {
+  any,          // |x| <= 1e100
+  not_negative, // 0 <= x <= 1e100
+  positive      // 1e-100 <= x <= 1e100
+};
+constexpr double least_of(Range range) {
+  return range == Range::positive ? 1e-100 : range == Range::not_negative ? 0.0 : -1e100;
+}
 
 double read_double(const nlohmann::json& value, const std::string& path, Range range);
 double read_double(const nlohmann::json& object, const std::string& path, const char* key, Range range);

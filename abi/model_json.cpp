@@ -119,16 +119,17 @@ std::vector<NamedParameter> read_parameters(const json& value) {
   return parameters;
 }
 
-// A positive number of the law, or the name of a parameter
+// A number of the law, or the name of a parameter
 double read_law_number(const json& object, const std::string& path, const char* key, const Model& model,
-                       std::uint8_t& bound_to) {
+                       std::uint8_t& bound_to, Range range = Range::positive) {
   const double number =
       read_bound_double(object.at(key), member(path, key), Range::any, model.parameters, bound_to);
-  if (bound_to != 0 && number >= 1e-100) return number;
-  return bound_to == 0 ? read_double(object, path, key, Range::positive)
-                       : (fail(ENTS_BAD_VALUE, member(path, key),
-                               "is a parameter whose value is " + shown(number) + "; it has to be positive"),
-                          0.0);
+  if (bound_to == 0) return read_double(object, path, key, range);
+  if (!(number >= least_of(range)))
+    fail(ENTS_BAD_VALUE, member(path, key),
+         "is a parameter whose value is " + shown(number) +
+             (range == Range::positive ? "; it has to be positive" : "; it is not negative"));
+  return number;
 }
 
 void read_table(const json& normal, const std::string& path, Model& model) {
@@ -211,8 +212,8 @@ void read_friction(const json& friction, const std::string& path, Model& model) 
   } else {
     check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
     law.friction = FrictionKind::coulomb;
-    law.friction_coefficient =
-        read_law_number(friction, path, "coefficient", model, model.law_binding.friction);
+    law.friction_coefficient = read_law_number(friction, path, "coefficient", model,
+                                               model.law_binding.friction, Range::not_negative);
     law.shear_limit =
         friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
   }
@@ -223,11 +224,7 @@ void read_wear(const json& wear, const std::string& path, Model& model) {
   check_keys(wear, path, {"coefficient"}, {"scheme", "slave", "sliding"});
   Wear& law = model.law.wear;
   const auto number = [&](const char* key, std::uint8_t& bound_to) {
-    const double value =
-        read_bound_double(wear.at(key), member(path, key), Range::any, model.parameters, bound_to);
-    if (!(value >= 0.0))
-      fail(ENTS_BAD_VALUE, member(path, key), "is " + shown(value) + "; it is not negative");
-    return value;
+    return read_law_number(wear, path, key, model, bound_to, Range::not_negative);
   };
   law.on = true;
   law.coefficient = number("coefficient", model.law_binding.wear);

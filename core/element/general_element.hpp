@@ -14,14 +14,16 @@
 
 namespace ents::ENTS_ISA {
 
-// TangentSum with `friction`?
-ENTS_INLINE bool sums_friction(const Plan& plan) { return plan.law.has_friction() || plan.law.wear.on; }
+// TangentSum with `friction`? Multipliers of friction have equations where it has no force, too.
+ENTS_INLINE bool sums_friction(const Plan& plan) {
+  return plan.law.has_friction_force() || plan.multipliers > 1 || plan.law.wear.on;
+}
 
 // What the tangent of an element in contact is the sum of.
 template <class B, bool H, class S>
 ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const ContactPoint<B, H, S>& at) {
   Weights<S, B::dim - 1> sum;
-  const bool friction = plan.law.has_friction();
+  const bool friction = plan.law.has_friction_force();
   sum.by_gap = at.pair.area * at.law.stiffness;
   sum.stiff = true;
   sum.by_slid = plan.law.wear.on ? at.pair.area * at.wear.by_slid : S(0.0);
@@ -90,12 +92,12 @@ template <class B, bool H> struct GeneralElement {
       if (-at.gap > deepest) return Status::deep_penetration;
     }
     if (at.friction.active && !(determinant(pair.projector.metric) > 0.0)) {
-      if (element) return Status::degenerate_segment;
+      if (element && rubs()) return Status::degenerate_segment;
       at.friction.set_none();
     }
     const bool forces = pair.contact && wants(want::residual | want::tangent);
     const bool varies =
-        wants(want::xi_gradient | want::xi_hessian | want::gap_hessian) || (forces && at.friction.active) ||
+        wants(want::xi_gradient | want::xi_hessian | want::gap_hessian) || (forces && rubs()) ||
         (pair.contact && wants(want::tangent) && plan.tangent != TangentKind::first_variation);
     if (varies && !shadow && !projection_varies()) return Status::singular_projection;
     return write();
@@ -112,6 +114,8 @@ template <class B, bool H> struct GeneralElement {
   }
 
 private:
+  // Has friction a force here?
+  bool rubs() const { return at.friction.active && plan.law.has_friction_force(); }
   Geometry<B> geometry() const {
     Geometry<B> g;
     g.set(in.slave, in.master);
@@ -128,10 +132,9 @@ private:
   bool projection_varies() const {
     const auto& p = at.pair.projector;
     const double metric = determinant(p.metric);
-    const double det =
-        plan.tangent == TangentKind::small_gap && !at.friction.active && !wants(want::kinematics)
-            ? metric
-            : determinant(p.f2);
+    const double det = plan.tangent == TangentKind::small_gap && !rubs() && !wants(want::kinematics)
+                           ? metric
+                           : determinant(p.f2);
     return metric > 0.0 && absolute(det) > 1e-10 * metric;
   }
 

@@ -46,7 +46,8 @@ template <class B, bool H, class S> struct MultiplierEquations {
   // No entry of these rows and columns is larger.
   template <class Sum> ENTS_INLINE double bound(const Sum& sum) const {
     const auto& f = at.friction;
-    if (!f.active) return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
+    if (!f.active || !plan.law.has_friction_force())
+      return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
     const double rate = 1.0 / plan.law.friction_stiffness;
     double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
     if (f.slip)
@@ -72,7 +73,8 @@ private:
   ENTS_INLINE void write_friction(int k, const Sum* sum, int n, double* out, std::int64_t leading) const {
     const auto& f = at.friction;
     const double area = area_of(k), rate = 1.0 / plan.law.friction_stiffness;
-    const bool rubs = bits_of(f.active) >> k & 1, slips = bits_of(f.slip) >> k & 1;
+    const bool rubs = plan.law.has_friction_force() && (bits_of(f.active) >> k & 1),
+               slips = bits_of(f.slip) >> k & 1;
     double* column = out + n * leading;
     for (int b = 0; b < T; ++b) {
       double* by_multiplier = out + (n + 1 + b) * leading;

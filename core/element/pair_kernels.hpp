@@ -37,8 +37,8 @@ extern const PairKernels pair_kernels;
 }
 #endif
 
-// That for blocks of elements of a model; null: evaluate_element() takes them one by one.
-PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels);
+// Sets those for blocks of elements of a model; null: evaluate_element() takes them one by one.
+void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan);
 
 // Those of the best instruction set of this processor.
 const PairKernels& best_pair_kernels();

@@ -240,7 +240,7 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
   constexpr double smallest = 1e-100; // as Range::positive
   double& normal = law.normal == NormalKind::exponential ? law.pressure : law.stiffness;
   if (!number(model.law_binding.normal, normal, smallest) ||
-      !number(model.law_binding.friction, law.friction_coefficient, smallest) ||
+      !number(model.law_binding.friction, law.friction_coefficient, 0.0) ||
       !number(model.law_binding.wear, law.wear.coefficient, 0.0) ||
       !number(model.law_binding.sliding, law.wear.sliding, 0.0) ||
       !number(model.law_binding.offset, law.offset, -1e100))

@@ -93,6 +93,11 @@ struct ContactLaw {
   LawRates rates;
 
   constexpr bool has_friction() const { return friction != FrictionKind::none; }
+  // Has friction a force, or a derivative of one? With a coefficient of 0 only the state knows of it.
+  constexpr bool has_friction_force() const {
+    return friction == FrictionKind::rough ||
+           (has_friction() && (friction_coefficient != 0.0 || rates.friction != 0.0));
+  }
   // Is the force W' = (W'/g) g with a finite W'/g?
   constexpr bool force_has_slope() const {
     return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on && !has_offset;
@@ -125,6 +130,7 @@ inline constexpr double rounding_of_xi = 4e-15, rounding_of_limit = 1e-13;
 // The part of xi - xi_0 that is left as elastic slip: L / |t|
 template <int T>
 ENTS_INLINE double kept_elastic_slip(double limit, double trial_norm, const double (&moved)[T]) {
+  if (!(limit > 0.0)) return 0.0;
   double longest = absolute(moved[0]);
   if (T == 2 && absolute(moved[T - 1]) > longest) longest = absolute(moved[T - 1]);
   const double kept = limit / trial_norm * (1.0 - rounding_of_limit) - rounding_of_xi / longest;

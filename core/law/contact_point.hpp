@@ -107,7 +107,7 @@ template <class B, bool H, class S> struct ContactPoint {
 
   // R = A W' dg + t_a dxi^a. Shape functions and their derivatives are there.
   ENTS_INLINE void residual(const Plan& plan, S (&out)[dof_count<B, false>]) const {
-    const bool friction_too = plan.law.has_friction();
+    const bool friction_too = plan.law.has_friction_force();
     V push = (pair.area * law.force) * c;
     // in the same roundings as those laws' own kernel
     if (!ray && plan.law.force_has_slope()) push = (pair.area * pair.per_gap) * pair.gap_vector;

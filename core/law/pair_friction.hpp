@@ -51,6 +51,7 @@ template <class B, bool H, class S> struct PairFriction {
     S norm2 = stretch[0] * lowered[0];
     if constexpr (T == 2) norm2 = norm2 + stretch[1] * lowered[1];
     norm = scale * square_root(norm2);
+    if (!law.has_friction_force()) return slip_freely();
     by_pressure = law_number<S>(law.friction_coefficient, law.rates.friction);
     limit = by_pressure * pressure_force;
     if (law.multiplier_is_dof()) { // one that pulls leaves no friction
@@ -86,6 +87,14 @@ template <class B, bool H, class S> struct PairFriction {
   }
 
 private:
+  // A coefficient of 0: an element that was in contact slips, without a force.
+  ENTS_INLINE void slip_freely() {
+    slip = active;
+    at_shear_limit = norm < norm;
+    limit = by_pressure = S(0.0);
+    for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = S(0.0);
+  }
+
   ENTS_INLINE void add_multiplier(const ContactLaw& law, const S (&metric)[K], const S* multiplier,
                                   S (&lowered)[T]) {
     S inverse[K], own[T];

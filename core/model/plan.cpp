@@ -18,12 +18,16 @@ constexpr const KernelSet* kernels_of[] = {ENTS_BASES(ENTS_BASIS)}; // [basis]
 
 } // namespace
 
-PairKernel block_kernel_of(const Model& model, bool enriched, const PairKernels& kernels) {
-  if (!kernels.of_basis) return nullptr;
+void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan) {
+  plan.pairs = plan.pairs_without_friction = nullptr;
+  if (!kernels.of_basis) return;
+  const bool enriched = plan.height != nullptr;
   const ContactLaw& law = model.law;
   const PairKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
-  return has_fast_kernel(law, model.projection, model.tangent) ? of.of[enriched][law.has_friction()]
-                                                               : of.general[enriched];
+  plan.pairs = of.general[enriched];
+  if (!has_fast_kernel(law, model.projection, model.tangent)) return;
+  plan.pairs = of.of[enriched][law.has_friction()];
+  if (law.friction == FrictionKind::coulomb) plan.pairs_without_friction = of.of[enriched][false];
 }
 
 const PairKernels& best_pair_kernels() {
@@ -89,7 +93,6 @@ Plan make(const Model& model, bool enriched) {
   plan.element = kernels.element[enriched];
   plan.finish = kernels.finish[enriched];
   plan.rest = kernels.rest[enriched];
-  plan.pairs = block_kernel_of(model, enriched, best_pair_kernels());
   plan.surface = kernels.surface[enriched];
   plan.transfer = kernels.transfer[enriched];
   plan.project = kernels.project[enriched];
@@ -98,6 +101,7 @@ Plan make(const Model& model, bool enriched) {
   plan.by_parameter = parameter_kernels(model.basis).rates;
   plan.coordinates = parameter_kernels(model.basis).coordinates;
   plan.height = enriched ? &model.height.root() : nullptr;
+  set_block_kernels(model, best_pair_kernels(), plan);
   plan.height_nodes = enriched ? static_cast<std::int32_t>(model.height.nodes().size()) : 0;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)

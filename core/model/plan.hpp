@@ -164,9 +164,10 @@ struct Plan {
   ElementKernel element;
   FinishKernel finish;
   RestKernel rest;
-  ElementKernel unflattened;  // of a model with flattening: `element` at given numbers of the height
-  PairKernel pairs;           // null: this model has no block kernel
-  std::int32_t block_results; // of `pairs`, bits of `want`
+  ElementKernel unflattened;         // of a model with flattening: `element` at given numbers of the height
+  PairKernel pairs;                  // null: this model has no block kernel
+  PairKernel pairs_without_friction; // of the forces where the coefficient is 0; null: `pairs` computes them
+  std::int32_t block_results;        // of `pairs`, bits of `want`
   SurfaceKernel surface;
   TransferKernel transfer;
   ProjectKernel project;

@@ -25,7 +25,8 @@ namespace {
 void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
   ents::Plan& plan = const_cast<ents_model*>(model.handle())->plan;
   const ents::Model& m = model.handle()->model;
-  plan.pairs = kernels ? ents::block_kernel_of(m, plan.height != nullptr, *kernels) : nullptr;
+  plan.pairs = plan.pairs_without_friction = nullptr;
+  if (kernels) ents::set_block_kernels(m, *kernels, plan);
   plan.block_results = plan.pairs ? std::int32_t{ents::want::block} : 0;
 }
 
