@@ -127,13 +127,22 @@ public:
     if (d_ == 2)
       add_line();
     else
-      add_polygon(n);
+      add_polygon(without_collapsed_side(n));
   }
 
   double surface = 0.0, zero_line = 0.0, border = 0.0;
 
 private:
   bool closed(int a) const { return f_.pressure[node_[a]] > 0.0; }
+  // A quadrilateral with two nodes in one place is a triangle. Returns the number of corners.
+  int without_collapsed_side(int n) {
+    for (int a = 0; a < n && n == 4; ++a)
+      if (x_[a] == x_[(a + 1) % n]) {
+        for (int b = a; b + 1 < n; ++b) node_[b] = node_[b + 1], x_[b] = x_[b + 1];
+        return n - 1;
+      }
+    return n;
+  }
   // slant: cosine of the edge's angle to the direction across the border of contact
   double contact_of_edge(int a, int b, double slant) const {
     const int in = closed(a) ? a : b, out = closed(a) ? b : a;
@@ -230,8 +239,10 @@ void add_peak(const SlaveFields& f, const std::vector<double>& share, ents_area&
   for (std::int64_t i = 0; i < f.facets * n; ++i) {
     if (f.connectivity[i] != peak) continue;
     const std::int64_t first = i / n * n, a = i - first;
-    for (std::int64_t k = 1; k < n; k += n == 4 ? 2 : 1) // the ends of the edges that meet in the node
-      sum += std::max(0.0, f.pressure[f.connectivity[first + (a + k) % n]]), ++count;
+    for (std::int64_t k = 1; k < n; k += n == 4 ? 2 : 1) { // the ends of the edges that meet in the node
+      const std::int64_t other = f.connectivity[first + (a + k) % n];
+      if (other != peak) sum += std::max(0.0, f.pressure[other]), ++count; // of a collapsed side: itself
+    }
   }
   area.peak_drop = area.peak_pressure - sum / static_cast<double>(count);
 }

@@ -24,6 +24,7 @@
  *   tri3                      triangle  corners, at (0,0) (1,0) (0,1)
  *   tri6                      triangle  corners as tri3, then the middles of the sides 01, 12, 20
  *   quad4                     square    corners, at (-1,-1) (1,-1) (1,1) (-1,1)
+ *                                       A quad4 with two neighbouring nodes in one place, as one index twice, is a triangle
  *   quad8, quad9              square    corners as quad4, then the middles of the sides 01, 12, 23, 30; quad9: then the centre
  *   catmull_rom4, bspline4    line      four points in a row. The segment lies between the middle two: catmull_rom4 begins in point 1
  *                                       and ends in 2, bspline4 at (x_0 + 4 x_1 + x_2) / 6 and (x_1 + 4 x_2 + x_3) / 6
@@ -36,6 +37,10 @@
  * counter-clockwise (counter-clockwise in the plane of x and y: normal +z). The library cannot detect a wrong order of nodes: on a
  * segment with the reversed normal, open slave nodes are pressed and penetrating ones are open; a quadratic segment whose middle nodes
  * stand between the corners in the list is another surface.
+ * A surface of triangles and quadrilaterals is one of quad4: the triangle a b c is the row a b c c. All functions take such rows, as
+ * segments, as slave facets and in a "patch", but ents_smooth. Surface coordinates of the two nodes in one place have to be equal. Natural
+ * coordinates have no meaning in that corner: projections and points of the surface stay 1e-9 of a side away from it, with a height 1e-6,
+ * and a height in natural coordinates (s = xi) has a crease there.
  *
  * Words
  *   slave node         the point of an element that must not pass through its segment

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,24 @@ std::vector<double> read_surface_coordinates(const json& value, const BasisEntry
   return result;
 }
 
+// A quad4 may have two neighbouring nodes in one: then it is a triangle. No other segment has a node twice.
+void check_repeated_nodes(std::span<const std::int64_t> nodes, const BasisEntry& basis,
+                          const std::string& path) {
+  const std::size_t n = nodes.size();
+  int pairs = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (nodes[i] != nodes[j]) continue;
+      const bool collapses = basis.basis == Basis::quad4 && (j == i + 1 || j - i == n - 1);
+      if (!collapses || ++pairs > 1)
+        fail(ENTS_BAD_VALUE, path,
+             "has node " + std::to_string(nodes[i]) + " twice" +
+                 (basis.basis == Basis::quad4
+                      ? "; a triangle among quadrilaterals is a quad4 whose last two nodes are the same one"
+                      : ""));
+    }
+}
+
 // [segments][m] indices of the patch's nodes
 Patch read_patch(const json& value, const BasisEntry& basis) {
   const std::string path = "/patch";
@@ -58,14 +77,10 @@ Patch read_patch(const json& value, const BasisEntry& basis) {
       if (node < 0.0 || node >= most_patch_nodes || node != std::floor(node))
         fail(ENTS_BAD_VALUE, item(path, s),
              "has an entry that is not a node 0 .. " + std::to_string(most_patch_nodes - 1));
-      const auto index = static_cast<std::int64_t>(node);
-      if (std::count(patch.connectivity.end() -
-                         static_cast<std::ptrdiff_t>(patch.connectivity.size() % nodes.size()),
-                     patch.connectivity.end(), index) > 0)
-        fail(ENTS_BAD_VALUE, item(path, s), "has node " + std::to_string(index) + " twice");
-      patch.connectivity.push_back(index);
-      patch.nodes = std::max(patch.nodes, static_cast<std::int32_t>(index) + 1);
+      patch.connectivity.push_back(static_cast<std::int64_t>(node));
+      patch.nodes = std::max(patch.nodes, static_cast<std::int32_t>(node) + 1);
     }
+    check_repeated_nodes(std::span(patch.connectivity).last(nodes.size()), basis, item(path, s));
   }
   for (std::int64_t node = 0; node < patch.nodes; ++node)
     if (std::find(patch.connectivity.begin(), patch.connectivity.end(), node) == patch.connectivity.end())

@@ -225,6 +225,12 @@ private:
     return Status::ok;
   }
 
+  // Is the segment a quadrilateral of which two nodes are one?
+  bool has_node_twice() const {
+    const auto first = patch_.connectivity.begin() + segment_ * plan_.nodes, last = first + plan_.nodes;
+    return plan_.nodes == 4 && (*first == *(last - 1) || std::adjacent_find(first, last) != last);
+  }
+
   // Dof of the patch that a dof of the kernel's element is.
   int dof(int local) const {
     const int nodes = plan_.dofs - plan_.multipliers;
@@ -243,7 +249,10 @@ private:
     for (int i = master; i < n; ++i) to[places_[i]] = from[i];
   }
   void spread_row(const double* from, int n, double* to) const {
-    d_ == 2 ? spread_row<2>(from, n, to) : spread_row<3>(from, n, to);
+    if (collapsed_)
+      for (int i = 0; i < n; ++i) to[places_[i]] += from[i];
+    else
+      d_ == 2 ? spread_row<2>(from, n, to) : spread_row<3>(from, n, to);
   }
   void spread_vector(const double* from, int n, int all, double* to) const {
     std::fill_n(to, all, 0.0);
@@ -256,6 +265,7 @@ private:
 
   void spread() {
     for (int i = 0; i < plan_.dofs; ++i) places_[i] = dof(i);
+    collapsed_ = has_node_twice();
     const int n = plan_.dofs - plan_.multipliers, all = sizes_.dofs - plan_.multipliers, w = out_.wanted;
     if (w & want::gap_gradient) spread_vector(gap_gradient_, n, all, out_.gap_gradient);
     if (w & want::gap_hessian) spread_matrix(gap_hessian_, n, all, all, out_.gap_hessian);
@@ -278,7 +288,7 @@ private:
   const std::int64_t segments_;
   MasterMesh mesh_;
   std::int64_t segment_ = -1;
-  bool open_ = false;
+  bool open_ = false, collapsed_ = false;
   std::int32_t places_[most_dofs + 3]; // of dof()
   double coordinates_[most_patch_segments * 16 * 2];
   double gap_gradient_[most_dofs], gap_hessian_[most_dofs * most_dofs], xi_gradient_[2 * most_dofs],

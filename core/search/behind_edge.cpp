@@ -38,8 +38,25 @@ bool evaluate(const Plan& plan, const SegmentNodes& nodes, const double* xi, Pla
   return plan.surface(plan, nodes.positions, nodes.surface_coordinates, xi, to) == Status::ok;
 }
 
+// How far a segment's nodes are from its first.
+double size_of(const Plan& plan, const SegmentNodes& nodes) {
+  double most = 0.0;
+  for (int i = 1; i < plan.nodes; ++i)
+    most = std::max(most, distance(nodes.positions + i * plan.dimension, nodes.positions, plan.dimension));
+  return most;
+}
+
+// Is a quad4's side from the corner `at` in direction e a point?
+bool has_no_length(const Plan& plan, const SegmentNodes& nodes, const double (&at)[2], int e) {
+  if (plan.nodes != 4) return false;
+  const int corner = at[1] < 0.0 ? (at[0] < 0.0 ? 0 : 1) : (at[0] < 0.0 ? 3 : 2),
+            other = e == 0 ? corner ^ 1 : 3 - corner;
+  return distance(nodes.positions + 3 * corner, nodes.positions + 3 * other, 3) <=
+         1e-12 * size_of(plan, nodes);
+}
+
 // The corner of a segment in space: unit tangents of the two edges that meet there, without the height, and
-// the angle between them.
+// the angle between them. Where a side has no length, the next edge takes its place.
 struct Corner {
   double tangent[2][3], angle;
 };
@@ -53,7 +70,9 @@ bool corner_of(const Plan& plan, const SegmentNodes& nodes, const Place& near, C
   for (int e = 0; e < 2; ++e) {
     double xi[2] = {at[0], at[1]};
     if (!plan.simplex) {
-      xi[e] -= step * xi[e];
+      const int direction = has_no_length(plan, nodes, at, e) ? 1 - e : e;
+      if (direction != e) xi[e] = -xi[e];
+      xi[direction] -= step * xi[direction];
     } else if (xi[0] + xi[1] == 0.0) {
       xi[e] += step;
     } else { // (1, 0) or (0, 1)
@@ -71,14 +90,6 @@ bool corner_of(const Plan& plan, const SegmentNodes& nodes, const Place& near, C
   }
   out.angle = std::acos(std::clamp(dot(out.tangent[0], out.tangent[1], 3), -1.0, 1.0));
   return true;
-}
-
-// How far a segment's nodes are from its first.
-double size_of(const Plan& plan, const SegmentNodes& nodes) {
-  double most = 0.0;
-  for (int i = 1; i < plan.nodes; ++i)
-    most = std::max(most, distance(nodes.positions + i * plan.dimension, nodes.positions, plan.dimension));
-  return most;
 }
 
 // The segments whose borders go through a place, heights left aside, which is on the border of one of them;

@@ -35,6 +35,17 @@ double facet_density(const std::int64_t* nodes, const double* positions, double 
   return density;
 }
 
+// The side of a quadrilateral whose two nodes are in one place, so that it is a triangle: from node k to node
+// k + 1; -1: none.
+inline int collapsed_side(const std::int64_t* nodes, const double* positions) {
+  for (int k = 0; k < 4; ++k) {
+    const auto at = [&](int i) { return vec_at<3>(positions + 3 * nodes[i % 4]); };
+    const Vec<double, 3> gone = at(k + 1) - at(k), across = at(k + 2) - at(k);
+    if (dot(gone, gone) <= 1e-24 * dot(across, across)) return k;
+  }
+  return -1;
+}
+
 // Calls f with a null pointer to the basis of a facet; bad_value for the smoothed bases, which have no facet
 // of their own.
 template <class Result, class F> Result with_facet(Basis basis, Result otherwise, F&& f) {

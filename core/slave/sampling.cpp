@@ -2,6 +2,7 @@
 #include "core/slave/sampling.hpp"
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "core/slave/facet.hpp"
@@ -67,30 +68,68 @@ template <class B> auto shape_at_centroid(const std::int64_t* nodes, const doubl
   return N;
 }
 
+// Shape functions and area of a point of a facet
+template <class B> struct Sample { double N[B::nodes], area; };
+
+template <class B>
+Sample<B> sample_at(const Point& point, const std::int64_t* nodes, const double* positions,
+                    double thickness) {
+  using namespace ENTS_ISA;
+  constexpr int T = B::dim - 1;
+  double xi[T];
+  for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
+  Shape<double, T, B::nodes> N;
+  Sample<B> out;
+  out.area = point.weight * facet_density<B>(nodes, positions, thickness, xi, N);
+  for (int i = 0; i < B::nodes; ++i) out.N[i] = N.n[i];
+  return out;
+}
+
+// Of the triangle that a quadrilateral with a collapsed side is; its corner there is both nodes, half and
+// half.
+Sample<ENTS_ISA::Quad4> sample_triangle(const Point& point, int side, const std::int64_t* nodes,
+                                        const double* positions) {
+  const int corner[3] = {side, (side + 2) % 4, (side + 3) % 4};
+  const std::int64_t of_triangle[3] = {nodes[corner[0]], nodes[corner[1]], nodes[corner[2]]};
+  const Sample<ENTS_ISA::Tri3> in = sample_at<ENTS_ISA::Tri3>(point, of_triangle, positions, 0.0);
+  Sample<ENTS_ISA::Quad4> out;
+  out.area = in.area;
+  for (int i = 0; i < 3; ++i) out.N[corner[i]] = in.N[i];
+  out.N[side] = out.N[(side + 1) % 4] = 0.5 * in.N[0];
+  return out;
+}
+
 template <class B>
 Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const double* positions,
               double thickness, std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
-  using namespace ENTS_ISA;
-  constexpr int T = B::dim - 1, M = B::nodes;
-  const std::vector<Point> points = rule<B>(n);
+  constexpr int M = B::nodes;
+  constexpr bool may_collapse = std::is_same_v<B, ENTS_ISA::Quad4>;
+  const std::vector<Point> points = rule<B>(n), of_triangle = rule<ENTS_ISA::Tri3>(may_collapse ? n : 1);
   for (const bool writes : {false, true}) // nothing, unless all facets are good
-    for (facet = 0; facet < count; ++facet)
-      for (const Point& point : points) {
-        double xi[T];
-        for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
-        Shape<double, T, M> N;
-        const double area =
-            point.weight * facet_density<B>(connectivity + facet * M, positions, thickness, xi, N);
+    for (facet = 0; facet < count; ++facet) {
+      const std::int64_t* own = connectivity + facet * M;
+      const int side = may_collapse ? ENTS_ISA::collapsed_side(own, positions) : -1;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        Sample<B> at;
+        if constexpr (may_collapse)
+          at = side < 0 ? sample_at<B>(points[k], own, positions, thickness)
+                        : sample_triangle(of_triangle[k], side, own, positions);
+        else
+          at = sample_at<B>(points[k], own, positions, thickness);
         if constexpr (B::dim == 2 && M == 2)
-          if (n == 1 && thickness == 0.0) N = shape_at_centroid<B>(connectivity + facet * M, positions);
-        if (!(area > 0.0) || !(area < 1e300)) return Status::degenerate_segment;
+          if (n == 1 && thickness == 0.0) {
+            const auto N = shape_at_centroid<B>(own, positions);
+            for (int i = 0; i < M; ++i) at.N[i] = N.n[i];
+          }
+        if (!(at.area > 0.0) || !(at.area < 1e300)) return Status::degenerate_segment;
         if (!writes) continue;
         for (int i = 0; i < M; ++i) {
-          *nodes++ = connectivity[facet * M + i];
-          *weights++ = N.n[i];
+          *nodes++ = own[i];
+          *weights++ = at.N[i];
         }
-        *areas++ = area;
+        *areas++ = at.area;
       }
+    }
   return Status::ok;
 }
 
