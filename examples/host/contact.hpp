@@ -52,7 +52,6 @@ struct CutSpec {
   std::vector<Face> faces;
   SlaveGeometry geometry;
   int per_direction = 0; ///< 0: the slave points are given and stay
-  std::string where;     ///< for messages
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.

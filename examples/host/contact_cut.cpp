@@ -29,8 +29,7 @@ SlavePoints Contact::cut(const Configuration& at) {
   std::vector<double> positions = mesh_->coordinates;
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += at.displacement[i];
   see_from_master(at, positions);
-  return cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry,
-                    cut_.where);
+  return cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry);
 }
 
 bool Contact::cut_again(const Configuration& begin) {

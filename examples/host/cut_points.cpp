@@ -140,12 +140,22 @@ struct Segment {
   Eigen::Vector3d low, high;
 };
 
+/// A quadrilateral with two corners in one place, or next to each other as the library gives the corners of
+/// such a segment, is a triangle.
+void drop_collapsed_side(std::vector<Eigen::Vector3d>& corners) {
+  const double size = (corners[2] - corners[0]).norm() + (corners.back() - corners[1]).norm();
+  for (std::size_t a = 0; a < corners.size() && corners.size() == 4; ++a)
+    if ((corners[(a + 1) % 4] - corners[a]).norm() <= 1e-5 * size)
+      corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(a));
+}
+
 std::vector<Segment> segments_of(const SegmentCorners& master) {
   std::vector<Segment> segments(master.points.size() / (3 * master.corners));
   const double* point = master.points.data();
   for (Segment& segment : segments) {
     for (std::size_t a = 0; a < master.corners; ++a, point += 3)
       segment.corners.emplace_back(point[0], point[1], point[2]);
+    drop_collapsed_side(segment.corners);
     segment.low = segment.high = segment.corners.front();
     for (const Eigen::Vector3d& corner : segment.corners)
       segment.low = segment.low.cwiseMin(corner), segment.high = segment.high.cwiseMax(corner);
@@ -235,6 +245,8 @@ void cut_in_space(const Mesh& mesh, const std::vector<Face>& faces, const std::v
       points.areas.push_back(point.weight * reference_jacobian(mesh, face, values) / values.jacobian);
       points.nodes.insert(points.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.count);
       points.weights.insert(points.weights.end(), values.shape.begin(), values.shape.end());
+      if (count < points.nodes_per_point) // a triangle among quadrilaterals
+        points.nodes.push_back(face.nodes[count - 1]), points.weights.push_back(0);
     }
   }
 }
@@ -271,10 +283,9 @@ void cut_in_plane(const Mesh& mesh, const std::vector<Face>& faces, const std::v
 } // namespace
 
 SlavePoints cut_points(const Mesh& mesh, const std::vector<Face>& faces, const std::vector<double>& positions,
-                       const SegmentCorners& master, int per_direction, const SlaveGeometry& geometry,
-                       const std::string& where) {
+                       const SegmentCorners& master, int per_direction, const SlaveGeometry& geometry) {
   SlavePoints points;
-  points.nodes_per_point = count_of_nodes(faces, where);
+  points.nodes_per_point = count_of_nodes(faces);
   if (mesh.dimension == 2)
     cut_in_plane(mesh, faces, positions, master, per_direction, geometry, points);
   else

@@ -26,9 +26,8 @@ struct SegmentCorners {
 /// piece, too: the areas of a face's points always add up to its own.
 /// @param positions      [mesh nodes][d] of the slave, where the cut is made, in the frame of `master`
 /// @param per_direction  points of a piece: lines n, quadrilaterals n^2, triangles see `append_quadrature`
-/// @throws InputError if the faces are not all of one kind, JobError if a face is turned inside out
+/// @throws JobError if a face is turned inside out
 SlavePoints cut_points(const Mesh& mesh, const std::vector<Face>& faces, const std::vector<double>& positions,
-                       const SegmentCorners& master, int per_direction, const SlaveGeometry& geometry,
-                       const std::string& where);
+                       const SegmentCorners& master, int per_direction, const SlaveGeometry& geometry);
 
 } // namespace host

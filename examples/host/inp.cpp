@@ -24,8 +24,9 @@ constexpr Type types[] = {
     {"CPE3", Shape::tri3, Kind::plane_strain}, {"CPE4", Shape::quad4, Kind::plane_strain},
     {"CAX3", Shape::tri3, Kind::axisymmetric}, {"CAX4", Shape::quad4, Kind::axisymmetric},
     {"C3D4", Shape::tet4, Kind::solid},        {"C3D8", Shape::hex8, Kind::solid},
-    {"S3", Shape::tri3, Kind::shell},          {"S4", Shape::quad4, Kind::shell},
-    {"T2D2", Shape::line2, Kind::truss},       {"T3D2", Shape::line2, Kind::truss},
+    {"C3D6", Shape::wedge6, Kind::solid},      {"S3", Shape::tri3, Kind::shell},
+    {"S4", Shape::quad4, Kind::shell},         {"T2D2", Shape::line2, Kind::truss},
+    {"T3D2", Shape::line2, Kind::truss},
 };
 
 const Names mesh_changing{"PART",  "ASSEMBLY", "INSTANCE", "SYSTEM", "NGEN",

@@ -22,7 +22,7 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Shape { line2, tri3, quad4, tet4, hex8 };
+enum class Shape { line2, tri3, quad4, tet4, hex8, wedge6 };
 
 /// What the type name says about the out-of-plane direction.
 enum class Kind { plane_stress, plane_strain, axisymmetric, solid, shell, truss };
@@ -71,9 +71,9 @@ Deck read_text(std::string_view text, const std::string& name, const std::filesy
 
 int node_count(Shape shape);
 int face_count(Shape shape); ///< edges in 2D
-int dimension(Shape shape);  ///< 1 line2, 2 tri3 quad4, 3 tet4 hex8
+int dimension(Shape shape);  ///< 1 line2, 2 tri3 quad4, 3 tet4 hex8 wedge6
 
-/// Dimension of the body: 3 if the deck has tet4 or hex8, else 2. A mesher also writes the
+/// Dimension of the body: 3 if the deck has solids, else 2. A mesher also writes the
 /// boundary, as elements one dimension lower.
 int dimension(const Deck& deck);
 

@@ -18,16 +18,17 @@ using Point = std::array<double, 3>;
 /// element.
 struct Topology {
   int nodes, dimension, nodes_per_face;
-  std::vector<std::array<int, 4>> faces;
+  std::vector<std::array<int, 4>> faces; ///< -1: it has a node less
 };
 
 const Topology& topology(Shape shape) {
-  static const std::array<Topology, 5> table{{
+  static const std::array<Topology, 6> table{{
       {2, 1, 0, {}},
       {3, 2, 2, {{1, 0}, {2, 1}, {0, 2}}},
       {4, 2, 2, {{1, 0}, {2, 1}, {3, 2}, {0, 3}}},
       {4, 3, 3, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}},
       {8, 3, 4, {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+      {6, 3, 4, {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}},
   }};
   return table[static_cast<std::size_t>(shape)];
 }
@@ -57,6 +58,12 @@ double signed_size(const Deck& deck, const Element& element) {
     return triple(minus(x(2), x(0)), minus(x(3), x(1)), z);
   case Shape::tet4:
     return triple(minus(x(1), x(0)), minus(x(2), x(0)), minus(x(3), x(0)));
+  case Shape::wedge6: {
+    Point up{};
+    for (int i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) up[j] += x(3 + i)[j] - x(i)[j];
+    return triple(minus(x(1), x(0)), minus(x(2), x(0)), up);
+  }
   case Shape::hex8:
     break;
   }
@@ -75,6 +82,7 @@ Face face_at(const Deck& deck, Facet facet) {
   const Topology& shape = topology(element.shape);
   Face out{facet.element, shape.nodes_per_face, {}};
   const auto& local = shape.faces[static_cast<std::size_t>(facet.face)];
+  if (local.back() < 0) --out.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(out.count); ++i)
     out.nodes[i] = element.nodes[static_cast<std::size_t>(local[i])];
   return out;

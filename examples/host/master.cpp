@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "mesh_size.hpp"
+#include "slave_points.hpp"
 #include "smoothing.hpp"
 
 namespace host {
@@ -97,11 +98,9 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
       throw InputError(contact.master_where +
                        ": \"ends\" and \"mirror\" are for smoothed segments; the model's " + "segment is " +
                        segment);
-    for (const Face& face : found->second) {
-      check_sizes(scene, *master.model, static_cast<std::size_t>(face.count), contact.master_where);
-      master.connectivity.insert(master.connectivity.end(), face.nodes.begin(),
-                                 face.nodes.begin() + face.count);
-    }
+    const std::size_t count = count_of_nodes(found->second);
+    check_sizes(scene, *master.model, count, contact.master_where);
+    master.connectivity = connectivity_of(found->second, count);
   }
   const std::vector<double> points = master.net ? master.net->positions(mesh.coordinates) : mesh.coordinates;
   master.surface_coordinates =

@@ -31,13 +31,18 @@ void add_deck(Mesh& mesh, const std::string& name, const std::filesystem::path& 
       static const std::map<inp::Shape, ElementType> types{{inp::Shape::tri3, ElementType::tri3},
                                                            {inp::Shape::quad4, ElementType::quad4},
                                                            {inp::Shape::tet4, ElementType::tet4},
-                                                           {inp::Shape::hex8, ElementType::hex8}};
+                                                           {inp::Shape::hex8, ElementType::hex8},
+                                                           {inp::Shape::wedge6, ElementType::hex8}};
+      // A wedge is a brick of which two edges are points.
+      constexpr std::array<std::size_t, 8> of_wedge{0, 1, 2, 2, 3, 4, 5, 5};
       const ElementType type = types.at(element.shape);
       ElementGroup& group = groups[type];
       group.type = type;
       group.part = part;
       for (int a = 0; a < node_count(type); ++a) {
-        const auto node = static_cast<std::size_t>(element.nodes[static_cast<std::size_t>(a)]);
+        const auto corner = static_cast<std::size_t>(a);
+        const auto node = static_cast<std::size_t>(
+            element.nodes[element.shape == inp::Shape::wedge6 ? of_wedge[corner] : corner]);
         if (number[node] < 0) {
           number[node] = mesh.node_count();
           all.push_back(number[node]);
@@ -83,6 +88,14 @@ std::vector<int> nodes_of(const std::vector<Face>& faces) {
   std::set<int> nodes;
   for (const Face& face : faces) nodes.insert(face.nodes.begin(), face.nodes.begin() + face.count);
   return {nodes.begin(), nodes.end()};
+}
+
+std::vector<std::int64_t> connectivity_of(const std::vector<Face>& faces, std::size_t count) {
+  std::vector<std::int64_t> out;
+  for (const Face& face : faces)
+    for (int a = 0; a < static_cast<int>(count); ++a)
+      out.push_back(face.nodes[static_cast<std::size_t>(std::min(a, face.count - 1))]);
+  return out;
 }
 
 std::vector<double> tributary_areas(const Mesh& mesh, const std::vector<Face>& faces,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -81,6 +82,9 @@ void add_deck(Mesh& mesh, const std::string& name, const std::filesystem::path& 
 /// @return [nodes.size()], area
 std::vector<double> tributary_areas(const Mesh& mesh, const std::vector<Face>& faces,
                                     const std::vector<int>& nodes, double thickness, bool axisymmetric);
+
+/// [faces][count] nodes: with count 4 a triangle among quadrilaterals has its last node twice.
+std::vector<std::int64_t> connectivity_of(const std::vector<Face>& faces, std::size_t count);
 
 /// Nodes of the faces, ascending, each once.
 std::vector<int> nodes_of(const std::vector<Face>& faces);

@@ -290,7 +290,7 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   SlavePoints points;
   CutSpec cut;
   if (contact.cut > 0)
-    cut = {slaves, geometry, contact.cut, contact.slave_where};
+    cut = {slaves, geometry, contact.cut};
   else if (contact.sampling > 0)
     points = sampling_points(*library, mesh_, slaves, contact.sampling, geometry, contact.slave_where);
   else

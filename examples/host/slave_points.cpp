@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slave_points.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -43,19 +44,16 @@ SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<
   return points;
 }
 
-std::size_t count_of_nodes(const std::vector<Face>& faces, const std::string& where) {
-  for (const Face& face : faces)
-    if (face.count != faces.front().count)
-      throw InputError(where + ": the slave's faces must be all triangles or all quadrilaterals");
-  return static_cast<std::size_t>(faces.front().count);
+std::size_t count_of_nodes(const std::vector<Face>& faces) {
+  int count = 0;
+  for (const Face& face : faces) count = std::max(count, face.count);
+  return static_cast<std::size_t>(count);
 }
 
 SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces,
                             int per_direction, const SlaveGeometry& geometry, const std::string& where) {
-  const std::size_t count = count_of_nodes(faces, where);
-  std::vector<std::int64_t> connectivity;
-  for (const Face& face : faces)
-    connectivity.insert(connectivity.end(), face.nodes.begin(), face.nodes.begin() + face.count);
+  const std::size_t count = count_of_nodes(faces);
+  const std::vector<std::int64_t> connectivity = connectivity_of(faces, count);
   const char* facet = mesh.dimension == 2 ? "line2" : (count == 3 ? "tri3" : "quad4");
   const auto n = static_cast<std::size_t>(per_direction), each = mesh.dimension == 2 ? n : n * n;
   SlavePoints points;

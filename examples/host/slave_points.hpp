@@ -34,9 +34,8 @@ struct SlaveGeometry {
   bool equal = false; ///< nodes: all the same area, wherever they are
 };
 
-/// Nodes of each of the faces.
-/// @throws InputError if the faces are not all of one kind
-std::size_t count_of_nodes(const std::vector<Face>& faces, const std::string& where);
+/// The most nodes that one of the faces has: of each in connectivity_of().
+std::size_t count_of_nodes(const std::vector<Face>& faces);
 
 /// The nodes of the faces with their tributary areas; tied nodes are one.
 SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,

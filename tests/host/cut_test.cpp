@@ -113,7 +113,7 @@ SegmentCorners corners_of(const Sheet& master) {
 }
 
 SlavePoints cut(const Sheet& slave, const SegmentCorners& master, int n) {
-  return cut_points(slave.mesh, slave.faces, slave.mesh.coordinates, master, n, {}, "test");
+  return cut_points(slave.mesh, slave.faces, slave.mesh.coordinates, master, n, {});
 }
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.); }
@@ -204,8 +204,7 @@ TEST(CutPoints, LinesAreCutAtTheMeanNormal) {
   master.points = {0.2 - c, -s, 0.2, 0, 0.2, 0, 1.2, 0};
   master.normals = {-s, c, -s, c, 0, 1, 0, 1};
   const Face face{2, {1, 0, -1, -1}}; // its normal points down
-  const SlavePoints points =
-      cut_points(slave, {face}, slave.coordinates, master, 1, {2.0, false, false}, "test");
+  const SlavePoints points = cut_points(slave, {face}, slave.coordinates, master, 1, {2.0, false, false});
   ASSERT_EQ(points.size(), 3u); // and the rest beyond the left end of the master
   const double cut = 0.2 - 0.1 * std::tan(slope / 2), left = 0.2 - c - (0.1 + s) * std::tan(slope);
   // Points are numbered along the face, from right to left.

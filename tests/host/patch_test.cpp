@@ -4,6 +4,11 @@
 // the better the more there are.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -112,6 +117,102 @@ TEST(PatchTest, MatchingMeshesAreExact) {
       json.erase("variants");
     });
     EXPECT_LT(pressures(matching).scatter, 1e-8) << points; // the residual is below 1e-10 of the forces
+  }
+}
+
+/// A deck of 4 x 4 x 2 cells of a block 1 x 1 x 0.5: bricks for x < 0.25, two wedges in each cell for x <
+/// 0.5, beyond six tetrahedra in each.
+std::filesystem::path bricks_wedges_and_tetrahedra(const std::string& name, double low) {
+  constexpr int n = 4, layers = 2;
+  std::ostringstream nodes, bricks, wedges, tetrahedra;
+  nodes.precision(17);
+  const auto number = [](int i, int j, int k) { return 1 + i + (n + 1) * (j + (n + 1) * k); };
+  std::map<std::string, std::string> sets;
+  for (int k = 0; k <= layers; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        nodes << number(i, j, k) << ", " << double(i) / n << ", " << double(j) / n << ", "
+              << low + 0.5 * k / layers << "\n";
+        const std::string line = std::to_string(number(i, j, k)) + "\n";
+        for (const auto& [at, end, axis] : {std::tuple(i, n, 'X'), {j, n, 'Y'}, {k, layers, 'Z'}}) {
+          if (at == 0) sets[std::string(1, axis) + "MIN"] += line;
+          if (at == end) sets[std::string(1, axis) + "MAX"] += line;
+        }
+      }
+  constexpr int axes[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}};
+  int e = 1;
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        if (i == 1) {
+          for (const int side : {0, 1}) {
+            wedges << e++;
+            for (int z = k; z <= k + 1; ++z)
+              wedges << ", " << number(i, j, z) << ", " << number(i + 1, j + side, z) << ", "
+                     << number(i + 1 - side, j + 1, z);
+            wedges << "\n";
+          }
+          continue;
+        }
+        if (i == 0) {
+          bricks << e++;
+          for (int z = k; z <= k + 1; ++z)
+            bricks << ", " << number(i, j, z) << ", " << number(i + 1, j, z) << ", "
+                   << number(i + 1, j + 1, z) << ", " << number(i, j + 1, z);
+          bricks << "\n";
+          continue;
+        }
+        for (int t = 0; t < 6; ++t) { // along the axes one after the other; odd orders turn the other way
+          int at[3] = {i, j, k}, corner[4] = {number(i, j, k)};
+          for (int step = 0; step < 3; ++step)
+            ++at[axes[t][step]], corner[step + 1] = number(at[0], at[1], at[2]);
+          if (t >= 3) std::swap(corner[1], corner[2]);
+          tetrahedra << e++;
+          for (const int c : corner) tetrahedra << ", " << c;
+          tetrahedra << "\n";
+        }
+      }
+  const std::filesystem::path file = std::filesystem::absolute(name + ".inp");
+  std::ofstream out(file);
+  out << "*NODE\n"
+      << nodes.str() << "*ELEMENT, TYPE=C3D8\n"
+      << bricks.str() << "*ELEMENT, TYPE=C3D6\n"
+      << wedges.str() << "*ELEMENT, TYPE=C3D4\n"
+      << tetrahedra.str();
+  for (const auto& [set, members] : sets) out << "*NSET, NSET=" << set << "\n" << members;
+  return file;
+}
+
+// Bodies whose common face has triangles and quadrilaterals: with one mesh on both sides nodes, points and
+// pieces are exact.
+TEST(PatchTest, SurfacesOfTrianglesAndQuadrilateralsPass) {
+  const std::filesystem::path upper = bricks_wedges_and_tetrahedra("mixed_upper", -1e-6),
+                              lower = bricks_wedges_and_tetrahedra("mixed_lower", -0.5);
+  for (const Json& sampling : {Json(0), Json(1), Json(2), Json("cut")}) {
+    Scene scene = test::shipped_scene("patch_test", [&](Json& json) {
+      json.erase("variants"), json.erase("formulation");
+      json["dimension"] = 3;
+      json["parts"] = {{{"name", "upper"}, {"material", "block"}, {"deck", upper.string()}},
+                       {{"name", "lower"}, {"material", "block"}, {"deck", lower.string()}}};
+      Json supports = Json::array({{{"nodes", "lower.ZMIN"}, {"z", 0}}});
+      for (const char* part : {"upper", "lower"})
+        for (const char* axis : {"x", "y"})
+          for (const char* end : {"MIN", "MAX"})
+            supports.push_back(
+                {{"nodes", std::string(part) + "." + (*axis == 'x' ? "X" : "Y") + end}, {axis, 0}});
+      json["supports"] = supports;
+      json["tractions"] = {{{"faces", "upper.ZMAX"}, {"value", {0, 0, -1}}}};
+      json["contact"]["slave"] = "upper.ZMIN";
+      json["contact"]["master"]["faces"] = "lower.ZMAX";
+      json["contact"]["model"]["segment"] = "quad4";
+      if (sampling != 0) json["contact"]["sampling"] = sampling;
+    });
+    scene.solver.tolerance = 1e-12;
+    const Pressures p = pressures(scene);
+    std::printf("triangles and quadrilaterals, sampling %s: pressure 1 %+.1e %+.1e\n",
+                sampling.dump().c_str(), p.smallest - 1, p.largest - 1);
+    // the residual, 1e-12 of the forces, over the smallest share of a node in them, some hundredths
+    EXPECT_LT(std::max(p.largest - 1, 1 - p.smallest), 1e-10) << sampling;
   }
 }
 
