@@ -601,6 +601,10 @@ ENTS_API int32_t ents_parameter_derivatives(const ents_model *model, int64_t fir
  * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (a facet or node that does not exist, report.element; a thickness
  * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
 ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
+ * With quad8 and tri6 nodes do not carry a uniform pressure: its exact shares are negative in the corners of quad8 (-1/12 of the area of a
+ * rectangle) and 0 in those of tri6, the lumped areas are positive (3/76 and 1/19). A body under a uniform pressure then lifts off at some
+ * nodes and presses more on others (a hex20 block: 0 to 1.23 for 1). Put slave points inside such facets (ents_sampling_points, 2 or 3 per
+ * direction), which give every node its exact share. On line3 and quad9 the lumped areas are the exact shares.
                                       const double *positions, double thickness, double *areas, ents_report *report);
 
 /* Area in contact and peak pressure on a slave mesh, with estimates of what the mesh leaves open. The tributary areas of
@@ -661,8 +665,10 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
 
 /* Sampling points of slave facets, so that texture between slave nodes is seen and a constant pressure gives every
  * slave node its exact share (Zavarise and De Lorenzis, IJNME 79, 2009). Arguments as of ents_tributary_areas, and
- *   per_direction  n, 1 .. 64: lines have n points, triangles and quadrilaterals n^2. Lines and quadrilaterals: Gauss and
- *                  Legendre's; triangles: the centroids of n^2 equal parts; n = 1 on an axisymmetric line2: the centroid of the ring
+ *   per_direction  n, 1 .. 64, of quadratic facets 2 or more: lines have n points, triangles and quadrilaterals n^2. Lines and
+ *                  quadrilaterals: Gauss and Legendre's; tri3, and quad4 with two nodes in one place: the centroids of n^2 equal parts;
+ *                  tri6: those, farther from the middle by n / sqrt(n^2 - 1), exact for its shape functions; n = 1 on an axisymmetric
+ *                  line2: the centroid of the ring
  *   begin          [points + 1] out, points = facets * points of a facet, those of a facet one after the other
  *   point_nodes    [points * nodes of the facet] out
  *   weights        [points * nodes of the facet] out
