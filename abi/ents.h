@@ -598,9 +598,6 @@ ENTS_API int32_t ents_parameter_derivatives(const ents_model *model, int64_t fir
  *   positions     [nodes][d], [L]
  *   thickness     2D: the area of a length, [L]; axisymmetric bodies: 0, the areas are then of the full turn about the second axis. 3D: ignored
  *   areas         [nodes] out, [A]; 0 for nodes on no facet
- * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (a facet or node that does not exist, report.element; a thickness
- * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
-ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
  * With quad8 and tri6 nodes do not carry a uniform pressure: its exact shares are negative in the corners of quad8 (-1/12 of the area of a
  * rectangle) and 0 in those of tri6, the lumped areas are positive (3/76 and 1/19). A body under a uniform pressure then lifts off at some
  * nodes and presses more on others (a hex20 block: 0 to 1.23 for 1). Put slave points inside such facets (ents_sampling_points, 2 or 3 per

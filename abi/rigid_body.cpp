@@ -13,6 +13,8 @@ double cross(const double* a, const double* b, int i) {
   return a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
+constexpr double largest_spin = 1e6; // [rad] the place of a rotation by more is not known to 1e-10
+
 // exp([spin]x), row by row (Rodrigues)
 void rotation(int d, const double* spin, double (&r)[9]) {
   if (d == 2) {
@@ -20,16 +22,24 @@ void rotation(int d, const double* spin, double (&r)[9]) {
     r[0] = c, r[1] = -s, r[2] = s, r[3] = c;
     return;
   }
+  constexpr double small = 1e-100; // squares of angles below it leave the range of double precision
   const double angle = std::hypot(spin[0], spin[1], spin[2]);
   const double half = std::sin(0.5 * angle);
-  const double a = angle > 0.0 ? std::sin(angle) / angle : 1.0,
-               b = angle > 0.0 ? 2.0 * half * half / (angle * angle) : 0.5;
+  const double a = angle > small ? std::sin(angle) / angle : 1.0,
+               b = angle > small ? 2.0 * half * half / (angle * angle) : 0.5;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) r[3 * i + j] = b * spin[i] * spin[j] + (i == j ? std::cos(angle) : 0.0);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     r[3 * k + j] += a * spin[i], r[3 * j + k] -= a * spin[i];
   }
+}
+
+double determinant(int d, const double* q) {
+  if (d == 2) return q[0] * q[3] - q[1] * q[2];
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) sum += q[i] * cross(q + 3, q + 6, i);
+  return sum;
 }
 
 // How far Q is from orthonormal
@@ -83,6 +93,11 @@ std::int32_t move(int d, const double* translation, const double* spin, ents_pos
   for (int i = 0; spin && i < (d == 2 ? 1 : 3); ++i)
     if (!std::isfinite(spin[i]))
       return report_message(report, ENTS_NON_FINITE, -1, "spin[%d] is NaN or infinite", i);
+  for (int i = 0; spin && i < (d == 2 ? 1 : 3); ++i)
+    if (!(std::fabs(spin[i]) <= largest_spin))
+      return report_message(report, ENTS_BAD_VALUE, -1,
+                            "spin[%d] is %g; it is an angle in radians, at most %g", i, spin[i],
+                            largest_spin);
   ents_pose moved = *known;
   for (int i = 0; translation && i < d; ++i) moved.point[i] += translation[i];
   if (spin) {
@@ -140,6 +155,14 @@ const ents_pose* checked_pose(int d, const ents_pose* pose, ents_pose& copy, con
     status = report_message(
         report, ENTS_BAD_STATE, -1,
         "%s.turn is no rotation: begin with ents_pose_init, or give [%d][%d] orthonormal rows", name, d, d);
+    return nullptr;
+  }
+  if (determinant(d, known->turn) < 0.0) {
+    status =
+        report_message(report, ENTS_BAD_STATE, -1,
+                       "%s.turn is a reflection (its determinant is -1), no rotation: turn one of the body's "
+                       "axes round",
+                       name);
     return nullptr;
   }
   return known;
