@@ -47,9 +47,22 @@ double bound_everywhere(const ExternalHeight& height) {
   return bound < far ? bound : Height::unbounded; // NaN, too
 }
 
-// Writes the caller's numbers into a node. Statuses as of bind().
-Status bind_node(const Model& model, const double* parameters, const double* const* fields, HeightNode& node,
-                 double*& values, std::int32_t& which) {
+// The caller's block of a node that is a field; null: no field. bad_state: the block is not one of it.
+Status block_of_field(const Model& model, const double* const* fields, const HeightNode& node,
+                      const double*& block, std::int32_t& which) {
+  block = nullptr;
+  if (node.kind != HeightKind::map || node.bound_to[0] == 0) return Status::ok;
+  which = node.bound_to[0] - 1;
+  block = fields ? fields[which] : nullptr;
+  return block && is_field(layout_of_field(node.map, model.height.dimension()),
+                           {block, static_cast<std::size_t>(field_header::size)})
+             ? Status::ok
+             : Status::bad_state;
+}
+
+// Writes the caller's numbers into a node. block: of a node that is a field
+void bind_node(const Model& model, const double* parameters, const double* block, HeightNode& node,
+               double*& values) {
   const auto& to = node.bound_to;
   const auto number = [&](int slot, double& value) {
     if (to[slot] != 0) value = parameters[to[slot] - 1];
@@ -66,20 +79,15 @@ Status bind_node(const Model& model, const double* parameters, const double* con
         ENTS_ISA::set_height(formula, node.numbers, model.height.dimension());
         values += own_values;
       }))
-    return Status::ok;
+    return;
   switch (node.kind) {
   case HeightKind::shift:
     number(0, node.shift.by[0]);
     number(1, node.shift.by[1]);
     break;
   case HeightKind::map:
-    if (to[0] != 0) {
-      which = to[0] - 1;
-      const FieldLayout layout = layout_of_field(node.map, model.height.dimension());
-      const double* block = fields ? fields[which] : nullptr;
-      if (!block || !is_field(layout, {block, static_cast<std::size_t>(field_header::size)}))
-        return Status::bad_state;
-      node.map.coefficients = block + layout.first;
+    if (block) {
+      node.map.coefficients = block + layout_of_field(node.map, model.height.dimension()).first;
       node.map.bound = block[field_header::bound];
     }
     break;
@@ -96,7 +104,6 @@ Status bind_node(const Model& model, const double* parameters, const double* con
   default:
     break;
   }
-  return Status::ok;
 }
 
 // Shares of the B-splines at a place along a line: index and share of four of them, and the integral of each,
@@ -248,28 +255,40 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
   if (const std::uint8_t scale = law.flattening.parameter; scale != 0 && values[which = scale - 1] != 1.0)
     return Status::bad_value;
 
+  // What is refused is refused before anything is written: `height` may be that of a model in use.
+  const double* block = nullptr;
+  for (const HeightNode& node : model.height.nodes())
+    if (const Status status = block_of_field(model, fields, node, block, which); status != Status::ok)
+      return status;
+
   Fingerprint stamp;
   stamp.add(of.surface_stamp);
+  bool is_model_own = true; // the height has the numbers of the text, and no field
   double* own_values = height.values.data();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     HeightNode node = model.height.nodes()[i];
-    if (const Status status = bind_node(model, values, fields, node, own_values, which); status != Status::ok)
-      return status;
+    block_of_field(model, fields, node, block, which);
+    bind_node(model, values, block, node, own_values);
     nodes[i] = node;
-    if (node.kind == HeightKind::map && node.bound_to[0] != 0) {
-      stamp.add(fields[node.bound_to[0] - 1][field_header::changes]);
+    if (block) {
+      is_model_own = false;
+      stamp.add(block[field_header::changes]);
       stamp.add(node.map.bound);
       continue;
     }
     for (const std::uint8_t place : node.bound_to)
-      if (place != 0) stamp.add(values[place - 1]);
+      if (place != 0) {
+        stamp.add(values[place - 1]);
+        is_model_own =
+            is_model_own && values[place - 1] == model.parameters[static_cast<std::size_t>(place - 1)].value;
+      }
   }
   plan = of;
   law.table = of.law.table, law.table_points = of.law.table_points;
   plan.law = law;
   if (plan.height) plan.height = nodes.data();
   plan.height_bound = plan.height ? height_bound(nodes.front()) : 0.0;
-  plan.surface_stamp = stamp.number();
+  plan.surface_stamp = is_model_own ? of.surface_stamp : stamp.number();
   return Status::ok;
 }
 

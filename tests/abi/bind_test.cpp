@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ents_model_bind: after an error the bound model is as it was; trees serve it while its height is that of
+// the tree; fields are structs of any version.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "support/model.hpp"
+
+namespace bind_test {
+namespace {
+
+using namespace test;
+
+// A height that a parameter and a field make, a law with another parameter.
+struct Bound {
+  Bound() {
+    EXPECT_EQ(ents_field_size(model.get(), "f", &size, nullptr), ENTS_OK);
+    block.resize(static_cast<std::size_t>(size));
+    EXPECT_EQ(ents_field_init(model.get(), "f", nullptr, block.data(), size, nullptr), ENTS_OK);
+  }
+  ~Bound() { ents_model_destroy(&handle, nullptr); }
+  int32_t bind(double height, double stiffness, const std::vector<double>& of_field) {
+    const double values[] = {height, stiffness};
+    ents_data data{};
+    data.struct_size = sizeof data, data.name = "f", data.values = of_field.data();
+    data.rows = 1, data.columns = size;
+    return ents_model_bind(model.get(), values, &data, 1, &handle, &report);
+  }
+  // gap, and forces of the slave
+  std::vector<double> results() {
+    const double slave[] = {0.1, 0.05}, master[] = {-1, 0, 1, 0}, start = 0.1;
+    double gap = 0.0, residual[6];
+    ents_input in{};
+    in.struct_size = sizeof in;
+    in.slave = slave, in.master = master, in.start = &start;
+    ents_output out{};
+    out.struct_size = sizeof out;
+    out.wanted = ENTS_GAP | ENTS_RESIDUAL;
+    out.gap = &gap, out.residual = residual;
+    EXPECT_EQ(ents_evaluate(handle, 0, 1, &in, &out, &report), ENTS_OK) << report.message;
+    return {gap, residual[0], residual[1]};
+  }
+
+  Model model{
+      R"({"segment": "line2", "parameters": {"a": 0.1, "eps": 100}, "height": {"type": "sum", "of": [)"
+      R"({"type": "constant", "value": "a"}, )"
+      R"({"type": "field", "name": "f", "points": [8], "boundary": "clamped", "size": [2], "origin": [-1]}]}, )"
+      R"("contact": {"normal": {"type": "penalty", "stiffness": "eps"}}})"};
+  ents_model* handle = nullptr;
+  int64_t size = 0;
+  std::vector<double> block;
+  ents_report report = new_report();
+};
+
+TEST(Bind, LeavesTheModelAsItWasAfterAnError) {
+  Bound bound;
+  ASSERT_EQ(bound.bind(0.1, 100.0, bound.block), ENTS_OK) << bound.report.message;
+  const std::vector<double> before = bound.results();
+  EXPECT_NEAR(before[0], -0.05, 1e-15);
+  std::vector<double> no_field = bound.block;
+  no_field[0] = 0.0; // its tag
+  EXPECT_EQ(bound.bind(0.3, 200.0, no_field), ENTS_BAD_STATE);
+  EXPECT_EQ(bound.results(), before);
+  EXPECT_EQ(bound.bind(0.3, -1.0, bound.block), ENTS_BAD_VALUE);
+  EXPECT_EQ(bound.results(), before);
+}
+
+TEST(Bind, TreesOfTheModelServeABoundOneOfTheSameHeight) {
+  const Model model(
+      R"({"segment": "line2", "parameters": {"a": 0.1, "eps": 100}, "height": {"type": "sine", "amplitude": "a", )"
+      R"("wave_vector": [1], "phase": 0}, "contact": {"normal": {"type": "penalty", "stiffness": "eps"}}})");
+  const int64_t connectivity[] = {0, 1};
+  const double positions[] = {-1, 0, 1, 0};
+  ents_master_mesh mesh{};
+  mesh.struct_size = sizeof mesh;
+  mesh.segments = 1, mesh.nodes = 2, mesh.connectivity = connectivity, mesh.positions = positions;
+  int64_t size = 0;
+  ASSERT_EQ(ents_tree_size(model.get(), 1, &size, nullptr), ENTS_OK);
+  std::vector<double> tree(static_cast<std::size_t>(size));
+  ASSERT_EQ(ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr), ENTS_OK);
+  const struct {
+    double height;
+    int32_t status;
+  } cases[] = {{0.1, ENTS_OK}, {0.2, ENTS_BAD_STATE}, {0.1, ENTS_OK}};
+  ents_model* bound = nullptr;
+  for (const auto& c : cases) {
+    const double values[] = {c.height, 300.0};
+    ASSERT_EQ(ents_model_bind(model.get(), values, nullptr, 0, &bound, nullptr), ENTS_OK);
+    const double slave[] = {0.1, 0.2};
+    double xi = 0.0;
+    int64_t segment = -1;
+    int32_t flags = 0;
+    ents_detection detection{};
+    detection.struct_size = sizeof detection;
+    detection.slave = slave, detection.reach = 1.0, detection.segment = &segment, detection.xi = &xi;
+    detection.flags = &flags;
+    EXPECT_EQ(ents_detect(bound, &mesh, tree.data(), size, 0, 1, &detection, nullptr), c.status) << c.height;
+  }
+  ents_model_destroy(&bound, nullptr);
+}
+
+} // namespace
+} // namespace bind_test
