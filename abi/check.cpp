@@ -3,6 +3,7 @@
 
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
+#include "abi/undefined_height.hpp"
 #include "core/admissibility/admissibility.hpp"
 
 namespace ents {
@@ -65,6 +66,11 @@ extern "C" int32_t ents_model_check(const ents_model* model, const double* maste
       return ents::explain_non_finite(model->plan, "", master, surface_coordinates, nullptr, -1, report);
     if (status != ENTS_OK)
       return ents::report_message(report, status, -1, "the segment itself: %s", ents_status_text(status));
+    const double middle[2] = {model->plan.simplex ? 1.0 / 3.0 : 0.0, model->plan.simplex ? 1.0 / 3.0 : 0.0};
+    double s[2];
+    if (!(a.height_min <= a.height_max) && // nowhere on the samples
+        ents::height_is_undefined(model->plan, master, surface_coordinates, middle, s))
+      return ents::report_undefined_height(model->plan, "segment", 0, s, report);
     ents_admissibility out = *known;
     out.samples = a.samples;
     out.continuity = a.continuity;

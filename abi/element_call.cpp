@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "abi/undefined_height.hpp"
 #include "core/law/open_multiplier.hpp"
 
 namespace ents {
@@ -323,6 +324,13 @@ std::int32_t ElementCall::explain(std::int32_t status, std::int64_t e, ents_repo
                           "version; fill it with ents_state_init",
                           number);
   if (status == ENTS_DEEP_PENETRATION && report) return explain_penetration(e, report);
+  if (status == ENTS_NO_PROJECTION && report && model->model.patch.empty()) {
+    SegmentNodes nodes;
+    double s[2];
+    if (in->mesh) gather(*plan, mesh, segment(e), nodes);
+    if (height_is_undefined(*plan, element(e, nodes), s))
+      return report_undefined_height(*plan, "element", e, s, report);
+  }
   if (status == ENTS_AMBIGUOUS_PROJECTION && plan->law.flattening.parameter != 0)
     return report_message(
         report, status, e,

@@ -7,6 +7,7 @@
 #include "abi/element_block.hpp"
 #include "abi/guard.hpp"
 #include "abi/staged_results.hpp"
+#include "abi/undefined_height.hpp"
 
 namespace ents {
 
@@ -53,8 +54,12 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   bool open;
   ElementOutput nothing = results;
   nothing.wanted = 0;
+  const ElementInput input = element(e, nodes);
   std::int32_t outcome =
-      static_cast<std::int32_t>(evaluate_one(element(e, nodes), follows ? results : nothing, hard, open));
+      static_cast<std::int32_t>(evaluate_one(input, follows ? results : nothing, hard, open));
+  if (double s[2]; (outcome == ENTS_DEGENERATE_SEGMENT || outcome == ENTS_OUT_OF_RANGE) &&
+                   model->model.patch.empty() && height_is_undefined(*plan, input, s))
+    outcome = ENTS_NO_PROJECTION;
   if (open && outcome == ENTS_OK) return evaluate_open(e, also);
   if (!follows && outcome >= 0) outcome = ENTS_BAD_STATE;
   if (outcome == ENTS_OK) mark_state(e);
@@ -197,6 +202,11 @@ int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents
       if (status == ENTS_NON_FINITE)
         return ents::explain_non_finite(plan, "surface.", s->master, s->surface_coordinates,
                                         s->xi + plan.parameters * i, i, report);
+      double place[2];
+      if (status == ENTS_DEGENERATE_SEGMENT &&
+          ents::height_is_undefined(plan, s->master, s->surface_coordinates, s->xi + plan.parameters * i,
+                                    place))
+        return ents::report_undefined_height(plan, "point", i, place, report);
       if (status != ENTS_OK)
         return ents::report_message(report, status, i, "point %lld: %s", static_cast<long long>(i),
                                     ents_status_text(status));

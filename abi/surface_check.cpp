@@ -6,6 +6,7 @@
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
 #include "abi/mesh.hpp"
+#include "abi/undefined_height.hpp"
 #include "core/admissibility/admissibility.hpp"
 #include "core/admissibility/surface_admissibility.hpp"
 
@@ -67,6 +68,15 @@ std::int32_t check(const ents_model* model, const ents_master_mesh* caller,
   const SurfaceLimits limits = {io->samples, io->reach, io->kink};
   const Status outcome = check_surface(model->model, model->plan, mesh, limits, a, segment);
   if (outcome != Status::ok) return explain_segment(model->plan, mesh, outcome, segment, report);
+
+  if (!(a.height_min <= a.height_max)) { // nowhere on the samples
+    const double middle[2] = {model->plan.simplex ? 1.0 / 3.0 : 0.0, model->plan.simplex ? 1.0 / 3.0 : 0.0};
+    double s[2];
+    SegmentNodes nodes;
+    if (mesh.segments > 0 && gather(model->plan, mesh, 0, nodes) == Status::ok &&
+        height_is_undefined(model->plan, nodes.positions, nodes.surface_coordinates, middle, s))
+      return report_undefined_height(model->plan, "segment", 0, s, report);
+  }
 
   ents_surface_admissibility out{};
   out.samples = a.samples;

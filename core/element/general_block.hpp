@@ -102,6 +102,9 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
   for (const S& lambda : in.multiplier) own = own + absolute(lambda);
   fine = both(fine, both(size < safe_magnitude, own < safe_magnitude));
   fine = both(fine, p.ordinary); // friction may have cleared it
+  if constexpr (H)
+    if ((block.wanted & want::tangent) != 0 && plan.law.has_friction_force() && has_functions(plan))
+      fine = both(fine, height_has_thirds(p));
   fine =
       without(fine, both(p.contact, both(at.gap < 0.0, p.is_deep(plan, measured,
                                                                  ray ? at.gap * square_root(measured.area2_e)

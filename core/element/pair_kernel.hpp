@@ -16,6 +16,26 @@ using TangentOf = std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, PairT
 
 inline constexpr std::int32_t beside_forces = want::block & ~want::forces;
 
+// Is the height, or a part of it, a function whose derivatives may be anything?
+ENTS_INLINE bool has_functions(const Plan& plan) {
+  for (std::int32_t i = 0; i < plan.height_nodes; ++i)
+    if (plan.height[i].kind == HeightKind::external) return true;
+  return false;
+}
+// Are its third derivatives finite, which tangents with friction have?
+template <class B, bool H, class S> ENTS_NOINLINE Truth<S> height_has_thirds(const Pair<B, H, S>& p) {
+  constexpr int T = B::dim - 1;
+  S size(0.0);
+  for (int c = 0; c < T; ++c) {
+    S along[T];
+    for (int a = 0; a < T; ++a) along[a] = S(a == c ? 1.0 : 0.0);
+    HeightJet<T, Dual<S>> jet;
+    p.projector.nodes.height_along(p.xi, along, p.projector.s.height, jet);
+    for (const Dual<S>& second : jet.h2) size = size + absolute(second.d);
+  }
+  return size < safe_magnitude;
+}
+
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
 ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p,
@@ -23,6 +43,9 @@ ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, 
   p.evaluate_at_solution();
   p.evaluate_law(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
   if constexpr (F) f.evaluate(plan.law, p, anchor, history, -(p.area * p.per_gap * p.gap));
+  if constexpr (F && H)
+    if ((wanted & want::tangent) != 0 && has_functions(plan))
+      p.ordinary = both(p.ordinary, height_has_thirds(p));
 }
 // Shape functions come as late as here, with as many derivatives as are asked for.
 template <bool F, bool Rigid, class B, bool H, class S>

@@ -292,6 +292,30 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
   return Status::ok;
 }
 
+namespace {
+
+template <int T> bool is_defined(const HeightNode& node, const double* s, int order) {
+  using ENTS_ISA::Dual;
+  double at[T], zero = 0.0;
+  for (int a = 0; a < T; ++a) at[a] = s[a];
+  const auto jet = ENTS_ISA::evaluate_height(node, at);
+  zero += 0.0 * jet.h;
+  for (const double slope : jet.h1) zero += 0.0 * slope;
+  for (const double curvature : jet.h2) zero += 0.0 * curvature;
+  for (int c = 0; c < T && order > 2; ++c) {
+    Dual<double> moving[T];
+    for (int a = 0; a < T; ++a) moving[a] = Dual<double>(s[a], a == c ? 1.0 : 0.0);
+    for (const Dual<double>& second : ENTS_ISA::evaluate_height(node, moving).h2) zero += 0.0 * second.d;
+  }
+  return zero == 0.0;
+}
+
+} // namespace
+
+bool is_defined_at(const HeightNode& node, std::int32_t dimension, const double* s, int order) {
+  return dimension == 1 ? is_defined<1>(node, s, order) : is_defined<2>(node, s, order);
+}
+
 double height_at(const HeightNode& node, std::int32_t dimension, const double* s) {
   if (dimension == 1) {
     const double at[1] = {s[0]};

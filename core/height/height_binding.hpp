@@ -56,6 +56,9 @@ BoundHeight make_bound_height(const Model& model);
 Status bind(const Model& model, const Plan& of, const double* parameters, const double* const* fields,
             BoundHeight& height, Plan& plan, std::int32_t& which);
 
+// Are h and its derivatives up to `order`, 2 or 3, finite at s [dimension]?
+bool is_defined_at(const HeightNode& node, std::int32_t dimension, const double* s, int order);
+
 // h at s [dimension].
 double height_at(const HeightNode& node, std::int32_t dimension, const double* s);
 
