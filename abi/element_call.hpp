@@ -155,6 +155,7 @@ private:
   void write_open(std::int64_t e) const;
   void hold_multipliers(std::int64_t e, double* residual, double* tangent, std::int64_t leading) const;
   std::int32_t explain_penetration(std::int64_t e, ents_report* report) const;
+  std::int32_t explain_ray(std::int64_t e, ents_report* report) const;
 
   ents_input input_copy; // of an older caller's
   ents_output output_copy;

@@ -50,7 +50,9 @@
  *   reach              the largest |gap| at which a search finds a slave node
  *   border             natural coordinates by which a segment reaches beyond its edges (key "border" of the model)
  *   patch              several segments in one element, for hosts whose elements have fixed nodes
- *   shadow projection  projection along a given direction, or towards a point, instead of along the normal
+ *   shadow projection  projection along a given direction, or towards a point, instead of along the normal. The direction e points from the
+ *                      master to the light, on the side of the slave nodes: n_e . e > 0. Seen from behind (n_e . e < 0) a segment has no contact:
+ *                      GRAZING_RAY where the slave node would be pressed, open elsewhere
  *
  * Rules
  *   - a model is the only handle. It is immutable: any number of threads may evaluate it at once. (One that ents_model_bind has made

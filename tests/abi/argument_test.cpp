@@ -551,5 +551,30 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
   }
 }
 
+// A shadow ray that leaves the surface from behind, as with "direction" the way light shines: named.
+TEST(NamedReasons, ADirectionFromBehindIsNamed) {
+  for (const bool point : {false, true}) {
+    const Model model(
+        R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 1}}, "projection": )" +
+        std::string(point ? R"({"type": "shadow_point", "emitter": [0, -5]}})"
+                          : R"({"type": "shadow_direction", "direction": [0, -1]}})"));
+    const double slave[] = {0.0, 0.1}, master[] = {-1, 0, 1, 0};
+    double residual[6];
+    ents_input in{};
+    in.struct_size = sizeof in;
+    in.slave = slave, in.master = master;
+    ents_output out{};
+    out.struct_size = sizeof out;
+    out.wanted = ENTS_RESIDUAL, out.residual = residual;
+    ents_report report = new_report();
+    EXPECT_EQ(call::evaluate(model.get(), int64_t{0}, int64_t{1}, &in, &out, &report), ENTS_GRAZING_RAY);
+    const std::string message = report.message;
+    EXPECT_NE(message.find("from behind (n_e . e = -1)"), std::string::npos) << message;
+    EXPECT_NE(message.find(point ? "\"emitter\" lies on the side of the slave nodes" : "turn its sign"),
+              std::string::npos)
+        << message;
+  }
+}
+
 } // namespace
 } // namespace argument_test
