@@ -439,7 +439,8 @@ typedef struct ents_input {
 #define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
 #define ENTS_NORMAL        (1 << 3)  /* normal        [d]            n_e, unit normal of the enriched surface */
 #define ENTS_POINT         (1 << 4)  /* point         [d]    [L]     rho_e at the projection */
-#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = dofs - multipliers, here and below */
+#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = dofs - multipliers, here and below. With "flattening" these
+                                        four are at the height's present scale, held fixed */
 #define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [n][n]         d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
 #define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][n]       dxi/du,      eq. (3); [1/L] */
 #define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][n][n]    d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
@@ -604,6 +605,9 @@ ENTS_API int32_t ents_parameter_derivatives(const ents_model *model, int64_t fir
  * rectangle) and 0 in those of tri6, the lumped areas are positive (3/76 and 1/19). A body under a uniform pressure then lifts off at some
  * nodes and presses more on others (a hex20 block: 0 to 1.23 for 1). Put slave points inside such facets (ents_sampling_points, 2 or 3 per
  * direction), which give every node its exact share. On line3 and quad9 the lumped areas are the exact shares.
+ * Allocates (NO_MEMORY). Errors: NULL_ARGUMENT, BAD_COUNT, BAD_VALUE (a facet or node that does not exist, report.element; a thickness
+ * that is not >= 0), NON_FINITE. Recoverable: DEGENERATE_SEGMENT (a facet without area, report.element). After any of them nothing is written. */
+ENTS_API int32_t ents_tributary_areas(const char *facet, int64_t facets, const int64_t *connectivity, int64_t nodes,
                                       const double *positions, double thickness, double *areas, ents_report *report);
 
 /* Area in contact and peak pressure on a slave mesh, with estimates of what the mesh leaves open. The tributary areas of
@@ -751,8 +755,9 @@ ENTS_API int32_t ents_pose_init(int32_t dimension, ents_pose *pose, ents_report 
 /* Move the reference point and turn the body about it: point += translation, Q <- exp([spin]x) Q, kept orthonormal: no drift, whatever the
  * number of moves.
  *   translation  [d] [L], in space; null: none
- *   spin         [3] rotation vector in space, 2D [1] angle, radians; null: none. Turns about one axis add up in any number of steps
- * Errors: NON_FINITE; BAD_STATE if the pose has no orthonormal Q. Nothing is written then. */
+ *   spin         [3] rotation vector in space, 2D [1] angle, radians, each at most 1e6; null: none. Turns about one axis add up in
+ *                any number of steps
+ * Errors: NON_FINITE; BAD_VALUE (a spin); BAD_STATE if Q is not orthonormal, or a reflection. Nothing is written then. */
 ENTS_API int32_t ents_pose_move(int32_t dimension, const double *translation, const double *spin, ents_pose *pose,
                                 ents_report *report);
 
