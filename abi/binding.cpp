@@ -13,6 +13,8 @@ namespace ents {
 
 namespace {
 
+constexpr double largest_field_sample = 1e98; // coefficients are at most 9 times as large, and below 1e100
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + in_quotes(name);
@@ -34,22 +36,18 @@ std::int32_t collect_fields(const ents_model& model, const ents_data* data, std:
                           static_cast<long long>(count), most_fields);
   if (count > 0 && !data) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'fields' is null");
   for (std::int64_t i = 0; i < count; ++i) {
-    if (data[i].struct_size != static_cast<std::int32_t>(sizeof *data))
-      return report_message(report, ENTS_STRUCT_SIZE, i,
-                            "fields[%lld].struct_size is %d; set it to sizeof (%d)",
-                            static_cast<long long>(i), data[i].struct_size, static_cast<int>(sizeof *data));
-    if (!data[i].name || !data[i].values)
-      return report_message(report, ENTS_NULL_ARGUMENT, i, "fields[%lld].%s is null",
-                            static_cast<long long>(i), data[i].name ? "values" : "name");
+    std::int32_t status = ENTS_OK;
+    ents_data copy;
+    const ents_data* field = data_at(data, i, "fields", copy, status, report);
+    if (!field) return status;
     FieldLayout layout;
     std::int32_t index = 0;
-    if (const std::int32_t status = find_field(model, data[i].name, layout, index, report); status != ENTS_OK)
-      return status;
-    if (data[i].columns != layout.size || data[i].rows != 1)
+    if ((status = find_field(model, field->name, layout, index, report)) != ENTS_OK) return status;
+    if (field->columns != layout.size || field->rows != 1)
       return report_message(report, ENTS_BAD_COUNT, i,
                             "fields[%lld]: the block of \"%s\" has 1 row and %lld columns",
-                            static_cast<long long>(i), data[i].name, static_cast<long long>(layout.size));
-    blocks[index] = data[i].values;
+                            static_cast<long long>(i), field->name, static_cast<long long>(layout.size));
+    blocks[index] = field->values;
   }
   for (std::size_t i = 0; i < names.size(); ++i)
     if (!blocks[i])
@@ -103,6 +101,22 @@ std::int32_t bind_model(const ents_model& model, const double* parameters, const
 }
 
 } // namespace
+
+const ents_data* data_at(const ents_data* data, std::int64_t i, const char* name, ents_data& copy,
+                         std::int32_t& status, ents_report* report) noexcept {
+  const std::int32_t stride = data->struct_size;
+  const unsigned char* position = reinterpret_cast<const unsigned char*>(data) + i * stride;
+  const ents_data* d = known_struct(reinterpret_cast<const ents_data*>(position), copy, name, status, report);
+  if (!d || (status = check_reserved(d->reserved, name, report)) != ENTS_OK) return nullptr;
+  const long long index = i;
+  if (d->struct_size != stride)
+    status = report_message(report, ENTS_STRUCT_SIZE, i,
+                            "%s[%lld].struct_size differs from %s[0].struct_size", name, index, name);
+  else if (!d->name || !d->values)
+    status = report_message(report, ENTS_NULL_ARGUMENT, i, "%s[%lld].%s is null", name, index,
+                            d->name ? "values" : "name");
+  return status == ENTS_OK ? d : nullptr;
+}
 
 std::int32_t find_field(const ents_model& model, const char* name, FieldLayout& layout, std::int32_t& index,
                         ents_report* report) {
@@ -198,6 +212,10 @@ int32_t ents_field_init(const ents_model* model, const char* name, const double*
         k >= 0)
       return ents::report_message(report, ENTS_NON_FINITE, k, "samples[%lld] is NaN or infinite",
                                   static_cast<long long>(k));
+    for (std::int64_t k = 0; samples && k < layout.columns * layout.rows; ++k)
+      if (std::fabs(samples[k]) > ents::largest_field_sample)
+        return ents::report_message(report, ENTS_BAD_VALUE, k, "samples[%lld] is %g; heights are at most %g",
+                                    static_cast<long long>(k), samples[k], ents::largest_field_sample);
     ents::set_field(model->model, index, samples, {block, static_cast<std::size_t>(layout.size)});
     return ents::report_ok(report);
   });

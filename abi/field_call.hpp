@@ -7,6 +7,10 @@
 
 namespace ents {
 
+// Entry i of the caller's array, whatever struct_size its structs have; null: refused. name: of the argument
+const ents_data* data_at(const ents_data* data, std::int64_t i, const char* name, ents_data& copy,
+                         std::int32_t& status, ents_report* report) noexcept;
+
 // The model's field of this name; an error is reported.
 std::int32_t find_field(const ents_model& model, const char* name, FieldLayout& layout, std::int32_t& index,
                         ents_report* report);

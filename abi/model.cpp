@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abi/element_block.hpp"
+#include "abi/field_call.hpp"
 #include "abi/guard.hpp"
 #include "abi/model_json.hpp"
 #include "core/element/pair_kernels.hpp"
@@ -51,21 +52,11 @@ std::int32_t collect(const ents_data* data, std::int64_t count, std::vector<Name
     return report_message(report, ENTS_BAD_COUNT, -1, "data_count = %lld must be 0 .. %d",
                           static_cast<long long>(count), 1 << 20);
   if (count > 0 && !data) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'data' is null");
-  const unsigned char* position = reinterpret_cast<const unsigned char*>(data);
-  const std::int32_t stride = count > 0 ? data->struct_size : 0;
-  for (std::int64_t i = 0; i < count; ++i, position += stride) {
+  for (std::int64_t i = 0; i < count; ++i) {
     std::int32_t status = ENTS_OK;
     ents_data copy;
-    const ents_data* d =
-        known_struct(reinterpret_cast<const ents_data*>(position), copy, "data", status, report);
-    if (!d || (status = check_reserved(d->reserved, "data", report)) != ENTS_OK) return status;
-    if (d->struct_size != stride)
-      return report_message(report, ENTS_STRUCT_SIZE, i,
-                            "data[%lld].struct_size differs from data[0].struct_size",
-                            static_cast<long long>(i));
-    if (!d->name || !d->values)
-      return report_message(report, ENTS_NULL_ARGUMENT, i, "data[%lld].%s is null", static_cast<long long>(i),
-                            d->name ? "values" : "name");
+    const ents_data* d = data_at(data, i, "data", copy, status, report);
+    if (!d) return status;
     if (d->rows < 1 || d->columns < 1 || d->rows > (INT64_MAX >> 8) / d->columns)
       return report_message(report, ENTS_BAD_COUNT, i, "data[%lld]: rows = %lld, columns = %lld must be >= 1",
                             static_cast<long long>(i), static_cast<long long>(d->rows),

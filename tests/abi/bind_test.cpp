@@ -102,5 +102,41 @@ TEST(Bind, TreesOfTheModelServeABoundOneOfTheSameHeight) {
   ents_model_destroy(&bound, nullptr);
 }
 
+TEST(Bind, TakesFieldsOfANewerCallerAndRefusesWhatItDoesNotKnow) {
+  Bound bound;
+  struct Newer {
+    ents_data known;
+    double later;
+  } newer{};
+  newer.known.struct_size = sizeof newer;
+  newer.known.name = "f", newer.known.values = bound.block.data(), newer.known.rows = 1;
+  newer.known.columns = bound.size;
+  const auto bind = [&] {
+    return ents_model_bind(bound.model.get(), nullptr, &newer.known, 1, &bound.handle, &bound.report);
+  };
+  EXPECT_EQ(bind(), ENTS_OK) << bound.report.message;
+  newer.later = 1.0;
+  EXPECT_EQ(bind(), ENTS_STRUCT_SIZE);
+  newer.later = 0.0, newer.known.reserved = 1;
+  EXPECT_EQ(bind(), ENTS_STRUCT_SIZE);
+  EXPECT_NE(std::strstr(bound.report.message, "fields.reserved is 1"), nullptr) << bound.report.message;
+}
+
+TEST(Bind, FieldsTakeWhatBindTakes) {
+  Bound bound;
+  std::vector<double> samples(8, 0.0), before = bound.block;
+  samples[3] = 1e308;
+  EXPECT_EQ(
+      ents_field_init(bound.model.get(), "f", samples.data(), bound.block.data(), bound.size, &bound.report),
+      ENTS_BAD_VALUE);
+  EXPECT_NE(std::strstr(bound.report.message, "samples[3] is 1e+308"), nullptr) << bound.report.message;
+  EXPECT_EQ(bound.block, before);
+  samples[3] = 1e98;
+  EXPECT_EQ(
+      ents_field_init(bound.model.get(), "f", samples.data(), bound.block.data(), bound.size, &bound.report),
+      ENTS_OK);
+  EXPECT_EQ(bound.bind(0.1, 100.0, bound.block), ENTS_OK) << bound.report.message;
+}
+
 } // namespace
 } // namespace bind_test
