@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "abi/combination.hpp"
 #include "abi/entry_point.hpp"
 #include "abi/guard.hpp"
 #include "abi/handle.hpp"
@@ -133,7 +134,6 @@ public:
   double surface = 0.0, zero_line = 0.0, border = 0.0;
 
 private:
-  bool closed(int a) const { return f_.pressure[node_[a]] > 0.0; }
   // A quadrilateral with two nodes in one place is a triangle. Returns the number of corners.
   int without_collapsed_side(int n) {
     for (int a = 0; a < n && n == 4; ++a)
@@ -143,6 +143,7 @@ private:
       }
     return n;
   }
+  bool closed(int a) const { return f_.pressure[node_[a]] > 0.0; }
   // slant: cosine of the edge's angle to the direction across the border of contact
   double contact_of_edge(int a, int b, double slant) const {
     const int in = closed(a) ? a : b, out = closed(a) ? b : a;
@@ -274,8 +275,7 @@ extern "C" int32_t ents_contact_area(const char* facet, int64_t facets, const in
     std::int64_t at = 0;
     if (add_tributary_areas(entry->basis, facets, connectivity, positions, thickness, share.data(), at) !=
         Status::ok)
-      return report_message(report, ENTS_DEGENERATE_SEGMENT, at, "facet %lld has no area",
-                            static_cast<long long>(at));
+      return refuse_facet(*entry, at, connectivity, positions, thickness, report);
     ContactArea sum(fields);
     for (std::int64_t i = 0; i < facets; ++i) sum.add(i);
 

@@ -93,12 +93,21 @@ std::int32_t check_facets(const char* name, const Facets& f, ents_report* report
   return ENTS_OK;
 }
 
-std::int32_t no_area(std::int64_t facet, ents_report* report) {
-  return report_message(report, ENTS_DEGENERATE_SEGMENT, facet, "facet %lld has no area",
-                        static_cast<long long>(facet));
-}
-
 } // namespace
+
+std::int32_t refuse_facet(const BasisEntry& entry, std::int64_t facet, const std::int64_t* connectivity,
+                          const double* positions, double thickness, ents_report* report) noexcept {
+  const long long index = facet;
+  const std::int64_t* nodes = connectivity + facet * entry.nodes;
+  for (int i = 0; i < entry.nodes && entry.parameters == 1 && thickness == 0.0; ++i)
+    if (const double radius = positions[2 * nodes[i]]; radius < 0.0)
+      return report_message(
+          report, ENTS_DEGENERATE_SEGMENT, facet,
+          "facet %lld has its node %lld at the radius %g: with thickness 0 bodies turn about the "
+          "second axis, and the first coordinate is not negative",
+          index, static_cast<long long>(nodes[i]), radius);
+  return report_message(report, ENTS_DEGENERATE_SEGMENT, facet, "facet %lld has no area", index);
+}
 
 } // namespace ents
 
@@ -117,7 +126,7 @@ int32_t ents_tributary_areas(const char* facet, int64_t facets, const int64_t* c
     std::int64_t at = 0;
     if (add_tributary_areas(f.entry->basis, facets, connectivity, positions, thickness, sum.data(), at) !=
         Status::ok)
-      return no_area(at, report);
+      return refuse_facet(*f.entry, at, connectivity, positions, thickness, report);
     std::copy(sum.begin(), sum.end(), areas);
     return report_ok(report);
   });
@@ -145,7 +154,7 @@ int32_t ents_sampling_points(const char* facet, int32_t per_direction, int64_t f
     std::int64_t at = 0;
     if (sample_facets(f.entry->basis, per_direction, facets, connectivity, positions, thickness, point_nodes,
                       weights, areas, at) != Status::ok)
-      return no_area(at, report);
+      return refuse_facet(*f.entry, at, connectivity, positions, thickness, report);
     const std::int64_t points = facets * sampling_points_of(f.entry->parameters, per_direction);
     for (std::int64_t i = 0; i <= points; ++i) begin[i] = i * f.entry->nodes;
     return report_ok(report);

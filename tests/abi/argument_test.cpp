@@ -551,6 +551,30 @@ TEST_F(Arguments, CountsOfTheOtherFunctions) {
   }
 }
 
+// The reason, and not what follows from it.
+TEST(NamedReasons, FacetsAtANegativeRadiusAreNamedAsSuch) {
+  const int64_t connectivity[] = {0, 1, 1, 2};
+  const double positions[] = {2, 0, 1, 0, -0.5, 0}, gap[3] = {}, pressure[3] = {};
+  double areas[3], weights[4];
+  int64_t begin[3], nodes[4];
+  ents_area area{};
+  area.struct_size = sizeof area;
+  ents_report report = new_report();
+  const auto is_named = [&](int32_t status) {
+    EXPECT_EQ(status, ENTS_DEGENERATE_SEGMENT);
+    EXPECT_EQ(report.element, 1);
+    EXPECT_NE(std::string(report.message).find("facet 1 has its node 2 at the radius -0.5"),
+              std::string::npos)
+        << report.message;
+  };
+  is_named(ents_tributary_areas("line2", 2, connectivity, 3, positions, 0.0, areas, &report));
+  is_named(ents_sampling_points("line2", 1, 2, connectivity, 3, positions, 0.0, begin, nodes, weights, areas,
+                                &report));
+  is_named(
+      ents_contact_area("line2", 2, connectivity, 3, positions, 0.0, gap, pressure, 0.0, &area, &report));
+  EXPECT_EQ(ents_tributary_areas("line2", 2, connectivity, 3, positions, 1.0, areas, &report), ENTS_OK);
+}
+
 // A shadow ray that leaves the surface from behind, as with "direction" the way light shines: named.
 TEST(NamedReasons, ADirectionFromBehindIsNamed) {
   for (const bool point : {false, true}) {
