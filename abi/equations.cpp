@@ -20,9 +20,17 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
   if (s.index_size != 4 && s.index_size != 8)
     return report_message(report_, ENTS_BAD_VALUE, -1, "system.index_size is %d; it must be 4 or 8",
                           s.index_size);
-  if (s.rows < 0 || s.slave_nodes < 0 || s.master_nodes < 0)
-    return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s is negative",
-                          s.rows < 0 ? "rows" : (s.slave_nodes < 0 ? "slave_nodes" : "master_nodes"));
+  const struct {
+    const char* name;
+    std::int64_t value;
+  } counts[] = {{"rows", s.rows},
+                {"slave_nodes", s.slave_nodes},
+                {"master_nodes", s.master_nodes},
+                {"places_size", s.places ? s.places_size : 0}};
+  for (const auto& c : counts)
+    if (c.value < 0 || c.value > std::int64_t{1} << 40)
+      return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s is %lld; it must be 0 .. 2^40", c.name,
+                            static_cast<long long>(c.value));
   const bool rigid = nodes() == 1;
   const struct {
     const char* name;

@@ -95,7 +95,7 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
   at.evaluate_law(plan, in.anchor, in.history, in.multipliers(), in.worn_or_null(), in.offset, in.scale);
   S size = p.area * (absolute(at.law.force) + at.law.stiffness);
   if (in.has_wear) {
-    size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid);
+    size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid) + absolute(in.worn.depth);
     fine = both(fine, at.solved);
   }
   S own = S(0.0);
