@@ -3,6 +3,7 @@
 // for. What follows from the projection is done by finish_element().
 #pragma once
 
+#include "core/projection/collapsed_corner.hpp"
 #include "core/projection/search.hpp"
 
 namespace ents::ENTS_ISA {
@@ -63,6 +64,16 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     for (int a = 0; a < T; ++a) // a start out there has not escaped, it is only bad
       p.xi[a] = start[a] < -far_outside ? -far_outside : (start[a] > far_outside ? far_outside : start[a]);
     found = project(g, t, p);
+    // The iteration leaves the segment along an edge without length; the search knows that corner.
+    if ((found == Found::yes || found == Found::escaped) && is_in_collapsed_corner<B, H>(g, p.xi)) {
+      Projection<B, H> in_corner;
+      const Search s = search<B, H>(g, t, plan, in_corner);
+      if (s.found == Found::yes) {
+        in_corner.evaluations += p.evaluations;
+        p = in_corner, found = s.found;
+        at.searched = true, at.ambiguous = s.ambiguous;
+      }
+    }
   }
   if (found != Found::yes && found != Found::escaped) {
     if (start) at.evaluations = p.evaluations;

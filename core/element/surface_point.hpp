@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/element/element.hpp"
-#include "core/projection/branch_and_bound.hpp"
+#include "core/projection/collapsed_corner.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -31,13 +31,10 @@ Status evaluate_surface_point(const Plan& plan, const double* master, const doub
   g.height = plan.height;
   double at[T];
   for (int a = 0; a < T; ++a) at[a] = xi[a];
-  if constexpr (std::is_same_v<B, Quad4>) // on an edge without length there is no tangent along it: beside it
-    if (const int e = collapsed_edge(g); e >= 0 && !out.curvature && !out.base_curvature) {
-      constexpr double beside = next_to_collapsed_edge<H>;
-      const double sign = e == 1 || e == 2 ? 1.0 : -1.0;
-      double& across = at[e % 2 == 0];
-      if (absolute(across - sign) < beside) across = sign * (1.0 - beside);
-    }
+  if (!out.curvature && !out.base_curvature && is_in_collapsed_corner<B, H>(g, at)) { // beside it
+    const AcrossEdge across = across_edge(collapsed_edge(g));
+    at[across.direction] = across.value * (1.0 - next_to_collapsed_edge<H>);
+  }
   Projection<B, H> p;
   Vec<double, D> normal;
   if (!evaluate_surface<2>(g, at, p.N, p.s) || !enriched_normal(p.s, normal))

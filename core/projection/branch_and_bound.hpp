@@ -15,6 +15,7 @@
 #pragma once
 
 #include "core/projection/ball.hpp"
+#include "core/projection/collapsed_corner.hpp"
 #include "core/projection/search.hpp"
 
 namespace ents::ENTS_ISA {
@@ -27,10 +28,6 @@ template <class B, bool H> ENTS_INLINE double rank(const Target& t, const Projec
 
 inline constexpr double smallest_box = 1e-9; // half-width in natural coordinates
 inline constexpr double tie_size = 1e-9;     // of the segment's size
-
-// How close natural coordinates come to a corner where two nodes of a quad4 are one: rounding of the normal
-// there, over that distance, times the height stays small beside the tangents.
-template <bool H> inline constexpr double next_to_collapsed_edge = H ? 1e-6 : 1e-9;
 
 template <int T> struct Box { double c[T], w[T]; };
 
@@ -148,23 +145,9 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
   return lesser(first, second);
 }
 
-// A quad4 with two neighbouring nodes in one place is a triangle, and its natural coordinates lose their
-// meaning towards that corner.
-
-// The edge from node e to the next whose ends are one; -1: none, or it has two surface coordinates.
-template <class B> ENTS_INLINE int collapsed_edge(const Geometry<B>& g) {
-  if constexpr (std::is_same_v<B, Quad4>)
-    for (int e = 0; e < 4; ++e) {
-      const int next = (e + 1) % 4;
-      const Vec<double, 3> gone = g.y[next] - g.y[e], across = g.y[(e + 2) % 4] - g.y[e];
-      if (dot(gone, gone) <= 1e-24 * dot(across, across)) return e;
-    }
-  return -1;
-}
-
-// Search of that triangle, whose nodes are e, e + 2 and e + 3, and natural coordinates of the quad4. False:
-// heights are given in natural coordinates, or in surface coordinates that differ in the two nodes: then they
-// are not those of a triangle.
+// Search of the triangle that a quad4 with the collapsed edge e is, whose nodes are e, e + 2 and e + 3, and
+// natural coordinates of the quad4. False: heights are given in natural coordinates, or in surface coordinates
+// that differ in the two nodes: then they are not those of a triangle.
 template <bool H>
 ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
                                     int budget, int e, Search& result, double (&xi)[2], int& evaluations) {
@@ -188,9 +171,8 @@ ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, c
   const bool in_corner = off < 0.5 * next_to_collapsed_edge<H> && off > -0.5 * next_to_collapsed_edge<H>;
   const double beside = in_corner ? 0.0 : 1.0;
   const double along = off > 0.0 ? clamp(p.xi[1] / off, -beside, 1.0 + beside) : 0.5;
-  const int normal = e % 2 == 0; // the direction that ends in the corner, at this side
-  const double sign = e == 1 || e == 2 ? 1.0 : -1.0;
-  const auto coordinate = [&](int node) {
+  const auto [normal, sign] = across_edge(e);
+  const auto coordinate = [&, normal = normal](int node) {
     return 2.0 * (normal == 1 ? Corners::i[node] : Corners::j[node]) - 1.0;
   };
   xi[1 - normal] = coordinate(nodes[1]) + (coordinate(nodes[2]) - coordinate(nodes[1])) * along;

@@ -34,6 +34,9 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
   out.beyond = beyond_segment<B>(p.xi) * size;
   out.rank = rank(t, p) + out.beyond;
   out.tie = tie_size * size;
+  if (is_in_collapsed_corner<B, H>(g, p.xi)) // beside that corner: another segment's may be exact
+    out.beyond = greater(out.beyond,
+                         next_to_collapsed_edge<H> * (size + square_root(dot(p.s.a[T - 1], p.s.a[T - 1]))));
   if (!(out.rank < limit)) return false;
   if (t.kind == ProjectionKind::normal) {
     const Vec<double, D> m = normal_of_tangents(p.s.e);
