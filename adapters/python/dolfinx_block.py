@@ -68,9 +68,9 @@ class Contact:
         contact = scene["contact"]
         slaves, masters = parts.sides[contact["slave"]], parts.sides[contact["master"]["faces"]]
         self.nodes = np.concatenate([slaves, masters])
-        chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points out of the lower block
+        chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points up, out of the lower block
         self.surfaces = ents.Contact(
-            contact["model"], parts.nodes[self.nodes], chain(0, len(slaves)), chain(len(slaves), len(masters)), reach=0.25, elements=owned[slaves],
+            contact["model"], parts.nodes[self.nodes], chain(0, len(slaves))[:, ::-1], chain(len(slaves), len(masters)), reach=0.25, elements=owned[slaves],
             surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
 
     def evaluate(self, displacement):

@@ -95,9 +95,9 @@ def solve(scene, refine=1, report=print):
     slave_block, slave_side = contact["slave"].split(".")
     master_block, master_side = contact["master"]["faces"].split(".")
     slaves, masters = blocks[slave_block].side(slave_side), blocks[master_block].side(master_side)
-    chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points out of the lower block
+    chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points up, out of the lower block
     surfaces = ents.Contact(
-        contact["model"], np.vstack([blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]]), chain(0, len(slaves)),
+        contact["model"], np.vstack([blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]]), chain(0, len(slaves))[:, ::-1],
         chain(len(slaves), len(masters)), dofs=np.vstack([blocks[slave_block].dofs(slaves), blocks[master_block].dofs(masters)]), rows=size, reach=0.25,
         surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
 

@@ -70,7 +70,7 @@ def main():
     given.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         library = checked_library(given.library, pathlib.Path(folder))
-        files = {f"ents/{file.name}": file.read_bytes() for file in sorted((HERE / "ents").glob("*.py"))}
+        files = {f"ents/{file.name}": file.read_bytes() for file in sorted([*(HERE / "ents").glob("*.py"), HERE / "ents" / "py.typed"])}
         files["ents/libents.so.1"] = library.read_bytes()
         files[f"{info}/LICENSE"] = (HERE.parents[1] / "LICENSE").read_bytes()
         files[f"{info}/METADATA"] = METADATA.format(version=given.version, readme=README).encode()

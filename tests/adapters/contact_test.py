@@ -25,7 +25,7 @@ def strips(rng, cells=5):
     master, slave = order[:cells + 1], order[cells + 1:]
     x[master] = np.column_stack([np.linspace(0, 5, cells + 1), 0.05 * rng.uniform(-1, 1, cells + 1)])
     x[slave] = np.column_stack([np.linspace(0.6, 4.4, cells), rng.uniform(-0.08, 0.0, cells)])
-    return x, np.column_stack([slave[:-1], slave[1:]]), np.column_stack([master[:-1], master[1:]])
+    return x, np.column_stack([slave[1:], slave[:-1]]), np.column_stack([master[:-1], master[1:]])
 
 
 def sheets(rng):
@@ -38,7 +38,7 @@ def sheets(rng):
         return x, np.stack([k[:-1, :-1], k[:-1, 1:], k[1:, 1:], k[1:, :-1]], -1).reshape(-1, 4)
     master, facets = grid(4, 0, 3, (-0.02, 0.02))
     slave, upper = grid(3, 0.4, 2.5, (-0.04, 0.0))
-    return np.vstack([master, slave]), len(master) + upper, facets
+    return np.vstack([master, slave]), len(master) + upper[:, ::-1], facets
 
 
 CASES = {  # name: mesh, model, options
@@ -57,12 +57,12 @@ class Offsets(unittest.TestCase):
     def test_a_coating_and_a_clearance(self):
         positions = np.array([[-1.0, 0], [2, 0], [0, 0.01], [0.5, 0.01], [1, -0.05]])
         model = {"segment": "line2", "contact": {**PENALTY, "offset": 0}}
-        contact = ents.Contact(model, positions, [[2, 3], [3, 4]], [[0, 1]], offset=[-0.03, 0.0, 0.02], reach=0.2)
+        contact = ents.Contact(model, positions, [[3, 2], [4, 3]], [[0, 1]], offset=[-0.03, 0.0, 0.02], reach=0.2)
         contact.update(np.zeros(10))
         np.testing.assert_allclose(contact.pressure, [800 * 0.02, 0, 800 * 0.03], atol=1e-10)
         np.testing.assert_allclose(contact.gap, [0.01, 0.01, -0.05], atol=1e-14)
         with self.assertRaisesRegex(ents.Error, 'write "offset": 0'):
-            ents.Contact({"segment": "line2", "contact": PENALTY}, positions, [[2, 3], [3, 4]], [[0, 1]], offset=0.1).update(np.zeros(10))
+            ents.Contact({"segment": "line2", "contact": PENALTY}, positions, [[3, 2], [4, 3]], [[0, 1]], offset=0.1).update(np.zeros(10))
 
 
 class RigidBodies(unittest.TestCase):
@@ -147,7 +147,7 @@ class History(unittest.TestCase):
         x = np.column_stack([[0.5, 0.8, 1.1], [0.1] * 3])
         line = np.column_stack([np.linspace(0, 6, segments + 1), np.zeros(segments + 1)])
         chain = np.column_stack([np.arange(segments), np.arange(1, segments + 1)])
-        contact = ents.Contact({"segment": "line2", "master": "rigid", "height": WAVE, "contact": FRICTION, "penetration_limit": 1}, x, [[0, 1], [1, 2]],
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "height": WAVE, "contact": FRICTION, "penetration_limit": 1}, x, [[1, 0], [2, 1]],
                                chain, master_positions=line, surface_coordinates="x", sampling=sampling, reach=0.5)
         u, forces, seen = np.zeros(6), [], set()
         for step in range(1, 41):
@@ -176,7 +176,7 @@ class History(unittest.TestCase):
 
     def test_open_points_keep_what_has_been_worn_off(self):
         wear = {**PENALTY, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
-        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, 0.0], [0.8, 0.0]], [[0, 1]],
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, 0.0], [0.8, 0.0]], [[1, 0]],
                                [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
         for y in (-0.01, 0.1, 5.0, 0.1, -0.02):  # closed, open, nowhere, open, closed
             before = contact.state[:, contact.model.layout.worn].copy()
@@ -208,7 +208,7 @@ class History(unittest.TestCase):
         """It has moved over other flanks of a deep wave on one segment: the gaps are those of a search that knows no place before."""
         text = {"segment": "line2", "master": "rigid", "contact": PENALTY, "height": {"type": "sine", "amplitude": 0.3, "wave_vector": [1.0]}}
         x = np.column_stack([np.linspace(1, 3, 9), np.full(9, 0.9)])
-        chain = np.column_stack([np.arange(8), np.arange(1, 9)])
+        chain = np.column_stack([np.arange(1, 9), np.arange(8)])
         used, fresh = (ents.Contact(text, x, chain, [[0, 1]], master_positions=[[0, 0], [6, 0]], surface_coordinates="x") for _ in range(2))
         used.update(np.zeros(x.size))
         u = np.tile([1.3, -0.2], 9)
@@ -218,7 +218,7 @@ class History(unittest.TestCase):
     def test_uzawa_ends_without_penetration(self):
         text = {"segment": "line2", "master": "rigid", "contact": {"normal": {"type": "augmented", "stiffness": 300.0}}}
         x = np.array([[0.2, 0.0], [0.5, 0.0], [0.8, 0.0]])
-        contact = ents.Contact(text, x, [[0, 1], [1, 2]], [[0, 1]], master_positions=[[0, 0], [1, 0]])
+        contact = ents.Contact(text, x, [[1, 0], [2, 1]], [[0, 1]], master_positions=[[0, 0], [1, 0]])
         u, load, gaps = np.zeros(6), np.tile([0, 5.0], 3), []
         for _ in range(12):
             for _ in range(10):
@@ -252,7 +252,7 @@ class History(unittest.TestCase):
     def test_deeper_than_reach_is_not_open(self):
         text = {"segment": "line2", "master": "rigid", "contact": PENALTY, "penetration_limit": 5}
         x = np.array([[0.2, -0.01], [0.8, -0.01]])
-        contact = ents.Contact(text, x, [[0, 1]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
+        contact = ents.Contact(text, x, [[1, 0]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
         contact.update(np.zeros(4))
         self.assertGreater(contact.pressure.min(), 0)
         with self.assertRaises(ents.CutStep) as caught:
@@ -266,7 +266,7 @@ class History(unittest.TestCase):
     def test_a_point_that_leaves_the_master_is_not_open(self):
         text = {"segment": "line2", "master": "rigid", "contact": PENALTY}
         x = np.array([[0.2, -0.01], [0.8, -0.01]])
-        contact = ents.Contact(text, x, [[0, 1]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
+        contact = ents.Contact(text, x, [[1, 0]], [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.1)
         before, _ = contact.update(np.zeros(4))
         contact.commit()
         for _ in range(2):  # it is said each time
@@ -276,7 +276,11 @@ class History(unittest.TestCase):
             self.assertIn("beside all segments", str(caught.exception))
         np.testing.assert_array_equal(contact.update(np.zeros(4))[0], before)
         contact.update(np.array([0, 0, 0, 0.2]))
-        contact.update(np.array([0, 0, 0.5, 0]))  # open in between: it may leave
+        with self.assertRaises(ents.CutStep):  # iterates that are open in between are no path
+            contact.update(np.array([0, 0, 0.5, 0]))
+        contact.update(np.array([0, 0, 0, 0.2]))
+        contact.commit()
+        contact.update(np.array([0, 0, 0.5, 0]))  # open at the begin of the increment: it may leave
         self.assertEqual(contact.pressure[1], 0)
         # The same without a Contact: an exception, unless the caller looks at the flags.
         tree, slave = contact.tree, x + [0.5, 0]
@@ -294,7 +298,7 @@ class Forces(unittest.TestCase):
         """A flat surface, 0.01 deep in a flat master: force = stiffness x depth x length x thickness, on nodes and on points."""
         x = np.column_stack([[0.1, 0.3, 0.4, 0.9], [-0.01] * 4])
         for sampling in (0, 1, 4):
-            contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": PENALTY}, x, [[0, 1], [1, 2], [2, 3]], [[0, 1]],
+            contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": PENALTY}, x, [[1, 0], [2, 1], [3, 2]], [[0, 1]],
                                    master_positions=[[0, 0], [1, 0]], thickness=2.5, sampling=sampling)
             residual, _ = contact.update(np.zeros(8))
             self.assertAlmostEqual(-residual[1::2].sum(), 800 * 0.01 * 0.8 * 2.5, delta=1e-13)
@@ -348,7 +352,7 @@ class Mistakes(unittest.TestCase):
     def test_behind_a_concave_edge(self):
         """A slave node in the wedge behind the edge of a valley is not open: the step is cut."""
         x = np.array([[-1, 0.5], [0, 0], [1, 0.5], [-0.1, -0.25], [0.0, -0.3]])
-        contact = ents.Contact({"segment": "line2", "contact": PENALTY}, x, [[3, 4]], [[0, 1], [1, 2]])
+        contact = ents.Contact({"segment": "line2", "contact": PENALTY}, x, [[4, 3]], [[0, 1], [1, 2]])
         with self.assertRaises(ents.CutStep) as caught:
             contact.update(np.zeros(10))
         self.assertIn("concave edge", str(caught.exception))

@@ -470,7 +470,7 @@ class Surfaces(unittest.TestCase):
         self.assertTrue(2 < area["zero_line"] < 6)
         self.assertEqual(area["estimate"], area["zero_line"])
         with self.assertRaisesRegex(ents.Error, "'facet' must be line2, tri3 or quad4"):
-            ents.library().contact_area("quad9", [[0]], [[0, 0, 0]], [0], [0])
+            ents.library().contact_area("quad9", [[0] * 9], [[0, 0, 0]], [0], [0])
 
     def test_tributary_areas(self):
         areas = ents.library().tributary_areas("line2", [[0, 1], [1, 2]], [[0, 0], [1, 0], [3, 0]], thickness=2)
@@ -560,7 +560,7 @@ class Errors(unittest.TestCase):
                 ("connectivity[0, 0] is 0.5", lambda: library.tributary_areas("line2", [[0.5, 1]], [[0, 0], [1, 0]])),
                 ("connectivity[0, 0] is 0.5", lambda: library.sampling_points("line2", 2, [[0.5, 1]], [[0, 0], [1, 0]])),
                 ("connectivity[0, 0] is 0.5", lambda: library.smooth("line2", "bspline4", [[0.5, 1]], 2)),
-                ("nodes[0] is 2.5", lambda: library.smooth("line2", "bspline4", [[0, 1]], 2.5)),
+                ("nodes is 2.5", lambda: library.smooth("line2", "bspline4", [[0, 1]], 2.5)),
                 ("nodes[0] is 0.5", lambda: library.combine(combination, [[0, 0], [1, 0]]))):
             self.caught(ents.Status.BAD_VALUE, [words, "whole number"], call)
 

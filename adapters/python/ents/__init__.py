@@ -11,19 +11,30 @@ Conventions are those of ents.h: current positions, indices from 0, dofs node by
 the host. Matrices here are ordinary ones: tangent[e, i, j] = dR_i / du_j of element e. Arrays are converted to float64 / int64 and copied where they are
 not so already; indices may be floating point numbers if they are whole. Calls release the interpreter's lock: threads that evaluate the same model run at the same time.
 
-Mistakes raise ents.Error with the library's own message. What a cut of the step can cure (0 < status < 100) is no exception: "status" of
-the result holds it for every element, "step_factor" and "message" say what to do; where there is no such result, ents.CutStep is raised.
+Mistakes raise ents.Error with the library's own message. What a cut of the step can cure (0 < status < 100) is in the "status" of a result that has
+one entry for each element, with "step_factor" and "message"; all other functions raise ents.CutStep. No status is dropped.
 """
 try:
     import numpy  # noqa: F401
 except ModuleNotFoundError as error:
     raise ModuleNotFoundError("ents needs NumPy: apt-get install python3-numpy, or python3 -m pip install numpy") from error
 
+from . import _structs
 from ._arrays import CutStep, Error, _new  # noqa: F401
-from ._library import Library, library  # noqa: F401
-from ._model import Model  # noqa: F401
+from ._library import Library, library
+from ._model import Model
 from ._structs import *  # noqa: F401,F403
-from ._pose import Pose  # noqa: F401
-from ._surface import Tree  # noqa: F401
-from ._system import System  # noqa: F401
-from .contact import Contact  # noqa: F401
+from ._pose import Pose
+from ._surface import Tree
+from ._system import System
+from .contact import Contact
+
+__version__: str
+__all__ = ["Contact", "CutStep", "Error", "Library", "Model", "Pose", "System", "Tree", "library",
+           "CONTRACT_MAJOR", "CONTRACT_MINOR", "ENDS_STRAIGHT", "ENDS_REPEATED", "Flag", "Need", "Shared", "Status", "QUANTITIES", "CONDITIONS"]
+
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":  # that of the library, which is loaded at the first use
+        return library().version()
+    raise AttributeError(f"module 'ents' has no attribute '{name}'")

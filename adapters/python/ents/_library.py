@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """libents.so, loaded, and its functions that need no model."""
+from __future__ import annotations
+
 import ctypes
 import ctypes.util
 import os
 import pathlib
-import traceback
+import threading
+from typing import Any, Callable, Optional, Tuple, Union
 
 import numpy as np
 
-from ._arrays import Error, _array, _combination, _new
+from ._arrays import CutStep, Error, _array, _combination, _count, _new
 from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Report, Status
 
+Combined = Tuple[np.ndarray, np.ndarray, np.ndarray]  # begin, nodes, weights
+FACET_NODES = {"line2": 2, "line3": 3, "tri3": 3, "tri6": 6, "quad4": 4, "quad8": 8, "quad9": 9}
 
 HEIGHT_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32, ctypes.POINTER(ctypes.c_double),
                                    ctypes.POINTER(ctypes.c_double))
 _heights = []  # registered functions: the library keeps their addresses
+_raised = threading.local()  # .error: what a height function has raised in the present call of this thread
 
 
 def _installed():
@@ -32,7 +38,7 @@ class Library:
     """libents.so: `path`, else what the environment's ENTS_LIBRARY names, else the one that is installed with this module, else where the
     system's loader finds it. .path: its file name."""
 
-    def __init__(self, path=None):
+    def __init__(self, path: Union[str, os.PathLike, None] = None) -> None:
         self.path = os.fspath(path or os.environ.get("ENTS_LIBRARY") or _installed())
         try:
             self.c = ctypes.CDLL(self.path)
@@ -47,102 +53,129 @@ class Library:
         function = getattr(self.c, name)
         function.restype, function.argtypes = FUNCTIONS[name]
 
-    def version(self):
+    def __repr__(self) -> str:
+        return f"<ents.Library {self.version()}: {self.path}>"
+
+    def __reduce__(self) -> tuple:
+        return (library, ()) if self is _default else (Library, (self.path,))
+
+    def version(self) -> str:
         return self.c.ents_version().decode()
 
-    def call(self, name, *arguments):
-        """ents_`name`(arguments, report). Negative statuses raise; the report comes back."""
+    def call(self, name: str, *arguments: Any, positive: Optional[type] = CutStep) -> Report:
+        """ents_`name`(arguments, report). Negative statuses raise Error, positive ones `positive` (Error or CutStep; None: the caller reads the
+        status of the report, which comes back). What a height function has raised during the call is raised."""
         report = _new(Report)
         converted = [int(a) if isinstance(a, np.integer) else ctypes.byref(a) if isinstance(a, ctypes.Structure)
                      else a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
+        _raised.error = None
         status = getattr(self.c, "ents_" + name)(*converted, ctypes.byref(report))
-        if status < 0:
-            raise Error(Status(status) if status in Status._value2member_map_ else status, report.message.decode(), report.element)
+        error, _raised.error = _raised.error, None
+        if error is not None:
+            raise error
+        if status < 0 or status > 0 and positive is not None:
+            known = Status(status) if status in Status._value2member_map_ else status
+            message, element = report.message.decode(), report.element
+            raise CutStep(known, message, element, report.step_factor) if status > 0 and positive is CutStep else Error(known, message, element)
         return report
 
-    def register_height(self, name, dimension, function):
+    def register_height(self, name: str, dimension: int, function: Optional[Callable[[int, np.ndarray], Any]]) -> None:
         """Register a height function, for models with {"type": "callback", "name": name}; None: forget the name. dimension: surface
         coordinates, 1 or 2. function(order, s): order is 2 or 3, s [dimension][count] are points; it returns h and its derivatives up to
         the order, [numbers][count], in the order h, h_1, h_11, h_111 or h, h_1, h_2, h_11, h_12, h_22, h_111, h_112, h_122, h_222, or
-        None where it is not defined. An exception counts as not defined and is printed. The function is kept for good: models call it
-        as long as they live. Threads that evaluate such a model take turns."""
+        None where it is not defined. The call of the library in which the function raises an exception raises that exception. The function
+        is kept for good: models call it as long as they live. Threads that evaluate such a model take turns.
+        In the model say "bound", "slope" and "curvature" (largest |h|, |h_1|, |h_11|): without them each search samples the whole segment,
+        100 000 calls a slave point."""
+        dimension = _count("dimension", dimension, 1, 2)
         if function is None:
             self.call("height_register", name.encode(), dimension, None, None)
             return
 
         def called(_, order, count, s, jet):
+            if _raised.error is not None:
+                return 1  # the call is lost: it ends as soon as the library lets it
             try:
                 numbers = function(order, np.ctypeslib.as_array(s, (dimension, count)))
                 if numbers is None:
                     return 1
                 np.ctypeslib.as_array(jet, (order + 1 if dimension == 1 else (order + 1) * (order + 2) // 2, count))[:] = numbers
                 return 0
-            except Exception:  # noqa: B902: nothing may pass through the library
-                traceback.print_exc()
+            except BaseException as error:  # noqa: B902: nothing may pass through the library; call() raises it
+                _raised.error = error
                 return 1
 
         kept = HEIGHT_FUNCTION(called)
         self.call("height_register", name.encode(), dimension, ctypes.cast(kept, ctypes.c_void_p), None)
         _heights.append(kept)
 
-    def tributary_areas(self, facet, connectivity, positions, thickness=1.0):
-        """Areas [nodes] of the slave nodes of facets ("line2", "quad4" ...): connectivity [facets][nodes], positions [nodes][d]."""
-        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        positions = _array("positions", positions, (None, 2 if facet.startswith("line") else 3))
+    @staticmethod
+    def _mesh(facet: str, connectivity: Any, positions: Any) -> tuple:
+        """Facets and positions, of the shapes that the library reads."""
+        if facet not in FACET_NODES:
+            raise Error(Status.BAD_VALUE, f"facet: there is no {facet!r}; there are {', '.join(FACET_NODES)}")
+        return (_array("connectivity", connectivity, (None, FACET_NODES[facet]), np.int64),
+                _array("positions", positions, (None, 2 if facet.startswith("line") else 3)))
+
+    def tributary_areas(self, facet: str, connectivity: Any, positions: Any, thickness: float = 1.0) -> np.ndarray:
+        """Areas [nodes] of the slave nodes of facets ("line2", "quad4" ...): connectivity [facets][nodes], positions [nodes][d]. thickness
+        (2D): area of a length [L]; 0: axisymmetric, the areas of the full turn about the second axis. A facet without area raises Error (.element)."""
+        connectivity, positions = self._mesh(facet, connectivity, positions)
         areas = np.zeros(len(positions))
         self.call("tributary_areas", facet.encode(), len(connectivity), connectivity, len(positions), positions,
-                  thickness, areas)
+                  float(thickness), areas, positive=Error)
         return areas
 
-    def contact_area(self, facet, connectivity, positions, gap, pressure, modulus=0.0, thickness=1.0):
+    def contact_area(self, facet: str, connectivity: Any, positions: Any, gap: Any, pressure: Any, modulus: float = 0.0,
+                     thickness: float = 1.0) -> dict[str, float]:
         """Area in contact and peak pressure from gap and pressure [nodes] of slave facets ("line2", "tri3", "quad4"): a dict with surface, counted,
-        border_corrected, zero_line, estimate, error, peak_pressure, peak_drop. `modulus` is E / (1 - nu^2); without it there is no zero_line."""
-        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        positions = _array("positions", positions, (None, 2 if facet.startswith("line") else 3))
+        border_corrected, zero_line, estimate, error, peak_pressure, peak_drop. `modulus` is E / (1 - nu^2); without it there is no zero_line.
+        A facet without area raises Error (.element)."""
+        connectivity, positions = self._mesh(facet, connectivity, positions)
         gap, pressure = (_array(name, array, (len(positions),)) for name, array in (("gap", gap), ("pressure", pressure)))
         area = _new(Area)
-        self.call("contact_area", facet.encode(), len(connectivity), connectivity, len(positions), positions, thickness, gap, pressure, modulus, area)
+        self.call("contact_area", facet.encode(), len(connectivity), connectivity, len(positions), positions, float(thickness), gap, pressure,
+                  float(modulus), area, positive=Error)
         return {name: getattr(area, name) for name, _ in Area._fields_[2:]}
 
-    def sampling_points(self, facet, per_direction, connectivity, positions, thickness=1.0):
+    def sampling_points(self, facet: str, per_direction: int, connectivity: Any, positions: Any, thickness: float = 1.0) -> tuple[Combined, np.ndarray]:
         """Points inside slave facets, that see a texture between the nodes: combinations of the nodes (begin [points + 1], nodes, weights), as of
-        `smooth`, and their areas [points]. Lines have `per_direction` points, triangles and quadrilaterals its square."""
-        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        line = facet.startswith("line")
-        positions = _array("positions", positions, (None, 2 if line else 3))
-        points = len(connectivity) * max(per_direction, 0) ** (1 if line else 2)
+        `smooth`, and their areas [points]. Lines have `per_direction` (1 .. 64) points, triangles and quadrilaterals its square. A facet
+        without area raises Error (.element)."""
+        connectivity, positions = self._mesh(facet, connectivity, positions)
+        per_direction = _count("per_direction", per_direction, 1, 64)
+        points = len(connectivity) * per_direction ** (1 if facet.startswith("line") else 2)
         begin, areas = np.zeros(points + 1, np.int64), np.zeros(points)
         of, weights = np.zeros(points * connectivity.shape[1], np.int64), np.zeros(points * connectivity.shape[1])
-        self.call("sampling_points", facet.encode(), per_direction, len(connectivity), connectivity, len(positions), positions, thickness, begin,
-                  of, weights, areas)
+        self.call("sampling_points", facet.encode(), per_direction, len(connectivity), connectivity, len(positions), positions, float(thickness),
+                  begin, of, weights, areas, positive=Error)
         return (begin, of, weights), areas
 
-    def smooth(self, facet, basis, connectivity, nodes, ends=ENDS_STRAIGHT):
+    def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT) -> tuple[np.ndarray, Combined]:
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
         and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
-        connectivity = _array("connectivity", connectivity, (None, None), np.int64)
-        head = (facet.encode(), basis.encode(), ends, len(connectivity), connectivity, *_array("nodes", [nodes], (1,), np.int64))
+        connectivity, _ = self._mesh(facet, connectivity, np.zeros((0, 2 if str(facet).startswith("line") else 3)))
+        head = (facet.encode(), str(basis).encode(), _count("ends", ends, 0, 1), len(connectivity), connectivity, _count("nodes", nodes))
         points, terms = ctypes.c_int64(), ctypes.c_int64()
-        self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms))
+        self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms), positive=Error)
         digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
         segments = np.zeros((len(connectivity), int(digits)), np.int64)
         begin, of, weights = np.zeros(points.value + 1, np.int64), np.zeros(terms.value, np.int64), np.zeros(terms.value)
-        self.call("smooth", *head, points, terms, segments, begin, of, weights)
+        self.call("smooth", *head, points, terms, segments, begin, of, weights, positive=Error)
         return segments, (begin, of, weights)
 
-    def combine(self, combination, values):
+    def combine(self, combination: Combined, values: Any) -> np.ndarray:
         """What `smooth` gave, applied to values [nodes][1 .. 3] (positions, surface coordinates)."""
-        begin = combination[0]
-        values = _array("values", values, (None, None))
-        points = np.zeros((len(begin) - 1, values.shape[1]))
-        self.call("combine", _combination(combination), values.shape[1], len(values), values, points)
+        values, block = _array("values", values, (None, None)), _combination(combination)
+        points = np.zeros((block.points, values.shape[1]))
+        self.call("combine", block, values.shape[1], len(values), values, points)
         return points
 
 
-_default = None
+_default: Optional[Library] = None
 
 
-def library():
+def library() -> Library:
     """The library of models that are not told of one; loaded at the first call."""
     global _default
     _default = _default or Library()

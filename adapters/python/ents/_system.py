@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The equations of a host."""
+from __future__ import annotations
+
 import ctypes
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
 from . import _structs
-from ._arrays import Error, _array, _combination, _new
+from ._arrays import Error, _array, _combination, _count, _new
 from ._structs import Status
+
+if TYPE_CHECKING:
+    from ._pose import Pose
 
 
 class System:
@@ -26,17 +32,22 @@ class System:
     cannot be written to).
     """
 
-    def __init__(self, slave_equations, master_equations, matrix=None, rows=None, slave=None, master=None, multiplier_equations=None, pose=None, body_equations=None):
+    def __init__(self, slave_equations: Any, master_equations: Any, matrix: Any = None, rows: Optional[int] = None, slave: Any = None, master: Any = None,
+                 multiplier_equations: Any = None, pose: Optional[Pose] = None, body_equations: Any = None) -> None:
         self.pose, self._body_rows = pose, None if body_equations is None else _array("body_equations", body_equations, (None,), np.int64)
         self.slave_equations, self.master_equations, self.multiplier_equations = slave_equations, master_equations, multiplier_equations
         self.matrix = matrix
         if matrix is None and rows is None:
             raise Error(Status.NULL_ARGUMENT, "rows: say how many there are, or give a matrix")
-        self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else rows)
+        self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else _count("rows", rows))
         self._combinations = [None if points is None else _combination(points) for points in (slave, master)]
         self._places, self._places_of = None, ()
 
-    def __setattr__(self, name, value):
+    def __repr__(self) -> str:
+        entries = "no matrix" if self.matrix is None else f"a matrix of {len(self.matrix.data)} entries"
+        return f"<ents.System: {len(self.residual)} rows, {entries}>"
+
+    def __setattr__(self, name: str, value: Any) -> None:
         if name.endswith("_equations") and value is not None:
             value = _array(name, value, (None, None), np.int64).copy()
             value.setflags(write=False)
@@ -47,6 +58,8 @@ class System:
         slave, master = (None if points is None else ctypes.addressof(points) for points in self._combinations)
         out = _new(_structs.System, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
                    rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
+        if slave is None and len(self.slave_equations) < elements:
+            raise Error(Status.BAD_COUNT, f"slave_equations: {len(self.slave_equations)} nodes; there are {elements} slave points")
         if self.slave_equations.shape[1] != lay.dimension:
             raise Error(Status.BAD_COUNT, f"slave_equations: wanted are {lay.dimension} of each node")
         if self.master_equations is not None:
@@ -56,9 +69,12 @@ class System:
         if lay.multipliers and self.multiplier_equations is not None:
             _array("multiplier_equations", self.multiplier_equations, (elements, lay.multipliers), np.int64)
             out.multiplier_equations = self.multiplier_equations.ctypes.data
-        if not (isinstance(self.residual, np.ndarray) and self.residual.dtype == np.float64 and self.residual.flags.c_contiguous):
-            raise Error(Status.BAD_VALUE, "residual: wanted is a contiguous array of float64")
+        if not (isinstance(self.residual, np.ndarray) and self.residual.dtype == np.float64 and self.residual.flags.c_contiguous
+                and self.residual.flags.writeable and self.residual.ndim == 1):
+            raise Error(Status.BAD_VALUE, "residual: wanted is a contiguous array of float64 [rows]")
         if self.pose is not None:
+            if self.pose.dimension != lay.dimension:
+                raise Error(Status.BAD_VALUE, f"pose: it is one in {self.pose.dimension}D, the model is in {lay.dimension}D")
             wanted = 3 if self.pose.dimension == 2 else 6
             if self._body_rows is None or len(self._body_rows) != wanted:
                 raise Error(Status.BAD_COUNT, f"body_equations: wanted are {wanted}, of the body's displacement and spin")
@@ -66,7 +82,8 @@ class System:
         if self.matrix is None:
             return out
         begin, columns, values = self.matrix.indptr, self.matrix.indices, self.matrix.data
-        if begin.dtype != columns.dtype or begin.dtype not in (np.int32, np.int64) or values.dtype != np.float64 or len(columns) != len(values):
+        if begin.dtype != columns.dtype or begin.dtype not in (np.int32, np.int64) or values.dtype != np.float64 or len(columns) != len(values) \
+                or not values.flags.writeable:
             raise Error(Status.BAD_VALUE, "matrix: wanted are indptr and indices of one integer type and data of float64")
         if not all(array.flags.c_contiguous for array in (begin, columns, values)):
             raise Error(Status.BAD_VALUE, "matrix: indptr, indices and data must be contiguous")

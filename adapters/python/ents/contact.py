@@ -1,223 +1,291 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact of two surfaces of a finite element program in Python: NumPy arrays in, a residual and a SciPy matrix out."""
+from __future__ import annotations
+
+import copy
+import json
+import os
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
+
 import numpy as np
 
-from ._arrays import CutStep, Error, _array
+from ._arrays import CutStep, Error, _array, _count, _frozen
+from ._contact_results import ContactResults
+from ._heights import warn_of_size
 from ._model import Model
+from ._rows import Rows
+from ._side_pairs import SidePairs
 from ._structs import ENDS_STRAIGHT, Flag, Status
 from ._surface import Tree
+from ._surfaces import MasterSurface, SlavePoints
 
-FACETS = {(2, 2): "line2", (2, 3): "line3", (3, 3): "tri3", (3, 4): "quad4", (3, 6): "tri6", (3, 8): "quad8", (3, 9): "quad9"}
-SMOOTHED = ("catmull_rom4", "bspline4", "catmull_rom16", "bspline16", "bezier15")
+if TYPE_CHECKING:
+    import scipy.sparse
+
+BORDER = 0.1
+LOST = Flag.LEFT | Flag.BEHIND_EDGE
 
 
-class Contact:
+class Contact(ContactResults):
     """Contact elements between slave facets and master facets, with search, areas, history and assembly.
 
         contact = ents.Contact(model, positions, slave, master)
         residual, tangent = contact.update(u)       # in each Newton iteration: add them to those of the bodies
         contact.commit()                            # once the step has converged
 
-    model      ents.Model, dict, JSON text or file name. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
-               over two-node facets, say). No "patch"; instead of multipliers as unknowns "augmented" with augment()
-    positions  [nodes][d] undeformed positions [L] of the program's nodes
-    slave      [facets][2 .. 9] nodes of the facets of the slave surface, in the order of ents.h
-    master     [facets][2 .. 9] nodes of the master surface; its normal points at the slave surface ("Segments" in ents.h)
-    master_positions     [nodes][d]: the master is no part of the mesh; `master` counts these nodes, and the model is "master": "rigid"
-    dofs       [nodes][d] equation of each displacement, -1: none; default: d * node + component
-    rows       number of equations; default: the largest of dofs and one
-    reach      largest absolute gap [L] at which a slave point is searched for; default: the longest edge of both surfaces
-    thickness  2D: area of a length [L]
-    sampling   0: slave points are nodes, with their tributary areas; n: n points per direction inside each slave facet
-    surface_coordinates  in which the height is given: "x" (3D: "xy", "xz" ...), undeformed coordinates; or an array
-               [facets][nodes of a facet][d-1] (not smoothed); default: the model's own, else natural coordinates
-    offset     length [L] that is added to the gap, a number or one for each slave point: > 0 a clearance, < 0 a coating; needs "offset": 0 in the
-               model's "contact"
-    elements   [slave points] bool: those that are assembled; the others belong to another process. Default: all
-    ends       smoothed masters: ENDS_STRAIGHT or ENDS_REPEATED, see ents.h
+    help(ents.Contact.__init__) explains the arguments.
 
-    After update(), for each slave point: .gap [L] (nan: nothing within reach), .pressure [F/A], .traction (friction) [d], .flags (see Flag), .segment (-1: none),
-    .points [d]; and .areas, .state (of the end of the increment). .residual [rows], .tangent (csr_matrix) are those of the last update.
+    After update(), for each slave point: .gap [L] (nan: nothing within reach), .pressure [F/A] (per undeformed area), .traction [d] (friction, as it
+    acts on the master), .flags (see Flag), .segment (-1: none), .points [d] (where it is); .state (of the end of the increment); .residual [rows],
+    .tangent (csr_matrix) of the last update. Always: .nodes [points] (the node that each slave point is; None with points inside the facets),
+    .areas [points], .positions, .dofs, .rows, .reach, .model, .tree.
+
+    Arrays that are given are copied; changing them afterwards has no effect. Arrays that come back are never written to again; those that are
+    attributes cannot be written to. A Contact can be pickled, copied (copy.deepcopy) and saved (save, load).
     """
 
-    def __init__(self, model, positions, slave, master, *, master_positions=None, dofs=None, rows=None, reach=None, thickness=1.0, sampling=0,
-                 surface_coordinates=None, offset=None, elements=None, ends=ENDS_STRAIGHT):
-        import scipy.sparse as sparse
-        self._sparse = sparse
-        self.model = model = model if isinstance(model, Model) else Model(model)
-        d, library = model.layout.dimension, model.library
-        if model.patch:
-            raise Error(Status.BAD_VALUE, 'model: leave out "patch": ents.Contact finds the segment of each slave point among all master facets')
-        if model.layout.multipliers:
-            raise Error(Status.BAD_VALUE, 'model: ents.Contact has no multipliers as unknowns; write the normal law "augmented", which keeps them in '
-                        'the state, and call augment() after each solve until the penetration is small enough')
-        self.positions = _array("positions", positions, (None, d))
-        nodes = len(self.positions)
-        self.dofs = np.arange(d * nodes).reshape(nodes, d) if dofs is None else _array("dofs", dofs, (nodes, d), np.int64)
-        self.rows = int(self.dofs.max()) + 1 if rows is None else rows
-        slave, slave_type = _facets("slave", slave, nodes, d)
-        moved = self.positions if master_positions is None else _array("master_positions", master_positions, (None, d)).copy()
-        master, master_type = _facets("master", master, len(moved), d)
+    def __init__(self, model: Union[Model, dict, str, os.PathLike], positions: Any, slave: Any, master: Any, *, master_positions: Any = None,
+                 dofs: Any = None, rows: Optional[int] = None, reach: Optional[float] = None, thickness: float = 1.0, sampling: Optional[int] = None,
+                 surface_coordinates: Any = None, offset: Any = None, elements: Any = None, ends: int = ENDS_STRAIGHT, leave: bool = False,
+                 mirror: Sequence = (), order: str = "ring") -> None:
+        """Slave points on the facets `slave` against the facets `master`.
+
+        model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
+                   over two-node facets, say). No "patch"; instead of multipliers as unknowns "augmented" with augment(). Where it has no "border",
+                   facets reach beyond their edges by 0.1 in their natural coordinates: a point on the edge of flush bodies keeps its contact, and one
+                   above a master node keeps its facet. (An ents.Model is taken as it is: write "border": 0.1 there)
+        positions  [nodes][d] undeformed positions [L] of the program's nodes
+        slave      [facets][2 .. 9] nodes of the facets of the slave surface, or a list of facets of 3 and 4 nodes. Order as "Segments" in ents.h:
+                   in 2D the outside is on the left of the way from the first node to the second; in 3D corners go counter-clockwise, seen from outside
+        master     the same of the master surface: its normal points out of its body, at the slave. Triangles among quadrilaterals are segments
+                   "quad4" with a doubled node
+        master_positions     [nodes][d]: the master is no part of the mesh; `master` counts these nodes, and the model is "master": "rigid". See move()
+        dofs       [nodes][d] equation of each displacement, -1: none; default: d * node + component
+        rows       number of equations; default: the largest of dofs and one
+        reach      [L] a slave point is searched for up to this distance from the master, on both sides; deeper points are errors.
+                   Default: the longest edge of both surfaces
+        thickness  2D: area of a length [L]; 0: axisymmetric, areas and forces of the full turn about the second axis. 3D: not read
+        sampling   0: slave points are nodes, with their tributary areas; n = 1 .. 64: n points per direction inside each slave facet. Default: 0; where
+                   a slave facet is quad8 or tri6, whose corner forces under a constant pressure are negative or 0: 2 (tri6: 3 points); 0 is refused there
+        surface_coordinates  in which the height is given: "x" (3D: "xy", "xz" ...), undeformed coordinates; or an array
+                   [facets][nodes of a facet][d-1] (not smoothed); default: the model's own, else natural coordinates
+        offset     [L] is added to the gap, a number or one for each slave point: > 0 a clearance, < 0 a coating; needs "offset": 0 in the
+                   model's "contact"
+        elements   [slave points] bool: those that are assembled; the others belong to another process. Default: all
+        ends       smoothed masters: ENDS_STRAIGHT or ENDS_REPEATED, see ents.h
+        leave      True: a slave point in contact that is pushed over the end of the master is open from there on; False: CutStep
+        mirror     smoothed masters: planes of symmetry, [("x", 0.0), ...], at which the surface goes on as its mirror image does
+        order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
+
+        Errors (ents.Error, with what to write): facets that are on both sides (a surface in contact with itself), that name a node twice, that do not
+        exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
+        argument of another shape. A slave facet without area is left out with a warning.
+        """
+        self._arguments = {name: value if name == "model" else copy.deepcopy(value) for name, value in locals().items() if name != "self"}
+        self.model = model = _with_border(model)
+        d = model.layout.dimension
+        _refuse_models(model)
+        self._positions = _frozen(_array("positions", positions, (None, d)).copy())
+        nodes = len(self._positions)
+        self._dofs = _frozen(np.arange(d * nodes).reshape(nodes, d) if dofs is None else _array("dofs", dofs, (nodes, d), np.int64).copy())
+        self._rows = _count("rows", int(self._dofs.max(initial=-1)) + 1 if rows is None else rows)
+        if self._dofs.max(initial=-1) >= self._rows or self._dofs.min(initial=-1) < -1:
+            raise Error(Status.BAD_VALUE, f"dofs: from {self._dofs.min()} to {self._dofs.max()}; there are {self._rows} rows, from 0, and -1 for none")
+        self._own = None if master_positions is None else _array("master_positions", master_positions, (None, d)).copy()
         self.rigid = model.layout.dofs == d
-        if master_positions is not None and not self.rigid:
+        if self._own is not None and not self.rigid:
             raise Error(Status.BAD_VALUE, 'master_positions: a master that is no part of the mesh cannot deform; write "master": "rigid" in the model')
-        self._own = moved if master_positions is not None else None
+        if order not in ("ring", "tensor"):
+            raise Error(Status.BAD_VALUE, f'order: {order!r}; there are "ring" and "tensor"')
+        for name, array in (("positions", self._positions), ("master_positions", self._own)):
+            if array is not None and not np.isfinite(array).all():
+                raise Error(Status.NON_FINITE, f"{name}{np.argwhere(~np.isfinite(array))[0].tolist()} is not finite")
 
-        # Slave points as combinations of nodes, and their areas.
-        if sampling:
-            (begin, of, weights), self.areas = library.sampling_points(slave_type, sampling, slave, self.positions, thickness)
-            self._slave = sparse.csr_matrix((weights, of, begin), (len(begin) - 1, nodes))
-        else:
-            used = np.unique(slave)
-            self.areas = library.tributary_areas(slave_type, slave, self.positions, thickness)[used]
-            self._slave = sparse.csr_matrix((np.ones(len(used)), (np.arange(len(used)), used)), (len(used), nodes))
-        # Nodes of the segments as combinations of nodes.
-        self._master, segments, per_node = sparse.identity(len(moved), format="csr"), master, None
-        if model.segment in SMOOTHED:
-            segments, (begin, of, weights) = library.smooth(master_type, model.segment, master, len(moved), ends)
-            self._master = sparse.csr_matrix((weights, of, begin), (len(begin) - 1, len(moved)))
-        elif model.segment != master_type:
-            raise Error(Status.BAD_VALUE, f'model: "segment" is {model.segment}, the master facets are {master_type} or {" or ".join(SMOOTHED)} over them')
-        start = self._master @ moved
-        if isinstance(surface_coordinates, str):
-            if len(surface_coordinates) != d - 1 or not set(surface_coordinates) <= set("xyz"[:d]):
-                raise Error(Status.BAD_VALUE, f'surface_coordinates: "{surface_coordinates}"; wanted are {d - 1} of {", ".join("xyz"[:d])}')
-            per_node = start[:, ["xyz".index(axis) for axis in surface_coordinates]]
-            surface_coordinates = per_node[segments]
-        elif surface_coordinates is not None and model.segment in SMOOTHED:
-            raise Error(Status.BAD_VALUE, 'surface_coordinates: of a smoothed master they are undeformed coordinates; give "x", say')
-        self.tree = Tree(model, segments, start, surface_coordinates)
-        self.reach = reach or max(_longest_edge(self.positions, slave), _longest_edge(moved, master))
-
-        # Displacements of slave points and segment nodes from the vector of unknowns: also how forces go back.
-        flat = np.flatnonzero(self.dofs.ravel() >= 0)
-        unknowns = sparse.csr_matrix((np.ones(len(flat)), (flat, self.dofs.ravel()[flat])), (nodes * d, self.rows))
-        wide = lambda points: sparse.kron(points, sparse.identity(d), "csr")
-        parts = [wide(self._slave) @ unknowns] + ([] if self.rigid else [wide(self._master) @ unknowns])
-        self._spread = sparse.vstack(parts, "csr")
-        count = len(self.areas)
-        self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool)
-        self._own_values = None
+        self._slave = points = SlavePoints(model, self._positions, slave, sampling, thickness, order)
+        self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order)
+        self._pairs = SidePairs(points, self._master, self._positions, self._own is None)
+        self.tree = Tree(model, self._master.segments, self._master.start, self._master.coordinates(surface_coordinates))
+        self.reach = max(points.longest_edge, self._master.longest_edge) if reach is None else reach
+        warn_of_size(json.loads(model._text).get("height"), model._data, model._directory, float(np.ptp(self._master.start, axis=0).max()), self.reach)
+        count = len(points.areas)
+        self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool).copy()
+        self._elements &= ~self._pairs.joined
+        self._leave = bool(leave)
+        self._slave_values = None
         if offset is not None:
-            self._own_values = np.ones((count, model.layout.slave_values))
-            self._own_values[:, 0] = _array("offset", np.broadcast_to(np.asarray(offset, float), (count,)), (count,))
-        self._slave_rows = np.arange(count * d).reshape(count, d)
-        self._master_rows = None if self.rigid else count * d + np.arange(len(start) * d).reshape(len(start), d)
+            offset = _array("offset", np.full(count, offset) if np.ndim(offset) == 0 else offset, (count,))
+            self._slave_values = np.ones((count, model.layout.slave_values))
+            self._slave_values[:, 0] = offset
+        self._assembly = None  # (numbers of the points, Rows)
+        self._start_results(count)
+        self._hint, self._xi = np.full(count, -1, np.int64), np.zeros((count, d - 1))
+        self._state_begin = self._state = _frozen(model.state_init(count))
+        self._segment_begin, self._tree_begin, self._pending = self._hint, self.tree.positions.copy(), None
 
-        self.segment, self._xi = np.full(count, -1, np.int64), np.zeros((count, d - 1))
-        self.state = self._state_begin = model.state_init(count)
-        self._segment_begin, self._tree_begin, self._pending = self.segment, self.tree.positions.copy(), None
-        self.residual, self.tangent = np.zeros(self.rows), sparse.csr_matrix((self.rows, self.rows))
+    @property
+    def reach(self) -> float:
+        """[L] largest distance from the master at which a slave point is searched for."""
+        return self._reach
 
-    def move(self, master_positions):
+    @reach.setter
+    def reach(self, value: float) -> None:
+        if not (isinstance(value, (int, float, np.number)) and 0 < value < 1e100):
+            raise Error(Status.BAD_VALUE, f"reach is {value!r}: give a length above 0")
+        self._reach = float(value)
+
+    def __repr__(self) -> str:
+        closed = int((self.pressure > 0).sum())
+        return (f"<ents.Contact: {len(self.areas)} slave points, {closed} in contact, {len(self.tree.connectivity)} {self.model.segment} segments, "
+                f"{self.rows} rows>")
+
+    def move(self, master_positions: Any) -> None:
         """New positions [nodes][d] of a master that is no part of the mesh; used by the next update()."""
         if self._own is None:
             raise Error(Status.BAD_VALUE, "move: this master is a part of the mesh, it moves with u")
-        self._own = _array("master_positions", master_positions, self._own.shape).copy()
+        own = _array("master_positions", master_positions, self._own.shape)
+        if not np.isfinite(own).all():
+            raise Error(Status.NON_FINITE, f"master_positions{np.argwhere(~np.isfinite(own))[0].tolist()} is not finite")
+        self._own = own.copy()
 
-    def update(self, u):
+    def update(self, u: Any, tangent: bool = True) -> tuple[np.ndarray, Optional[scipy.sparse.csr_matrix]]:
         """Search and assemble at the displacements u: [rows], or [nodes][d] where some are no unknowns. Returns residual [rows] (internal force,
-        to be added to that of the bodies) and tangent (csr_matrix). CutStep: take a smaller step; nothing has changed."""
-        model, d = self.model, self.model.layout.dimension
-        u = np.asarray(u, float)
-        if u.shape == (self.rows,):
-            u = np.where(self.dofs >= 0, u[self.dofs], 0.0)
-        now = self.positions + _array("u", u, self.positions.shape)
-        points = self._slave @ now
-        self.tree.move(self._master @ (now if self._own is None else self._own))
-        # A closed point is followed; an open one is searched anew, for it may have moved over another flank.
-        found = self.tree.detect(points, self.reach, self.segment, self._xi, Flag.LEFT | Flag.BEHIND_EDGE)
-        lost = np.flatnonzero(self._elements & (found["flags"] & Flag.BEHIND_EDGE != 0))
-        if len(lost):
-            raise CutStep(Status.NO_PROJECTION, f"slave point {lost[0]} lies behind a concave edge of the master: take a smaller step, widen "
-                          '"border" in the model, or smooth the master', int(lost[0]), 0.5)
-        # A point that was closed and is now nowhere within reach has opened, or it is too deep to be found.
-        gone = np.flatnonzero(self._elements & (self.segment >= 0) & (found["segment"] < 0))
-        if len(gone):
-            gap = self.tree.detect(points[gone], 10 * self.reach)["gap"]
-            if gap.min() < -self.reach:
-                k = int(gap.argmin())
-                raise CutStep(Status.DEEP_PENETRATION, f"slave point {gone[k]} penetrates by {-gap[k]:.6g}, more than reach = {self.reach:.6g}: take a "
-                              "smaller step, or give a larger reach", int(gone[k]), min(0.5, self.reach / -gap[k]))
-        left = np.flatnonzero(self._elements & (found["flags"] & Flag.LEFT != 0))
-        if len(left):
-            raise CutStep(Status.NO_PROJECTION, f"slave point {left[0]} was in contact and lies beside all segments of the master now: take a smaller "
-                          "step, or let the master reach farther", int(left[0]), 0.5)
-        segment = np.where(self._elements, found["segment"], -1)
-        status, state = self.tree.state_transfer(self._state_begin, self._segment_begin, segment, self._tree_begin)
-        want = "state_end gap pressure flags" + (" traction" if model.layout.friction else "")
-        if status:
-            raise CutStep(status, "the history of a slave point cannot move to its new segment: take a smaller step", -1, 0.5)
-        r, (values, places), result = model.blocks(points, self.tree, segment, self._slave_rows, self._master_rows, self._spread.shape[0], want=want,
-                                                   area=self.areas, start=found["xi"], state=state, slave_values=self._own_values)
-        bad = np.flatnonzero(result["status"])
-        if len(bad):
-            raise CutStep(Status(result["status"][bad[0]]), result["message"], int(result["closed"][bad[0]]), result["step_factor"])
-        self.residual = self._spread.T @ r
-        matrix = self._sparse.coo_matrix((values, places), (len(r), len(r))).tocsr()
-        self.tangent = (self._spread.T @ matrix @ self._spread).tocsr()
-        count, on = len(points), result["closed"]
-        self.points, self.gap, self.pressure, self.flags = points, np.full(count, np.nan), np.zeros(count), np.zeros(count, np.int32)
-        self.traction = np.zeros((count, d))
-        for name in ("gap", "pressure", "flags") + (("traction",) if model.layout.friction else ()):
-            getattr(self, name)[on] = result[name]
-        self.state = model.state_opened(state)
-        self.state[on] = result["state_end"]
-        self._pending = segment, self.tree.positions.copy()
-        self.segment, self._xi = np.where(self.flags & Flag.CONTACT, segment, -1), found["xi"]
-        return self.residual, self.tangent
+        to be added to that of the bodies) and tangent (csr_matrix; None with tangent=False, as for the trial steps of a line search).
+        CutStep: take a smaller step from the last commit(); nothing has changed. Error: a mistake."""
+        now = self._moved(u)
+        points = self._slave.at(now)
+        self._move_tree(now)
+        self._pairs.now = now
+        result, residual, matrix = self._search_and_add(points, tangent)
+        self._keep(points, result, residual, matrix)
+        return self.residual, self.tangent if tangent else None
 
-    def commit(self):
+    def _moved(self, u: Any) -> np.ndarray:
+        """Positions [nodes][d] at the displacements u."""
+        given = _array("u", u, (None,) * np.ndim(u))
+        if given.shape not in ((self.rows,), self._positions.shape):
+            raise Error(Status.BAD_COUNT, f"u: the shape is {given.shape}, wanted is ({self.rows},) or {self._positions.shape}")
+        if not np.isfinite(given).all():
+            place = np.argwhere(~np.isfinite(given))[0].tolist()
+            raise CutStep(Status.NON_FINITE, f"u{place} is {given[tuple(place)]}: a singular matrix, or a step that was much too large?")
+        if given.shape == (self.rows,) and given.shape != self._positions.shape:
+            given = np.where(self._dofs >= 0, given[self._dofs], 0.0) if self.rows else np.zeros(self._dofs.shape)
+        return self._positions + given
+
+    def _move_tree(self, now: np.ndarray) -> None:
+        try:
+            self.tree.move(self._master.at(now if self._own is None else self._own))
+        except Error as error:  # an iterate: facets that collapse, positions beyond all bounds
+            if self._own is not None and error.status < 0:
+                raise
+            raise CutStep(error.status, f"the master at this u: {error}", error.element) from None
+
+    def _search_and_add(self, points: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
+        """Result [points], residual and tangent. Facets that do not face the slave are no candidates."""
+        hint, xi, active = self._hint, self._xi, self._elements
+        for attempt in range(3):
+            result, residual, matrix = self._add(points, active, hint, xi, tangent)
+            self._refuse_lost(points, result)
+            if (result["status"] > 0).any():
+                k = int(np.flatnonzero(result["status"])[0])
+                raise CutStep(Status(result["status"][k]), result["message"], k, result["step_factor"])
+            fresh = np.flatnonzero((result["flags"] & Flag.CONTACT != 0) & (result["segment"] != self._hint))
+            self._pairs.judge(self.tree, result["segment"])
+            away = self._pairs.turned_away(self.tree, fresh, result["segment"])
+            if not len(away):
+                return result, residual, matrix
+            hint, xi, active = result["segment"].copy(), result["xi"].copy(), active.copy()
+            for k in away:
+                hint[k], xi[k] = self._pairs.facing(points[k], self.tree, k, self.reach)
+                active[k] = hint[k] >= 0 and attempt == 0
+        return result, residual, matrix
+
+    def _add(self, points: np.ndarray, active: np.ndarray, hint: np.ndarray, xi: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
+        """The library's search and assembly of the active points; the others are open."""
+        numbers = np.flatnonzero(active)
+        if self._assembly is None or not np.array_equal(self._assembly[0], numbers):
+            slave, of_nodes = self._slave.matrix[numbers], None if self._slave.nodes is None else self._slave.nodes[numbers]
+            dofs, rows = self._master.equations(self._dofs, self.rows)
+            self._assembly = numbers, Rows(self.model, self.tree, dofs, rows, self._master.widened(slave), of_nodes,
+                                           None if self.rigid else self._master.matrix, self._master.smoothed)
+        of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
+        found, residual, matrix = self._assembly[1].add(
+            tangent, slave=of(points), reach=self.reach, segment=of(hint), xi=of(xi), want="state_end gap pressure flags" + (
+                " traction" if self.model.layout.friction else ""), positions_begin=None if self.rigid else self._tree_begin, area=of(self.areas),
+            state=of(self._state_begin), slave_values=of(self._slave_values), permitted=LOST)
+        residual, matrix = self._master.condensed(residual, matrix)
+        if len(numbers) == len(points):
+            return found, residual, matrix
+        result = {name: found[name] for name in ("message", "step_factor")}
+        for name, array in found.items():
+            if isinstance(array, np.ndarray):
+                result[name] = np.full((len(points), *array.shape[1:]), -1 if name in ("segment", "other") else 0, array.dtype)
+                result[name][numbers] = array
+        rest = np.setdiff1d(np.arange(len(points)), numbers)
+        result["state_end"][rest] = self.model.state_opened(self._state_begin[rest])
+        return result, residual, matrix
+
+    def _refuse_lost(self, points: np.ndarray, result: dict[str, Any]) -> None:
+        """Points that were in contact, or are behind the surface, and have no segment: an increment that is too large."""
+        behind = np.flatnonzero(result["detected"] & Flag.BEHIND_EDGE)
+        if len(behind):
+            raise CutStep(Status.NO_PROJECTION, f"slave point {behind[0]} lies behind a concave edge of the master: take a smaller step, widen "
+                          '"border" in the model, or smooth the master', int(behind[0]))
+        left = np.flatnonzero(result["detected"] & Flag.LEFT)
+        if not len(left):
+            return
+        far = self.tree.detect(points[left], 1e90)  # beside the master, or below it?
+        gap = np.where(far["segment"] >= 0, far["gap"], 0.0)
+        if gap.min() < -self.reach:
+            k, depth = int(left[gap.argmin()]), -gap.min()
+            raise CutStep(Status.DEEP_PENETRATION, f"slave point {k} penetrates by {depth:.6g}, more than reach = {self.reach:.6g}: take a "
+                          "smaller step, or give a larger reach", k, min(0.5, self.reach / depth))
+        if not self._leave:
+            raise CutStep(Status.NO_PROJECTION, f"slave point {left[0]} was in contact and lies beside all segments of the master now: take a smaller "
+                          'step, let the master reach farther (more facets, or "border" in the model), or write leave=True if it may go over the end',
+                          int(left[0]))
+
+    def commit(self) -> None:
         """The last update() is the end of the increment, and the begin of the next one."""
         if self._pending is None:
             raise Error(Status.BAD_STATE, "commit: update(u) comes first")
         self._segment_begin, self._tree_begin = self._pending
-        self._state_begin = self.state.copy()
+        self._state_begin = self._state
+        self._committed = self._hint, self._xi
 
-    def augment(self):
+    def augment(self) -> None:
         """Uzawa's step of a model with "augmented": takes the multipliers of the last update() over; then solve the increment again."""
         if not self.model.layout.augmentable:
             raise Error(Status.BAD_VALUE, 'augment: the model\'s normal law is not "augmented"')
-        status, begin = self.tree.state_transfer(self._state_begin, self._segment_begin, self._pending[0], self._tree_begin)
-        if status:
-            raise CutStep(status, "the history of a slave point cannot move to its new segment: take a smaller step", -1, 0.5)
-        self.model.state_augment(begin, self.state)
-        self._state_begin, self._segment_begin, self._tree_begin = begin, self._pending[0], self._tree_begin
-
-    def plot(self, axes=None):
-        """The contact pressure on the slave points with matplotlib, and in 2D the enriched master and the points. Returns the axes."""
-        import matplotlib.pyplot as plt
-        d = self.model.layout.dimension
-        axes = axes or plt.figure().add_subplot()
-        if d == 3:
-            drawn = axes.scatter(*self.points[:, :2].T, c=np.where(self.pressure > 0, self.pressure, np.nan), s=12)
-            axes.figure.colorbar(drawn, label="contact pressure")
-            axes.set(xlabel="x", ylabel="y", aspect="equal")
-            return axes
-        xi = np.linspace(-1, 1, max(9, 800 // len(self.tree.connectivity)))[:, None]
-        for number, nodes in enumerate(self.tree.connectivity):
-            s = self.tree.surface_coordinates
-            line = self.model.surface(self.tree.positions[nodes], xi, None if s is None else s[number])["point"]
-            axes.plot(*line.T, "k-", lw=1, label=None if number else "enriched master")
-        axes.plot(*self.points.T, ".", label="slave points")
-        axes.set(xlabel="x", ylabel="y")
-        right = axes.twinx()
-        order = np.argsort(self.points[:, 0])
-        right.plot(self.points[order, 0], self.pressure[order], "C3-", lw=1, label="contact pressure")
-        right.set_ylabel("contact pressure", color="C3")
-        axes.legend(loc="best")
-        return axes
+        if self._pending is None:
+            raise Error(Status.BAD_STATE, "augment: update(u) comes first")
+        old, new = self._segment_begin, self._pending[0]
+        moves = np.flatnonzero((old >= 0) & (new >= 0) & (old != new))
+        begin = self._state_begin.copy()
+        if len(moves):
+            status, moved = self.tree.state_transfer(begin[moves], old[moves], new[moves], self._tree_begin)
+            if status:
+                raise CutStep(status, "the history of a slave point cannot move to its new segment: take a smaller step")
+            begin[moves] = moved
+            begin[moves, -1] = new[moves] + 1  # a state knows its segment
+        self.model.state_augment(begin, self._state)
+        self._state_begin, self._segment_begin = _frozen(begin), np.where(new >= 0, new, old)
 
 
-def _facets(name, facets, nodes, d):
-    facets = _array(name, facets, (None, None), np.int64)
-    if (d, facets.shape[1]) not in FACETS:
-        raise Error(Status.BAD_COUNT, f"{name}: facets of {facets.shape[1]} nodes in {d}D; there are {', '.join(FACETS[key] for key in FACETS if key[0] == d)}")
-    if facets.size and not (0 <= facets.min() and facets.max() < nodes):
-        raise Error(Status.BAD_VALUE, f"{name}: node {facets.max() if facets.max() >= nodes else facets.min()} does not exist; there are {nodes}, from 0")
-    return facets, FACETS[d, facets.shape[1]]
+def _with_border(given: Union[Model, dict, str, os.PathLike]) -> Model:
+    """The model; with the border of this class where the caller has none."""
+    if isinstance(given, Model):
+        return given
+    if isinstance(given, dict):
+        return Model({"border": BORDER, **given})
+    model = Model(given)
+    return model if model.border is not None else Model({"border": BORDER, **json.loads(model._text)}, directory=model._directory)
 
 
-def _longest_edge(positions, facets):
-    corners = facets[:, :2] if positions.shape[1] == 2 else facets[:, :3 if facets.shape[1] in (3, 6) else 4]
-    return max(np.linalg.norm(positions[corners] - positions[np.roll(corners, 1, axis=1)], axis=2).max(), 0.0)
+def _refuse_models(model: Model) -> None:
+    if model.patch:
+        raise Error(Status.BAD_VALUE, 'model: leave out "patch": ents.Contact finds the segment of each slave point among all master facets')
+    if model.layout.multipliers:
+        raise Error(Status.BAD_VALUE, 'model: ents.Contact has no multipliers as unknowns; write the normal law "augmented", which keeps them in '
+                    'the state, and call augment() after each solve until the penetration is small enough')
+    if not model._has_law:
+        raise Error(Status.BAD_VALUE, 'model: it has no contact law; write "contact": {"normal": {"type": "penalty", "stiffness": ...}}')

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which facets face each other: a slave point touches facets that look against it, and no others."""
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from ._arrays import Error
+from ._sides import refuse_shared, reversed_pair
+from ._structs import Status
+from ._surface import Tree
+from ._surfaces import MasterSurface, SlavePoints
+
+FACING = -0.05  # cosine of the two normals up to which facets face each other: about 93 degrees
+
+
+class SidePairs:
+    """Orientation of slave points and segments against each other.
+
+    joined [points] bool: nodes of both surfaces, where the bodies are one: no contact there
+    """
+
+    def __init__(self, slave: SlavePoints, master: MasterSurface, positions: np.ndarray, one_mesh: bool) -> None:
+        self._slave, self._master, self.now = slave, master, positions
+        used = np.unique(np.concatenate([group.nodes.ravel() for group in slave.groups]))
+        self.joined = np.zeros(len(slave.areas), bool)
+        if one_mesh:
+            refuse_shared(slave.groups, master.groups)
+            of_master = np.unique(np.concatenate([group.nodes.ravel() for group in master.groups]))
+            if slave.nodes is not None:
+                self.joined = np.isin(slave.nodes, of_master)
+            used = np.union1d(used, of_master)
+        self._bodies = len(used) < len(positions)  # nodes beside those of the surfaces
+        self._judged, self._sign = False, 1.0
+        pair = reversed_pair(slave.groups)
+        if pair is not None:
+            self._judged, self._sign = True, 0.0
+            warnings.warn(f"slave: the neighbours {pair[0]} and {pair[1]} are not oriented alike. Their forces are right; master facets that look the same way "
+                          "as the slave are not recognised", UserWarning, stacklevel=4)
+
+    def _cosines(self, points: np.ndarray, positions: np.ndarray, segments: np.ndarray) -> np.ndarray:
+        """Of the normals of slave points and of segments: -1 where they face each other."""
+        return self._sign * np.einsum("ij,ij->i", self._slave.normals(self.now, points), self._master.normals(positions, segments))
+
+    def judge(self, tree: Tree, segment: np.ndarray) -> None:
+        """Once: do all slave points that find a segment look the same way as that? Then a side is listed in the wrong order."""
+        found = np.flatnonzero(segment >= 0)
+        if self._judged or not len(found):
+            return
+        self._judged = True
+        if not (self._cosines(found, tree.positions, segment[found]) > 0.1).all():
+            return
+        text = ("slave and master facets look the same way: one of the sides is listed in the wrong order. Normals point out of the bodies, at each other "
+                "(2D: to the left of the way from the first node of a facet to the second; 3D: corners counter-clockwise, seen from outside). "
+                "Reverse its facets: facets[:, ::-1]")
+        if self._bodies:
+            raise Error(Status.BAD_VALUE, text)
+        self._sign = -1.0
+        warnings.warn(f"{text}. The master is taken as it is, the slave's order has no effect here", UserWarning, stacklevel=4)
+
+    def turned_away(self, tree: Tree, points: np.ndarray, segment: np.ndarray) -> np.ndarray:
+        """Those of `points` whose segments do not face them."""
+        if not len(points) or self._sign == 0.0:
+            return points[:0]
+        return points[self._cosines(points, tree.positions, segment[points]) > FACING]
+
+    def facing(self, point: np.ndarray, tree: Tree, number: int, reach: float) -> tuple[int, np.ndarray]:
+        """Segment and xi of a slave point among the segments that face it; -1: none within reach."""
+        boxes = tree.positions[tree.connectivity]
+        near = np.flatnonzero(((boxes.min(axis=1) <= point + reach) & (boxes.max(axis=1) >= point - reach)).all(axis=1))
+        near = near[self._cosines(np.full(len(near), number), tree.positions, near) <= FACING]
+        if not len(near):
+            return -1, np.zeros(len(point) - 1)
+        few = Tree(tree.model, tree.connectivity[near], tree.positions, None if tree.surface_coordinates is None else tree.surface_coordinates[near])
+        found = few.detect(point[None], reach)
+        segment = int(found["segment"][0])
+        return int(near[segment]) if segment >= 0 else -1, found["xi"][0]

@@ -1,0 +1,201 @@
+"""contact_restart_test.py FOLDER-OF-ents: what ents.Contact keeps: restarts, copies, arrays that are shared with nobody, iterates that fail. Exit
+status 3: no NumPy or SciPy here."""
+import copy
+import multiprocessing
+import pathlib
+import pickle
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+try:
+    import numpy as np
+    import scipy.sparse as sparse
+    from bodies import chain, two_blocks
+    from scipy.sparse.linalg import spsolve
+except ModuleNotFoundError as error:
+    print(f"contact_restart_test.py: {error} (Debian: python3-numpy, python3-scipy)")
+    sys.exit(3)
+sys.path.insert(0, sys.argv[1])
+import ents  # noqa: E402
+
+PENALTY = {"normal": {"type": "penalty", "stiffness": 1e3}}
+LAW = {**PENALTY, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1e3}}
+MODEL = {"segment": "line2", "contact": LAW}
+COUNT = 6
+X = np.vstack([np.c_[np.linspace(1, 0.1, COUNT), np.full(COUNT, -0.01)], np.c_[np.linspace(-1, 2, 7), np.zeros(7)]])
+SLAVE, MASTER = chain(np.arange(COUNT)), chain(np.arange(COUNT, COUNT + 7))
+
+
+def new(model=MODEL):
+    return ents.Contact(model, X, SLAVE, MASTER)
+
+
+def moved(distance):
+    u = np.zeros_like(X)
+    u[:COUNT] = [distance, -0.002]
+    return u
+
+
+def friction(residual):
+    return residual[:2 * COUNT:2].sum()
+
+
+def press(depth):
+    """The job of a process of a pool."""
+    contact = ents.Contact({"segment": "line2", "penetration_limit": 0.05, "contact": PENALTY}, X, SLAVE, MASTER)
+    u = np.zeros_like(X)
+    u[:COUNT, 1] = -depth
+    return contact.update(u)[0].sum()
+
+
+class Restart(unittest.TestCase):
+    def run_on(self, contact):
+        out = []
+        for distance in (0.0009, 0.4, 0.2):
+            residual, tangent = contact.update(moved(distance))
+            out.append((residual.tobytes(), tangent.toarray().tobytes(), contact.state.tobytes()))
+            contact.commit()
+        return out
+
+    def test_every_way_has_the_same_bits(self):
+        contact = new()
+        for distance in (0, 0.0005, 0.0013):
+            contact.update(moved(distance))
+            contact.commit()
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "contact.restart"
+            contact.save(file)
+            loaded = new()
+            loaded.load(file)
+            other = ents.Contact(MODEL, X + [0.1, 0], SLAVE, MASTER)
+            with self.assertRaisesRegex(ents.Error, "saved with other surfaces"):
+                other.load(file)
+        ways = {"load": loaded, "pickle": pickle.loads(pickle.dumps(contact)), "deepcopy": copy.deepcopy(contact), "copy": copy.copy(contact)}
+        saved = contact.state.copy()
+        contact.update(moved(0.01))  # an iterate that nobody commits leaves no trace
+        ways["pickle, not committed"] = pickle.loads(pickle.dumps(contact))
+        np.testing.assert_array_equal(ways["pickle, not committed"].gap, contact.gap)
+        ways["pickle, not committed"].update(moved(0.001))
+        wanted = self.run_on(contact)
+        for name, way in ways.items():
+            self.assertEqual(self.run_on(way), wanted, name)
+        # As one would type it: states alone, then the displacements at which they were saved.
+        typed = new()
+        typed.state = saved
+        typed.update(moved(0.0013))
+        typed.commit()
+        value = friction(typed.update(moved(0.0009))[0])
+        self.assertEqual(value, friction(np.frombuffer(wanted[0][0])))
+        with self.assertRaises(ValueError):
+            typed.state[:] = saved
+        with self.assertRaisesRegex(ents.Error, "state: the shape"):
+            typed.state = saved[:2]
+        without = new()
+        without.update(moved(0.0013))
+        without.commit()
+        self.assertGreater(abs(friction(without.update(moved(0.0009))[0]) - value), 0.1)
+
+    def test_arrays_that_were_given_and_got(self):
+        x, dofs = X.copy(), np.arange(X.size).reshape(-1, 2)
+        contact = ents.Contact(MODEL, x, SLAVE, MASTER, dofs=dofs)
+        first, tangent = contact.update(moved(0.01))
+        kept, entries = first.copy(), tangent.copy()
+        x += 5
+        dofs[:] = 0
+        contact.update(moved(0.2))
+        np.testing.assert_array_equal(first, kept)
+        self.assertEqual((tangent != entries).nnz, 0)
+        tangent.eliminate_zeros()
+        tangent.data[:] = 7
+        again, _ = contact.update(moved(0.01))
+        np.testing.assert_allclose(again, kept, rtol=0, atol=1e-13)
+        for name in ("positions", "dofs", "areas", "nodes", "state", "gap", "pressure", "traction", "flags", "segment", "points"):
+            with self.assertRaises(ValueError, msg=name):
+                getattr(contact, name)[:] = 0
+        for name in ("positions", "dofs", "rows", "nodes", "areas", "gap", "tangent"):
+            with self.assertRaises(AttributeError, msg=name):
+                setattr(contact, name, 0)
+        with self.assertRaises(AttributeError):
+            contact.tree.positions = X
+        with self.assertRaises(ValueError):
+            contact.tree.positions[:] = 0
+
+    def test_exceptions_of_a_pool(self):
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            result = pool.map_async(press, [0.01, 0.1])
+            with self.assertRaises(ents.CutStep) as caught:
+                result.get(timeout=60)
+        self.assertEqual(caught.exception.status, ents.Status.DEEP_PENETRATION)
+        self.assertTrue(0 < caught.exception.step_factor < 1)
+        for error in (ents.Error(ents.Status.FILE, "no file", 3), ents.CutStep(ents.Status.NO_PROJECTION, "far", 2, 0.25)):
+            again = pickle.loads(pickle.dumps(error))
+            self.assertEqual((type(again), str(again), vars(again)), (type(error), str(error), vars(error)))
+
+    def test_an_iterate_that_is_not_finite(self):
+        contact = new()
+        contact.update(moved(0))
+        contact.commit()
+        before, _ = contact.update(moved(0.0004))
+        nan = np.zeros(X.size)
+        nan[2 * COUNT + 3] = np.nan
+        for u, words in ((np.full(X.size, np.nan), "u[0] is nan"), (nan, "u[15] is nan"), (1e200 * np.random.default_rng(0).normal(size=X.shape), ""),
+                         (np.full(X.size, np.inf), "u[0] is inf")):
+            with self.assertRaises(ents.CutStep) as caught:
+                contact.update(u)
+            self.assertIn(words, str(caught.exception))
+            self.assertEqual(caught.exception.step_factor, 0.5)
+            np.testing.assert_array_equal(contact.update(moved(0.0004))[0], before)
+        contact.commit()
+
+
+class LineSearch(unittest.TestCase):
+    def test_energy_has_the_residual_as_its_derivative(self):
+        contact = new({"segment": "line2", "height": {"type": "sine", "amplitude": 0.003, "wave_vector": [0.5]}, "contact": PENALTY})
+        self.assertEqual(contact.energy, 0.0)
+        u = 1e-3 * np.random.default_rng(1).normal(size=X.size)
+        residual, _ = contact.update(u)
+        self.assertGreater(contact.energy, 0.01)
+        for k in range(0, X.size, 3):
+            ends = []
+            for sign in (1, -1):
+                contact.update(u + sign * 1e-6 * np.eye(X.size)[k], tangent=False)
+                ends.append(contact.energy)
+            self.assertAlmostEqual(residual[k], (ends[0] - ends[1]) / 2e-6, delta=1e-7 * np.abs(residual).max())
+
+    def test_residual_alone(self):
+        contact = new()
+        residual, tangent = contact.update(moved(0.001), tangent=False)
+        self.assertIsNone(tangent)
+        np.testing.assert_array_equal(residual, new().update(moved(0.001))[0])
+
+    def test_backtracking_ends_where_plain_newton_alternates(self):
+        """Two nodes on springs under friction whose stiffness is far above theirs, moved by a large step: slip one way, slip the other way."""
+        x = np.array([[0.6, 0.0], [0.4, 0.0]])
+        law = {"normal": {"type": "penalty", "stiffness": 1e3}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1e5}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law}, x, [[0, 1]], [[0, 1]], master_positions=[[-3, 0], [3, 0]], reach=0.5)
+        K = sparse.csr_matrix(np.kron(np.eye(2), np.diag([30.0, 50.0])))
+        force = np.tile([0.0, -5.0], 2)
+        contact.update(np.zeros(4))
+        u = np.zeros(4)
+        for step in range(1, 4):
+            for iteration in range(50):
+                residual, tangent = contact.update(u)
+                r = K @ u + residual - step * force
+                if iteration and np.abs(r).max() < 1e-10:
+                    break
+                du, factor = -spsolve((K + tangent).tocsc(), r), 1.0
+                while factor > 1e-3:
+                    trial = K @ (u + factor * du) + contact.update(u + factor * du, tangent=False)[0] - step * force
+                    if np.linalg.norm(trial) < (1 - 1e-4 * factor) * np.linalg.norm(r):
+                        break
+                    factor /= 2
+                u = u + factor * du
+            else:
+                self.fail("no convergence")
+            contact.commit()
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
