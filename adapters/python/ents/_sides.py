@@ -155,9 +155,15 @@ def reversed_pair(groups: list[Facets]) -> tuple[int, int] | None:
 
 def refuse_shared(slave: list[Facets], master: list[Facets]) -> None:
     """Facets that are on both sides: a surface in contact with itself."""
-    keys = [{tuple(sorted(f)): int(k) for group in side for f, k in zip(group.nodes[:, :CORNERS[group.shape]].tolist(), group.numbers)} for side in (slave, master)]
-    shared = keys[0].keys() & keys[1].keys()
+    def sorted_corners(side: list[Facets]) -> tuple[np.ndarray, np.ndarray]:
+        corners = [np.sort(group.nodes[:, :CORNERS[group.shape]], axis=1) for group in side]
+        return (np.concatenate([np.pad(rows, ((0, 0), (0, 4 - rows.shape[1])), constant_values=-1) for rows in corners]),
+                np.concatenate([group.numbers for group in side]))
+    (ours, numbers), (theirs, _) = sorted_corners(slave), sorted_corners(master)
+    candidates = np.isin(ours, theirs).all(axis=1)  # most slave facets have no node of the master
+    known = set(map(tuple, theirs[np.isin(theirs, ours[candidates]).all(axis=1)].tolist())) if candidates.any() else set()
+    shared = [int(k) for facet, k in zip(ours[candidates].tolist(), numbers[candidates]) if tuple(facet) in known]
     if shared:
-        k = min(keys[0][facet] for facet in shared)
-        raise Error(Status.BAD_VALUE, f"slave: {len(shared)} of the facets are master facets, too (slave facet {k} first): ents.Contact does not find the contact of a "
-                    "surface with itself, because each point would find its own facet. Divide the surface into two parts that may touch, one the slave and one the master", k)
+        raise Error(Status.BAD_VALUE, f"slave: {len(shared)} of the facets are master facets, too (slave facet {min(shared)} first): ents.Contact does not find the "
+                    "contact of a surface with itself, because each point would find its own facet. Divide the surface into two parts that may touch, one the "
+                    "slave and one the master", min(shared))
