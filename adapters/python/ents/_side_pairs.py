@@ -65,6 +65,10 @@ class SidePairs:
             return points[:0]
         return points[self._cosines(points, tree.positions, segment[points]) > FACING]
 
+    def faces(self, tree: Tree, points: np.ndarray, segment: np.ndarray) -> np.ndarray:
+        """[points] bool: do these slave points and segments look at each other?"""
+        return self._cosines(points, tree.positions, segment) < FACING
+
     def facing(self, point: np.ndarray, tree: Tree, number: int, reach: float) -> tuple[int, np.ndarray]:
         """Segment and xi of a slave point among the segments that face it; -1: none within reach."""
         boxes = tree.positions[tree.connectivity]

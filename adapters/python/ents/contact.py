@@ -13,6 +13,7 @@ from ._arrays import CutStep, Error, _array, _count, _frozen
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
+from ._path import Path, refuse_deep
 from ._rows import Rows
 from ._side_pairs import SidePairs
 from ._structs import ENDS_STRAIGHT, Flag, Status
@@ -121,6 +122,7 @@ class Contact(ContactResults):
         self._hint, self._xi = np.full(count, -1, np.int64), np.zeros((count, d - 1))
         self._state_begin = self._state = _frozen(model.state_init(count))
         self._segment_begin, self._tree_begin, self._pending = self._hint, self.tree.positions.copy(), None
+        self._path: Optional[Path] = None  # of the increment, from the first update on
 
     @property
     def reach(self) -> float:
@@ -151,13 +153,39 @@ class Contact(ContactResults):
         """Search and assemble at the displacements u: [rows], or [nodes][d] where some are no unknowns. Returns residual [rows] (internal force,
         to be added to that of the bodies) and tangent (csr_matrix; None with tangent=False, as for the trial steps of a line search).
         CutStep: take a smaller step from the last commit(); nothing has changed. Error: a mistake."""
-        now = self._moved(u)
-        points = self._slave.at(now)
-        self._move_tree(now)
-        self._pairs.now = now
-        result, residual, matrix = self._search_and_add(points, tangent)
+        if self._path is None:
+            self._begin()
+        try:
+            now = self._moved(u)
+            points = self._slave.at(now)
+            self._move_tree(now)
+            self._pairs.now = now
+            result, residual, matrix = self._search_and_add(points, tangent)
+            self._path.refuse_crossed(self.tree, self._pairs, points, self._elements & (result["flags"] & Flag.CONTACT == 0), self.reach)
+        except CutStep:  # the next step knows nothing of these iterates
+            self._hint, self._xi = self._committed
+            raise
         self._keep(points, result, residual, matrix)
         return self.residual, self.tangent if tangent else None
+
+    def _begin(self) -> None:
+        """The first increment begins in the undeformed configuration: a point that touches there has its friction from there on."""
+        self.tree.move(self._tree_begin)
+        self._pairs.now = self._positions
+        points = self._slave.at(self._positions)
+        found, _, _ = self._add(points, self._elements, self._hint, self._xi, False)
+        segment, bad = found["segment"], found["status"] > 0
+        refuse_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), bool((segment >= 0).any()), self.reach)
+        closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
+        kept = bad[:, None] | (not self.model.layout.friction)
+        state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
+        if self.model.layout.augmentable:
+            self.model.state_augment(state, self._state_begin)  # multipliers of 0
+        if worn >= 0:
+            state[:, worn:worn + 3] = self._state_begin[:, worn:worn + 3]  # nothing has slid yet
+        self._state_begin, self._segment_begin = _frozen(state), np.where(bad, -1, segment)
+        self._committed = self._hint, self._xi = np.where(closed, segment, -1), found["xi"]
+        self._path = Path(points, self._tree_begin, ~closed)
 
     def _moved(self, u: Any) -> np.ndarray:
         """Positions [nodes][d] at the displacements u."""
@@ -251,6 +279,7 @@ class Contact(ContactResults):
         self._segment_begin, self._tree_begin = self._pending
         self._state_begin = self._state
         self._committed = self._hint, self._xi
+        self._path = Path(self.points, self._tree_begin, self._hint < 0)
 
     def augment(self) -> None:
         """Uzawa's step of a model with "augmented": takes the multipliers of the last update() over; then solve the increment again."""
