@@ -86,8 +86,13 @@ class Heights(Cases):
         model = self.model(lambda order, s: "text", bound=0.1, slope=0.1, curvature=0.1)
         with self.assertRaises(ValueError):
             model.evaluate([[0.1, 0.0]], LINE, "gap")
-        model = self.model(lambda order, s: None, bound=0.1, slope=0.1, curvature=0.1)
-        self.assertGreater(model.evaluate([[0.1, 0.0]], LINE, "gap", start=[0.1])["status"][0], 0)
+        model = self.model(lambda order, s: calls.append(order), bound=0.1, slope=0.1, curvature=0.1)  # forgets to return
+        self.refused(ents.Status.NO_PROJECTION, ["returned None", "first 1000 calls"], lambda: model.evaluate([[0.1, 0.0]], LINE, "gap"))
+        self.assertLess(len(calls), 1010)
+        half = lambda order, s: None if (s[0] > 0).any() else [0 * s[0]] * (order + 1)
+        model = self.model(half, bound=0.1, slope=0.1, curvature=0.1)
+        status = model.evaluate([[-0.5, 0.1], [0.5, 0.1]], LINE, "gap", start=[0.0])["status"]
+        self.assertTrue(status[0] == 0 and status[1] > 0, status)
 
     def test_a_height_function_without_bounds(self):
         wave = lambda order, s: [0.1 * np.sin(s[0]), 0.1 * np.cos(s[0]), -0.1 * np.sin(s[0]), -0.1 * np.cos(s[0])][:order + 1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import ctypes.util
+import math
 import os
 import pathlib
 import threading
@@ -20,7 +21,8 @@ FACET_NODES = {"line2": 2, "line3": 3, "tri3": 3, "tri6": 6, "quad4": 4, "quad8"
 HEIGHT_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32, ctypes.POINTER(ctypes.c_double),
                                    ctypes.POINTER(ctypes.c_double))
 _heights = []  # registered functions: the library keeps their addresses
-_raised = threading.local()  # .error: what a height function has raised in the present call of this thread
+_raised = threading.local()  # .error: what a height function has raised in the present call of this thread; .undefined: how often it was not defined
+MOST_UNDEFINED = 1000  # times that a height function may be undefined before it has been defined once in a call
 
 
 def _installed():
@@ -68,7 +70,7 @@ class Library:
         report = _new(Report)
         converted = [int(a) if isinstance(a, np.integer) else ctypes.byref(a) if isinstance(a, ctypes.Structure)
                      else a.ctypes.data if isinstance(a, np.ndarray) else a for a in arguments]
-        _raised.error = None
+        _raised.error, _raised.undefined = None, 0
         status = getattr(self.c, "ents_" + name)(*converted, ctypes.byref(report))
         error, _raised.error = _raised.error, None
         if error is not None:
@@ -83,7 +85,7 @@ class Library:
         """Register a height function, for models with {"type": "callback", "name": name}; None: forget the name. dimension: surface
         coordinates, 1 or 2. function(order, s): order is 2 or 3, s [dimension][count] are points; it returns h and its derivatives up to
         the order, [numbers][count], in the order h, h_1, h_11, h_111 or h, h_1, h_2, h_11, h_12, h_22, h_111, h_112, h_122, h_222, or
-        None where it is not defined. The call of the library in which the function raises an exception raises that exception. The function
+        None where it is not defined (a function that is not defined anywhere raises Error). The call of the library in which the function raises an exception raises that exception. The function
         is kept for good: models call it as long as they live. Threads that evaluate such a model take turns.
         In the model say "bound", "slope" and "curvature" (largest |h|, |h_1|, |h_11|): without them each search samples the whole segment,
         100 000 calls a slave point."""
@@ -93,17 +95,24 @@ class Library:
             return
 
         def called(_, order, count, s, jet):
-            if _raised.error is not None:
-                return 1  # the call is lost: it ends as soon as the library lets it
-            try:
-                numbers = function(order, np.ctypeslib.as_array(s, (dimension, count)))
-                if numbers is None:
-                    return 1
-                np.ctypeslib.as_array(jet, (order + 1 if dimension == 1 else (order + 1) * (order + 2) // 2, count))[:] = numbers
-                return 0
-            except BaseException as error:  # noqa: B902: nothing may pass through the library; call() raises it
-                _raised.error = error
-                return 1
+            numbers_of_jet = order + 1 if dimension == 1 else (order + 1) * (order + 2) // 2
+            if _raised.error is None:
+                try:
+                    numbers = function(order, np.ctypeslib.as_array(s, (dimension, count)))
+                    if numbers is None:
+                        _raised.undefined += 1
+                        if _raised.undefined > MOST_UNDEFINED:
+                            raise Error(Status.NO_PROJECTION, f'the height function "{name}" has returned None, not defined, in its first {MOST_UNDEFINED} calls: '
+                                        "does it return h and its derivatives?")
+                        return 1
+                    _raised.undefined = -math.inf
+                    np.ctypeslib.as_array(jet, (numbers_of_jet, count))[:] = numbers
+                    return 0
+                except BaseException as error:  # noqa: B902: nothing may pass through the library; call() raises it
+                    _raised.error = error
+            # The results of this call are lost: it ends soonest on a flat surface.
+            ctypes.memset(jet, 0, 8 * numbers_of_jet * count)
+            return 0
 
         kept = HEIGHT_FUNCTION(called)
         self.call("height_register", name.encode(), dimension, ctypes.cast(kept, ctypes.c_void_p), None)
