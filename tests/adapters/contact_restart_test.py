@@ -103,9 +103,11 @@ class Restart(unittest.TestCase):
         contact.update(moved(0.2))
         np.testing.assert_array_equal(first, kept)
         self.assertEqual((tangent != entries).nnz, 0)
+        tangent.data[::2] = 0
         tangent.eliminate_zeros()
         tangent.data[:] = 7
-        again, _ = contact.update(moved(0.01))
+        again, matrix = contact.update(moved(0.01))
+        np.testing.assert_allclose(matrix.toarray()[:2 * COUNT, :2 * COUNT], entries.toarray()[:2 * COUNT, :2 * COUNT], rtol=0, atol=1e-9)
         np.testing.assert_allclose(again[:2 * COUNT], kept[:2 * COUNT], rtol=0, atol=1e-13)  # the master's share may go to other facets
         for name in ("positions", "dofs", "areas", "nodes", "state", "gap", "pressure", "traction", "flags", "segment", "points"):
             with self.assertRaises(ValueError, msg=name):
@@ -162,6 +164,24 @@ class Increments(unittest.TestCase):
                 residual, _ = contact.update(np.tile([0.3 * k / count, 0], 4))
                 contact.commit()
             self.assertAlmostEqual(np.abs(residual[::2].sum() / residual[1::2].sum()), 0.3, 12)
+
+    def test_multipliers_go_along_to_other_segments(self):
+        """Augmented friction on one segment and on four: the same forces, after Uzawa's steps on the next segment and back on the first one."""
+        law = {"normal": {"type": "augmented", "stiffness": 300.0}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 200.0}}
+        x, forces = np.array([[0.9, -0.01], [0.4, -0.01]]), []
+        for cuts in (1, 4):
+            line = np.c_[np.linspace(0, 4, cuts + 1), np.zeros(cuts + 1)]
+            contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law}, x, [[0, 1]], chain(np.arange(cuts + 1)), master_positions=line, reach=0.5)
+            forces.append([])
+            contact.update(np.zeros(4))
+            contact.commit()
+            for way in (0.2, -0.03, 0.004, 1.2, 0.1):
+                forces[-1].append(contact.update(np.tile([way, -0.002], 2))[0])
+                contact.augment()
+            contact.commit()
+            forces[-1].append(contact.update(np.tile([0.1, -0.002], 2))[0])
+        self.assertGreater(np.abs(forces[0]).max(), 1)
+        np.testing.assert_allclose(forces[1], forces[0], rtol=0, atol=1e-12)
 
     def test_nothing_passes_unseen(self):
         """Load control: a gap of 0.01, weak springs and a unit load, the default reach. Cut and solved, the force is 1."""
