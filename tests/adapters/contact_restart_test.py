@@ -12,7 +12,7 @@ sys.dont_write_bytecode = True
 try:
     import numpy as np
     import scipy.sparse as sparse
-    from bodies import chain, two_blocks
+    from bodies import chain
     from scipy.sparse.linalg import spsolve
 except ModuleNotFoundError as error:
     print(f"contact_restart_test.py: {error} (Debian: python3-numpy, python3-scipy)")

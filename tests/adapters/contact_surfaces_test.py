@@ -6,8 +6,7 @@ import warnings
 sys.dont_write_bytecode = True
 try:
     import numpy as np
-    import scipy.sparse as sparse
-    from scipy.sparse.linalg import spsolve
+    import scipy  # noqa: F401
     from bodies import block, chain, mixed_sheet, newton, stiffness, two_blocks
 except ModuleNotFoundError as error:
     print(f"contact_surfaces_test.py: {error} (Debian: python3-numpy, python3-scipy)")
@@ -201,6 +200,19 @@ class Edges(unittest.TestCase):
         modulus = 0.7 / 1.3 / 0.4
         mean = contact.pressure @ contact.areas
         self.assertAlmostEqual(mean, 0.02 / (1 / modulus + 1e-3), delta=3e-3 * mean)  # the meshes do not match
+
+    def test_every_kind_of_model_has_the_border(self):
+        x, K, n, m = two_blocks((3, 2), (3, 2), gap=-0.01)
+        model = ents.Model({"segment": "line2", "parameters": {"eps": 100.0}, "contact": {"normal": {"type": "penalty", "stiffness": "eps"}}})
+        model.bind(eps=200.0)
+        contact = ents.Contact(model, x, chain(m[0, ::-1]), chain(n[-1]))
+        self.assertEqual((contact.model.border, model.border), (0.1, None))
+        for eps in (200, 300):
+            contact.update(np.zeros(x.size))
+            np.testing.assert_allclose(contact.pressure, eps * 0.01)
+            model.bind(eps=300.0)
+        self.assertEqual(ents.Contact({**LINE, "border": 0.02}, x, chain(m[0, ::-1]), chain(n[-1])).model.border, 0.02)
+        self.assertEqual(ents.Contact('{"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 1}}}', x, chain(m[0, ::-1]), chain(n[-1])).model.border, 0.1)
 
     def test_a_narrow_block_on_a_wide_one(self):
         contact, u, iterations = self.press(((0, 2), (0, 1)), (8, 4))  # slave nodes above master nodes

@@ -6,6 +6,8 @@ import ctypes
 import json
 import os
 import pathlib
+import warnings
+import weakref
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
@@ -90,6 +92,7 @@ class Model(Varying):
         self._field_points, self._has_law = _fields(parsed.get("height")), parsed.get("contact") is not None
         self._of_text, self._bound = self._handle, ctypes.c_void_p()
         self._values, self._blocks = None, {}
+        self._same: Any = weakref.WeakSet()  # models that are bound with this one
         self.layout = _new(Layout)
         """Sizes: dimension, nodes, parameters, dofs, state_size, symmetric_tangent, multipliers, friction, augmentable; needs (see Need) and instruction_set."""
         self._call("model_layout", self.layout)
@@ -98,6 +101,18 @@ class Model(Varying):
     def __repr__(self) -> str:
         law = "contact" if self._has_law else "no contact law"
         return f"<ents.Model: {self.segment}, {self.layout.dimension}D, {law}{', friction' if self.layout.friction else ''}>"
+
+    def with_border(self, border: float) -> Model:
+        """The model, with this "border" where its text has none. What is bound to this model is bound to that one, too."""
+        if self.border is not None:
+            return self
+        with warnings.catch_warnings():  # this model has given them
+            warnings.simplefilter("ignore")
+            same = Model({**json.loads(self._text), "border": border}, self._data, self._directory, self.library)
+        if self._values is not None:
+            same.bind(self._blocks, **self._values)
+        self._same.add(same)
+        return same
 
     def __getstate__(self) -> dict:
         return {"arguments": (self._text, self._data, self._directory, self.library), "bound": (self._values, self._blocks)}

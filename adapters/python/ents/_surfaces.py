@@ -6,7 +6,7 @@ from typing import Any, Optional, Sequence
 
 import numpy as np
 
-from ._arrays import Error, _array, _count
+from ._arrays import Error, _count
 from ._model import Model
 from ._sides import INSIDE, area_vectors, longest_edge, read_facets, refuse_crossed, reversed_pair, without_area
 from ._structs import Status

@@ -32,6 +32,8 @@ class Varying:
         self._bound = self._handle = bound
         self._blocks = blocks  # they live as long as the library reads them
         self._values = dict(zip(self.parameters, values.tolist()))
+        for other in self._same:
+            other.bind(fields, **self._values)
 
     def field_init(self, name: str, samples: Any = None) -> np.ndarray:
         """The block of a field: the spline through `samples`, [points_1] or [points_2][points_1], [L]; None: zero. An array to be given to bind,

@@ -54,7 +54,7 @@ class Contact(ContactResults):
         model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
                    over two-node facets, say). No "patch"; instead of multipliers as unknowns "augmented" with augment(). Where it has no "border",
                    facets reach beyond their edges by 0.1 in their natural coordinates: a point on the edge of flush bodies keeps its contact, and one
-                   above a master node keeps its facet. (An ents.Model is taken as it is: write "border": 0.1 there)
+                   above a master node keeps its facet. What is bound to an ents.Model is bound here, too
         positions  [nodes][d] undeformed positions [L] of the program's nodes
         slave      [facets][2 .. 9] nodes of the facets of the slave surface, or a list of facets of 3 and 4 nodes. Order as "Segments" in ents.h:
                    in 2D the outside is on the left of the way from the first node to the second; in 3D corners go counter-clockwise, seen from outside
@@ -83,7 +83,7 @@ class Contact(ContactResults):
         argument of another shape. A slave facet without area is left out with a warning.
         """
         self._arguments = {name: value if name == "model" else copy.deepcopy(value) for name, value in locals().items() if name != "self"}
-        self.model = model = _with_border(model)
+        self.model = model = (model if isinstance(model, Model) else Model(model)).with_border(BORDER)
         d = model.layout.dimension
         _refuse_models(model)
         self._positions = _frozen(_array("positions", positions, (None, d)).copy())
@@ -298,16 +298,6 @@ class Contact(ContactResults):
             begin[moves, -1] = new[moves] + 1  # a state knows its segment
         self.model.state_augment(begin, self._state)
         self._state_begin, self._segment_begin = _frozen(begin), np.where(new >= 0, new, old)
-
-
-def _with_border(given: Union[Model, dict, str, os.PathLike]) -> Model:
-    """The model; with the border of this class where the caller has none."""
-    if isinstance(given, Model):
-        return given
-    if isinstance(given, dict):
-        return Model({"border": BORDER, **given})
-    model = Model(given)
-    return model if model.border is not None else Model({"border": BORDER, **json.loads(model._text)}, directory=model._directory)
 
 
 def _refuse_models(model: Model) -> None:
