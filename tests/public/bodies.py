@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Solutions that other codes publish as targets: cylinders, spheres, rings, punches. Closed forms where they exist."""
+import math
+
+import ents
+import numpy as np
+import scipy.sparse as sparse
+from scipy.optimize import brentq
+
+from fem import Body, Problem, block, dofs
+from rows import row, target
+
+
+def graded(fine, size, even=20, growing=22):
+    """0 .. size: `even` equal cells up to `fine`, then cells that grow by a constant factor."""
+    first = fine / even
+    q = brentq(lambda q: first * (q**growing - 1) / (q - 1) * q - (size - fine), 1.0001, 10)
+    return np.r_[np.linspace(0, fine, even + 1), fine + first * q * (q ** np.arange(1, growing + 1) - 1) / (q - 1)]
+
+
+def round_body(radius, fine, upside_down=False):
+    """Half of a body, symmetric at x = 0, whose upper side is Hertz's parabola through (0, 0), and its tangent from 0.4 radius on; four radii wide and
+    deep, with equal cells up to `fine`."""
+    size = 4 * radius
+    cells = graded(fine, size)
+    n = len(cells) - 1
+
+    def moved(x):
+        across, deep = cells[np.rint(n * x[:, 0]).astype(int)], -cells[np.rint(-n * x[:, 1]).astype(int)]
+        end = np.minimum(across, 0.4 * radius)
+        drop = end**2 / (2 * radius) + 0.4 * (across - end)
+        return np.column_stack([across, deep - drop * (1 + deep / size)])
+    body = block("quad4", [n, n], [0, -1], [1, 0], moved)
+    body.top = np.flatnonzero(np.arange(len(body.positions)) % (n + 1) == n)
+    body.top_faces = np.column_stack([body.top[:-1], body.top[1:]])
+    body.base = np.flatnonzero(np.arange(len(body.positions)) % (n + 1) == 0)
+    body.axis = np.arange(n + 1)
+    if upside_down:
+        body.positions = body.positions * [1, -1]
+        body.cells, body.top_faces = body.cells[:, ::-1], body.top_faces[:, ::-1]
+    return body
+
+
+def pressed_bodies(lower, upper, force, approach, axisymmetric=False):
+    """Two round bodies with materials ((body, E, nu)), pressed until the force of the half that is meshed (axisymmetric: all of it) is `force`;
+    approach: a first guess. Returns half-width and peak of Hertz's ellipse through the pressures, and the force."""
+    (low, young_low, poisson_low), (high, young_high, poisson_high) = lower, upper
+    n = len(low.positions)
+    both = low.joined(high)
+    normal = {"type": "penalty", "stiffness": 10 * min(young_low, young_high) / low.positions[low.top[1], 0]}
+    contact = ents.Contact({"segment": "catmull_rom4", "border": 0.1, "penetration_limit": 3 * approach, "contact": {"normal": normal}}, both.positions,
+                           low.top_faces, high.top_faces + n, thickness=0.0 if axisymmetric else 1.0, reach=3 * approach)
+    k = sparse.block_diag([low.stiffness(young_low, poisson_low, axisymmetric), high.stiffness(young_high, poisson_high, axisymmetric)], "csr")
+    held = np.concatenate([dofs(np.r_[low.axis, high.axis + n], 2, 0), dofs(low.base, 2, 1), dofs(high.base + n, 2, 1)])
+    problem = Problem(k, held, contact)
+
+    def press(depth):
+        """The largest part of the motion is that of the whole upper body: Newton's iteration begins with it."""
+        values = np.zeros(len(held))
+        values[-len(high.base):] = -depth
+        problem.u.reshape(-1, 2)[n:, 1] -= depth - press.last
+        press.last = depth
+        problem.solve(values=values, tolerance=1e-9)
+        return contact.pressure @ contact.areas
+    press.last = 0.0
+    for part in (0.1, 0.3):
+        press(part * approach)
+    reach_force(press, force, 0.6 * approach, approach)
+    return ellipse(low.positions[low.top, 0], contact)
+
+
+def reach_force(press, force, first, second):
+    """The secant method for the depth whose force is wanted, to 1e-6 of it. Returns the depth."""
+    depths, forces = [first, second], [press(first), press(second)]
+    while abs(forces[-1] / force - 1) > 1e-6:
+        if len(depths) > 12:
+            raise ArithmeticError(f"the secant method: forces {forces}")
+        depths.append(depths[-1] + (force - forces[-1]) * (depths[-1] - depths[-2]) / (forces[-1] - forces[-2]))
+        forces.append(press(depths[-1]))
+    return depths[-1]
+
+
+def ellipse(at, contact):
+    """Hertz's pressure is half an ellipse over the undeformed surface: its square falls linearly with x^2 from the peak to zero at the half-width."""
+    p = contact.pressure
+    inside = p > 0.3 * p.max()
+    slope, peak = np.polyfit(at[inside]**2, p[inside]**2, 1)
+    return math.sqrt(-peak / slope), math.sqrt(peak), p @ contact.areas
+
+
+def hertz(check, name, found, half_width, peak, force, tolerance):
+    check.near(f"{name}: half-width / {half_width:.5g}", 1, found[0] / half_width, tolerance)
+    check.near(f"{name}: peak pressure / {peak:.6g}", 1, found[1] / peak, tolerance)
+    check.near(f"{name}: force / {force:.6g}", 1, found[2] / force, 1e-6)
+
+
+# What is not Hertz's in these models: a penalty that gives way by p0 / (10 E / cell), 0.4 % of the approach; 16 cells in a half-width, whose square is
+# 0.4 %; bodies of 32 a, whose square is 0.1 %; slopes of a / R = 0.1, whose square is 1 %.
+NEAR = 0.02
+
+
+@row("kratos_spheres", wrong="Hertz's spheres: 0.627 and 1.435467e5 stand against the closed form", source="Kratos, validation/hertz_full",
+     right="a = 0.63018, p0 = 1.41641e5 to 2 % (E 1e8 and 1e6, nu 0.29, diameters 12.2474, F = 117808.787)")
+def kratos_spheres(check):
+    radius, force = 12.2474 / 2, 117808.787
+    modulus = 1 / ((1 - 0.29**2) * (1 / 1e8 + 1 / 1e6))
+    a = (3 * force * radius / 2 / (4 * modulus)) ** (1 / 3)
+    found = pressed_bodies((round_body(radius, 0.8), 1e6, 0.29), (round_body(radius, 0.8, True), 1e8, 0.29), force, 0.13, True)
+    check.near("closed form: a, p0", [0.63018, 1.41641], [a, 1.5e-5 * force / (math.pi * a**2)], 1e-5)
+    hertz(check, "spheres", found, a, 3 * force / (2 * math.pi * a**2), force, NEAR)
+
+
+@target("moose_spheres", case="two spheres, R = 2, E = 1.40625e7, nu = 0.25, F = 1e4", source="MOOSE, hertz_spherical", right="a = 0.1, p0 = 477464.8 to 2 %")
+def moose_spheres(check):
+    found = pressed_bodies((round_body(2, 0.13), 1.40625e7, 0.25), (round_body(2, 0.13, True), 1.40625e7, 0.25), 1e4, 0.009, True)
+    hertz(check, "spheres", found, 0.1, 477464.8, 1e4, NEAR)
+
+
+@target("vm191_cylinders", case="two cylinders, R 10 and 13, E 30000 and 29120, nu 0.25 and 0.3, 3200 N/mm, plane strain", source="Ansys VM191",
+        right="half-width 1.1997, p0 = 1698.1 to 2 %")
+def vm191_cylinders(check):
+    found = pressed_bodies((round_body(10, 1.5), 30000, 0.25), (round_body(13, 1.5, True), 29120, 0.3), 1600, 0.5)
+    hertz(check, "cylinders", found, 1.1997, 1698.1, 1600, NEAR)
+
+
+def ring(inner, outer, radial, around):
+    """A quarter of a ring."""
+    def moved(x):
+        angle = x[:, 1] * math.pi / 2
+        return np.column_stack([x[:, 0] * np.cos(angle), x[:, 0] * np.sin(angle)])
+    body = block("quad4", [radial, around], [inner, 0], [outer, 1], moved)
+    body.inside, body.outside = np.arange(around + 1), np.arange(around + 1) + radial * (around + 1)
+    return body
+
+
+def plane_stress(young, poisson):
+    """(E, nu) of plane strain that give the plane stress of these."""
+    return young * (1 + 2 * poisson) / (1 + poisson)**2, poisson / (1 + poisson)
+
+
+def rings(radii, young, poisson, pressure=0.0, interference=0.0, cells=(24, 24, 48)):
+    """Quarters of two rings, plane stress: pressure outside, interference as an offset of the gap. Returns the contact's pressures."""
+    inner, outer = ring(radii[0], radii[1], cells[0], cells[2]), ring(radii[1], radii[2], cells[1], cells[2])
+    n = len(inner.positions)
+    both = inner.joined(outer)
+    chain = lambda nodes: np.column_stack([nodes[:-1], nodes[1:]])
+    stiffness = 300 * young / (radii[1] - radii[0])
+    law = {"normal": {"type": "penalty", "stiffness": stiffness}, "offset": -interference - 1e-12 * radii[1]}  # closed at the start
+    # Outwards, on the left: the outer side of the inner ring goes clockwise, the inner side of the outer one the other way.
+    contact = ents.Contact({"segment": "line2", "border": 0.05, "contact": law}, both.positions, chain(inner.outside)[:, ::-1], chain(outer.inside) + n,
+                           reach=radii[0] / 10, sampling=2)
+    on_x = np.r_[inner.where(1, 0), outer.where(1, 0) + n]
+    on_y = np.r_[inner.where(0, 0), outer.where(0, 0) + n]
+    load = np.zeros(both.positions.shape)
+    for a, b in chain(outer.outside) + n:
+        t = both.positions[b] - both.positions[a]
+        load[[a, b]] -= pressure / 2 * np.array([t[1], -t[0]])
+    problem = Problem(both.stiffness(*plane_stress(young, poisson)), np.r_[dofs(on_x, 2, 1), dofs(on_y, 2, 0)], contact)
+    problem.solve(load.ravel(), tolerance=1e-8)  # the gap's rounding of 2^-52 x radius times the penalty is 1e-9 of the forces
+    return contact.pressure
+
+
+@target("lame_rings", case="two rings, radii 0.2, 0.6, 1, E = 1e9, nu = 0.2, plane stress, 1e6 outside", source="Code_Aster SSNP152",
+        right="pressure between them 925925.9 to 0.5 %")
+def lame_rings(check):
+    # Springs in a row: the penalty adds E / (300 E / 0.4) = 1.3e-3 m per stress of E where the rings give about 1: 0.15 %; elements of 0.4 / 24: 0.1 %.
+    check.near("pressure / 925925.9", 1, rings((0.2, 0.6, 1.0), 1e9, 0.2, pressure=1e6) / 925925.9, 5e-3)
+
+
+@target("press_fit", case="a press fit, diameters 20, 40, 60, radial interference 0.0025, E = 210e3, plane stress", source="Lame",
+        right="pressure 6.1523 to 0.5 %")
+def press_fit(check):
+    check.near("pressure / 6.1523", 1, rings((10, 20, 30), 210e3, 0.3, interference=0.0025) / 6.1523, 5e-3)
+
+
+@target("rounded_punch", case="a flat rigid punch, 5 to each side, rounded with radius 10, E* = 219780.22", source="Ciavarella, Hills, Monno 1998",
+        right="a = 5.5 at P = 16944.8; peak 4242.7 to 2 % at 5.151")
+def rounded_punch(check):
+    """The punch is a height on one segment: 0 within 5, parabolas outside. Of its third derivative, which jumps, nothing here depends."""
+    def height(order, s):
+        beyond = np.sign(s[0]) * np.maximum(np.abs(s[0]) - 5, 0)
+        jet = np.zeros((order + 1, s.shape[1]))
+        jet[0], jet[1], jet[2] = -beyond**2 / 20, -beyond / 10, -0.1 * (np.abs(s[0]) > 5)
+        return jet
+    ents.library().register_height("public_flat_rounded", 1, height)
+    # Half of the block; fine towards x = 5 from both sides, elements of 0.02 there.
+    x = np.r_[5 - np.geomspace(5.02, 0.02, 40) + 0.02, 5 + 0.02 * np.arange(1, 41), 5.8 + np.cumsum(0.02 * 1.16 ** np.arange(1, 46))]
+    x[0] = 0.0
+    y = -np.r_[np.cumsum(0.02 * 1.16 ** np.arange(0, 46))][::-1]
+    axes = np.r_[y, 0.0]
+    grid = np.stack(np.meshgrid(x, axes, indexing="ij"), -1).reshape(-1, 2)
+    number = np.arange(len(grid)).reshape(len(x), len(axes))
+    body = Body("quad4", grid, np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], -1).reshape(-1, 4))
+    top = number[:, -1]
+    model = {"segment": "line2", "master": "rigid", "surface_coordinates": [[9], [-9]], "contact": {"normal": {"type": "penalty", "stiffness": 1e9}},
+             "height": {"type": "callback", "name": "public_flat_rounded", "bound": 0.81, "slope": 0.41, "curvature": 0.11}}
+    contact = ents.Contact(model, body.positions, np.column_stack([top[:-1], top[1:]]), [[0, 1]], master_positions=[[9, 0], [-9, 0]], reach=1.0)
+    problem = Problem(body.stiffness(200000, 0.3), np.r_[dofs(number[:, 0], 2), dofs(number[0], 2, 0)], contact)
+    # Prescribed depths, as far as the force is the wanted one.
+    def press(depth):
+        contact.move([[9, -depth], [-9, -depth]])
+        problem.solve(tolerance=1e-9)
+        return 2 * contact.pressure @ contact.areas
+    reach_force(press, 16944.8, 0.06, 0.08)
+    p, at = contact.pressure, body.positions[top, 0]
+    k = int(np.argmax(p))
+    width = at[p > 0].max()
+    check.near("P / 16944.8", 1, 2 * p @ contact.areas / 16944.8, 1e-6)
+    # Elements of 0.02 in a border of 0.5: 0.02 / 0.5 / 2 in places; the half-plane is 100 deep for a contact of 5.5: (5.5 / 100)^2.
+    check.near("peak / 4242.7", 1, p[k] / 4242.7, 0.02)
+    check.near("place of the peak", 5.151, at[k], 0.02)
+    check.near("a", 5.5, width, 0.02 + 0.01)
+
+
+
+def annulus(inner, outer, radial, around):
+    """A closed ring; its cells grow with the radius."""
+    angle, r = 2 * math.pi * np.arange(around) / around - math.pi / 2, inner * (outer / inner) ** (np.arange(radial + 1) / radial)
+    positions = np.stack([np.multiply.outer(r, np.cos(angle)), np.multiply.outer(r, np.sin(angle))], -1).reshape(-1, 2)
+    number = np.arange(len(positions)).reshape(radial + 1, around)
+    following = np.roll(number, -1, axis=1)
+    body = Body("quad4", positions, np.stack([number[:-1], number[1:], following[1:], following[:-1]], -1).reshape(-1, 4))
+    body.inside, body.outside = number[0], number[-1]
+    return body
+
+
+@target("pin_in_hole", case="a pin in the hole of an infinite plate, the same material, without friction, plane strain: half angle 30, 60 degrees", source="Persson 1964",
+        right="p_max R / Q = 1.260, 0.7117 to 2 %; contact ends at the angle to an element of 3 degrees")
+def pin_in_hole(check):
+    radius, modulus, clearance, around = 10.0, 1e5, 0.01, 120
+    closed = lambda nodes: np.column_stack([nodes, np.roll(nodes, -1)])
+    # The pin is loaded round a hole of R / 50; the plate is held 20 R away. Both are felt in the square of these ratios: 0.04 %, 0.25 %.
+    pin, plate = annulus(0.02 * radius, radius - clearance, 28, around), annulus(radius, 20 * radius, 22, around)
+    pin.positions[:, 1] -= clearance  # it touches below
+    n, both = len(pin.positions), pin.joined(plate)
+    stiffness = both.stiffness(modulus * (1 - 0.3**2), 0.3)
+    held = np.r_[dofs(pin.inside, 2, 0), dofs(plate.outside + n, 2)]
+    for angle, ratio, peak in ((30, 7.9435, 1.260), (60, 1.0672, 0.7117)):
+        force = modulus * clearance / ratio
+        contact = ents.Contact({"segment": "catmull_rom4", "contact": {"normal": {"type": "penalty", "stiffness": 10 * modulus / 0.5}}},
+                               both.positions, closed(pin.outside)[:, ::-1], closed(plate.inside) + n, reach=0.5)
+        load = np.zeros(both.positions.shape)
+        load[pin.inside, 1] = -force / around
+        problem = Problem(stiffness, held, contact)
+        problem.u.reshape(-1, 2)[:n, 1] = -1e-4
+        for part in (0.25, 0.5, 1.0):
+            problem.solve(part * load.ravel(), tolerance=1e-8)
+        p = contact.pressure
+        found = np.degrees(math.pi / 2 + np.arctan2(contact.points[:, 1], np.abs(contact.points[:, 0])))[p > 0].max()
+        # The penalty gives way by p / (20 E'): 0.07 E' clearance / 10 over that is 0.04 % of the clearance. Elements of 3 in 30 degrees: 1 %.
+        check.near(f"{angle} degrees: p_max R / Q / {peak}", 1, p.max() * radius / force / peak, 0.02)
+        check.near(f"{angle} degrees: end of contact", angle, found, 360 / around)
