@@ -142,7 +142,9 @@ def contact_print(check):
         if done.returncode == 0:  # without ccx's own contact its print has nothing to print, and stops the job
             text = (folder / "ents" / "job.inp").read_text().upper()
             active = [line for line in text.splitlines() if line.startswith("*CONTACT")]
-            check.true(f"*{name}", "converted", f"converted; {len(active)} lines of contact left", not active and "*USER ELEMENT" in text)
+            said = text.count("IS LEFT OUT")
+            check.true(f"*{name}", "converted, and said", f"converted; {len(active)} keywords of contact left, {said} comments",
+                       not active and "*USER ELEMENT" in text and said == sum(line.startswith("*CONTACT") for line in extra))
         else:
             check.true(f"*{name}", "refused with the keyword", words[:70], done.returncode == 2 and "CONTACT" in words)
 
