@@ -49,7 +49,7 @@ std::string expression(const std::string& text) { return R"({"type": "expression
 // Where a height has no value, or no finite derivatives, no projection is found, and the report says where.
 // (It was taken for a collapsed segment.)
 TEST(UndefinedHeight, IsNoDegenerateSegment) {
-  Function function{0.2, 0.0};
+  Function function{-10.0, 0.0};
   function.enlist();
   const struct {
     std::string height;

@@ -60,7 +60,7 @@ TEST(WildNumbers, OfWornDepthsAreRefused) {
   const Model model(
       R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}, "wear": {"coefficient": 0.01}}})");
   for (const int64_t count : {1, 9})
-    for (const double depth : {-1e200, 1e200}) {
+    for (const double depth : {-1e150, -1e200}) {
       const auto size = static_cast<std::size_t>(model.layout.state_size),
                  n = static_cast<std::size_t>(count);
       std::vector<double> begin(n * size), end = begin, slave, master, residual(6 * n);
