@@ -27,7 +27,7 @@ module ents
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 7
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 8
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -96,6 +96,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_LEFT = 1024
+  integer(c_int32_t), parameter :: ENTS_FLAG_NO_BEGIN = 2048
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
   integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
   integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
@@ -174,7 +175,7 @@ module ents
   end type ents_detection
 
   type, bind(c) :: ents_input
-    integer(c_int32_t) :: struct_size = 88 + 11*pointer_bytes
+    integer(c_int32_t) :: struct_size = 96 + 12*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: slave_stride = 0
@@ -197,6 +198,8 @@ module ents
     integer(c_int64_t) :: shared = 0
     type(c_ptr) :: slave_values = c_null_ptr ! (slave_values, elements)
     integer(c_int64_t) :: slave_values_stride = 0
+    type(c_ptr) :: slave_begin = c_null_ptr ! (d, elements)
+    integer(c_int64_t) :: slave_begin_stride = 0
   end type ents_input
 
   type, bind(c) :: ents_output

@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 7
+CONTRACT_MINOR = 8
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 
@@ -48,6 +48,7 @@ class Flag(enum.IntFlag):
     AMBIGUOUS = 256
     BEHIND_EDGE = 512
     LEFT = 1024
+    NO_BEGIN = 2048
     CHANGED = 128
 
 
@@ -109,6 +110,7 @@ INPUTS = {
     "state_begin": ("state_size",),
     "multiplier": ("multipliers",),
     "slave_values": ("slave_values",),
+    "slave_begin": ("d",),
 }
 
 # Places in the arrays of SurfaceAdmissibility.
@@ -211,6 +213,8 @@ class Input(ctypes.Structure):
         ("shared", ctypes.c_int64),
         ("slave_values", ctypes.c_void_p),
         ("slave_values_stride", ctypes.c_int64),
+        ("slave_begin", ctypes.c_void_p),
+        ("slave_begin_stride", ctypes.c_int64),
     ]
 
 
