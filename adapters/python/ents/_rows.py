@@ -20,11 +20,13 @@ class Rows:
     dofs    [nodes][d] equation of each displacement, -1: none
     slave   csr_matrix [points][nodes]: slave points as combinations of nodes; `of_nodes` [points] where each is a node, else None
     master  csr_matrix [nodes of segments][nodes], or None: a rigid master; `smoothed`: its rows are no unit vectors
+    beside  [segments][k] neighbours of each segment, -1: none; they get places, too, before a point slides there
     """
 
-    def __init__(self, model: Model, tree: Tree, dofs: np.ndarray, rows: int, slave: Any, of_nodes: Optional[np.ndarray], master: Any, smoothed: bool) -> None:
+    def __init__(self, model: Model, tree: Tree, dofs: np.ndarray, rows: int, slave: Any, of_nodes: Optional[np.ndarray], master: Any, smoothed: bool,
+                 beside: np.ndarray) -> None:
         self.model, self.tree, self.count = model, tree, rows
-        self._dofs, self._slave, self._master = dofs, slave, master
+        self._dofs, self._slave, self._master, self._beside = dofs, slave, master, beside
         parts = lambda matrix: (matrix.indptr, matrix.indices, matrix.data)
         self._system = System(dofs if of_nodes is None else dofs[of_nodes], None if master is None else dofs, rows=rows,
                               slave=parts(slave) if of_nodes is None else None, master=parts(master) if smoothed else None)
@@ -59,7 +61,8 @@ class Rows:
     def _grow(self, points: np.ndarray, segments: np.ndarray) -> None:
         """Places for these pairs, and for those of before while they are not much more."""
         import scipy.sparse as sparse
-        keys = points * len(self.tree.connectivity) + segments
+        around = np.column_stack([segments, self._beside[segments]])
+        keys = (points[:, None] * len(self.tree.connectivity) + around)[around >= 0]
         kept = np.union1d(self._keys, keys)
         self._keys = keys = kept if len(kept) <= 3 * len(keys) + 64 else np.unique(keys)
         points, segments = np.divmod(keys, len(self.tree.connectivity))

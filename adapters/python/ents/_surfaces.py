@@ -126,6 +126,16 @@ class MasterSurface:
         """[points][d] of the segments at the positions `now` [nodes][d]."""
         return self.matrix @ self._images.with_images(now) if self.smoothed else now
 
+    def beside(self) -> np.ndarray:
+        """[segments][2] the next segments along a line, -1: none. Of surfaces none: they would make matrices three times as large."""
+        groups = self.groups
+        if not groups[0].shape.startswith("line"):
+            return np.zeros((len(self.segments), 0), np.int64)
+        ends = groups[0].nodes[:, :2]
+        at = np.full((ends.max() + 1, 2), -1, np.int64)  # the segments that begin and end in a node
+        at[ends[:, 0], 0] = at[ends[:, 1], 1] = np.arange(len(ends))
+        return np.column_stack([at[ends[:, 0], 1], at[ends[:, 1], 0]])
+
     def coordinates(self, given: Any) -> Any:
         """Surface coordinates [segments][m][d-1] from the argument surface_coordinates."""
         d = self.start.shape[1]

@@ -234,7 +234,7 @@ class Contact(ContactResults):
             slave, of_nodes = self._slave.matrix[numbers], None if self._slave.nodes is None else self._slave.nodes[numbers]
             dofs, rows = self._master.equations(self._dofs, self.rows)
             self._assembly = numbers, Rows(self.model, self.tree, dofs, rows, self._master.widened(slave), of_nodes,
-                                           None if self.rigid else self._master.matrix, self._master.smoothed)
+                                           None if self.rigid else self._master.matrix, self._master.smoothed, self._master.beside())
         of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
         found, residual, matrix = self._assembly[1].add(
             tangent, slave=of(points), reach=self.reach, segment=of(hint), xi=of(xi), want="state_end gap pressure flags" + (
