@@ -259,6 +259,16 @@ class Edges(unittest.TestCase):
             deep.update(np.tile([0.0, -0.5], cells + 1))
 
 
+class Rigid(unittest.TestCase):
+    def test_a_smoothed_master_that_is_rigid(self):
+        x = np.c_[np.linspace(2, 1, 4), np.full(4, -0.01)]
+        line = np.c_[np.arange(4.0), np.zeros(4)]
+        contact = ents.Contact({"segment": "bspline4", "master": "rigid", "contact": PENALTY}, x, chain(np.arange(4)), chain(np.arange(4)), master_positions=line)
+        residual, tangent = contact.update(np.zeros(8))
+        np.testing.assert_allclose(contact.pressure, 10, rtol=1e-12)
+        np.testing.assert_allclose(tangent.diagonal()[1::2], 1e3 * contact.areas, rtol=1e-12)
+
+
 class Mirror(unittest.TestCase):
     def test_half_of_a_smoothed_surface_is_the_half_of_the_whole(self):
         """Forces and tangent of one half with its plane of symmetry are those of the whole surface, in symmetric displacements."""

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 
-from ._arrays import CutStep, Error
+from ._arrays import CutStep
 from ._side_pairs import SidePairs
 from ._structs import Status
 from ._surface import Tree
@@ -53,17 +53,14 @@ class Path:
             tree.move(end)
 
 
-def refuse_deep(tree: Tree, pairs: SidePairs, points: np.ndarray, lost: np.ndarray, found_any: bool, reach: float) -> None:
-    """Points `lost` that find no segment in the first configuration: which of them are behind the surface, deeper than reach?"""
+def warn_of_deep(tree: Tree, pairs: SidePairs, points: np.ndarray, lost: np.ndarray, reach: float) -> None:
+    """Points `lost` that find no segment in the first configuration: which of them are behind the surface, deeper than reach? Two faces of one thin
+    solid are behind each other, too: hence a warning."""
     if not len(lost):
         return
     far = tree.detect(points[lost], 1e90)
     deep = np.flatnonzero((far["segment"] >= 0) & (far["gap"] < -reach))
     deep = deep[pairs.faces(tree, lost[deep], far["segment"][deep])]
-    if not len(deep):
-        return
-    k, depth = int(lost[deep[0]]), -far["gap"][deep[0]]
-    text = f"slave point {k} begins {depth:.6g} behind the master, more than reach = {reach:.6g} ({len(deep)} such points): it has no contact. Give a larger reach"
-    if not found_any:
-        raise Error(Status.DEEP_PENETRATION, f"{text}, or turn the facets of the master if it looks the wrong way", k)
-    warnings.warn(f"{text}, if it is meant to touch", UserWarning, stacklevel=5)
+    if len(deep):
+        warnings.warn(f"slave point {lost[deep[0]]} begins {-far['gap'][deep[0]]:.6g} behind the master, more than reach = {reach:.6g} ({len(deep)} such points): "
+                      "it has no contact. If it should, give a larger reach, or turn the facets of the master if they look the wrong way", UserWarning, stacklevel=4)

@@ -29,7 +29,7 @@ class Rows:
         self._dofs, self._slave, self._master, self._beside = dofs, slave, master, beside
         parts = lambda matrix: (matrix.indptr, matrix.indices, matrix.data)
         self._system = System(dofs if of_nodes is None else dofs[of_nodes], None if master is None else dofs, rows=rows,
-                              slave=parts(slave) if of_nodes is None else None, master=parts(master) if smoothed else None)
+                              slave=parts(slave) if of_nodes is None else None, master=parts(master) if smoothed and master is not None else None)
         self._keys = np.zeros(0, np.int64)
         self._begin, self._columns = np.zeros(rows + 1, np.int32), np.zeros(0, np.int32)
 

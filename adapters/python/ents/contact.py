@@ -13,7 +13,7 @@ from ._arrays import CutStep, Error, _array, _count, _frozen
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
-from ._path import Path, refuse_deep
+from ._path import Path, warn_of_deep
 from ._rows import Rows
 from ._side_pairs import SidePairs
 from ._structs import ENDS_STRAIGHT, Flag, Status
@@ -175,7 +175,7 @@ class Contact(ContactResults):
         points = self._slave.at(self._positions)
         found, _, _ = self._add(points, self._elements, self._hint, self._xi, False)
         segment, bad = found["segment"], found["status"] > 0
-        refuse_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), bool((segment >= 0).any()), self.reach)
+        warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
         closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
         kept = bad[:, None] | (not self.model.layout.friction)
         state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
