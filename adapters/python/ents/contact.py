@@ -41,6 +41,9 @@ class Contact(ContactResults):
     .tangent (csr_matrix) of the last update. Always: .nodes [points] (the node that each slave point is; None with points inside the facets),
     .areas [points], .positions, .dofs, .rows, .reach, .model, .tree.
 
+    The first increment begins in the undeformed configuration (master_positions as they are given here): a point that touches there sticks or slips
+    from there on. A point that passes through the master between the begin of an increment and an update() ends it with CutStep.
+
     Arrays that are given are copied; changing them afterwards has no effect. Arrays that come back are never written to again; those that are
     attributes cannot be written to. A Contact can be pickled, copied (copy.deepcopy) and saved (save, load).
     """
