@@ -49,12 +49,12 @@ def symmetrised(check):
 
 
 @row("cone_of_the_new_pressure", wrong="the friction cone is frozen while the multipliers are augmented", source="FrontISTR !652, #872",
-     right="|t| = mu p of the present p on every slipping node after every augmentation; Newton's order 2")
+     right="friction is mu p of the present p on every slipping node after every augmentation; Newton's iteration doubles the digits")
 def cone_of_the_new_pressure(check):
     slider = Slider(law(normal="augmented"))
-    worst, augmentations, orders, changes = 0.0, 0, [], []
+    worst, augmentations, changes = 0.0, 0, []
     for k in range(1, 5):
-        last, first = None, len(slider.problem.norms)
+        last = None
         for _ in range(60):
             slider.step(0.02 * k, 0.015, tolerance=1e-13, commit=False)
             contact = slider.contact
@@ -68,19 +68,16 @@ def cone_of_the_new_pressure(check):
                 break
             contact.augment()
             augmentations += 1
-        orders.append(order(slider.problem.norms[first:]))
         slider.contact.commit()
     # t is mu p times a unit vector: rounding of a few operations.
     check.near("| |t| - mu p | / p", 0, worst, 1e-14)
     check.near("deepest node after the last augmentation", 0, np.abs(contact.gap[contact.flags & ents.Flag.CONTACT != 0]).max(), 1e-10)
     check.true("pressure changes by augmentation", "> 1 %, so that a frozen cone shows", f"{max(changes):.2g}, {augmentations} augmentations", max(changes) > 0.01)
-    check.true("order of Newton's iteration, each increment", "2 (1.7 or more)", f"{min(orders):.3g} .. {max(orders):.3g}", min(orders) > 1.7)
-
-
-def order(solves):
-    """The smallest log(residual after) / log(residual before an iteration) over all augmentations of an increment: those above rounding and below the
-    residuals at which nodes still open, close, stick or slip. (A slope over all of them would mix solves of different constants.)"""
-    return min(np.log(after) / np.log(before) for norms in solves for before, after in zip(norms, norms[1:]) if before < 0.01 and after > 1e-12)
+    # Above 0.01 nodes still open, close, stick or slip. Forces here are about 10; a factor of 0.01, which a frozen cone has at best, would give
+    # residuals that are 10 times the square of 1e-3.
+    steps = [(before, after) for norms in slider.problem.norms for before, after in zip(norms, norms[1:]) if before < 0.01]
+    slow = [pair for pair in steps if pair[1] > pair[0]**2 + 1e-12]
+    check.near(f"of {len(steps)} last iterations, without doubled digits", 0, len(slow), 0)
 
 
 @row("cut_after_separation", wrong="a step that is cut after the bodies have separated keeps the matrix of the step before", source="FrontISTR !635, #845",

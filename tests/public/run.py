@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Public mistakes of other contact codes, run with this library: the right value against ours.
 
-usage: run.py [--build FOLDER] [--list] [--markdown] [ROW or GROUP ...]
+usage: run.py [--build FOLDER] [--list | --page | --write] [ROW or GROUP ...]
 
 Without names: all rows. A GROUP is a file of this folder (surfaces, friction ...). The last column is the largest error and its tolerance.
 
   --build FOLDER  the build tree: bin/ents-host, bin/ents-deck, lib/libents.so [build]
   --list          names of groups and rows
-  --markdown      the two tables of README.md, from this run
   --page          only compare README.md with the rows: each has its line there, and no other has one
+  --write         after the run, write what came out into the lines of README.md
 
 exit status: 0 all rows right; 1 a row is wrong; 2 wrong command line; 3 NumPy, SciPy or the library is missing"""
 import argparse
@@ -39,7 +39,7 @@ def command_line():
         sys.exit(print(__doc__))
     parser = argparse.ArgumentParser(usage=__doc__.splitlines()[2].removeprefix("usage: "), add_help=False)
     parser.add_argument("--build", type=pathlib.Path, default=TOP / "build")
-    for flag in ("--list", "--markdown", "--page"):
+    for flag in ("--list", "--page", "--write"):
         parser.add_argument(flag, action="store_true")
     parser.add_argument("names", nargs="*")
     return parser, parser.parse_args()
@@ -83,15 +83,14 @@ def show(row, found, seconds):
 
 
 def summary(found):
-    """Ours in one cell: the first quantity with a number, and the largest share of its tolerance."""
+    """Ours in one cell: the quantity that is nearest to its tolerance."""
     if not all(check[-1] for check in found):
         return "**wrong**: " + "; ".join(f"{q}: {ours[:90]}" for q, _, ours, _, _, ok in found if not ok)
-    numbers = [(q, error) for q, _, _, error, tolerance, _ in found if error is not None and tolerance > 0]
-    if numbers:
-        quantity, error = max(numbers, key=lambda pair: pair[1])
-        return f"error at most {error:.1e} ({quantity})" if error else "exact"
-    words = [f"{q}: {ours}" for q, _, ours, error, _, _ in found if error is None]
-    return words[-1] if words and not any(check[3] is not None for check in found) else "the same, every bit" if found else ""
+    numbers = [(error / tolerance if tolerance else 0, q, right, ours) for q, right, ours, error, tolerance, _ in found if error is not None]
+    if not numbers:
+        return f"{found[-1][0]}: {found[-1][2]}"
+    _, quantity, right, ours = max(numbers)
+    return f"{quantity}: {ours} for {right}"
 
 
 def page_differs():
@@ -122,21 +121,20 @@ def main():
     if given.list:
         print("\n".join(f"{row.group:10} {row.name}" for row in chosen))
         return
-    folder, missed, cells = tempfile.mkdtemp(prefix="ents-public-"), [], {"mistake": [], "target": []}
+    folder, missed, lines, total = tempfile.mkdtemp(prefix="ents-public-"), [], {}, 0.0
     try:
-        total = 0.0
         for row in chosen:
             found, seconds = run(row, Programs(given.build.resolve(), pathlib.Path(folder) / row.name))
             total += seconds
-            if given.markdown:
-                cells[row.kind].append(f"| `{row.name}` | {' | '.join(row.cells)} | {summary(found)} |")
-            if not (all(check[-1] for check in found) if given.markdown else show(row, found, seconds)):
+            lines[row.name] = f"| `{row.name}` | {' | '.join(row.cells)} | {summary(found)} |"
+            if not show(row, found, seconds):
                 missed.append(row.name)
     finally:
         shutil.rmtree(folder)
-    if given.markdown:
-        print("\n".join([*cells["mistake"], "", *cells["target"]]))
-        sys.exit(bool(missed))
+    if given.write:
+        page = (HERE / "README.md").read_text().splitlines()
+        name_of = lambda line: line.split("`")[1] if line.startswith("| `") else None
+        (HERE / "README.md").write_text("\n".join(lines.get(name_of(line), line) for line in page) + "\n")
     print(f"{len(chosen)} rows, {len(chosen) - len(missed)} right{', wrong: ' + ', '.join(missed) if missed else ''}; {total:.0f} s of CPU time")
     sys.exit(bool(missed))
 
