@@ -100,6 +100,8 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
   integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
   integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
+  integer(c_int32_t), parameter :: ENTS_ENDS_QUASI_CUBIC = 2
+  integer(c_int32_t), parameter :: ENTS_ENDS_QUASI_PARABOLIC = 3
   integer(c_int32_t), parameter :: ENTS_CHECK_CONTINUITY = 0
   integer(c_int32_t), parameter :: ENTS_CHECK_FOLD = 1
   integer(c_int32_t), parameter :: ENTS_CHECK_EDGE = 2
@@ -272,13 +274,23 @@ module ents
   end type ents_area
 
   type, bind(c) :: ents_combination
-    integer(c_int32_t) :: struct_size = 16 + 3*pointer_bytes
+    integer(c_int32_t) :: struct_size = 16 + 5*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: points = 0
     type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64
     type(c_ptr) :: nodes = c_null_ptr ! (begin[points]), int64
     type(c_ptr) :: weights = c_null_ptr ! (begin[points])
+    type(c_ptr) :: reflected = c_null_ptr ! (begin[points]), int32
+    type(c_ptr) :: shifts = c_null_ptr ! (d, points)
   end type ents_combination
+
+  type, bind(c) :: ents_mirror
+    integer(c_int32_t) :: struct_size = 8 + 3*pointer_bytes
+    integer(c_int32_t) :: planes = 0
+    type(c_ptr) :: axes = c_null_ptr ! (planes), int32
+    type(c_ptr) :: places = c_null_ptr ! (planes)
+    type(c_ptr) :: positions = c_null_ptr ! (d, nodes)
+  end type ents_mirror
 
   type, bind(c) :: ents_pose
     integer(c_int32_t) :: struct_size = 104
@@ -361,11 +373,11 @@ module ents
   ! Set all components of a struct to what they are at the start: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
-      init_derivatives, init_area, init_combination, init_pose, init_system, init_surface, init_admissibility, &
+      init_derivatives, init_area, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, &
       init_surface_admissibility
   end interface ents_init
   private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_derivatives, &
-    init_area, init_combination, init_pose, init_system, init_surface, init_admissibility, init_surface_admissibility
+    init_area, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -655,7 +667,8 @@ module ents
       integer(c_int32_t) :: status
     end function ents_contact_area
 
-    ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates).
+    ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
+    ! with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
       import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
       type(ents_combination), intent(in), target :: combination
@@ -712,6 +725,39 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_smooth
+
+    ! As ents_smooth, for a surface that ends on planes of symmetry.
+    function ents_smooth_mirrored_size(facet, basis, ends, facets, connectivity, nodes, mirror, points, terms, report) &
+      result(status) bind(c, name="ents_smooth_mirrored_size")
+      import :: c_char, c_int32_t, c_int64_t, ents_mirror, ents_report
+      character(kind=c_char), intent(in) :: facet(*), basis(*)
+      integer(c_int32_t), value :: ends
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      type(ents_mirror), intent(in), target :: mirror
+      integer(c_int64_t), intent(inout) :: points, terms
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_smooth_mirrored_size
+
+    function ents_smooth_mirrored(facet, basis, ends, facets, connectivity, nodes, mirror, points, terms, segment_points, begin, &
+      point_nodes, weights, reflected, shifts, report) result(status) bind(c, name="ents_smooth_mirrored")
+      import :: c_char, c_double, c_int32_t, c_int64_t, ents_mirror, ents_report
+      character(kind=c_char), intent(in) :: facet(*), basis(*)
+      integer(c_int32_t), value :: ends
+      integer(c_int64_t), value :: facets
+      integer(c_int64_t), intent(in) :: connectivity(*)
+      integer(c_int64_t), value :: nodes
+      type(ents_mirror), intent(in), target :: mirror
+      integer(c_int64_t), value :: points, terms
+      integer(c_int64_t), intent(inout) :: segment_points(*), begin(*), point_nodes(*)
+      real(c_double), intent(inout) :: weights(*)
+      integer(c_int32_t), intent(inout) :: reflected(*)
+      real(c_double), intent(inout) :: shifts(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_smooth_mirrored
 
     ! The body's frame is that of space, the reference point its origin.
     function ents_pose_init(dimension, pose, report) result(status) bind(c, name="ents_pose_init")
@@ -874,6 +920,11 @@ contains
     type(ents_combination), intent(out) :: x
     x = ents_combination()
   end subroutine init_combination
+
+  subroutine init_mirror(x)
+    type(ents_mirror), intent(out) :: x
+    x = ents_mirror()
+  end subroutine init_mirror
 
   subroutine init_pose(x)
     type(ents_pose), intent(out) :: x

@@ -669,9 +669,13 @@ typedef struct ents_combination {
   const int64_t *begin;              /* [points + 1], begin[0] = 0, never falling */
   const int64_t *nodes;              /* [begin[points]], >= 0 */
   const double *weights;             /* [begin[points]] */
+  const int32_t *reflected;          /* [begin[points]] or null: bits 1, 2, 4: X[nodes[j]] counts with its component x, y, z
+                                        reversed, as the image of the node in a plane normal to that axis. Since contract 1.8 */
+  const double *shifts;              /* [points][d] or null: added to x_i, [L]. Since contract 1.8 */
 } ents_combination;
 
-/* Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates).
+/* Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
+ * with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
  *   dimension  numbers per node: 1, 2 or 3
  *   positions  [nodes][d] of the host's nodes, [L], finite
  *   points     [points][d] out */
@@ -694,8 +698,11 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
                                       int64_t nodes, const double *positions, double thickness, int64_t *begin,
                                       int64_t *point_nodes, double *weights, double *areas, ents_report *report);
 
-#define ENTS_ENDS_STRAIGHT 0 /* beyond a free end or border: 2 x_0 - x_1, x_1 the neighbour inside (x_0 a node of the border) */
-#define ENTS_ENDS_REPEATED 1 /* x_0 once more */
+/* What stands beyond a free end or border, x_0 on it, x_1, x_2, x_3 the nodes inside; and what the control points are. */
+#define ENTS_ENDS_STRAIGHT 0        /* 2 x_0 - x_1; control points are the nodes */
+#define ENTS_ENDS_REPEATED 1        /* x_0 once more; control points are the nodes */
+#define ENTS_ENDS_QUASI_CUBIC 2     /* quasi-interpolation, 4 x_0 - 6 x_1 + 4 x_2 - x_3. Since contract 1.8 */
+#define ENTS_ENDS_QUASI_PARABOLIC 3 /* quasi-interpolation, 3 x_0 - 3 x_1 + x_2. Since contract 1.8 */
 
 /* A smoothed master surface over ordinary facets: one segment of a smoothed basis per facet, in the same order and with the
  * same natural coordinates, and control points that are linear combinations of the host's nodes. It follows from the connectivity
@@ -721,6 +728,14 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  * keep corners and the ends of lines in their places, regular borders of bspline16 are the splines of their nodes, and
  * straight rows of equidistant nodes give equidistant points; beyond a node of a border with several inner neighbours: 2 x_0 - their mean.
  * With repeated ends, control points of regular meshes are single nodes; bspline surfaces then end short of their borders.
+ * Quasi-interpolation (C. de Boor and G. Fix, J. Approx. Theory 8, 1973; bspline4 and bspline16): control points are (-1, 8, -1) / 6 of
+ * three nodes, in 3D in both directions, so that the spline follows the nodes: its distance from a smooth surface on which they lie is
+ * O(size of the facets ^ 4), with ENTS_ENDS_QUASI_PARABOLIC O(size ^ 3) in the two facets at a free end. With control points at the nodes
+ * it is O(size ^ 2). Continuity is as above. The spline ends in x_0, regular borders are the splines of their nodes, what is plane stays
+ * plane. At a free end an order of 4 and a passed patch test exclude each other: a uniform pressure on matching meshes arrives
+ * with the nodal forces of the plain facets under ENTS_ENDS_QUASI_PARABOLIC, and with errors up to 8 % under ENTS_ENDS_QUASI_CUBIC
+ * (core/README.md has the numbers). Extraordinary nodes: 2 x less the limit point of control points at the nodes; there the distance
+ * is O(size ^ 2) with a smaller factor. Lines of fewer facets than the rule of their end needs take the lower one.
  * Facets must be oriented alike. Chains and surfaces may be several, open or closed.
  *   facet, basis    as above, zero-terminated
  *   ends            ENTS_ENDS_...
@@ -740,6 +755,36 @@ ENTS_API int32_t ents_smooth_size(const char *facet, const char *basis, int32_t 
 ENTS_API int32_t ents_smooth(const char *facet, const char *basis, int32_t ends, int64_t facets, const int64_t *connectivity,
                              int64_t nodes, int64_t points, int64_t terms, int64_t *segment_points, int64_t *begin,
                              int64_t *point_nodes, double *weights, ents_report *report);
+
+/* Planes of symmetry on which a surface ends. Since contract 1.8. */
+typedef struct ents_mirror {
+  int32_t struct_size;
+  int32_t planes;                    /* 0 .. 6 */
+  const int32_t *axes;               /* [planes] the axis that is normal to each: 0 (x), 1 (y) or 2 (z) */
+  const double *places;              /* [planes] where the planes cut these axes, [L], finite */
+  const double *positions;           /* [nodes][d] undeformed positions of the host's nodes, [L], finite */
+} ents_mirror;
+
+/* As ents_smooth, for a surface that ends on planes of symmetry: it goes on beyond them as its mirror image, so that the surface
+ * of a half is that of the whole, with its continuity and accuracy, and a uniform pressure passes the plane exactly. Nodes are on a
+ * plane that are nearer to it than 1e-9 of the surface's extent; the host holds them there. Images are terms of the points with
+ * `reflected` and `shifts`, which go into the ents_combination with begin, point_nodes and weights: positions, forces and tangent
+ * of the images are those of their nodes. Since contract 1.8.
+ *   facet ... nodes      as of ents_smooth; `ends` is for borders that are on no plane
+ *   mirror               planes = 0: as ents_smooth
+ *   points, terms        sizes of what ents_smooth_mirrored fills: ents_smooth_mirrored_size gives them
+ *   segment_points ... weights  as of ents_smooth, of the facets themselves, not of their images
+ *   reflected            [terms] out
+ *   shifts               [points][d] out
+ * Errors: those of ents_smooth; NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT (planes), BAD_VALUE: an axis that is none, a plane without
+ * nodes or with nodes on both sides; NON_FINITE. */
+ENTS_API int32_t ents_smooth_mirrored_size(const char *facet, const char *basis, int32_t ends, int64_t facets,
+                                           const int64_t *connectivity, int64_t nodes, const ents_mirror *mirror,
+                                           int64_t *points, int64_t *terms, ents_report *report);
+ENTS_API int32_t ents_smooth_mirrored(const char *facet, const char *basis, int32_t ends, int64_t facets,
+                                      const int64_t *connectivity, int64_t nodes, const ents_mirror *mirror, int64_t points,
+                                      int64_t terms, int64_t *segment_points, int64_t *begin, int64_t *point_nodes,
+                                      double *weights, int32_t *reflected, double *shifts, ents_report *report);
 
 /* ---- a rigid master with a reference point ------------------------------------------------------
  *

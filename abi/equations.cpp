@@ -169,7 +169,8 @@ template <class F> std::int32_t Equations::for_groups(std::int64_t e, int node, 
   for (std::int64_t j = combination->begin[point]; j < combination->begin[point + 1]; ++j) {
     std::int32_t status = check_equations(name, equations, count, combination->nodes[j]);
     if (status == ENTS_OK)
-      status = f(Group{d * node, d, equations + combination->nodes[j] * d, combination->weights[j]});
+      status = f(Group{d * node, d, equations + combination->nodes[j] * d, combination->weights[j],
+                       combination->reflected ? combination->reflected[j] : 0});
     if (status != ENTS_OK) return status;
   }
   return ENTS_OK;
@@ -179,7 +180,7 @@ std::int32_t Equations::add_residual(std::int64_t e, const double* residual) con
   const auto add = [&](const Group& group) -> std::int32_t {
     for (int i = 0; i < group.size; ++i)
       if (group.equations[i] >= 0)
-        system_->residual[group.equations[i]] += group.weight * residual[group.dof + i];
+        system_->residual[group.equations[i]] += group.weight_of(i) * residual[group.dof + i];
     return ENTS_OK;
   };
   const bool has_segment = call_.segment(e) >= 0;
@@ -194,6 +195,9 @@ std::int32_t Equations::add_residual(std::int64_t e, const double* residual) con
 std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group& column,
                                   const double* tangent, int leading, std::int64_t* place) const {
   const double weight = row.weight * column.weight;
+  const auto sign = [&](int i, int j) {
+    return ((row.reflected >> i ^ column.reflected >> j) & 1) != 0 ? -1.0 : 1.0;
+  };
   const std::int64_t *rows = row.equations, *columns = column.equations;
   bool in_line = true; // the columns stand side by side in every row
   for (int j = 0; j < column.size; ++j) in_line = in_line && columns[j] == columns[0] + j && columns[j] >= 0;
@@ -219,7 +223,7 @@ std::int32_t Equations::add_block(std::int64_t e, const Group& row, const Group&
           if (place) place[i] = at + 1;
         }
       }
-      system_->values[at] += weight * block[static_cast<std::int64_t>(j) * leading];
+      system_->values[at] += sign(i, j) * weight * block[static_cast<std::int64_t>(j) * leading];
     }
   }
   return ENTS_OK;

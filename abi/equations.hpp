@@ -33,6 +33,8 @@ private:
     int size;
     const std::int64_t* equations; // [size]
     double weight;
+    std::int32_t reflected = 0; // bits of the dofs that count with the opposite sign
+    double weight_of(int i) const { return (reflected >> i & 1) != 0 ? -weight : weight; }
   };
 
   // The host's compressed rows.

@@ -46,6 +46,10 @@ std::int32_t check_combined_point(const ents_combination& c, const char* name, s
       return report_message(report, ENTS_NON_FINITE, point,
                             "%s.weights[%lld] (point %lld) is NaN or infinite", name,
                             static_cast<long long>(j), i);
+    if (c.reflected && (c.reflected[j] < 0 || c.reflected[j] > 7))
+      return report_message(report, ENTS_BAD_VALUE, point,
+                            "%s.reflected[%lld] (point %lld) is %d; its bits are 1, 2 and 4", name,
+                            static_cast<long long>(j), i, c.reflected[j]);
   }
   return ENTS_OK;
 }
@@ -179,10 +183,14 @@ int32_t ents_combine(const ents_combination* combination, int32_t dimension, int
       if ((status = check_combined_point(c, "combination", i, nodes, report)) != ENTS_OK) return status;
       double sum[3] = {};
       for (std::int64_t j = c.begin[i]; j < c.begin[i + 1]; ++j)
-        for (int k = 0; k < dimension; ++k) sum[k] += c.weights[j] * positions[c.nodes[j] * dimension + k];
+        for (int k = 0; k < dimension; ++k) {
+          const bool reversed = c.reflected && (c.reflected[j] >> k & 1) != 0;
+          sum[k] += (reversed ? -c.weights[j] : c.weights[j]) * positions[c.nodes[j] * dimension + k];
+        }
+      for (int k = 0; c.shifts && k < dimension; ++k) sum[k] += c.shifts[i * dimension + k];
       if (first_non_finite(sum, dimension) >= 0)
         return report_message(report, ENTS_NON_FINITE, i,
-                              "a position that point %lld is made of is NaN or infinite",
+                              "a position that point %lld is made of, or its shift, is NaN or infinite",
                               static_cast<long long>(i));
       for (int k = 0; k < dimension; ++k) points[i * dimension + k] = sum[k];
     }

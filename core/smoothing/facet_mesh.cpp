@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/smoothing/quasi_interpolation.hpp"
+
 namespace ents {
 
 Refusal FacetMesh::build(Ends ends, std::int64_t facets, const std::int64_t* connectivity,
@@ -16,13 +18,18 @@ Refusal FacetMesh::build(Ends ends, std::int64_t facets, const std::int64_t* con
         if (node(f, a) == node(f, b)) return {Refusal::repeated_node, f, -1, node(f, a)};
   if (const Refusal refusal = pair(); refusal.reason != Refusal::none) return refusal;
   if (const Refusal refusal = find_border(); refusal.reason != Refusal::none) return refusal;
+  count_incident();
   if (m_ == 4)
-    extend_quads(ends == Ends::straight);
+    extend_quads(ends);
   else
     extend_triangles();
-  incident_.assign(index(nodes_) + laid_around_.size(), 0);
-  for (const std::int64_t corner : corners_) ++incident_[index(corner)];
+  count_incident();
   return pair();
+}
+
+void FacetMesh::count_incident() {
+  incident_.assign(index(all_nodes()), 0);
+  for (const std::int64_t corner : corners_) ++incident_[index(corner)];
 }
 
 // Finds the two half-edges of every edge.
@@ -73,38 +80,58 @@ Refusal FacetMesh::find_border() {
   return {};
 }
 
-// One facet beyond every edge of the border, one more beyond every corner (a node of one facet only). A node
-// x_0 of the border with inner neighbours has 2 x_0 - (their mean) beyond it; a corner x_00 has 2 x_00 -
-// x_10, 2 x_00 - x_01 and, the same in both directions, 4 x_00 - 2 x_10 - 2 x_01 + x_11.
-void FacetMesh::extend_quads(bool straight) {
-  std::vector<std::int64_t> beyond_in(index(nodes_), -1), beyond_out(index(nodes_), -1);
+// One facet beyond every edge of the border, one more beyond every corner (a node of one facet only).
+// Straight ends: a node x_0 of the border with inner neighbours has 2 x_0 - (their mean) beyond it; a corner
+// x_00 has 2 x_00 - x_10, 2 x_00 - x_01 and, the same in both directions, 4 x_00 - 2 x_10 - 2 x_01 + x_11.
+void FacetMesh::extend_quads(Ends ends) {
+  const std::size_t most = extrapolation_nodes(ends);
+  beyond_in_.assign(index(nodes_), -1), beyond_out_.assign(index(nodes_), -1);
   for (const std::int64_t h : border_) {
     const std::int64_t v = start(h), arriving = in_[index(v)];
     if (arriving / 4 == h / 4) {
-      const std::int64_t p = end(h), q = start(arriving), r = end(next(h));
-      const std::int64_t before = lay(straight ? Terms{{v, 2.0}, {p, -1.0}} : Terms{{v, 1.0}});
-      const std::int64_t after = lay(straight ? Terms{{v, 2.0}, {q, -1.0}} : Terms{{v, 1.0}});
-      const std::int64_t corner =
-          lay(straight ? Terms{{v, 4.0}, {p, -2.0}, {q, -2.0}, {r, 1.0}} : Terms{{v, 1.0}});
-      beyond_in[index(v)] = before, beyond_out[index(v)] = after;
-      corners_.insert(corners_.end(), {v, before, corner, after});
+      beyond_in_[index(v)] = lay(beyond(ends, line_along_border(v, true, most)));
+      beyond_out_[index(v)] = lay(beyond(ends, line_along_border(v, false, most)));
+      lay_corner(ends, h);
     } else {
-      Terms terms = {{v, straight ? 2.0 : 1.0}};
-      if (straight) {
-        std::int64_t edge = previous(h);
-        std::size_t inner = 0;
-        for (; twin_[index(edge)] >= 0; edge = previous(twin_[index(edge)])) {
-          terms.push_back({start(edge), 0.0});
-          ++inner;
-        }
-        for (std::size_t i = 1; i < terms.size(); ++i) terms[i].weight = -1.0 / static_cast<double>(inner);
+      std::vector<std::int64_t> inner;
+      std::int64_t edge = previous(h), last = edge;
+      for (; twin_[index(edge)] >= 0; edge = previous(twin_[index(edge)]))
+        inner.push_back(start(last = edge));
+      Terms terms = {{v, 2.0}};
+      if (ends == Ends::repeated) {
+        terms = {{v, 1.0}};
+      } else if (is_quasi(ends) && inner.size() == 1) {
+        terms = beyond(ends, line_inwards(twin_[index(last)], most));
+      } else {
+        for (const std::int64_t node : inner)
+          terms.push_back({node, -1.0 / static_cast<double>(inner.size())});
       }
-      beyond_in[index(v)] = beyond_out[index(v)] = lay(std::move(terms));
+      beyond_in_[index(v)] = beyond_out_[index(v)] = lay(std::move(terms));
+      if (is_quasi(ends)) control_beyond(beyond_in_[index(v)], v, inner, start(arriving), end(h));
     }
   }
   for (const std::int64_t h : border_)
     corners_.insert(corners_.end(),
-                    {end(h), start(h), beyond_out[index(start(h))], beyond_in[index(end(h))]});
+                    {end(h), start(h), beyond_out_[index(start(h))], beyond_in_[index(end(h))]});
+  if (!is_quasi(ends)) return;
+  for (const std::int64_t h : border_)
+    if (in_[index(start(h))] / 4 == h / 4) extrapolate_corner(ends, h);
+}
+
+// The corner where half-edge h of the border starts.
+void FacetMesh::lay_corner(Ends ends, std::int64_t h) {
+  const std::int64_t v = start(h), p = end(h), q = start(in_[index(v)]), r = end(next(h));
+  Terms terms = {{v, 1.0}}; // of quasi-interpolation only until its neighbours are laid
+  if (ends == Ends::straight) terms = {{v, 4.0}, {p, -2.0}, {q, -2.0}, {r, 1.0}};
+  const std::int64_t corner = lay(std::move(terms));
+  corners_.insert(corners_.end(), {v, beyond_in_[index(v)], corner, beyond_out_[index(v)]});
+}
+
+// `line`: x_0, x_1 ... inwards.
+Terms FacetMesh::beyond(Ends ends, const std::vector<std::int64_t>& line) const {
+  if (ends == Ends::repeated) return {{line[0], 1.0}};
+  if (ends == Ends::straight) return {{line[0], 2.0}, {line[1], -1.0}};
+  return extrapolated(line);
 }
 
 // One triangle beyond every edge of the border, with the third node of its facet reflected, and as many

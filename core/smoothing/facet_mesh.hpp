@@ -20,10 +20,18 @@ public:
   // Triangles have straight ends.
   Refusal build(Ends ends, std::int64_t facets, const std::int64_t* connectivity, std::int64_t nodes);
 
+  std::int64_t facets() const { return facets_; } // of the surface
   std::int64_t nodes() const { return nodes_; }
   // Node at a corner; those from nodes() on are laid around: combinations of the others.
   std::int64_t node(std::int64_t facet, int corner) const { return corners_[index(m_ * facet + corner)]; }
+  std::int64_t all_nodes() const { return nodes_ + static_cast<std::int64_t>(laid_around_.size()); }
   const std::vector<Terms>& laid_around() const { return laid_around_; }
+  // Control point of a node laid around, for quasi-interpolation: the sum of `nodes` and of the control
+  // points of `controls`; either may be laid around.
+  struct LaidControl {
+    Terms nodes, controls;
+  };
+  const LaidControl& laid_control(std::int64_t node) const { return laid_controls_[index(node - nodes_)]; }
 
   // The ring of the node at a corner of a facet, which is the ring's first. Refused: `touching` and `folded`.
   Refusal ring(std::int64_t facet, int corner, Ring& out) const;
@@ -36,7 +44,15 @@ private:
   std::int64_t end(std::int64_t half) const { return corners_[index(next(half))]; }
   Refusal pair();
   Refusal find_border();
-  void extend_quads(bool straight);
+  void count_incident();
+  void extend_quads(Ends ends);
+  Terms beyond(Ends ends, const std::vector<std::int64_t>& line) const;
+  std::vector<std::int64_t> line_inwards(std::int64_t half, std::size_t most) const;
+  std::vector<std::int64_t> line_along_border(std::int64_t node, bool forward, std::size_t most) const;
+  void lay_corner(Ends ends, std::int64_t h);
+  void control_beyond(std::int64_t laid, std::int64_t node, const std::vector<std::int64_t>& inner,
+                      std::int64_t before, std::int64_t after);
+  void extrapolate_corner(Ends ends, std::int64_t h);
   void extend_triangles();
   std::int64_t lay(Terms terms);
 
@@ -46,7 +62,11 @@ private:
   std::vector<std::int64_t> border_; // half-edges of the border
   std::vector<std::int64_t> in_, out_; // of each node: the one of the border that ends, starts there, or -1
   std::vector<std::int64_t> incident_; // facets of each node; more than its ring has where surfaces touch
+  std::vector<std::int64_t> beyond_in_,
+      beyond_out_; // of each node of the border: what is laid beyond it, as seen
+                   // from its edge in_, out_; at a corner these are two nodes
   std::vector<Terms> laid_around_;
+  std::vector<LaidControl> laid_controls_; // quasi-interpolation only
 };
 
 } // namespace ents

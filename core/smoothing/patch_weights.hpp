@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/smoothing/facet_mesh.hpp"
+#include "core/smoothing/quasi_interpolation.hpp"
 
 namespace ents {
 
@@ -12,8 +12,9 @@ class PatchWeights {
 public:
   static constexpr std::size_t points = 16; // at most
 
-  explicit PatchWeights(const FacetMesh& mesh)
-      : mesh_(mesh), column_(static_cast<std::size_t>(mesh.nodes()), -1) {}
+  // `controls`: what stands for the nodes in the combinations; null: the nodes themselves.
+  explicit PatchWeights(const FacetMesh& mesh, const QuadControls* controls = nullptr)
+      : mesh_(mesh), controls_(controls), column_(static_cast<std::size_t>(mesh.nodes()), -1) {}
 
   void clear() {
     for (const std::int64_t node : nodes_) column_[static_cast<std::size_t>(node)] = -1;
@@ -21,18 +22,13 @@ public:
   }
 
   void add(std::size_t point, std::int64_t node, double weight) {
-    if (node >= mesh_.nodes()) {
+    if (controls_)
+      for (const Term& t : controls_->of(node)) add_node(point, t.node, weight * t.weight);
+    else if (node >= mesh_.nodes())
       for (const Term& t : mesh_.laid_around()[static_cast<std::size_t>(node - mesh_.nodes())])
-        add(point, t.node, weight * t.weight);
-      return;
-    }
-    std::int64_t& column = column_[static_cast<std::size_t>(node)];
-    if (column < 0) {
-      column = static_cast<std::int64_t>(nodes_.size());
-      nodes_.push_back(node);
-      weights_.resize(weights_.size() + points, 0.0);
-    }
-    weights_[points * static_cast<std::size_t>(column) + point] += weight;
+        add_node(point, t.node, weight * t.weight);
+    else
+      add_node(point, node, weight);
   }
 
   // change(w) of the weights w[points] of each node.
@@ -49,7 +45,18 @@ public:
   }
 
 private:
+  void add_node(std::size_t point, std::int64_t node, double weight) {
+    std::int64_t& column = column_[static_cast<std::size_t>(node)];
+    if (column < 0) {
+      column = static_cast<std::int64_t>(nodes_.size());
+      nodes_.push_back(node);
+      weights_.resize(weights_.size() + points, 0.0);
+    }
+    weights_[points * static_cast<std::size_t>(column) + point] += weight;
+  }
+
   const FacetMesh& mesh_;
+  const QuadControls* controls_;
   std::vector<std::int64_t> nodes_, column_; // column_[node]: its place in nodes_, or -1
   std::vector<double> weights_;              // [nodes][points]
 };

@@ -139,9 +139,21 @@ Refusal smooth_quads(Ends ends, bool regular, std::int64_t facets, const std::in
   FacetMesh mesh(4);
   if (const Refusal refusal = mesh.build(ends, facets, connectivity, nodes); refusal.reason != Refusal::none)
     return refusal;
+  const bool quasi = is_quasi(ends);
+  QuadControls controls;
+  if (quasi)
+    if (const Refusal refusal = controls.build(mesh); refusal.reason != Refusal::none) return refusal;
   out.add_nodes(nodes);
-  for (const Terms& terms : mesh.laid_around()) out.add_point(terms);
-  Patch patch(mesh);
+  std::vector<std::int64_t> number(static_cast<std::size_t>(mesh.all_nodes()), -1);
+  if (!quasi)
+    for (const Terms& terms : mesh.laid_around()) out.add_point(terms);
+  const auto control_point = [&](std::int64_t node) {
+    if (!quasi) return node;
+    std::int64_t& point = number[static_cast<std::size_t>(node)];
+    if (point < 0) point = out.add_point(controls.of(node));
+    return point;
+  };
+  Patch patch(mesh, quasi ? &controls : nullptr);
   Ring rings[4];
   for (std::int64_t f = 0; f < facets; ++f) {
     bool four = true;
@@ -157,10 +169,10 @@ Refusal smooth_quads(Ends ends, bool regular, std::int64_t facets, const std::in
       for (int corner = 0; corner < 4; ++corner) {
         const Ring& ring = rings[corner];
         const Grid grid(corner, 1, 2);
-        points[grid.at(0, 0)] = mesh.node(f, corner);
-        points[grid.at(-1, 0)] = ring.edge[2];
-        points[grid.at(-1, -1)] = ring.face[2];
-        points[grid.at(0, -1)] = ring.edge[3];
+        points[grid.at(0, 0)] = control_point(mesh.node(f, corner));
+        points[grid.at(-1, 0)] = control_point(ring.edge[2]);
+        points[grid.at(-1, -1)] = control_point(ring.face[2]);
+        points[grid.at(0, -1)] = control_point(ring.edge[3]);
       }
       out.segment_points.insert(out.segment_points.end(), points, points + 16);
     } else {

@@ -10,10 +10,13 @@
 
 namespace ents {
 
-// What stands beyond a free end or border: x_0 is on it, x_1 is its neighbour inside.
+// What stands beyond a free end or border: x_0 is on it, x_1 is its neighbour inside. The
+// quasi-interpolations (quasi_interpolation.hpp) also say what the control points of the nodes are.
 enum class Ends : std::int32_t {
-  straight, // 2 x_0 - x_1
-  repeated  // x_0
+  straight,       // 2 x_0 - x_1
+  repeated,       // x_0
+  quasi_cubic,    // 4 x_0 - 6 x_1 + 4 x_2 - x_3
+  quasi_parabolic // 3 x_0 - 3 x_1 + x_2
 };
 
 struct Term {
@@ -30,6 +33,9 @@ struct Smoothed {
   std::vector<std::int64_t> begin{0};       // [points + 1]
   std::vector<std::int64_t> nodes;
   std::vector<double> weights;
+  // With planes of symmetry only, see ents_combination:
+  std::vector<std::int32_t> reflected;
+  std::vector<double> shifts; // [points][d]
 
   // Points 0 .. count - 1 are the nodes themselves.
   void add_nodes(std::int64_t count);

@@ -15,6 +15,7 @@ struct SmoothedCase {
   const char* basis;
   HostMesh mesh;
   std::int32_t ends;
+  MirrorPlanes planes = {};
 };
 
 const std::vector<SmoothedCase>& smoothed_cases() {
@@ -28,15 +29,26 @@ const std::vector<SmoothedCase>& smoothed_cases() {
       {"triangles_of_seven", "bezier15", triangle_star(7, 2), ENTS_ENDS_STRAIGHT},
       {"star_of_three", "bspline16", star(3, 2), ENTS_ENDS_STRAIGHT},
       {"concave_border", "bspline16", squares(3, [](int i, int j) { return i < 2 || j < 2; }),
-       ENTS_ENDS_STRAIGHT}};
+       ENTS_ENDS_STRAIGHT},
+      {"quasi_chain", "bspline4", chain(6, false), ENTS_ENDS_QUASI_CUBIC},
+      {"quasi_star_of_five", "bspline16", star(5, 2), ENTS_ENDS_QUASI_PARABOLIC},
+      {"mirrored_chain", "bspline4", chain(4, false), ENTS_ENDS_QUASI_CUBIC, {{0}, {0.0}}},
+      {"mirrored_squares", "bspline16", squares(3), ENTS_ENDS_STRAIGHT, {{0, 1}, {0.0, 3.0}}}};
   return all;
 }
 
 class SmoothedAssembly : public testing::TestWithParam<int> {
 protected:
-  static HostMesh shaken(HostMesh mesh) {
+  static HostMesh shaken(const SmoothedCase& smoothed) {
+    HostMesh mesh = smoothed.mesh;
     Random random(13);
     mesh.shake(random, 0.03);
+    const auto d = static_cast<std::size_t>(mesh.dimension());
+    for (std::size_t p = 0; p < smoothed.planes.axes.size(); ++p) // nodes on a plane stay there
+      for (std::size_t i = static_cast<std::size_t>(smoothed.planes.axes[p]); i < mesh.positions.size();
+           i += d)
+        if (smoothed.mesh.positions[i] == smoothed.planes.places[p])
+          mesh.positions[i] = smoothed.planes.places[p];
     return mesh;
   }
   static std::string text() {
@@ -50,8 +62,8 @@ protected:
   }
 
   SmoothedAssembly()
-      : case_(smoothed_cases()[static_cast<std::size_t>(GetParam())]), mesh_(shaken(case_.mesh)),
-        smoothed_(case_.basis, mesh_, case_.ends), model_(text()),
+      : case_(smoothed_cases()[static_cast<std::size_t>(GetParam())]), mesh_(shaken(case_)),
+        smoothed_(case_.basis, mesh_, case_.ends, case_.planes), model_(text()),
         d_(static_cast<std::size_t>(mesh_.dimension())) {
     smoothed_.carry_texture();
     // One slave node in every segment, 0.02 behind it: the host's first nodes; then those of the mesh.
@@ -187,6 +199,8 @@ TEST_P(SmoothedAssembly, BalancesForcesAndMoments) {
     size += norm(r);
   }
   ASSERT_GT(size, 0.01);
+  for (const std::int32_t axis : case_.planes.axes) force[static_cast<std::size_t>(axis)] = 0.0;
+  if (!case_.planes.axes.empty()) moment = {}; // planes take the forces across them, and moments
   // weights of up to 225 in control points, positions up to 6
   constexpr double rounding = 225.0 * 8.0 * 1.1e-16;
   EXPECT_LE(norm(force), rounding * size);

@@ -152,11 +152,21 @@ inline HostMesh chain(int facets, bool closed) {
   return mesh;
 }
 
+struct MirrorPlanes {
+  std::vector<std::int32_t> axes;
+  std::vector<double> places;
+};
+
 // A smoothed surface over a host's mesh.
 class SmoothedSurface {
 public:
-  SmoothedSurface(const std::string& basis, const HostMesh& host, std::int32_t ends = ENTS_ENDS_STRAIGHT)
+  SmoothedSurface(const std::string& basis, const HostMesh& host, std::int32_t ends = ENTS_ENDS_STRAIGHT,
+                  const MirrorPlanes& planes = {})
       : host_(&host) {
+    if (!planes.axes.empty()) {
+      smooth_mirrored(basis, host, ends, planes);
+      return;
+    }
     ents_report report{};
     report.struct_size = sizeof report;
     std::int64_t points = 0, terms = 0;
@@ -180,6 +190,7 @@ public:
     c.struct_size = sizeof c;
     c.points = static_cast<std::int64_t>(begin.size()) - 1;
     c.begin = begin.data(), c.nodes = nodes.data(), c.weights = weights.data();
+    if (!shifts.empty()) c.reflected = reflected.data(), c.shifts = shifts.data();
     return c;
   }
   // `of_nodes` [nodes][numbers] at the control points.
@@ -198,14 +209,11 @@ public:
   // Material coordinates: the first positions of the nodes without their last component.
   void carry_texture() {
     const auto d = static_cast<std::size_t>(host_->dimension());
-    std::vector<double> of_nodes;
-    for (std::size_t i = 0; i < host_->positions.size(); ++i)
-      if (i % d + 1 < d) of_nodes.push_back(host_->positions[i]);
-    const std::vector<double> of_points = at_points(of_nodes, static_cast<int>(d - 1));
+    const std::vector<double> of_points = at_points(host_->positions, host_->dimension());
     surface.surface_coordinates.clear();
     for (const std::int64_t point : surface.connectivity)
       for (std::size_t k = 0; k + 1 < d; ++k)
-        surface.surface_coordinates.push_back(of_points[static_cast<std::size_t>(point) * (d - 1) + k]);
+        surface.surface_coordinates.push_back(of_points[static_cast<std::size_t>(point) * d + k]);
   }
   SurfacePoints evaluate(const Model& model, std::int64_t segment, const std::vector<double>& xi) const {
     return evaluate_surface(model, surface.master(segment).data(),
@@ -215,8 +223,38 @@ public:
   MeshSurface surface;
   std::vector<std::int64_t> begin, nodes;
   std::vector<double> weights;
+  std::vector<std::int32_t> reflected; // with planes of symmetry
+  std::vector<double> shifts;
 
 private:
+  void smooth_mirrored(const std::string& basis, const HostMesh& host, std::int32_t ends,
+                       const MirrorPlanes& planes) {
+    ents_report report{};
+    report.struct_size = sizeof report;
+    ents_mirror mirror{};
+    mirror.struct_size = sizeof mirror;
+    mirror.planes = static_cast<std::int32_t>(planes.axes.size());
+    mirror.axes = planes.axes.data(), mirror.places = planes.places.data();
+    mirror.positions = host.positions.data();
+    std::int64_t points = 0, terms = 0;
+    const auto check = [&](std::int32_t status) {
+      if (status != ENTS_OK) throw std::runtime_error(report.message);
+    };
+    check(ents_smooth_mirrored_size(host.facet.c_str(), basis.c_str(), ends, host.facets(),
+                                    host.connectivity.data(), host.nodes(), &mirror, &points, &terms,
+                                    &report));
+    surface.basis = &basis_named(basis);
+    surface.connectivity.resize(static_cast<std::size_t>(host.facets() * surface.basis->node_count()));
+    begin.resize(static_cast<std::size_t>(points + 1)), nodes.resize(static_cast<std::size_t>(terms));
+    weights.resize(nodes.size()), reflected.resize(nodes.size());
+    shifts.resize(static_cast<std::size_t>(points * host.dimension()));
+    check(ents_smooth_mirrored(host.facet.c_str(), basis.c_str(), ends, host.facets(),
+                               host.connectivity.data(), host.nodes(), &mirror, points, terms,
+                               surface.connectivity.data(), begin.data(), nodes.data(), weights.data(),
+                               reflected.data(), shifts.data(), &report));
+    follow(host.positions);
+  }
+
   const HostMesh* host_;
 };
 

@@ -7,6 +7,8 @@ CONTRACT_MAJOR = 1
 CONTRACT_MINOR = 8
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
+ENDS_QUASI_CUBIC = 2
+ENDS_QUASI_PARABOLIC = 3
 
 
 class Status(enum.IntEnum):
@@ -301,6 +303,18 @@ class Combination(ctypes.Structure):
         ("begin", ctypes.c_void_p),
         ("nodes", ctypes.c_void_p),
         ("weights", ctypes.c_void_p),
+        ("reflected", ctypes.c_void_p),
+        ("shifts", ctypes.c_void_p),
+    ]
+
+
+class Mirror(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("planes", ctypes.c_int32),
+        ("axes", ctypes.c_void_p),
+        ("places", ctypes.c_void_p),
+        ("positions", ctypes.c_void_p),
     ]
 
 
@@ -403,6 +417,7 @@ STRUCTS = {
     "ents_derivatives": Derivatives,
     "ents_area": Area,
     "ents_combination": Combination,
+    "ents_mirror": Mirror,
     "ents_pose": Pose,
     "ents_system": System,
     "ents_surface": Surface,
@@ -441,6 +456,8 @@ FUNCTIONS = {
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_smooth_mirrored_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_smooth_mirrored": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_pose_init": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_pose_move": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_pose_to_body": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
