@@ -31,7 +31,8 @@ from .contact import Contact
 
 __version__: str
 __all__ = ["Contact", "CutStep", "Error", "Library", "Model", "Pose", "System", "Tree", "library",
-           "CONTRACT_MAJOR", "CONTRACT_MINOR", "ENDS_STRAIGHT", "ENDS_REPEATED", "Flag", "Need", "Shared", "Status", "QUANTITIES", "CONDITIONS"]
+           "CONTRACT_MAJOR", "CONTRACT_MINOR", "ENDS_STRAIGHT", "ENDS_REPEATED", "ENDS_QUASI_CUBIC",
+           "ENDS_QUASI_PARABOLIC", "Flag", "Need", "Shared", "Status", "QUANTITIES", "CONDITIONS"]
 
 
 def __getattr__(name: str) -> str:

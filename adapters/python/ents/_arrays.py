@@ -106,13 +106,21 @@ def _frozen(array: np.ndarray) -> np.ndarray:
 
 def _combination(combination):
     try:
-        begin, of, weights = combination
+        begin, of, weights, *mirrored = combination
+        if len(mirrored) not in (0, 2):
+            raise ValueError
     except (TypeError, ValueError):
-        raise Error(Status.BAD_VALUE, "combination: wanted are three arrays (begin, nodes, weights), as of smooth and sampling_points") from None
+        raise Error(Status.BAD_VALUE, "combination: wanted are three arrays (begin, nodes, weights), as of smooth and sampling_points, or five with "
+                    "reflected and shifts") from None
     begin, of = (_array("combination: " + name, value, (None,), np.int64) for name, value in (("begin", begin), ("nodes", of)))
     weights = _array("combination: weights", weights, of.shape)
     if len(begin) == 0 or begin[0] != 0 or begin[-1] > len(of) or (np.diff(begin) < 0).any():
         raise Error(Status.BAD_VALUE, f"combination: begin goes from 0 to the {len(of)} nodes that there are, and never falls")
     block = _new(Combination, points=len(begin) - 1, begin=begin.ctypes.data, nodes=of.ctypes.data, weights=weights.ctypes.data)
-    block.arrays = begin, of, weights  # they live as long as the addresses
+    reflected = shifts = None
+    if mirrored:
+        reflected = _array("combination: reflected", mirrored[0], of.shape, np.int32)
+        shifts = _array("combination: shifts", mirrored[1], (len(begin) - 1, None))
+        block.reflected, block.shifts = reflected.ctypes.data, shifts.ctypes.data
+    block.arrays = begin, of, weights, reflected, shifts  # they live as long as the addresses
     return block

@@ -13,9 +13,9 @@ from typing import Any, Callable, Optional, Tuple, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _combination, _count, _new
-from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Report, Status
+from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Status
 
-Combined = Tuple[np.ndarray, np.ndarray, np.ndarray]  # begin, nodes, weights
+Combined = Tuple[np.ndarray, ...]  # begin, nodes, weights; with planes of symmetry also reflected, shifts
 FACET_NODES = {"line2": 2, "line3": 3, "tri3": 3, "tri6": 6, "quad4": 4, "quad8": 8, "quad9": 9}
 
 HEIGHT_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_int32, ctypes.c_int32, ctypes.POINTER(ctypes.c_double),
@@ -160,22 +160,45 @@ class Library:
                   begin, of, weights, areas, positive=Error)
         return (begin, of, weights), areas
 
-    def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT) -> tuple[np.ndarray, Combined]:
+    def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT, mirror: Optional[dict] = None,
+               positions: Any = None) -> tuple[np.ndarray, Combined]:
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
-        and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin))."""
-        connectivity, _ = self._mesh(facet, connectivity, np.zeros((0, 2 if str(facet).startswith("line") else 3)))
-        head = (facet.encode(), str(basis).encode(), _count("ends", ends, 0, 1), len(connectivity), connectivity, _count("nodes", nodes))
+        and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin)).
+
+        ends    ENDS_STRAIGHT, ENDS_REPEATED; bspline4, bspline16 also ENDS_QUASI_CUBIC, ENDS_QUASI_PARABOLIC: the spline follows the nodes
+        mirror  planes of symmetry on which the surface ends, {"x": 0.0, "y": [0.0, 2.0]}: places on the axes that are normal to them. Needs
+                `positions` [nodes][d], undeformed. Combinations are then (begin, nodes, weights, reflected, shifts): bits 1, 2, 4 of
+                reflected[j] reverse the components x, y, z of term j, and shifts [points][d] are added"""
+        d, call, more = 2 if str(facet).startswith("line") else 3, "smooth", ()
+        connectivity, _ = self._mesh(facet, connectivity, np.zeros((0, d)))
+        nodes = _count("nodes", nodes)
+        head = (facet.encode(), str(basis).encode(), _count("ends", ends, 0, 3), len(connectivity), connectivity, nodes)
+        if mirror is not None:
+            if not isinstance(mirror, dict) or not set(mirror) <= set("xyz"[:d]):
+                raise Error(Status.BAD_VALUE, f'mirror: {mirror!r}; write {{"x": 0.0}}, say: places on {", ".join("xyz"[:d])}')
+            if positions is None:
+                raise Error(Status.BAD_VALUE, "mirror: needs positions=, the undeformed positions of the nodes, which say what lies on a plane")
+            planes = [("xyz".index(axis), place) for axis, on_axis in mirror.items() for place in _array(f"mirror[{axis!r}]", np.atleast_1d(on_axis), (None,))]
+            axes, places = np.array([a for a, _ in planes], np.int32), np.array([p for _, p in planes], float)
+            positions = _array("positions", positions, (nodes, d))
+            call, head = "smooth_mirrored", (*head, _new(Mirror, planes=len(planes), axes=axes.ctypes.data, places=places.ctypes.data,
+                                                         positions=positions.ctypes.data))
         points, terms = ctypes.c_int64(), ctypes.c_int64()
-        self.call("smooth_size", *head, ctypes.byref(points), ctypes.byref(terms), positive=Error)
+        self.call(call + "_size", *head, ctypes.byref(points), ctypes.byref(terms), positive=Error)
         digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
         segments = np.zeros((len(connectivity), int(digits)), np.int64)
         begin, of, weights = np.zeros(points.value + 1, np.int64), np.zeros(terms.value, np.int64), np.zeros(terms.value)
-        self.call("smooth", *head, points, terms, segments, begin, of, weights, positive=Error)
-        return segments, (begin, of, weights)
+        if mirror is not None:
+            more = (np.zeros(terms.value, np.int32), np.zeros((points.value, d)))
+        self.call(call, *head, points, terms, segments, begin, of, weights, *more, positive=Error)
+        return segments, (begin, of, weights, *more)
 
     def combine(self, combination: Combined, values: Any) -> np.ndarray:
         """What `smooth` gave, applied to values [nodes][1 .. 3] (positions, surface coordinates)."""
         values, block = _array("values", values, (None, None)), _combination(combination)
+        if len(combination) > 3 and values.shape[1] != np.shape(combination[4])[1]:
+            raise Error(Status.BAD_COUNT, f"values: {values.shape[1]} numbers per node; images in planes of symmetry are those of positions "
+                        f"[nodes][{np.shape(combination[4])[1]}]: take surface coordinates from the points' positions")
         points = np.zeros((block.points, values.shape[1]))
         self.call("combine", block, values.shape[1], len(values), values, points)
         return points
