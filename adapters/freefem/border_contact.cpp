@@ -67,17 +67,17 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
       begin_.push_back(i), of_.push_back(i), weights_.push_back(1);
     begin_.push_back(nodes(master_));
   } else {
-    const std::int32_t ends = options.straight_ends ? ENTS_ENDS_STRAIGHT : ENTS_ENDS_REPEATED;
     std::int64_t count = 0, terms = 0;
-    check(ents_smooth_size("line2", basis.c_str(), ends, edges(master_), master_.edges.data(), nodes(master_),
-                           &count, &terms, &report),
+    check(ents_smooth_size("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
+                           nodes(master_), &count, &terms, &report),
           report);
     segments_.resize(static_cast<std::size_t>(edges(master_) * layout_.nodes));
     begin_.resize(static_cast<std::size_t>(count + 1));
     of_.resize(static_cast<std::size_t>(terms));
     weights_.resize(static_cast<std::size_t>(terms));
-    check(ents_smooth("line2", basis.c_str(), ends, edges(master_), master_.edges.data(), nodes(master_),
-                      count, terms, segments_.data(), begin_.data(), of_.data(), weights_.data(), &report),
+    check(ents_smooth("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
+                      nodes(master_), count, terms, segments_.data(), begin_.data(), of_.data(),
+                      weights_.data(), &report),
           report);
   }
   const std::vector<double> at_rest(static_cast<std::size_t>(dofs_), 0.0);

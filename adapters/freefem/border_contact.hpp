@@ -24,7 +24,7 @@ struct Options {
                         ///< nodes; -1: as the model says, or xi
   double reach = 0;     ///< [L] nodes farther away are open; 0: the master's longest edge
   double thickness = 1; ///< [L]
-  bool straight_ends = false; ///< smoothed surfaces: ENTS_ENDS_STRAIGHT instead of ENTS_ENDS_REPEATED
+  int ends = ENTS_ENDS_REPEATED; ///< smoothed surfaces: another ENTS_ENDS_...
 };
 
 struct Forces {

@@ -77,7 +77,8 @@ public:
     options.coordinate = static_cast<int>(value(0, stack, -1L));
     options.reach = value(1, stack, 0.);
     options.thickness = value(2, stack, 1.);
-    options.straight_ends = value(3, stack, false);
+    options.ends = value(3, stack, false) ? ENTS_ENDS_STRAIGHT : ENTS_ENDS_REPEATED;
+    options.ends = static_cast<int>(value(4, stack, long{options.ends}));
     const string model = *GetAny<string*>((*model_)(stack));
     variable->contact = checked([&] {
       return new BorderContact(model, border(*mesh, slave), border(*mesh, master), 2L * mesh->nv, options);
@@ -89,7 +90,7 @@ private:
   template <class T> T value(int i, Stack stack, T otherwise) const {
     return named_[i] ? GetAny<T>((*named_[i])(stack)) : otherwise;
   }
-  static constexpr int names = 4;
+  static constexpr int names = 5;
   static basicAC_F0::name_and_type name_param[names];
   Expression variable_, mesh_, slave_, master_, model_, named_[names];
 };
@@ -97,7 +98,8 @@ private:
 basicAC_F0::name_and_type Make::name_param[] = {{"coordinate", &typeid(long)},
                                                 {"reach", &typeid(double)},
                                                 {"thickness", &typeid(double)},
-                                                {"straightEnds", &typeid(bool)}};
+                                                {"straightEnds", &typeid(bool)},
+                                                {"ends", &typeid(long)}};
 
 class Forces : public E_F0mps {
 public:

@@ -94,7 +94,7 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
     master.connectivity = std::move(surface.connectivity);
     master.net = std::move(surface.net);
   } else {
-    if (contact.straight_ends || !contact.mirror.empty())
+    if (contact.ends != "repeated" || !contact.mirror.empty())
       throw InputError(contact.master_where +
                        ": \"ends\" and \"mirror\" are for smoothed segments; the model's " + "segment is " +
                        segment);

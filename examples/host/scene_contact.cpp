@@ -65,7 +65,7 @@ void check_cut_off(const ContactSpec& contact) {
 
 void read_ends(JsonObject& master, int dimension, ContactSpec& contact) {
   if (master.has("ends"))
-    contact.straight_ends = master.at("ends").word({"repeated", "straight"}) == "straight";
+    contact.ends = master.at("ends").word({"repeated", "straight", "quasi_cubic", "quasi_parabolic"});
   if (!master.has("mirror")) return;
   JsonObject planes(master.at("mirror"));
   const std::vector<std::string> axes{"x", "y", "z"};

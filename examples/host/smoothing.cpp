@@ -102,7 +102,10 @@ SmoothedSurface smoothed_surface(const EntsLibrary& library, const std::string& 
   MirroredFaces all(mesh, faces, static_cast<std::size_t>(corners), *net);
   for (const MirrorPlane& plane : contact.mirror) all.mirror(plane);
 
-  const int32_t ends = contact.straight_ends ? ENTS_ENDS_STRAIGHT : ENTS_ENDS_REPEATED;
+  const int32_t ends = contact.ends == "repeated"      ? ENTS_ENDS_REPEATED
+                       : contact.ends == "straight"    ? ENTS_ENDS_STRAIGHT
+                       : contact.ends == "quasi_cubic" ? ENTS_ENDS_QUASI_CUBIC
+                                                       : ENTS_ENDS_QUASI_PARABOLIC;
   const auto count = static_cast<int64_t>(all.connectivity.size()) / corners;
   const auto m = static_cast<std::size_t>(line ? 4 : triangle ? 15 : 16);
   auto report = ents_struct<ents_report>();

@@ -115,6 +115,8 @@ Json even(const char* segment, const char* ends, const char* element = "hex8") {
 TEST(SmoothedMaster, StraightEndsReachTheBorder) {
   for (const char* segment : {"bspline16", "catmull_rom16"})
     EXPECT_EQ(last_step(even(segment, "straight")).contact_fraction, 1) << segment;
+  for (const char* ends : {"quasi_cubic", "quasi_parabolic"})
+    EXPECT_EQ(last_step(even("bspline16", ends)).contact_fraction, 1) << ends;
   EXPECT_EQ(last_step(even("bezier15", "straight", "tet4")).contact_fraction, 1);
   EXPECT_EQ(last_step(even("catmull_rom16", "repeated")).contact_fraction, 1);
   EXPECT_LT(last_step(even("bspline16", "repeated")).contact_fraction, 0.99);
