@@ -67,7 +67,7 @@ def pressures(segment, ends, masters, slaves, sampling=0):
     if segment == "line2":
         segments, control = facets, (np.arange(masters + 2), np.arange(masters + 1), np.ones(masters + 1))
     elif ends == "mirror":
-        segments, control = library.smooth("line2", segment, facets, masters + 1, CUBIC, {"x": [0.0, 1.0]}, x[master])
+        segments, control = library.smooth("line2", segment, facets, masters + 1, CUBIC, [("x", 0.0), ("x", 1.0)], x[master])
     else:
         segments, control = library.smooth("line2", segment, facets, masters + 1, ends)
     slave = first + np.arange(slaves + 1)
@@ -126,13 +126,14 @@ class SmoothedPatchTest(unittest.TestCase):
         library = ents.library()
         line = [[0, 1], [1, 2]]
         x = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]
-        for text, mirror, positions in (('write {"x": 0.0}', {"z": 0.0}, x), ("needs positions=", {"x": 0.0}, None),
-                                        ("lie on both sides of plane 0 (x = 1)", {"x": 1.0}, x),
-                                        ("positions: the shape is", {"x": 0.0}, x[:2])):
+        for text, mirror, positions in (('write planes as [("x", 0.0), ...]', [("z", 0.0)], x), ('write planes as [("x", 0.0), ...]', {"x": 0.0}, x),
+                                        ("needs positions=", [("x", 0.0)], None),
+                                        ("lie on both sides of plane 0 (x = 1)", [("x", 1.0)], x),
+                                        ("positions: the shape is", [("x", 0.0)], x[:2])):
             with self.assertRaises(ents.Error) as caught:
                 library.smooth("line2", "bspline4", line, 3, mirror=mirror, positions=positions)
             self.assertIn(text, str(caught.exception))
-        _, control = library.smooth("line2", "bspline4", line, 3, mirror={"x": 0.0}, positions=x)
+        _, control = library.smooth("line2", "bspline4", line, 3, mirror=[("x", 0.0)], positions=x)
         with self.assertRaisesRegex(ents.Error, "values: 1 numbers per node"):
             library.combine(control, np.zeros((3, 1)))
 

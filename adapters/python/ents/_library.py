@@ -8,7 +8,7 @@ import math
 import os
 import pathlib
 import threading
-from typing import Any, Callable, Optional, Tuple, Union
+from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -160,35 +160,36 @@ class Library:
                   begin, of, weights, areas, positive=Error)
         return (begin, of, weights), areas
 
-    def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT, mirror: Optional[dict] = None,
+    def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT, mirror: Sequence = (),
                positions: Any = None) -> tuple[np.ndarray, Combined]:
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
         and those as combinations of the `nodes` nodes: (begin [points + 1], nodes, weights), which is scipy.sparse.csr_matrix((weights, nodes, begin)).
 
         ends    ENDS_STRAIGHT, ENDS_REPEATED; bspline4, bspline16 also ENDS_QUASI_CUBIC, ENDS_QUASI_PARABOLIC: the spline follows the nodes
-        mirror  planes of symmetry on which the surface ends, {"x": 0.0, "y": [0.0, 2.0]}: places on the axes that are normal to them. Needs
+        mirror  planes of symmetry on which the surface ends, [("x", 0.0), ...]: the axis that is normal to each, its place on it. Needs
                 `positions` [nodes][d], undeformed. Combinations are then (begin, nodes, weights, reflected, shifts): bits 1, 2, 4 of
                 reflected[j] reverse the components x, y, z of term j, and shifts [points][d] are added"""
         d, call, more = 2 if str(facet).startswith("line") else 3, "smooth", ()
         connectivity, _ = self._mesh(facet, connectivity, np.zeros((0, d)))
         nodes = _count("nodes", nodes)
         head = (facet.encode(), str(basis).encode(), _count("ends", ends, 0, 3), len(connectivity), connectivity, nodes)
-        if mirror is not None:
-            if not isinstance(mirror, dict) or not set(mirror) <= set("xyz"[:d]):
-                raise Error(Status.BAD_VALUE, f'mirror: {mirror!r}; write {{"x": 0.0}}, say: places on {", ".join("xyz"[:d])}')
+        if len(mirror):
+            try:
+                axes = np.array([list("xyz"[:d]).index(axis) for axis, _ in mirror], np.int32)
+                places = np.array([float(place) for _, place in mirror])
+            except (TypeError, ValueError):
+                raise Error(Status.BAD_VALUE, f'mirror: {mirror!r}; write planes as [("x", 0.0), ...], with an axis of {", ".join("xyz"[:d])}') from None
             if positions is None:
                 raise Error(Status.BAD_VALUE, "mirror: needs positions=, the undeformed positions of the nodes, which say what lies on a plane")
-            planes = [("xyz".index(axis), place) for axis, on_axis in mirror.items() for place in _array(f"mirror[{axis!r}]", np.atleast_1d(on_axis), (None,))]
-            axes, places = np.array([a for a, _ in planes], np.int32), np.array([p for _, p in planes], float)
             positions = _array("positions", positions, (nodes, d))
-            call, head = "smooth_mirrored", (*head, _new(Mirror, planes=len(planes), axes=axes.ctypes.data, places=places.ctypes.data,
+            call, head = "smooth_mirrored", (*head, _new(Mirror, planes=len(axes), axes=axes.ctypes.data, places=places.ctypes.data,
                                                          positions=positions.ctypes.data))
         points, terms = ctypes.c_int64(), ctypes.c_int64()
         self.call(call + "_size", *head, ctypes.byref(points), ctypes.byref(terms), positive=Error)
         digits = "".join(c for c in basis if c.isdigit())  # the basis's nodes: bspline4, bezier15
         segments = np.zeros((len(connectivity), int(digits)), np.int64)
         begin, of, weights = np.zeros(points.value + 1, np.int64), np.zeros(terms.value, np.int64), np.zeros(terms.value)
-        if mirror is not None:
+        if len(mirror):
             more = (np.zeros(terms.value, np.int32), np.zeros((points.value, d)))
         self.call(call, *head, points, terms, segments, begin, of, weights, *more, positive=Error)
         return segments, (begin, of, weights, *more)

@@ -76,7 +76,7 @@ class Contact(ContactResults):
         offset     [L] is added to the gap, a number or one for each slave point: > 0 a clearance, < 0 a coating; needs "offset": 0 in the
                    model's "contact"
         elements   [slave points] bool: those that are assembled; the others belong to another process. Default: all
-        ends       smoothed masters: ENDS_STRAIGHT or ENDS_REPEATED, see ents.h
+        ends       smoothed masters: ENDS_STRAIGHT, ENDS_REPEATED, ENDS_QUASI_CUBIC or ENDS_QUASI_PARABOLIC, see ents.h; core/README.md: which when
         leave      True: a slave point in contact that is pushed over the end of the master is open from there on; False: CutStep
         mirror     smoothed masters: planes of symmetry, [("x", 0.0), ...], at which the surface goes on as its mirror image does
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
