@@ -31,7 +31,7 @@ const std::vector<SmoothedCase>& smoothed_cases() {
       {"concave_border", "bspline16", squares(3, [](int i, int j) { return i < 2 || j < 2; }),
        ENTS_ENDS_STRAIGHT},
       {"quasi_chain", "bspline4", chain(6, false), ENTS_ENDS_QUASI_CUBIC},
-      {"quasi_star_of_five", "bspline16", star(5, 2), ENTS_ENDS_QUASI_PARABOLIC},
+      {"quasi_squares", "bspline16", squares(2), ENTS_ENDS_QUASI_PARABOLIC},
       {"mirrored_chain", "bspline4", chain(4, false), ENTS_ENDS_QUASI_CUBIC, {{0}, {0.0}}},
       {"mirrored_squares", "bspline16", squares(3), ENTS_ENDS_STRAIGHT, {{0, 1}, {0.0, 3.0}}}};
   return all;
