@@ -147,35 +147,6 @@ std::int32_t Equations::check_equations(const char* name, const std::int64_t* eq
   return ENTS_OK;
 }
 
-template <class F> std::int32_t Equations::for_groups(std::int64_t e, int node, F&& f) const {
-  const int d = plan_.dimension;
-  const bool is_slave = node == 0;
-  const ents_combination* combination =
-      is_slave ? (system_->slave ? &slave_ : nullptr) : (system_->master ? &master_ : nullptr);
-  const std::int64_t point =
-      is_slave ? e : call_.mesh.connectivity[call_.segment(e) * plan_.nodes + node - 1];
-  const std::int64_t* equations = is_slave ? system_->slave_equations : system_->master_equations;
-  const std::int64_t count = is_slave ? system_->slave_nodes : system_->master_nodes;
-  const char* name = is_slave ? "slave_equations" : "master_equations";
-  if (!combination) {
-    if (const std::int32_t status = check_equations(name, equations, count, point); status != ENTS_OK)
-      return status;
-    return f(Group{d * node, d, equations + point * d, 1.0});
-  }
-  if (const std::int32_t status = check_combined_point(
-          *combination, is_slave ? "system.slave" : "system.master", point, count, report_);
-      status != ENTS_OK)
-    return status;
-  for (std::int64_t j = combination->begin[point]; j < combination->begin[point + 1]; ++j) {
-    std::int32_t status = check_equations(name, equations, count, combination->nodes[j]);
-    if (status == ENTS_OK)
-      status = f(Group{d * node, d, equations + combination->nodes[j] * d, combination->weights[j],
-                       combination->reflected ? combination->reflected[j] : 0});
-    if (status != ENTS_OK) return status;
-  }
-  return ENTS_OK;
-}
-
 std::int32_t Equations::add_residual(std::int64_t e, const double* residual) const {
   const auto add = [&](const Group& group) -> std::int32_t {
     for (int i = 0; i < group.size; ++i)
@@ -318,6 +289,11 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
       plan_.dofs - plan_.multipliers, plan_.multipliers,
       plan_.multipliers > 0 ? system_->multiplier_equations + e * plan_.multipliers : nullptr, 1.0};
   if (segment < 0) return add_block(e, multipliers, multipliers, tangent, plan_.dofs, nullptr);
+  if ((system_->slave || system_->master) && plan_.multipliers == 0) {
+    bool added = false;
+    const std::int32_t status = add_by_nodes(e, tangent, added);
+    if (added || status != ENTS_OK) return status;
+  }
   for (int a = 0; a < count; ++a) {
     const std::int32_t status = for_groups(e, a, [&](const Group& row) -> std::int32_t {
       for (int b = 0; b < count; ++b) {

@@ -75,6 +75,9 @@ private:
   template <class F> std::int32_t for_groups(std::int64_t e, int node, F&& f) const;
   std::int32_t add_residual(std::int64_t e, const double* residual) const;
   std::int32_t add_tangent(std::int64_t e, const double* tangent) const;
+  // Tangent by the host's nodes, where many terms of the combinations name few of them; not `added`: there
+  // are few terms.
+  std::int32_t add_by_nodes(std::int64_t e, const double* tangent, bool& added) const;
   std::int32_t add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
                          int leading, std::int64_t* place) const;
   std::int32_t add_with_body(std::int64_t e, const double* residual, const double* tangent) const;
@@ -97,5 +100,34 @@ private:
   Pattern pattern_;
   bool large_; // more entries than caches hold
 };
+
+template <class F> std::int32_t Equations::for_groups(std::int64_t e, int node, F&& f) const {
+  const int d = plan_.dimension;
+  const bool is_slave = node == 0;
+  const ents_combination* combination =
+      is_slave ? (system_->slave ? &slave_ : nullptr) : (system_->master ? &master_ : nullptr);
+  const std::int64_t point =
+      is_slave ? e : call_.mesh.connectivity[call_.segment(e) * plan_.nodes + node - 1];
+  const std::int64_t* equations = is_slave ? system_->slave_equations : system_->master_equations;
+  const std::int64_t count = is_slave ? system_->slave_nodes : system_->master_nodes;
+  const char* name = is_slave ? "slave_equations" : "master_equations";
+  if (!combination) {
+    if (const std::int32_t status = check_equations(name, equations, count, point); status != ENTS_OK)
+      return status;
+    return f(Group{d * node, d, equations + point * d, 1.0});
+  }
+  if (const std::int32_t status = check_combined_point(
+          *combination, is_slave ? "system.slave" : "system.master", point, count, report_);
+      status != ENTS_OK)
+    return status;
+  for (std::int64_t j = combination->begin[point]; j < combination->begin[point + 1]; ++j) {
+    std::int32_t status = check_equations(name, equations, count, combination->nodes[j]);
+    if (status == ENTS_OK)
+      status = f(Group{d * node, d, equations + combination->nodes[j] * d, combination->weights[j],
+                       combination->reflected ? combination->reflected[j] : 0});
+    if (status != ENTS_OK) return status;
+  }
+  return ENTS_OK;
+}
 
 } // namespace ents
