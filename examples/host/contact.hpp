@@ -161,6 +161,10 @@ public:
   std::int32_t assemble(const Configuration& at, std::vector<double>& residual, bool want_tangent,
                         RigidCoupling* coupling, double& squared_force, ents_report& report);
 
+  /// Of each of `unknowns` the size of the numbers beside its own that a gap is made of: the coordinate of
+  /// the node, and of a rigid master its motion and the nodes of the segment; multipliers: 0.
+  std::vector<double> position_sizes(const Configuration& at) const;
+
   /// residual += tangent of the last `assemble` times displacements [dofs].
   void add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const;
 

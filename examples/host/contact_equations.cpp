@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact: the library's elements in the host's equations.
 #include <algorithm>
+#include <cmath>
 
 #include "contact.hpp"
 
@@ -181,6 +182,27 @@ void Contact::add_tangent_times(const std::vector<double>& direction, std::vecto
       if (const std::size_t j = unknowns_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
           j < direction.size())
         residual[unknowns_[i]] += tangent_.valuePtr()[at] * direction[j];
+}
+
+std::vector<double> Contact::position_sizes(const Configuration& at) const {
+  std::vector<double> sizes(unknowns_.size(), 0.0);
+  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+    if (unknowns_[i] < dofs()) sizes[i] = std::abs(mesh_->coordinates[unknowns_[i]]);
+  if (!master_.translates()) return sizes;
+  std::vector<double> of_master(sizes.size(), 0.0);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    for (std::size_t a = 0; at_.segment[k] >= 0 && a < m_; ++a) {
+      const auto node =
+          static_cast<std::size_t>(master_.connectivity[static_cast<std::size_t>(at_.segment[k]) * m_ + a]);
+      for (std::size_t j = 0; j < points_.nodes_per_point * d_; ++j)
+        if (const std::int64_t i = slave_equations_[k * points_.nodes_per_point * d_ + j]; i >= 0) {
+          double& size = of_master[static_cast<std::size_t>(i)];
+          size = std::max(size, std::abs(master_.positions[node * d_ + j % d_]));
+        }
+    }
+  for (std::size_t i = 0; i < slave_dofs_; ++i)
+    sizes[i] += of_master[i] + std::abs(at.motion * master_.direction[i % d_]);
+  return sizes;
 }
 
 void Contact::count_changes(const std::vector<std::int32_t>& flags) {

@@ -95,8 +95,9 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
 EntsLibrary::~EntsLibrary() { dlclose(handle_); }
 
 std::string describe(const EntsLibrary& library, int32_t status, const ents_report& report) {
-  const std::string text = library.status_text(status);
-  return report.message[0] == '\0' ? text : text + ": " + report.message;
+  const std::string text = library.status_text(status), message = report.message;
+  if (message.find(text) != std::string::npos) return message; // of an element: its number, then the text
+  return message.empty() ? text : text + ": " + message;
 }
 
 EntsModel::EntsModel(const EntsLibrary& library, const std::string& text, const fs::path& directory,

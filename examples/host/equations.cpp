@@ -3,7 +3,6 @@
 // bodies, springs and contact; and one step of their linear solution.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -49,37 +48,24 @@ std::vector<double> Simulation::loads(double load_factor) const {
   return sum;
 }
 
-double Simulation::rounding_of_forces() const {
-  double squared = 0;
-  const auto d = static_cast<std::size_t>(mesh_.dimension);
-  for (std::size_t i = 0; i < d; ++i) {
-    double low = INFINITY, high = -low;
-    for (std::size_t k = i; k < mesh_.coordinates.size(); k += d) {
-      low = std::min(low, mesh_.coordinates[k]);
-      high = std::max(high, mesh_.coordinates[k]);
-    }
-    squared += (high - low) * (high - low);
-  }
-  constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
-  return roundings * std::sqrt(squared) * system_->matrix().diagonal().norm();
+Eigen::VectorXd Simulation::residual_of_equations(const Evaluation& at) const {
+  Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
+  const auto dofs = static_cast<std::size_t>(dofs_->dofs());
+  for (std::size_t i = 0; i < at.residual.size(); ++i) // gaps times area become forces
+    if (const int row = equation(i); row >= 0)
+      residual[row] += at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
+  return residual;
 }
 
 double Simulation::relative_residual(const Evaluation& at) const {
-  Eigen::VectorXd residual = Eigen::VectorXd::Zero(equations());
-  const auto dofs = static_cast<std::size_t>(dofs_->dofs());
-  double squared_gaps = 0;
-  for (std::size_t i = 0; i < at.residual.size(); ++i) // gaps times area become forces
-    if (const int row = equation(i); row >= 0) {
-      const double force = at.residual[i] * (i < dofs ? 1 : contact_->multiplier_scale(i - dofs));
-      residual[row] += force;
-      if (i >= dofs) squared_gaps += force * force;
-    }
+  const Eigen::VectorXd residual = residual_of_equations(at);
   const double norm = residual.norm();
   // Bodies that nothing presses or loads: the forces present are rounding, as the residual is.
   if (const double rounding = rounding_of_forces(); std::max(norm, at.force_scale) <= rounding) return 0;
   // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they
   // are zero.
-  return norm == 0 ? 0 : norm / std::max(at.force_scale, std::sqrt(squared_gaps));
+  const double gaps = residual.tail(residual.size() - dofs_->size()).norm();
+  return norm == 0 ? 0 : norm / std::max(at.force_scale, gaps);
 }
 
 Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
@@ -154,7 +140,7 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
 }
 
 bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
-                       Configuration& next) {
+                       Increment& step) {
   const Stopwatch watch;
   bool ok = !factorize || solver_->factorize(system_->matrix());
   if (ok) {
@@ -172,25 +158,28 @@ bool Simulation::solve(const Evaluation& at, bool factorize, double motion_step,
     sides.col(0) -= motion_step * column;
     if (force_controlled()) sides.col(1) = -column;
     const Eigen::MatrixXd steps = solver_->solve(sides);
-    Eigen::VectorXd step = steps.col(0);
-    double motion = motion_step;
+    step.unknowns = steps.col(0);
+    step.motion = motion_step;
     if (force_controlled()) {
       // One more unknown, the motion, and one more equation, the force: eliminated by hand.
       const auto follow = steps.col(1);
       const double stiffness = at.coupling.diagonal + row.dot(follow);
-      motion = (-force_error - row.dot(step)) / stiffness;
-      step += motion * follow;
+      step.motion = (-force_error - row.dot(step.unknowns)) / stiffness;
+      step.unknowns += step.motion * follow;
     }
     // A pivot may be small without being zero, and the step not finite.
-    ok = std::isfinite(motion) && step.allFinite();
-    if (ok) next.motion += motion;
-    const std::size_t dofs = next.displacement.size();
-    for (std::size_t i = 0; ok && i < at.residual.size(); ++i)
-      if (const int row_of = equation(i); row_of >= 0)
-        (i < dofs ? next.displacement[i] : next.multiplier[i - dofs]) += step[row_of];
+    ok = std::isfinite(step.motion) && step.unknowns.allFinite();
   }
   timings_.solver += watch.seconds();
   return ok;
+}
+
+void Simulation::move(Configuration& at, const Increment& step, double share) const {
+  at.motion += share * step.motion;
+  const std::size_t dofs = at.displacement.size();
+  for (std::size_t i = 0; i < dofs + at.multiplier.size(); ++i)
+    if (const int row = equation(i); row >= 0)
+      (i < dofs ? at.displacement[i] : at.multiplier[i - dofs]) += share * step.unknowns[row];
 }
 
 std::vector<double> Simulation::reactions() {

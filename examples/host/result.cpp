@@ -91,6 +91,8 @@ Json step_json(const StepRecord& record, bool nodes) {
                                   {"status_changes", increment.status_changes},
                                   {"last_reductions", {number(rate.before), number(rate.last)}},
                                   {"order", number(rate.order)}});
+    if (increment.rounding > 0) step["increments"].back()["rounding"] = increment.rounding;
+    if (increment.halvings > 0) step["increments"].back()["halvings"] = increment.halvings;
     for (const Augmentation& augmentation : increment.augmentations)
       step["increments"].back()["augmentations"].push_back(
           {{"error", augmentation.error}, {"iterations", augmentation.iterations}});

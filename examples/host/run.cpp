@@ -71,6 +71,8 @@ std::string step_line(const Scene& scene, const StepRecord& record) {
     std::snprintf(number, sizeof number, " %.0e", residual);
     text += number;
   }
+  if (const double rounding = record.increments.back().rounding; rounding > 0)
+    text += "  (rounding leaves up to " + format_number(rounding, 2) + ")";
   if (!record.cuts.empty()) text += "  (cut " + std::to_string(record.cuts.size()) + " times)";
   const Convergence rate = convergence(record.increments.back().residuals);
   if (std::isfinite(rate.order)) {
@@ -323,8 +325,8 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
         if (done == 0 && part < 1 && begin.is_null()) begin = simulation.checkpoint();
         const NewtonOutcome outcome = simulation.advance(target_at(part));
         if (outcome.converged) {
-          record.increments.push_back(
-              {value_at(part), outcome.residuals, outcome.status_changes, outcome.augmentations});
+          record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes,
+                                       outcome.augmentations, outcome.halvings, outcome.rounding});
           done = part >= 1 - 1e-12 ? 1 : part;
           size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
           continue;

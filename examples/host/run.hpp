@@ -19,6 +19,8 @@ struct IncrementRecord {
   std::vector<double> residuals;           ///< relative, after each Newton iteration
   std::vector<int> status_changes;         ///< slave nodes that opened or closed, at each iteration
   std::vector<Augmentation> augmentations; ///< Uzawa
+  int halvings = 0;                        ///< of steps by the line search
+  double rounding = 0; ///< the last residual is above the tolerance, and rounding may leave this much; or 0
 };
 
 /// The last two residual reductions r[n-1]/r[n-2], r[n]/r[n-1], and the order of convergence they show:

@@ -224,6 +224,13 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
     scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
     scene.solver.max_augmentations =
         solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);
+    if (solver.has("line_search")) {
+      const std::vector<std::string> words = {"when_needed", "always", "never"};
+      const std::string word = solver.at("line_search").word(words);
+      scene.solver.line_search = word == words[0]   ? LineSearch::when_needed
+                                 : word == words[1] ? LineSearch::always
+                                                    : LineSearch::never;
+    }
     solver.finish();
   }
   if (object.has("compare")) {

@@ -161,6 +161,13 @@ struct UnitNames {
 /// Of a volume.
 inline std::string cubic(const std::string& length) { return length.empty() ? "" : length + "^3"; }
 
+/// Does Newton's iteration halve steps that do not lower the residual?
+enum class LineSearch {
+  when_needed, ///< in another try at an increment that fails without
+  always,
+  never,
+};
+
 struct SolverSpec {
   double tolerance = 1e-10; ///< residual norm relative to the forces present
   int max_iterations = 25;
@@ -170,6 +177,7 @@ struct SolverSpec {
   double gap_tolerance =
       1e-10; ///< Uzawa: of penetration and elastic slip, relative to the size of the slave surface
   int max_augmentations = 100;
+  LineSearch line_search = LineSearch::when_needed;
 };
 
 /// A change of the scene under a name: a JSON merge patch (RFC 7386).

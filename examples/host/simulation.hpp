@@ -58,9 +58,13 @@ struct NewtonOutcome {
       residuals; ///< relative to the forces present, after each iteration; Uzawa: before the first change
   std::vector<int> status_changes; ///< of slave nodes, at each iteration against the one before
   std::vector<Augmentation> augmentations;
-  std::string reason;       ///< why it failed
-  std::string advice;       ///< what to look at, if smaller steps will not help
-  double step_factor = 0.5; ///< suggested for the next try; 0: a smaller step does not help
+  std::string reason;                ///< why it failed
+  std::string advice;                ///< what to look at, if smaller steps will not help
+  double step_factor = 0.5;          ///< suggested for the next try; 0: a smaller step does not help
+  bool line_search_may_help = false; ///< the iteration diverged, or met what cannot be evaluated
+  int halvings = 0;                  ///< of steps by the line search
+  /// The residual is above the tolerance and all rounding, which may leave this much of it; 0: it is below.
+  double rounding = 0;
 };
 
 class Simulation {
@@ -124,6 +128,11 @@ private:
     std::string reason, advice; ///< as of NewtonOutcome
     double step_factor = 0.5;
   };
+  /// What one solution of the linear equations moves.
+  struct Increment {
+    Eigen::VectorXd unknowns;
+    double motion = 0; ///< of the rigid master
+  };
   /// Where the tangent was that the solver holds factors of: a checkpoint has it, for a run that goes on from
   /// there to make the same ones.
   struct Factored {
@@ -136,7 +145,9 @@ private:
   void build_contact(const EntsLibrary* library, int divisions, const MasterMaker& maker);
   void build_pattern();
   double find_first_touch();
-  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate);
+  class Attempt;
+  /// @param searches  with a line search
+  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate, bool searches);
   /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.
   int equation(std::size_t unknown) const {
     const auto dofs = static_cast<std::size_t>(dofs_->dofs());
@@ -147,10 +158,18 @@ private:
   }
   /// Segments for the configuration, and the pattern that goes with them. False: see `reason`, cut the step.
   bool choose(const Configuration& at, bool only_lost, std::string& reason, double& step_factor);
+  /// Residual of each equation; those of multipliers as forces.
+  Eigen::VectorXd residual_of_equations(const Evaluation& at) const;
   double relative_residual(const Evaluation& at) const;
   /// What rounding makes of the forces of bodies without stress: a strain of some epsilon times the stiffness
   /// of all nodes [F].
   double rounding_of_forces() const;
+  /// What rounding may leave of the residual of the last `evaluate`, and of the force on the master.
+  struct Rounding {
+    double residual = 0, force = 0; ///< norm [F]; [F]
+  };
+  /// @param where  of the evaluation
+  Rounding rounding_of_residual(const Evaluation& at, const Configuration& where) const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
@@ -179,8 +198,8 @@ private:
   /// For what comes before a history is restored. @return false: this scene refuses it
   bool factorize_again(const Factored& where);
   /// @param factorize  false: the factors at hand will do
-  bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error,
-             Configuration& next);
+  bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error, Increment& step);
+  void move(Configuration& at, const Increment& step, double share) const;
 
   const Scene* scene_;
   Mesh mesh_;
