@@ -101,10 +101,13 @@ std::string panel(const Maps& maps, std::size_t index, const Frame& frame, const
     const std::string ends = map.blank_zero
                                  ? "peak " + shown(range.highest)
                                  : "values from " + shown(range.lowest) + " to " + shown(range.highest);
-    out += "set label " +
-           gnuplot::text(format_number(100 * map.clip, 3) + " % lie within the colours; " + ends) + " at " +
-           page.x(frame.left + frame.width + bar_width) + ", " + page.y(12) +
-           " right font ',10.5' textcolor rgb '" + gnuplot::faint + "'\n";
+    // Two short lines: one would run into the note of the next map.
+    const auto line = [&](const std::string& words, double height) {
+      out += "set label " + gnuplot::text(words) + " at " + page.x(frame.left + frame.width + bar_width) +
+             ", " + page.y(height) + " right font ',10.5' textcolor rgb '" + gnuplot::faint + "'\n";
+    };
+    line(format_number(100 * map.clip, 3) + " % lie within the colours;", 28);
+    line(ends, 12);
   }
   const std::string column =
       map.blank_zero ? "($3 == 0 ? NaN : $3*" + number(unit) + ")" : "($3*" + number(unit) + ")";
@@ -139,7 +142,7 @@ Outcome draw(const Maps& maps, const std::filesystem::path& directory, const std
   if (maps.maps.empty()) return {{}, "picture " + name + ": nothing to draw"};
 
   const auto count = static_cast<double>(maps.maps.size());
-  constexpr double left = 66, bar = 88, gap = 12, top = 96, bottom = 84;
+  constexpr double left = 66, bar = 88, gap = 12, top = 96, bottom = 98;
   const double aspect = (maps.y_max - maps.y_min) / (maps.x_max - maps.x_min);
   double side = (960 - left - count * bar - (count - 1) * gap) / count; // width of one map
   side = std::min({side, 560.0, 560.0 / aspect});

@@ -87,6 +87,12 @@ Table& Table::column(std::string title, std::string unit, int digits) {
   return *this;
 }
 
+Table& Table::beside() {
+  if (columns_.size() < 2) throw std::invalid_argument("table: no column stands before the last one");
+  columns_.back().beside = true;
+  return *this;
+}
+
 Table& Table::row(std::vector<Cell> cells) {
   if (cells.size() != columns_.size())
     throw std::invalid_argument("table: a row of " + std::to_string(cells.size()) + " cells for " +
@@ -117,35 +123,56 @@ std::vector<std::vector<std::string>> Table::formatted() const {
   return out;
 }
 
-std::string Table::text() const {
+std::vector<std::vector<std::size_t>> Table::broken(const std::vector<int>& widths, int width) const {
+  constexpr int between = 2;
+  std::vector<std::vector<std::size_t>> parts;
+  int used = 0;
+  for (std::size_t c = columns_.empty() ? 0 : 1, end; c < columns_.size(); c = end) {
+    int wanted = 0; // by this column and those that stay beside it
+    for (end = c; end == c || (end < columns_.size() && columns_[end].beside); ++end)
+      wanted += between + widths[end];
+    if (parts.empty() || used + wanted > width) parts.push_back({0}), used = widths[0];
+    for (std::size_t k = c; k < end; ++k) parts.back().push_back(k);
+    used += wanted;
+  }
+  if (parts.empty() && !columns_.empty()) parts.push_back({0}); // a table of one column
+  return parts;
+}
+
+std::string Table::text(int width) const {
   const auto cells = formatted();
-  const bool units = std::any_of(columns_.begin(), columns_.end(), [](auto& c) { return !c.unit.empty(); });
-  std::vector<int> width;
+  std::vector<int> widths;
   std::vector<char> right;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    width.push_back(std::max(display_width(columns_[c].title), display_width(columns_[c].unit)));
+    widths.push_back(std::max(display_width(columns_[c].title), display_width(columns_[c].unit)));
     right.push_back(1);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      width[c] = std::max(width[c], display_width(cells[r][c]));
+      widths[c] = std::max(widths[c], display_width(cells[r][c]));
       if (std::holds_alternative<std::string>(rows_[r][c])) right[c] = 0;
     }
   }
-  const auto line = [&](auto&& cell_text) {
-    std::string out;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (c > 0) out += "  ";
-      pad(out, cell_text(c), width[c], right[c] != 0);
-    }
-    return trimmed(std::move(out));
-  };
-  std::string out = line([&](std::size_t c) { return columns_[c].title; });
-  if (units) out += line([&](std::size_t c) { return columns_[c].unit; });
-  out += line([&](std::size_t c) {
-    std::string rule;
-    for (int i = 0; i < width[c]; ++i) rule += "─";
-    return rule;
-  });
-  for (const auto& row : cells) out += line([&](std::size_t c) { return row[c]; });
+  std::string out;
+  for (const std::vector<std::size_t>& part : broken(widths, width)) {
+    const auto line = [&](auto&& cell_text) {
+      std::string text;
+      for (const std::size_t c : part) {
+        if (c != part.front()) text += "  ";
+        pad(text, cell_text(c), widths[c], right[c] != 0);
+      }
+      return trimmed(std::move(text));
+    };
+    const bool units =
+        std::any_of(part.begin(), part.end(), [&](std::size_t c) { return !columns_[c].unit.empty(); });
+    if (!out.empty()) out += "\n";
+    out += line([&](std::size_t c) { return columns_[c].title; });
+    if (units) out += line([&](std::size_t c) { return columns_[c].unit; });
+    out += line([&](std::size_t c) {
+      std::string rule;
+      for (int i = 0; i < widths[c]; ++i) rule += "─";
+      return rule;
+    });
+    for (const auto& row : cells) out += line([&](std::size_t c) { return row[c]; });
+  }
   return out;
 }
 

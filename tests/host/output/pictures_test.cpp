@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "output/gnuplot.hpp"
@@ -115,6 +116,41 @@ TEST_F(Pictures, MapsWithBlanksAndAClippedPeak) {
   EXPECT_NE(content("nodes.gp").find("(0+$1*0.5)"), std::string::npos);
   maps.maps[0].values.pop_back();
   EXPECT_THROW(draw(maps, folder_, "maps"), std::invalid_argument);
+}
+
+// Three maps side by side are narrow. Every letter is taken as 0.6 of its height, more than the mean of the
+// font.
+TEST_F(Pictures, NotesUnderMapsDoNotMeet) {
+  Maps maps;
+  maps.title = "pressure";
+  Map map;
+  map.title = "p", map.columns = 3, map.rows = 2, map.values = {-123.4, 1, 2, 3, 4, -1234.5}, map.clip = 0.6;
+  maps.maps = {map, map, map};
+  maps.maps[1].blank_zero = true;
+  expect_drawn(draw(maps, folder_, "notes"), "notes");
+  const std::string script = content("notes.gp");
+  const auto number_after = [&](const char* word, std::size_t from) {
+    return std::stod(script.substr(script.find(word, from) + std::string(word).size()));
+  };
+  const double width = number_after("set terminal svg enhanced size ", 0);
+  std::map<double, std::vector<std::pair<double, double>>> rows; // by height: left and right ends
+  for (std::size_t at = 0; (at = script.find("right font ',10.5'", at)) != std::string::npos; ++at) {
+    const std::size_t line = script.rfind('\n', at) + 1;
+    const std::string words = script.substr(line, script.find("' at ", line) - line);
+    const double letters = static_cast<double>(words.size() - std::string("set label '").size()),
+                 right = width * number_after("' at screen ", line);
+    rows[number_after(", screen ", line)].emplace_back(right - 0.6 * 10.5 * letters, right);
+  }
+  EXPECT_EQ(rows.size(), 2u);
+  for (const auto& [height, notes] : rows) {
+    ASSERT_EQ(notes.size(), 3u);
+    double last = 0;
+    for (const auto& [left, right] : notes) {
+      EXPECT_GT(left, last) << height;
+      last = right;
+    }
+    EXPECT_LE(last, width);
+  }
 }
 
 Surface sine_surface(int dimension) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <limits>
@@ -43,6 +44,34 @@ TEST(Table, EveryLineOfNumbersHasTheSameWidthOnTheTerminal) {
   const auto lines = lines_of(sample().text());
   for (std::size_t i = 2; i < lines.size(); ++i)
     EXPECT_EQ(host::display_width(lines[i]), host::display_width(lines[2])) << lines[i];
+}
+
+// A terminal has 120 columns: what does not fit follows below, under the first column again.
+TEST(Table, IsBrokenWhereItIsWiderThanATerminal) {
+  Table table;
+  table.column("step");
+  for (const char* name :
+       {"mean pressure", "contact fraction, estimated", "pressure (rms of the difference)"})
+    table.column(name, "MPa", 5).column("exact", "MPa", 5).beside().column("error", "%", 2).beside();
+  table.row({1, 1.25, 1.5, -17.0, 0.5, 0.25, 100.0, 3.0, 2.0, 50.0});
+  for (const int width : {120, 100, 60, 40}) {
+    const auto lines = lines_of(table.text(width));
+    for (const std::string& line : lines) EXPECT_LE(host::display_width(line), std::max(width, 54)) << line;
+    const std::size_t parts = 1 + static_cast<std::size_t>(std::count(lines.begin(), lines.end(), ""));
+    EXPECT_EQ(parts, width == 120 ? 1u : width == 100 ? 2u : 3u);
+    EXPECT_EQ(lines.size(), 5 * parts - 1); // title, unit, rule, one row; a blank line between
+    for (std::size_t i = 0; i < lines.size(); i += 5) EXPECT_TRUE(lines[i].starts_with("step  ")) << lines[i];
+  }
+  // A number never stands apart from its exact value and its error.
+  EXPECT_EQ(lines_of(table.text(60))[0], "step  mean pressure  exact  error");
+  EXPECT_EQ(table.text(), table.text(Table::terminal_width));
+}
+
+TEST(Table, ATableOfOneColumnIsOneTable) {
+  Table table;
+  table.column("name");
+  table.row({std::string(130, 'x')});
+  EXPECT_EQ(lines_of(table.text()).size(), 3u);
 }
 
 TEST(Table, MarkdownCarriesUnitsInTheHeadAndEscapesBars) {
