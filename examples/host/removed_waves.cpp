@@ -16,7 +16,7 @@ constexpr int levels = 16;
 constexpr double most = 1.5, least = 1e-3;   // mean pressures over E* times the rms slope
 constexpr double gap_of_full_contact = 1e-3; // gap over the rms of the waves: full contact
 constexpr double enough = 4e-4;              // error of gaps, of the height of the waves
-constexpr double window = 0.5;               // standard deviation of the local mean, of the cut-off
+constexpr double mean_width = 0.5;           // standard deviation of the local mean, of the cut-off
 constexpr double flattest = 0.1;             // least local height, of the rms
 constexpr int tail = 5;                      // points of the exponential end, one per factor e
 
@@ -59,7 +59,7 @@ RemovedWaves::RemovedWaves(const Scene& scene, const EntsLibrary& library)
   if (!(rms_ > 1e-12 * (place_.box().length(0) + place_.box().length(1))))
     throw InputError(cut.where + ": the height has no waves shorter than " + std::to_string(cut.wavelength) +
                      " (in units of its surface coordinates); leave the key out, or cut longer waves off");
-  const Eigen::ArrayXXd local = cells.smoothed(waves.square(), window * cut.wavelength);
+  const Eigen::ArrayXXd local = cells.smoothed(waves.square(), mean_width * cut.wavelength);
   scale_ = (local / mean_square).max(flattest * flattest).sqrt();
   press(waves / scale_, cells);
 }

@@ -61,7 +61,7 @@ std::int64_t count(const Map& map, bool careful, Fate fate) {
   return sum;
 }
 
-constexpr const char* introduction =
+constexpr const char* maps_introduction =
     "<p>One slave node on a spring is pressed into a wavy rigid master and drawn over two borders of its "
     "segments. Every point of a map is "
     "such a problem, solved once by each method: surface (explicit plain facets; local enrichment, h = 0 at "
@@ -150,7 +150,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
       .column("unjudged");
   Json json{
       {"version", library.version()}, {"work_precision", work_json(works)}, {"stability", Json::array()}};
-  std::string stability = introduction + legend();
+  std::string stability = maps_introduction + legend();
   std::int64_t wrong = 0;
   for (Map& map : maps) {
     fill(map, library, true);

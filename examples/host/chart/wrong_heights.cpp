@@ -104,11 +104,11 @@ std::vector<WrongHeight> wrong_heights(const EntsLibrary& library) {
   const auto sine = [](double amplitude) {
     return Json{{"type", "sine"}, {"amplitude", amplitude}, {"wave_vector", {1}}};
   };
-  struct Panel {
+  struct FigurePanel {
     const char *name, *what, *example;
     Example setup;
   };
-  const std::vector<Panel> panels{
+  const std::vector<FigurePanel> panels{
       {"a",
        "several normal projections within one segment",
        "sine, amplitude 0.3, two waves on a segment of length 2; a node deep under a crest",
@@ -132,7 +132,7 @@ std::vector<WrongHeight> wrong_heights(const EntsLibrary& library) {
         {0, 0.4}}},
   };
   std::vector<WrongHeight> rows;
-  for (const Panel& panel : panels) {
+  for (const FigurePanel& panel : panels) {
     const EntsModel model(library, example_model(panel.setup), "", "chart");
     const Sentences first = asked_first(model, panel.setup), later = on_the_way(model, panel.setup);
     rows.push_back({panel.name, panel.what, panel.example, joined(first), joined(later),
