@@ -634,7 +634,8 @@ typedef struct ents_area {
   double zero_line;                  /* facets cut where pressure and gap at the ends of their edges say that contact ends, [A]; 0
                                         without a modulus */
   double estimate;                   /* [A] the mean of the two (lines: zero_line); without a modulus border_corrected */
-  double error;                      /* estimate of its error, [A]. Roughness between the nodes is not known and not in it */
+  double error;                      /* bound of its error, [A]: what the two differ by, or half of what they change, and the scatter of
+                                        a count of nodes. Roughness between the nodes is not known and not in it */
   double peak_pressure;              /* largest nodal pressure, [F/L^2] */
   double peak_drop;                  /* peak_pressure minus the mean pressure of the neighbouring nodes, [F/L^2]: from a third of the
                                         peak on the mesh does not resolve it, and the true peak may be twice as high */

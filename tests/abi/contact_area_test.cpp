@@ -153,6 +153,25 @@ TEST(ContactArea, HertzOnCoarseMeshes) {
     }
 }
 
+// The area of discs by the nodes of a mesh that lies anywhere: its standard deviation is the one that the
+// error takes twice where there is no other estimate. 2000 discs know it to 2 %.
+TEST(ContactArea, ACountOfNodesScattersAsALatticeDoes) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> share(0, 1);
+  double squares = 0, expected = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double x0 = 6 + share(random), y0 = 6 + share(random), radius = 4 + share(random);
+    CoarseSurface s = sheet("quad4", 13, 1, [&](double x, double y) {
+      return std::pair(std::hypot(x - x0, y - y0) < radius ? 1. : 0., 1.);
+    });
+    s.modulus = 0;
+    const ents_area area = s.area();
+    squares += std::pow(area.counted - pi * radius * radius, 2);
+    expected += std::pow((area.error - (area.counted - area.border_corrected)) / 2, 2);
+  }
+  EXPECT_NEAR(std::sqrt(expected / squares), 1, 0.06);
+}
+
 TEST(ContactArea, UnitsAndPlaceDoNotMatter) {
   const Hertz hertz{5.3, 500, 1000};
   CoarseSurface s =
@@ -181,7 +200,7 @@ TEST(ContactArea, UnitsAndPlaceDoNotMatter) {
   const ents_area without = s.area();
   EXPECT_EQ(without.zero_line, 0);
   EXPECT_EQ(without.estimate, before.border_corrected);
-  EXPECT_EQ(without.error, without.counted - without.border_corrected);
+  EXPECT_GT(without.error, without.counted - without.border_corrected);
 }
 
 // Neighbours are the nodes at the other end of an edge, not those across a facet.
@@ -199,7 +218,8 @@ TEST(ContactArea, APeakOnOneNodeIsNotResolved) {
   EXPECT_GT(peak(0).error, 0.2 * peak(0).estimate);
 }
 
-// The error is the larger of: what the two corrections differ by, and half of what they change.
+// The error is the larger of what the two corrections differ by and half of what they change, and the scatter
+// of a count of nodes: here the border has four pairs of nodes.
 TEST(ContactArea, ErrorOfAStraightBorder) {
   for (const double pressure : {0.02, 2.}) {
     CoarseSurface s =
@@ -208,7 +228,8 @@ TEST(ContactArea, ErrorOfAStraightBorder) {
     EXPECT_NEAR(area.estimate, (area.border_corrected + area.zero_line) / 2, 1e-14);
     EXPECT_NEAR(area.error,
                 std::max(std::abs(area.border_corrected - area.zero_line),
-                         std::abs(area.counted - area.estimate) / 2),
+                         std::abs(area.counted - area.estimate) / 2) +
+                    std::sqrt(0.0724 * pi / 4 * 4),
                 1e-14);
   }
 }
