@@ -1,5 +1,5 @@
 #!/bin/sh
-# Set up, build, press the measured rough surface into an elastic block, and name the pictures.
+# Set up, build, press the measured rough surface into an elastic layer, and name the pictures.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -9,7 +9,7 @@ case ${1-} in
 usage: sh examples/quickstart.sh
 
 Installs what is missing and builds ents-host in build/ (see sh examples/setup.sh --help), then solves examples/rough_afm, a surface
-measured by atomic force microscopy on ONE contact segment, pressed into an elastic block. The results go to out/rough_afm.
+measured by atomic force microscopy on ONE contact segment, pressed into an elastic layer. The results go to out/rough_afm.
 
 exit status: 0 done; 1 the build or the solution failed; 2 a package is missing, or the command line is wrong
 HELP
@@ -23,7 +23,7 @@ echo "== build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_a
 build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm
 echo "== pictures (each also as .svg); ParaView opens out/rough_afm/result.pvd"
 picture() { [ ! -f "out/rough_afm/$1.png" ] || printf '%-34s %s\n' "out/rough_afm/$1.png" "$2"; }
-picture pressure_map "height of the scan and contact pressure, last step"
+picture pressure_map "height of the scan, contact pressure and its difference to boundary elements, last step"
 picture contact_fraction "contact area against mean pressure"
 picture mean_gap "mean gap against mean pressure"
 picture residuals "Newton's iteration, every step"

@@ -254,24 +254,31 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
 
 } // namespace
 
+Json read_variant(const std::filesystem::path& file, const std::string& variant) {
+  Json json = parse_json_file(file);
+  if (variant.empty()) return json;
+  const Json variants = find_json(json, "/variants");
+  if (!variants.is_object() || !variants.contains(variant)) {
+    std::string names;
+    for (const auto& item : variants.items()) names += (names.empty() ? "" : ", ") + item.key();
+    throw InputError(file.string() + ": no variant \"" + variant +
+                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
+  }
+  json.merge_patch(variants.at(variant));
+  return json;
+}
+
 Scene read_scene(const std::filesystem::path& file, const std::string& variant) {
-  const Json json = parse_json_file(file);
-  Scene wanted = read(json, file);
+  Scene wanted = read(read_variant(file, {}), file);
   bool found = variant.empty();
-  std::string names;
   const std::vector<Variant> variants = wanted.variants;
   for (const Variant& candidate :
        variants) { // all are read: a mistake in one shall not wait until it is asked for
-    Json changed = json;
-    changed.merge_patch(candidate.patch);
-    Scene scene = read(changed, file, candidate.name);
+    Scene scene = read(read_variant(file, candidate.name), file, candidate.name);
     scene.title += ", " + candidate.name;
     if (candidate.name == variant) wanted = std::move(scene), found = true;
-    names += (names.empty() ? "" : ", ") + candidate.name;
   }
-  if (!found)
-    throw InputError(file.string() + ": no variant \"" + variant +
-                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
+  if (!found) read_variant(file, variant); // names those that there are
   return wanted;
 }
 

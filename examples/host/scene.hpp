@@ -107,7 +107,8 @@ struct ContactSpec {
   CutOff cut_off;                                      ///< short waves of the height become a law
   std::function<double(double x, double y)> law_scale; ///< of a law "table" in a slave point; empty: 1
   bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
-  Json model;            ///< passed on to the library
+  bool hard = false; ///< "law": "hard": the model has augmented multipliers, and Simulation their stiffness
+  Json model;        ///< passed on to the library
   std::string model_where;
 };
 
@@ -215,6 +216,10 @@ struct Scene {
   std::vector<Variant> variants;
   Json definition; ///< the file's text, changed by the variant: what a checkpoint is held against
 };
+
+/// The file's text, changed by one of its variants; empty: as it is.
+/// @throws InputError naming the file and the variants that there are
+Json read_variant(const std::filesystem::path& file, const std::string& variant);
 
 /// @param variant  one of the scene's own, or empty: the scene as it is
 /// @throws InputError naming the file and the JSON path

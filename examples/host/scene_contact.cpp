@@ -50,6 +50,16 @@ void read_cut_off(const JsonValue& value, ContactSpec& contact) {
   object.finish();
 }
 
+void read_law(const JsonValue& value, ContactSpec& contact) {
+  contact.hard = value.word({"hard"}) == "hard";
+  if (contact.cut_off.wavelength > 0)
+    value.fail("the law follows from the waves that \"cut_off\" leaves out; leave \"law\" out");
+  if (!find_json(contact.model, "/contact/normal").is_null())
+    value.fail("the model has a law, too; leave out this key, or \"normal\" of /contact/model/contact");
+  // The stiffness is none of the answer; Simulation::build_contact puts one that suits the mesh.
+  contact.model["contact"]["normal"] = {{"type", "augmented_multiplier"}, {"stiffness", 1}};
+}
+
 void check_cut_off(const ContactSpec& contact) {
   if (!(contact.cut_off.wavelength > 0)) return;
   const auto fail = [&](const std::string& text) { throw InputError(contact.cut_off.where + ": " + text); };
@@ -139,6 +149,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
                                                                    : nullptr;
     if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
   }
+  if (object.has("law")) read_law(object.at("law"), contact);
   check_cut_off(contact);
   object.finish();
   return contact;

@@ -28,6 +28,9 @@ ContactSpec read_contact(const JsonValue& value, int dimension);
 /// The key "sampling" of a contact: a number, "cut" or {"cut": number}.
 void read_sampling(const JsonValue& value, ContactSpec& contact);
 
+/// Its key "law", which stands for the law of the model.
+void read_law(const JsonValue& value, ContactSpec& contact);
+
 /// Its key "cut_off", and what it excludes in the rest of the contact.
 void read_cut_off(const JsonValue& value, ContactSpec& contact);
 void check_cut_off(const ContactSpec& contact);

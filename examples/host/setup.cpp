@@ -103,6 +103,23 @@ std::vector<std::pair<int, int>> glued_nodes(const Mesh& mesh, const PeriodicSpe
   return pairs;
 }
 
+/// Of the nodes along the edges of these faces.
+double mean_spacing(const Mesh& mesh, const std::vector<Face>& faces) {
+  double sum = 0;
+  int edges = 0;
+  for (const Face& face : faces)
+    for (int a = 0; a < (mesh.dimension == 2 ? 1 : face.count); ++a, ++edges) {
+      const auto corner = [&](int i) {
+        return mesh.node(face.nodes[static_cast<std::size_t>(i % face.count)]);
+      };
+      double squared = 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.dimension); ++i)
+        squared += std::pow(corner(a + 1)[i] - corner(a)[i], 2);
+      sum += std::sqrt(squared);
+    }
+  return sum / edges;
+}
+
 /// Of the displacements along a layer, which are zero.
 const Path layer_path;
 
@@ -272,16 +289,21 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   exact_axis_ = host::exact_axis(*scene_, *library);
   if (scene_->exact.type == ExactSpec::Type::boundary_elements && divisions == 0 && !maker)
     exact_layer_ = std::make_shared<ExactLayer>(*scene_, *library, mesh_, *dofs_);
-  Scene smooth; // with the law of the waves that the height leaves out
+  Scene changed; // with the law that follows from the waves that the height leaves out, or from the mesh
   if (scene_->contact->cut_off.wavelength > 0) {
     if (maker || divisions > 0)
       throw InputError(scene_->contact->cut_off.where + ": is for the height itself, no other master");
     removed_waves_ = std::make_shared<RemovedWaves>(*scene_, *library);
-    smooth = *scene_, smooth.contact = removed_waves_->contact();
+    changed = *scene_, changed.contact = removed_waves_->contact();
   }
-  const Scene& of_master = removed_waves_ ? smooth : *scene_;
-  Master master = maker           ? maker(*library, *scene_)
-                  : divisions > 0 ? explicit_master(*library, *scene_, divisions)
+  if (scene_->contact->hard) {
+    changed = *scene_;
+    changed.contact->model["contact"]["normal"]["stiffness"] =
+        contact_modulus(*scene_) / mean_spacing(mesh_, slaves);
+  }
+  const Scene& of_master = removed_waves_ || scene_->contact->hard ? changed : *scene_;
+  Master master = maker           ? maker(*library, of_master)
+                  : divisions > 0 ? explicit_master(*library, of_master, divisions)
                                   : scene_master(*library, of_master, mesh_);
   const ElementSetup& setup = scene_->parts.front().setup;
   const SlaveGeometry geometry{setup.thickness, setup.formulation == Formulation::axisymmetric,

@@ -18,18 +18,14 @@ STEPS = (0.03, 0.045, 0.06, 0.08, 0.1)
 
 def scene(cells, cut_off):
     text = json.loads((HERE / "scene.json").read_text())
-    layer = text.pop("variants")["layer"]
-    text["parts"] = layer["parts"]
     for axis in "xy":
         text["parts"][0][axis]["pieces"][0]["divisions"] = cells
-    del text["supports"], text["compare"]
-    model = text["contact"]["model"]
-    model["height"]["file"] = str(HERE / model["height"]["file"])
+    del text["compare"], text["variants"]
+    height = text["contact"]["model"]["height"]
+    height["file"] = str(HERE / height["file"])
     if cut_off:
         text["contact"]["cut_off"] = cut_off
-        del model["contact"]
-    else:
-        model["contact"] = {"normal": {"type": "augmented_multiplier", "stiffness": 1e5}}
+        del text["contact"]["law"]
     text["steps"]["values"] = STEPS
     text["exact"]["points"] = 512
     return text

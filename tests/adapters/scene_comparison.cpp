@@ -18,13 +18,14 @@ struct SceneKind {
   const char *name, *folder;
   double refinement; ///< of the coarse mesh
   int last_step;     ///< of the coarse one; 0: all
+  const char* variant = nullptr;
 };
 constexpr SceneKind kinds[] = {
     {"hertz2d", "hertz2d", 0.5, 0},
     {"hertz3d", "hertz3d", 0.5, 2},
     {"westergaard", "westergaard", 0.5, 4},
     {"wavy3d", "wavy3d", 0.5, 0},
-    {"rough_afm", "rough_afm", 0.2, 3},
+    {"rough_afm", "rough_afm", 0.2, 3, "block"},
     {"cattaneo_mindlin", "cattaneo_mindlin", 0.5, 0},
     {"ironing", "ironing", 1, 12},
     {"slope", "slope", 1, 0},
@@ -84,6 +85,10 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
   const fs::path source = fs::path(ENTS_EXAMPLES) / kind.folder;
   Json scene = read(source / "scene.json");
   make_paths_absolute(scene, source);
+  if (kind.variant != nullptr) {
+    scene.merge_patch(Json(scene["variants"][kind.variant]));
+    scene.erase("variants");
+  }
   Json& model = scene["contact"]["model"];
   if (name == "chatter")
     scene.merge_patch(Json(scene["variants"]["exponential"])); // the scene itself is made not to end

@@ -30,10 +30,11 @@ LONG = {  # a part of a command: why it is not run
     "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "rough_afm/scene.json --out": "package.debian runs it", "gallery.sh": "minutes",
     "setup.sh": "builds", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
-    "--variant layer": "a minute of boundary elements; Accuracy.* and LayerBody.* run it", "variants examples/cattaneo": "a minute; that of hertz2d is run",
+    "--variant fine": "a minute of boundary elements; the gallery runs it", "--variant layer": "a minute of boundary elements; LayerBody.* runs some", "variants examples/cattaneo": "a minute; that of hertz2d is run",
+    "area_bounds.py": "minutes; host.area_bounds runs it with --quick",
     "rough_afm/cut_off.py": "minutes; RemovedWaves.* runs one of its cases on a part of the scan",
     "ridges/polar.py": "24 runs, for the gallery", "sheet/friction.py": "a minute, for the gallery",
-    "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --compare": "minutes", "ENTS_": "a longer run of a test",
+    "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --variant block": "minutes, for the gallery", "ENTS_": "a longer run of a test",
 }
 INSTEAD = {"examples/SCENE/": "examples/hertz2d/", "out/SCENE": "out/hertz2d"}
 STATUS = {"ents-host run examples/chatter/scene.json": 1}  # its README: this scene does not converge

@@ -132,9 +132,8 @@ TEST_P(History, AFailedIncrementChangesNothing) {
 /// Scenes whose first guess of an increment takes the factors that the last one left, and two that make their
 /// own; small meshes.
 std::map<std::string, Json> scenes_to_restart() {
-  const auto shipped = [](const char* name) { return parse_json_file(test::scene_file(name)); };
   std::map<std::string, Json> scenes;
-  Json plane = shipped("hertz2d");
+  Json plane = test::shipped("hertz2d");
   plane.erase("compare"), plane.erase("variants");
   plane["parts"][0]["x"] = {{"from", 0},
                             {"pieces", {{{"to", 0.3}, {"divisions", 10}}, {{"to", 2}, {"divisions", 6}}}}};
@@ -144,20 +143,20 @@ std::map<std::string, Json> scenes_to_restart() {
     scenes[law] = plane;
     scenes[law]["contact"]["model"]["contact"]["normal"] = {{"type", law}, {"stiffness", 1e5}};
   }
-  Json space = shipped("hertz3d");
+  Json space = test::shipped("hertz3d");
   space.erase("compare");
   for (const char* axis : {"x", "y"}) space["parts"][0][axis] = test::axis(0, 0.8, 6);
   space["parts"][0]["z"] = test::axis(-0.8, 0, 4);
   scenes["space"] = space;
-  Json layer = shipped("rough_afm");
-  for (const char* key : {"compare", "supports", "variants", "exact"}) layer.erase(key);
-  layer["parts"][0]["element"] = "layer";
+  Json layer = test::shipped("rough_afm");
+  for (const char* key : {"compare", "variants", "exact"}) layer.erase(key);
+  layer["contact"].erase("law");
+  layer["contact"]["model"]["contact"] = {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}};
   layer["parts"][0]["x"] = layer["parts"][0]["y"] = test::axis(3, 8, 12);
-  layer["parts"][0]["z"] = test::axis(-2.5, 0, 1);
   layer["contact"]["model"]["height"] = {{"type", "sine"}, {"amplitude", 0.05}, {"wave_vector", {0.2, 0}}};
   layer["steps"] = {{"control", "approach"}, {"values", {0.02, 0.04, 0.06}}};
   scenes["layer"] = layer;
-  scenes["friction"] = shipped("slope");
+  scenes["friction"] = test::shipped("slope");
   for (const bool extrapolate : {true, false}) {
     Json& bodies = scenes[extrapolate ? "bodies_extrapolated" : "bodies"];
     bodies = sliding(penalty, nullptr);

@@ -132,12 +132,10 @@ TEST(LayerSolver, SolvesWhatADenseMatrixDoes) {
 
 /// A double wave, symmetric about the sides, pressed on a layer; the answer is that of boundary elements.
 Json scene_of(int divisions, const char* law, double stiffness = 1e5) {
-  Json json = parse_json_file(test::scene_file("rough_afm"));
-  for (const char* key : {"compare", "supports", "variants"}) json.erase(key);
+  Json json = test::shipped("rough_afm");
+  json.erase("compare"), json["contact"].erase("law");
   Json& part = json["parts"][0];
-  part["element"] = "layer";
   part["x"] = test::axis(3, 8, divisions), part["y"] = test::axis(3, 8, divisions);
-  part["z"] = test::axis(-2.5, 0, 1);
   const auto wave = [](double amplitude, const Json& vector) -> Json { // crests at 3 and 8
     return {{"type", "sine"}, {"amplitude", amplitude}, {"wave_vector", vector}, {"phase", -0.7 * pi}};
   };
@@ -178,6 +176,9 @@ TEST(LayerBody, AllNormalLawsMeetInTheSameAnswer) {
   };
   EXPECT_LT(difference(scene_of(24, "multiplier")), 1e-8);
   EXPECT_LT(difference(scene_of(24, "augmented")), 1e-8);
+  Json in_a_word = scene_of(24, "penalty");
+  in_a_word["contact"]["law"] = "hard", in_a_word["contact"]["model"].erase("contact");
+  EXPECT_LT(difference(in_a_word), 1e-8);
   const double soft = difference(scene_of(24, "penalty", 1e5)),
                stiff = difference(scene_of(24, "penalty", 1e6));
   EXPECT_NEAR(stiff / soft, 0.1, 0.02);

@@ -184,6 +184,31 @@ TEST(Scene, SpringsHoldWithoutSupports) {
   EXPECT_NO_THROW(Simulation(scene, &test::library()));
 }
 
+// One key says what a model's law, its stiffness and its object would.
+TEST(Scene, HardContactIsOneKey) {
+  Json json = test::shipped("hertz2d");
+  json["contact"]["law"] = "hard";
+  EXPECT_NE(test::refusal(json).find("/contact/law: the model has a law, too"), std::string::npos);
+  Json& law = json["contact"]["model"]["contact"];
+  law.erase("normal");
+  const Scene hard = test::scene_from(json);
+  EXPECT_EQ(hard.contact->model["contact"]["normal"]["type"], "augmented_multiplier");
+  law["friction"] = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}}; // beside it
+  EXPECT_EQ(test::scene_from(json).contact->model["contact"]["friction"]["coefficient"], 0.3);
+  json["contact"]["model"].erase("contact");
+  EXPECT_EQ(test::scene_from(json).contact->model, hard.contact->model);
+  json["contact"]["cut_off"] = 0.1;
+  EXPECT_NE(test::refusal(json).find("/contact/law: "), std::string::npos);
+  json["contact"].erase("cut_off"), json["contact"]["law"] = "soft";
+  EXPECT_NE(test::refusal(json).find("/contact/law: "), std::string::npos);
+}
+
+// The three steps of the top README: the model beside the scan is the one of the scene.
+TEST(Scene, TheModelBesideTheScanIsTheScenes) {
+  const auto file = test::scene_file("rough_afm").parent_path() / "model.json";
+  EXPECT_EQ(parse_json_file(file), test::shipped("rough_afm")["contact"]["model"]);
+}
+
 TEST(Scene, ShippedScenesAreRead) {
   for (const char* name : {"hertz2d", "hertz3d", "westergaard", "wavy3d", "rough_afm"}) {
     const Scene scene = test::shipped_scene(name);

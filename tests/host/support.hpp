@@ -25,10 +25,18 @@ inline std::filesystem::path scene_file(const std::string& name) {
   return std::filesystem::path(EXAMPLES) / name / "scene.json";
 }
 
-/// A shipped scene, changed by `edit` before it is checked.
-inline Scene shipped_scene(const std::string& name, const std::function<void(Json&)>& edit = {}) {
+/// Its text, or that of one of its variants, without the variants.
+inline Json shipped(const std::string& name, const std::string& variant = {}) {
+  Json json = read_variant(scene_file(name), variant);
+  json.erase("variants");
+  return json;
+}
+
+/// A shipped scene or variant, changed by `edit` before it is checked.
+inline Scene shipped_scene(const std::string& name, const std::function<void(Json&)>& edit = {},
+                           const std::string& variant = {}) {
   const std::filesystem::path file = scene_file(name);
-  Json json = parse_json_file(file);
+  Json json = shipped(name, variant);
   if (edit) edit(json);
   return read_scene_text(json.dump(), file);
 }

@@ -10,19 +10,19 @@
 namespace host::chart {
 namespace {
 
-/// The layer variant of a scene with n x n nodes.
-void become_layer(Json& scene, int n) {
-  const Json variant = scene.at("variants").at("layer");
-  scene.merge_patch(variant);
+/// The body of `layer`, a scene on an elastic layer, with n x n cells, under the contact of `scene`.
+void become_layer(Json& scene, const Json& layer, int n) {
+  scene["parts"] = layer.at("parts");
+  scene.erase("supports");
   for (const char* axis : {"x", "y"}) scene["parts"][0][axis]["pieces"][0]["divisions"] = n;
 }
 
 /// Boundary elements for all runs and problems: the motions of the master are the same in all of them.
 class Truth {
 public:
-  Truth(const EntsLibrary& library, const std::filesystem::path& file, int points) {
-    Json json = parse_json_file(file);
-    become_layer(json, 2); // its mesh does not matter
+  Truth(const EntsLibrary& library, const std::filesystem::path& file, const Json& layer, int points) {
+    Json json = layer;
+    become_layer(json, layer, 2); // its mesh does not matter
     json["exact"] = {{"type", "boundary_elements"}, {"points", points}};
     scene_ = read_scene_text(json.dump(), file);
     simulation_ = std::make_unique<Simulation>(scene_, &library);
@@ -41,9 +41,10 @@ private:
   std::map<double, LayerTruth> known_;
 };
 
-/// A scene with a variant "layer", solved with meshed blocks and with layers.
+/// A scene that is solved with meshed blocks and with layers.
 struct TruthScene {
   std::string name, title, text, period, scene;
+  std::string block, layer; ///< its variants; empty: the scene as it is
   Json approaches;
   std::vector<int> blocks, layers, facets; ///< cells per side; plain segments per direction
   int points;                              ///< of the boundary elements
@@ -52,6 +53,8 @@ struct TruthScene {
 Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& scenes, const TruthScene& of) {
   Problem p;
   p.scene = scenes / of.scene / "scene.json";
+  p.variant = of.block;
+  const Json layer = read_variant(p.scene, of.layer);
   p.name = of.name, p.title = of.title, p.text = of.text, p.period = of.period;
   p.forces = true;
   p.settings = {{"/solver", {{"tolerance", 1e-6}}},
@@ -69,14 +72,10 @@ Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& s
   for (const int n : of.blocks) p.levels.push_back({slaves(n) + "block", divided(n)});
   for (const int n : of.blocks) p.levels.push_back({slaves(n) + "layer with the block's penalty", {}});
   for (const int n : of.layers) p.levels.push_back({slaves(n) + "layer", {}});
-  p.adapt = [blocks, layers](Json& scene, const Way& way) {
-    if (way.level >= blocks) {
-      const Json penalty = scene.at("contact").at("model").at("contact");
-      become_layer(scene, layers[way.level - blocks]);
-      Json& law = scene.at("contact").at("model").at("contact");
-      law = penalty;
-      if (way.level >= 2 * blocks) law["normal"]["type"] = "augmented_multiplier";
-    }
+  p.adapt = [blocks, layer, layers](Json& scene, const Way& way) {
+    if (way.level >= blocks) become_layer(scene, layer, layers[way.level - blocks]);
+    if (way.level >= 2 * blocks)
+      scene.at("contact").at("model").at("contact")["normal"]["type"] = "augmented_multiplier";
     for (const char* key : {"exact", "compare", "variants"}) scene.erase(key);
   };
   for (std::size_t level = 0; level < blocks; ++level) {
@@ -100,7 +99,7 @@ Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& s
       return Way{Family::on_facets, 0, 0}; // points instead of nodes are no share of these three
     }
   };
-  const auto truth = std::make_shared<Truth>(library, p.scene, of.points);
+  const auto truth = std::make_shared<Truth>(library, p.scene, layer, of.points);
   p.truth = "boundary elements, " + std::to_string(of.points) +
             " points a side, hard contact; a node has what the "
             "cells around it carry";
@@ -126,6 +125,8 @@ std::vector<Problem> truth_problems(const EntsLibrary& library, const std::files
                         "or an elastic layer without a mesh below its surface and hard contact.",
                         "one wave per direction",
                         "wavy3d",
+                        "",
+                        "layer",
                         quick ? Json{0.002} : Json{0.001, 0.002, 0.004},
                         quick ? std::vector<int>{8} : std::vector<int>{8, 16, 24},
                         quick ? std::vector<int>{16} : std::vector<int>{16, 32, 64, 128},
@@ -140,6 +141,8 @@ std::vector<Problem> truth_problems(const EntsLibrary& library, const std::files
       "and hard contact.",
       "256 x 256 heights",
       "rough_afm",
+      "block",
+      "",
       quick ? Json{0.06} : Json{0.03, 0.06, 0.1},
       quick ? std::vector<int>{8} : std::vector<int>{14, 28},
       quick ? std::vector<int>{32} : std::vector<int>{32, 64, 128, 256},

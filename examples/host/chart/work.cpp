@@ -196,7 +196,7 @@ double WorkRun::noise() const {
 }
 
 Scene scene_of(const Problem& problem, const Way& way) {
-  Json json = parse_json_file(problem.scene);
+  Json json = read_variant(problem.scene, problem.variant);
   const auto apply = [&](const std::vector<std::pair<std::string, Json>>& settings) {
     for (const auto& [pointer, value] : settings) json[Json::json_pointer(pointer)] = value;
   };

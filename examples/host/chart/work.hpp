@@ -76,6 +76,7 @@ struct Problem {
   std::string truth;    ///< what it is held against
   std::string period;   ///< "segments" of what: how a count of segments is to be read
   std::filesystem::path scene;
+  std::string variant;                                ///< of the scene; empty: as it is
   std::vector<std::pair<std::string, Json>> settings; ///< changes of the scene for all runs
   std::vector<SlaveMesh> levels;                      ///< coarse to fine
   std::vector<Way> ways;

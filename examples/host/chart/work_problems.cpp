@@ -292,7 +292,7 @@ std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool qui
     p.text = "256 x 256 heights; four approaches up to 0.045 um.";
     p.quantity = "contact pressure at the slave nodes, L2 over the surface and the loads";
     p.period = "256 x 256 heights";
-    p.scene = scenes / "rough_afm" / "scene.json";
+    p.scene = scenes / "rough_afm" / "scene.json", p.variant = "block";
     const int n = quick ? 8 : 28;
     p.settings = {tolerance, {"/steps/values", quick ? Json{0.045} : Json{0.01, 0.02, 0.03, 0.045}}};
     p.levels = {level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
