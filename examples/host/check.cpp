@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host check: is this enrichment admissible on this surface, and what does it need? The library judges
-// (ents_surface_check) and decides (ents_model_layout), here it is told.
+// ents-host check: is this enrichment admissible on this surface, what does it need, and is the slave mesh of
+// a scene fine enough for it? The library judges (ents_surface_check) and decides (ents_model_layout), here
+// it is told.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "check_extent.hpp"
-#include "check_mesh.hpp"
 #include "check_needs.hpp"
 #include "check_picture.hpp"
+#include "check_scene.hpp"
 #include "commands.hpp"
-#include "ents_library.hpp"
-#include "json_reader.hpp"
 #include "output/table.hpp"
 #include "output_folder.hpp"
 
@@ -181,22 +180,13 @@ void print(const Answer& answer, std::size_t segments, bool friction) {
 
 int check_command(const CommonOptions& common, const CheckOptions& options) {
   const EntsLibrary library(common.library);
-  const Json text = parse_json_file(options.model);
-  if (text.is_object() && text.contains("parts"))
-    throw InputError(
-        options.model.string() +
-        ": this is a scene; check takes a model: save what stands under /contact/model as a file "
-        "beside it");
-  const EntsModel model(library, options.model);
-  if (text.contains("patch"))
-    throw InputError(options.model.string() +
-                     ": /patch: the segments are those of --mesh here; leave the key out");
-  const std::string name = text.at("segment").get<std::string>();
-  const MasterSurface surface = read_surface(options.mesh, name, model.layout());
+  const CheckSubject subject = read_subject(library, options);
+  const EntsModel& model = *subject.model;
+  const MasterSurface& surface = subject.surface;
   const OutputFolder folder(options.out);
   const Answer answer(model, surface, options);
-  const SurfaceExtent extent = extent_of(model, text, options.model.parent_path(), surface);
-  const bool law = text.contains("contact");
+  const SurfaceExtent extent = extent_of(model, subject.text, subject.folder, surface);
+  const bool law = subject.text.contains("contact");
   if (common.json) {
     Json result{{"model", options.model.string()},
                 {"segments", surface.segments()},
@@ -205,6 +195,7 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
                 {"failing_segments", Json::array()}};
     result.update(needs_json(model.layout(), law));
     result.update(extent_json(extent));
+    result["resolution"] = json_of(subject.resolution);
     for (const Condition& c : conditions)
       if (answer.known(c)) result["conditions"].push_back(answer.json(c));
     for (std::size_t s = 0; s < surface.segments(); ++s)
@@ -212,11 +203,14 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
     std::printf("%s\n", result.dump(2).c_str());
   } else {
     std::printf("%s%s", describe_needs(model.layout(), law).c_str(), describe(extent).c_str());
+    if (const std::string text = describe(subject.resolution, subject.length_unit); !text.empty())
+      std::printf("%s%s\n", subject.resolution.too_coarse() ? "warning: " : "", text.c_str());
     print(answer, surface.segments(), (model.layout().needs & ENTS_NEEDS_FRICTION) != 0);
   }
   if (!options.out.empty()) {
+    const bool triangles = is_triangle(subject.text.at("segment").get<std::string>());
     const pictures::Outcome outcome =
-        draw_check(model, surface, answer.violations(), answer.offences(), is_triangle(name), options.out);
+        draw_check(model, surface, answer.violations(), answer.offences(), triangles, options.out);
     if (!outcome.problem.empty()) std::fprintf(stderr, "%s\n", outcome.problem.c_str());
   }
   return answer.admissible() ? 0 : 1;

@@ -48,10 +48,11 @@ struct VerifyOptions {
 int verify_command(const CommonOptions& common, const VerifyOptions& options);
 
 struct CheckOptions {
-  std::filesystem::path model, mesh, out;
-  int samples = 0;  ///< 0: as fine as the height asks for
-  double reach = 0; ///< 0: the model's penetration_limit, if it has one
-  double kink = 0;  ///< degrees; 0: not judged
+  std::filesystem::path model, mesh, out; ///< model: or a scene
+  std::string variant;                    ///< of the scene; empty: as it is
+  int samples = 0;                        ///< 0: as fine as the height asks for
+  double reach = 0;                       ///< 0: the model's penetration_limit, if it has one
+  double kink = 0;                        ///< degrees; 0: not judged
 };
 int check_command(const CommonOptions& common, const CheckOptions& options);
 

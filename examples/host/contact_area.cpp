@@ -59,8 +59,9 @@ AreaEstimate estimate_area(const Simulation& simulation, const ContactFields& fi
     if (area.peak_pressure > sum.peak_pressure)
       sum.peak_pressure = area.peak_pressure, sum.peak_drop = area.peak_drop;
   }
-  return {sum.estimate / sum.surface, sum.error / sum.surface, sum.border_corrected / sum.surface,
-          sum.zero_line / sum.surface, sum.peak_drop};
+  const double error = simulation.resolution().too_coarse() ? AreaEstimate::unknown : sum.error / sum.surface;
+  return {sum.estimate / sum.surface, error, sum.border_corrected / sum.surface, sum.zero_line / sum.surface,
+          sum.peak_drop};
 }
 
 } // namespace host

@@ -13,8 +13,8 @@ class Simulation;
 /// points instead of nodes, or quadratic faces.
 struct AreaEstimate {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double fraction = unknown;         ///< in contact
-  double error = unknown;            ///< estimate of its error
+  double fraction = unknown; ///< in contact
+  double error = unknown;    ///< bound of its error; NaN, too, where the mesh is too coarse for the surface
   double border_corrected = unknown; ///< closed nodes, corrected by the length of the border of contact
   double zero_line = unknown;        ///< within the places on the edges where pressure and gap end
   double peak_drop = unknown; ///< peak pressure minus the mean pressure of the neighbouring nodes [F/L^2]

@@ -240,8 +240,13 @@ int run_program(int argc, char** argv) {
   CLI::App* check_app =
       app.add_subcommand("check", "Is the enrichment of a model admissible? Exit code 1 and what fails, "
                                   "where and by how much, if not. And what does it need?");
-  check_app->add_option("model", check.model, "model file (JSON, as ents_model_create_from_file reads it)")
+  check_app
+      ->add_option(
+          "model", check.model,
+          "model file (JSON, as ents_model_create_from_file reads it), or a scene: its model on its own "
+          "segments, and whether its slave mesh is fine enough for the height")
       ->required();
+  check_app->add_option("--variant", check.variant, "of the scene, from its key \"variants\"");
   check_app->add_option(
       "--mesh", check.mesh,
       "where the segments are: a .json file {\"nodes\": [[x, y], ...], \"segments\": [[0, 1], ...]} "
@@ -276,6 +281,7 @@ int run_program(int argc, char** argv) {
       "Examples:\n"
       "  ents-host check model.json                                        one flat segment of size 2\n"
       "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
+      "  ents-host check scene.json                                        before a run of this scene\n"
       "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
 
   ChartOptions chart;

@@ -143,6 +143,7 @@ Json result_json(const Simulation& simulation, const std::vector<StepRecord>& re
         {"contact", timings.contact},
         {"solver", timings.solver},
         {"total", timings.total}}}};
+  result["resolution"] = json_of(simulation.resolution());
   result["fingerprint"] = simulation.fingerprint();
   result["failure"] =
       failure == nullptr ? Json() : Json{{"step", failure->step}, {"reason", failure->what()}};
@@ -173,12 +174,13 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
   if (pair) table.column("normal force", scene.units.force).column("tangential", scene.units.force);
   if (scene.contact) {
     table.column("peak pressure", scene.units.pressure).column("contact", "%", 3);
-    table.column("estimated", "%", 3).column("+-", "%", 2);
+    table.column("estimated", "%", 3).column("+-", "%", 2).beside();
     table.column("mean gap", scene.units.length);
     if (wears(records))
       table.column("worn depth", scene.units.length).column("worn volume", cubic(scene.units.length));
   }
-  table.column("iterations").column("reduction", "last but one", 2).column("reduction", "last", 2);
+  table.column("iterations").column("reduction", "last but one", 2).beside();
+  table.column("reduction", "last", 2).beside();
   for (const StepRecord& record : records) {
     std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step)};
     if (rigid)
@@ -216,7 +218,7 @@ std::string exact_table(const std::vector<StepRecord>& records) {
   table.column("step");
   for (const Quantity* column : columns) {
     table.column(column->name, column->unit, 5);
-    if (column->compared) table.column("exact", column->unit, 5).column("error", "%", 2);
+    if (column->compared) table.column("exact", column->unit, 5).beside().column("error", "%", 2).beside();
   }
   for (const StepRecord& record : records) {
     std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host run: solve a scene, tell, and leave files.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
@@ -30,6 +31,10 @@ void print_report(const Simulation& simulation, const std::vector<StepRecord>& r
   const Scene& scene = simulation.scene();
   if (!records.empty()) std::printf("\n%s", result_table(scene, records).text().c_str());
   if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
+  if (!records.empty() && simulation.resolution().too_coarse() && std::isfinite(records.back().area.fraction))
+    std::printf(
+        "\nno bound of the estimated contact is known: the mesh is too coarse for this surface (ents-host "
+        "check says what would do)\n");
   const Timings& timings = simulation.timings();
   std::printf("\nwall time %s s: setup %s, bulk %s, contact %s, solver %s\n",
               format_number(timings.total, 3).c_str(), format_number(timings.setup, 3).c_str(),
@@ -58,6 +63,14 @@ void note_without_contact(const Scene& scene, const std::vector<StepRecord>& rec
   std::fprintf(stderr, "ents-host: no slave node was in contact at the end of a step: do the master's normal "
                        "(order of its nodes) and "
                        "the motion bring the surfaces together?\n");
+}
+
+/// A mesh that cannot follow the surface: its contact is another one.
+void note_resolution(const Simulation& simulation) {
+  const Resolution& resolution = simulation.resolution();
+  if (resolution.too_coarse())
+    std::fprintf(stderr, "ents-host: warning: %s\n",
+                 describe(resolution, simulation.scene().units.length).c_str());
 }
 
 /// What elements of other programs cannot do.
@@ -102,6 +115,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     std::fprintf(stderr, "ents-host: warning: %s; errors against the exact solution mean nothing\n",
                  mismatch.c_str());
   if (scene.contact) note_small_maps(scene, simulation.contact()->master().surface_coordinates);
+  note_resolution(simulation);
   RunFiles files(options.out, options.restart, plan.first);
 
   RunObserver observer;

@@ -287,6 +287,7 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
   const std::vector<Face>& slaves = find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
   exact_axis_ = host::exact_axis(*scene_, *library);
+  resolution_ = resolution_of(*scene_, mesh_);
   if (scene_->exact.type == ExactSpec::Type::boundary_elements && divisions == 0 && !maker)
     exact_layer_ = std::make_shared<ExactLayer>(*scene_, *library, mesh_, *dofs_);
   Scene changed; // with the law that follows from the waves that the height leaves out, or from the mesh

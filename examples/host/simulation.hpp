@@ -14,6 +14,7 @@
 #include "exact.hpp"
 #include "exact_layer.hpp"
 #include "removed_waves.hpp"
+#include "resolution.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
 
@@ -84,6 +85,8 @@ public:
   const Contact* contact() const { return contact_.get(); }
   /// Of the scene's exact solution.
   const ExactAxis& exact_axis() const { return exact_axis_; }
+  /// Is the slave mesh fine enough for the height of a rigid master?
+  const Resolution& resolution() const { return resolution_; }
   /// Boundary elements, if they are the scene's exact solution and the master is the scene's own; else null.
   /// Null: the height is the scene's.
   const RemovedWaves* removed_waves() const { return removed_waves_.get(); }
@@ -208,6 +211,7 @@ private:
   std::shared_ptr<const LayerBody> layer_; ///< null: the bodies have elements
   std::unique_ptr<Contact> contact_;
   ExactAxis exact_axis_;
+  Resolution resolution_;
   std::shared_ptr<const RemovedWaves> removed_waves_;
   std::shared_ptr<const ExactLayer> exact_layer_;
   std::vector<StencilGroup> bulk_stencils_;

@@ -68,7 +68,6 @@ TEST_F(Program, MistakesInFilesAreNamed) {
   expect(ents_host("run " + write("scene.json", json)), 2,
          {"scene.json: /parts/0/deck: ", "nope.inp: cannot be read"});
   expect(ents_host("run " + path("")), 2, {"this is a folder"});
-  expect(ents_host("check " + write("scene.json", small())), 2, {"this is a scene", "/contact/model"});
   const std::string model = write("model.json", {{"segment", "line2"}});
   expect(ents_host("check " + model + " --mesh " + write_text("empty.inp", "")), 2,
          {"empty.inp: no mesh; expected *NODE"});

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Is the slave's mesh fine enough for the height of a rigid segment? The shortest wave of the height against
+// the distance of the slave nodes, which see the surface at their places only, and against the elements below
+// them, which are too soft for waves of a few elements.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "json_reader.hpp"
+
+namespace host {
+
+struct Mesh;
+struct Scene;
+
+struct Resolution {
+  /// Lengths [L]; NaN: not known.
+  double wave = std::numeric_limits<double>::quiet_NaN(); ///< shortest of the height; infinite: it has none
+  double spacing = 0;                                     ///< largest distance of neighbouring slave points
+  double depth = 0; ///< largest of an element below the slave surface; 0: a layer, which has none
+
+  /// What would do: of slave points, and of elements in all directions.
+  double spacing_needed() const;
+  double element_needed() const;
+  bool too_coarse() const;
+};
+
+/// Shortest wave of a height along its surface coordinates, in units of s. Infinite: none, as of a sphere;
+/// NaN: not known (an expression, a callback, a thread).
+/// @param height      of a model that the library has read
+/// @param folder      where file names start
+/// @param directions  number of surface coordinates
+double shortest_wave(const Json& height, const std::filesystem::path& folder, std::size_t directions);
+
+/// @param mesh  of the scene's bodies; for a contact with a rigid master of one plain segment, else not known
+Resolution resolution_of(const Scene& scene, const Mesh& mesh);
+
+/// One sentence or two for the terminal; empty: not known, or there are no waves.
+std::string describe(const Resolution& resolution, const std::string& unit);
+
+/// null: a length that is not known, or infinite.
+Json json_of(const Resolution& resolution);
+
+} // namespace host
