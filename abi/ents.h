@@ -41,7 +41,8 @@
  * segments, as slave facets and in a "patch", but ents_smooth. Surface coordinates of the two nodes in one place have to be equal. Natural
  * coordinates have no meaning in that corner: projections and points of the surface stay 1e-9 of a side away from it, with a height 1e-6
  * (as exact are the forces of a slave node right there, unless another segment meets it with an ordinary corner: ents_detect takes that one),
- * and a height in natural coordinates (s = xi) has a crease there.
+ * and a height in natural coordinates (s = xi) has a crease there. Friction measures the elastic slip in natural coordinates: where it is not
+ * small beside the distance to that corner, the tangential force is inexact. With friction prefer a master of tri3 alone.
  *
  * Words
  *   slave node         the point of an element that must not pass through its segment

@@ -126,7 +126,10 @@ double read_double(const json& value, const std::string& path, Range range) {
   if (within(value, range)) return value.get<double>();
   fail(ENTS_BAD_VALUE, path,
        "is " + (value.is_number() ? shown(value.get<double>()) : kind_of(value)) + "; write a number from " +
-           shown(least_of(range)) + " to 1e100");
+           (range == Range::positive       ? "1e-100"
+            : range == Range::not_negative ? "0"
+                                           : "-1e100") +
+           " to 1e100");
 }
 
 double read_double(const json& object, const std::string& path, const char* key, Range range) {

@@ -64,13 +64,14 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     for (int a = 0; a < T; ++a) // a start out there has not escaped, it is only bad
       p.xi[a] = start[a] < -far_outside ? -far_outside : (start[a] > far_outside ? far_outside : start[a]);
     found = project(g, t, p);
-    // The iteration leaves the segment along an edge without length; the search knows that corner.
-    if ((found == Found::yes || found == Found::escaped) && is_in_collapsed_corner<B, H>(g, p.xi)) {
-      Projection<B, H> in_corner;
-      const Search s = search<B, H>(g, t, plan, in_corner);
-      if (s.found == Found::yes) {
-        in_corner.evaluations += p.evaluations;
-        p = in_corner, found = s.found;
+    // The iteration leaves the segment along an edge without length; the search knows the triangle.
+    if ((found == Found::yes || found == Found::escaped) && collapsed_edge(g) >= 0 &&
+        (is_in_collapsed_corner<B, H>(g, p.xi) || !on_segment<B>(p.xi, plan.border))) {
+      Projection<B, H> on_triangle;
+      const Search s = search<B, H>(g, t, plan, on_triangle);
+      if (s.found == Found::yes && on_segment<B>(on_triangle.xi, plan.border)) {
+        on_triangle.evaluations += p.evaluations;
+        p = on_triangle, found = s.found;
         at.searched = true, at.ambiguous = s.ambiguous;
       }
     }

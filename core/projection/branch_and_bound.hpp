@@ -146,8 +146,8 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
 }
 
 // Search of the triangle that a quad4 with the collapsed edge e is, whose nodes are e, e + 2 and e + 3, and
-// natural coordinates of the quad4. False: heights are given in natural coordinates, or in surface coordinates
-// that differ in the two nodes: then they are not those of a triangle.
+// natural coordinates of the quad4. False: heights are given in natural coordinates, or in surface
+// coordinates that differ in the two nodes: then they are not those of a triangle.
 template <bool H>
 ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
                                     int budget, int e, Search& result, double (&xi)[2], int& evaluations) {
