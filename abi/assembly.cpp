@@ -256,8 +256,7 @@ bool is_rigid(const ents_model& model) {
 }
 
 // What ents_iterate takes of the caller's input: the rest comes from the detection.
-std::int32_t check_rest(const ents_model& model, const ents_input& input, std::int64_t end,
-                        ents_report* report) {
+std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_report* report) {
   if (input.slave || input.master || input.mesh || input.segment || input.start || input.surface_coordinates)
     return report_status(
         report, ENTS_BAD_VALUE, -1,
@@ -269,10 +268,6 @@ std::int32_t check_rest(const ents_model& model, const ents_input& input, std::i
         "input.positions_begin is null: with friction, give the positions of the mesh at the "
         "begin of the increment, in which states move to other segments (mesh.positions if "
         "the master does not deform)");
-  if (input.slave_begin && end > 1 && input.slave_begin_stride < model.plan.dimension)
-    return report_message(report, ENTS_BAD_COUNT, -1,
-                          "input.slave_begin_stride is %lld; at least %d is needed",
-                          static_cast<long long>(input.slave_begin_stride), model.plan.dimension);
   if (!model.model.patch.empty())
     return report_status(
         report, ENTS_BAD_VALUE, -1,
@@ -290,7 +285,7 @@ std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, cons
   std::int32_t status = ENTS_OK;
   const ents_input* rest = known_struct(input, copy, "input", status, report);
   if (rest) status = check_handle(model, report);
-  if (status == ENTS_OK) status = check_rest(*model, *rest, first + count, report);
+  if (status == ENTS_OK) status = check_rest(*model, *rest, report);
   if (status != ENTS_OK) return status;
   DetectionCall slaves;
   if ((status = slaves.open(model, mesh, tree, size, first, count, detection, report)) != ENTS_OK)

@@ -177,7 +177,7 @@ module ents
   end type ents_detection
 
   type, bind(c) :: ents_input
-    integer(c_int32_t) :: struct_size = 96 + 12*pointer_bytes
+    integer(c_int32_t) :: struct_size = 88 + 12*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: slave_stride = 0
@@ -201,7 +201,6 @@ module ents
     type(c_ptr) :: slave_values = c_null_ptr ! (slave_values, elements)
     integer(c_int64_t) :: slave_values_stride = 0
     type(c_ptr) :: slave_begin = c_null_ptr ! (d, elements)
-    integer(c_int64_t) :: slave_begin_stride = 0
   end type ents_input
 
   type, bind(c) :: ents_output

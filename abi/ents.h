@@ -425,11 +425,10 @@ typedef struct ents_input {
                                         is an angle); scale r > 0 of the table, whose pressure is r p(g/r). Null: 0, 1, 1, 1. For models
                                         with "offset", "wear" or "table". Since contract 1.6; the scale and "table" since 1.7 */
   int64_t slave_values_stride;
-  const double *slave_begin;         /* [d] position of the slave node at the begin of the increment, [L], or null; ents_iterate alone reads it,
+  const double *slave_begin;         /* [elements][d] positions of the slave nodes at the begin of the increment, [L], or null; ents_iterate alone reads them,
                                         for states that are still those of ents_state_init, or of slaves that were not within reach:
                                         it evaluates these there first (in positions_begin), so that friction and wear of a slave that touches
                                         within the increment begin at the touch. Since contract 1.8 */
-  int64_t slave_begin_stride;
 } ents_input;
 
 /* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a

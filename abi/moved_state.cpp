@@ -36,7 +36,7 @@ std::int32_t MovedState::begin(std::int64_t e, const SegmentNodes& nodes, ents_r
   const Plan& plan = *call_.plan;
   const StateLayout& layout = plan.state;
   ElementInput element = call_.element(e, nodes);
-  element.slave = at(call_.in->slave_begin, call_.in->slave_begin_stride, e);
+  element.slave = at(call_.in->slave_begin, std::int64_t{plan.dimension}, e);
   if (const std::int64_t k = first_non_finite(element.slave, plan.dimension); k >= 0)
     return report_message(report, ENTS_NON_FINITE, e,
                           "input.slave_begin[%lld] of element %lld is NaN or infinite",

@@ -220,7 +220,7 @@ TEST(IterateFriction, BeginsAtTheTouchWithSlaveBegin) {
     // at once
     motion.begin = fresh;
     ents_input in = motion.rest();
-    in.slave_begin = slave_begin.data(), in.slave_begin_stride = d;
+    in.slave_begin = slave_begin.data();
     iterate(in, at_once);
     for (const int32_t flag : flags) EXPECT_FALSE(flag & ENTS_FLAG_NO_BEGIN);
     iterate(motion.rest(), without);
@@ -249,10 +249,7 @@ TEST(IterateFriction, RefusesASlaveBeginThatIsNoNumber) {
   std::vector<double> end = motion.states(), slave_begin = surface.slave;
   std::vector<int32_t> status(Surface::slaves);
   ents_input in = motion.rest();
-  in.slave_begin = slave_begin.data(), in.slave_begin_stride = 1;
-  EXPECT_EQ(motion.iterate(in, motion.output(end, status), nullptr), ENTS_BAD_COUNT);
-  EXPECT_NE(std::strstr(motion.report.message, "slave_begin_stride"), nullptr) << motion.report.message;
-  in.slave_begin_stride = 2;
+  in.slave_begin = slave_begin.data();
   for (double& x : slave_begin) x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(motion.iterate(in, motion.output(end, status), nullptr), ENTS_NON_FINITE);
   EXPECT_NE(std::strstr(motion.report.message, "slave_begin"), nullptr) << motion.report.message;

@@ -112,7 +112,6 @@ INPUTS = {
     "state_begin": ("state_size",),
     "multiplier": ("multipliers",),
     "slave_values": ("slave_values",),
-    "slave_begin": ("d",),
 }
 
 # Places in the arrays of SurfaceAdmissibility.
@@ -216,7 +215,6 @@ class Input(ctypes.Structure):
         ("slave_values", ctypes.c_void_p),
         ("slave_values_stride", ctypes.c_int64),
         ("slave_begin", ctypes.c_void_p),
-        ("slave_begin_stride", ctypes.c_int64),
     ]
 
 
