@@ -74,6 +74,7 @@ class Restart(unittest.TestCase):
                 other.load(file)
         ways = {"load": loaded, "pickle": pickle.loads(pickle.dumps(contact)), "deepcopy": copy.deepcopy(contact), "copy": copy.copy(contact)}
         saved = contact.state.copy()
+        np.testing.assert_array_equal(saved[:, -1], contact.segment + 1)  # what a state knows of its segment: augment() and .state rely on it
         contact.update(moved(0.01))  # an iterate that nobody commits leaves no trace
         ways["pickle, not committed"] = pickle.loads(pickle.dumps(contact))
         np.testing.assert_array_equal(ways["pickle, not committed"].gap, contact.gap)
