@@ -294,8 +294,10 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   const bool even_columns = regular(columns), even_rows = regular(rows);
   if (!even_columns || !even_rows) return maps;
   maps.title = scene.title;
-  maps.subtitle = "mean pressure " + format_number(record.mean_pressure, 3) + " " + scene.units.pressure +
-                  ", contact " + format_number(100 * record.contact_fraction, 3) + " %";
+  const double estimate = record.area.fraction; // the count of nodes is too large
+  maps.subtitle =
+      "mean pressure " + format_number(record.mean_pressure, 3) + " " + scene.units.pressure + ", contact " +
+      format_number(100 * (std::isfinite(estimate) ? estimate : record.contact_fraction), 3) + " %";
   maps.unit = scene.units.length;
   maps.x_min = columns.begin()->first, maps.x_max = columns.rbegin()->first;
   maps.y_min = rows.begin()->first, maps.y_max = rows.rbegin()->first;
