@@ -249,8 +249,8 @@ def rounded_punch(check):
 
 
 
-@target("pin_in_hole", case="a pin in the hole of an infinite plate, the same material, without friction, plane strain: half angle 30, 60 degrees", source="Persson 1964",
-        right="p_max R / Q = 1.260, 0.7117 to 2 %; contact ends at the angle to an element of 3 degrees")
+@target("pin_in_hole", case="a pin in the hole of an infinite plate, the same material, without friction, plane strain: half angle 30, 60 degrees",
+        source="Persson 1964", right="p_max R / Q = 1.260, 0.7117 to 2 %; contact ends at the angle to an element of 3 degrees")
 def pin_in_hole(check):
     radius, modulus, clearance, around = 10.0, 1e5, 0.01, 120
     # The pin is loaded round a hole of R / 50; the plate is held 20 R away. Both are felt in the square of these ratios: 0.04 %, 0.25 %.
@@ -276,8 +276,8 @@ def pin_in_hole(check):
         check.near(f"{angle} degrees: end of contact", angle, found, 360 / around)
 
 
-@target("plate_with_friction", case="a plate of 40 mm, plane strain, E = 1.3e11, nu = 0.2, on a rigid plane, mu 1: 5e7 on top, 15e7 on the left side, held at the right one",
-        source="GRECO, Code_Aster SSNV128", right="u_x at x = 0, 1.25, 5, 7.5, 11.25 mm: 28.6, 27.2, 22.8, 19.8, 15.0 um to 5 %")
+@target("plate_with_friction", case="a plate of 40 mm, plane strain, E = 1.3e11, nu = 0.2, on a rigid plane, mu 1: 5e7 on top, 15e7 on the left side, "
+        "held at the right one", source="GRECO, Code_Aster SSNV128", right="u_x at x = 0, 1.25, 5, 7.5, 11.25 mm: 28.6, 27.2, 22.8, 19.8, 15.0 um to 5 %")
 def plate_with_friction(check):
     size, cells = 0.04, 32
     body = block("quad4", [cells, cells], [0, 0], [size, size])

@@ -110,13 +110,14 @@ def true_distance(check):
     inner = inner @ [[np.cos(0.01), np.sin(0.01)], [-np.sin(0.01), np.cos(0.01)]]
     closed = lambda n: np.column_stack([np.arange(n), np.roll(np.arange(n), -1)])
     a = np.pi / 24
-    bounds = {"line2": 1.1 * (1 - np.cos(a)), "catmull_rom4": 1.1 * (1 - (9 * np.cos(a) - np.cos(3 * a)) / 8)}
+    bound = 1.1 * (1 - (9 * np.cos(a) - np.cos(3 * a)) / 8)
     turn = 1 if _points_inwards(outer) else -1
-    for kind, bound in bounds.items():
+    for kind in ("line2", "catmull_rom4"):  # facets themselves lie 0.0094 inside of the ring: their gap is smaller, and no contact either
         contact = ents.Contact({"segment": kind, "master": "rigid", "contact": {"normal": {"type": "penalty", "stiffness": 1e3}}}, inner, closed(100)[:, ::-1],
                                closed(24)[:, ::turn], master_positions=outer, reach=0.5)
         residual, _ = contact.update(np.zeros(inner.size))
-        check.near(f"ring of 24 facets, {kind}: gap", 0.1, contact.gap, bound * (1 + 1e-9) + 1e-14)
+        if kind == "catmull_rom4":
+            check.near(f"ring of 24 facets, {kind}: gap", 0.1, contact.gap, bound * (1 + 1e-9))
         check.near(f"ring of 24 facets, {kind}: largest force", 0, np.abs(residual).max(), 0)
 
 
@@ -174,7 +175,8 @@ def along_any_axis(check):
         body.positions = body.positions @ turn.T
         master = np.array([[-1.5, -1.5, 0], [-1.5, 1.5, 0], [1.5, 1.5, 0], [1.5, -1.5, 0]])
         model = {"segment": "quad4", "master": "rigid", "surface_coordinates": (master[:, :2]).tolist(),
-                 "height": {"type": "polynomial", "coefficients": [[0, 0, -0.125], [0], [-0.125]]}, "contact": {"normal": {"type": "penalty", "stiffness": 1e4}}}
+                 "height": {"type": "polynomial", "coefficients": [[0, 0, -0.125], [0], [-0.125]]},
+                 "contact": {"normal": {"type": "penalty", "stiffness": 1e4}}}
         contact = ents.Contact(model, body.positions, faces, [[0, 1, 2, 3]], master_positions=master @ turn.T, reach=0.7)
         problem = Problem(body.stiffness(1000, 0.3), dofs(bottom, 3), contact)
         contact.move((master - [0, 0, 0.06]) @ turn.T)

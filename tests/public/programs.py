@@ -40,7 +40,8 @@ def rolling_scene():
     return scene
 
 
-@row("rolling", wrong="a rolling cylinder spins too fast", source="brax #78, newton #3377", right="omega R = v, up to the creep of elastic bodies: less than mu a / R")
+@row("rolling", wrong="a rolling cylinder spins too fast", source="brax #78, newton #3377",
+     right="omega R = v, up to the creep of elastic bodies: less than mu a / R")
 def rolling(check):
     result, _ = host(check, rolling_scene(), "rolling")
     at = [(step["reference_point"]["displacement"][0], step["reference_point"]["turns"][0]) for step in result["steps"][3:]]
@@ -149,10 +150,11 @@ def contact_print(check):
             check.true(name, "refused with the keyword", words[:70], done.returncode == 2 and "CONTACT" in words)
 
 
-@target("patch", case="two blocks, total height 2, E = 2e6, nu = 0, squeezed by 0.1, meshes that do not match", source="El-Abbasi, Bathe 2001; Code_Aster SSNP121",
-        right="pressure 1e5, displacement of the interface -0.05 everywhere (linear elements, 2D and 3D)")
+@target("patch", case="two blocks, total height 2, E = 2e6, nu = 0, squeezed by 0.1, meshes that do not match",
+        source="El-Abbasi, Bathe 2001; Code_Aster SSNP121", right="pressure 1e5, displacement of the interface -0.05 everywhere (linear elements, 2D and 3D)")
 def patch(check):
-    for name, scene, options, axis in (("quad4", "patch2d.json", (), 1), ("tri3", "patch2d.json", ("--variant", "triangles"), 1), ("hex8", "patch3d.json", (), 2)):
+    for name, scene, options, axis in (("quad4", "patch2d.json", (), 1), ("tri3", "patch2d.json", ("--variant", "triangles"), 1),
+                                       ("hex8", "patch3d.json", (), 2)):
         result, _ = host(check, scene, f"patch_{name}", *options)
         nodes = result["steps"][-1]["nodes"]
         # Uzawa's iteration ends at gaps of 1e-10 of the size, which the stiffness of 1e7 makes pressures of 1e-3.

@@ -86,11 +86,11 @@ def summary(found):
     """Ours in one cell: the quantity that is nearest to its tolerance."""
     if not all(check[-1] for check in found):
         return "**wrong**: " + "; ".join(f"{q}: {ours[:90]}" for q, _, ours, _, _, ok in found if not ok)
-    numbers = [(error / tolerance if tolerance else 0, q, right, ours) for q, right, ours, error, tolerance, _ in found if error is not None]
+    numbers = [(error / tolerance if tolerance else 0, error, q, right, ours) for q, right, ours, error, tolerance, _ in found if error is not None]
     if not numbers:
         return f"{found[-1][0]}: {found[-1][2]}"
-    _, quantity, right, ours = max(numbers)
-    return f"{quantity}: {ours} for {right}"
+    share, error, quantity, right, ours = max(numbers)
+    return f"{quantity}: {ours} for {right}{f', off by {error:.1e}' if share else ''}"
 
 
 def page_differs():
