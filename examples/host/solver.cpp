@@ -89,15 +89,22 @@ public:
     mumps_.par = 1, mumps_.sym = 2, mumps_.comm_fortran = use_comm_world;
     call(-1);
     for (int stream = 0; stream < 4; ++stream) mumps_.icntl[stream] = stream < 3 ? -1 : 0; // no messages
-    // The ordering follows from the pattern alone: with entries in it the factors would depend on the matrix
-    // that came first, and a run that was restarted would end with other bits.
+    // Of the pattern alone: with entries in it the factors would depend on the matrix that came first, and a
+    // run that was restarted would end with other bits. The ordering of SCOTCH is another one in every run.
     mumps_.icntl[5] = 0, mumps_.icntl[11] = 1;
+    mumps_.icntl[6] = amd;
   }
   ~IndefiniteSolver() { call(-2); }
   IndefiniteSolver(const IndefiniteSolver&) = delete;
   IndefiniteSolver& operator=(const IndefiniteSolver&) = delete;
 
   void forget_pattern() { analyzed_ = false; }
+  /// From now on with this ordering of the rows: [equations], the first pivot first.
+  void set_order(const int* order, int size) {
+    places_.resize(static_cast<std::size_t>(size));
+    for (int k = 0; k < size; ++k) places_[static_cast<std::size_t>(order[k])] = k + 1;
+    mumps_.icntl[6] = given, mumps_.perm_in = places_.data();
+  }
 
   /// @return false if the matrix is singular, or the factorisation is given up for another reason
   bool factorize(const Matrix& matrix) {
@@ -137,7 +144,7 @@ public:
   const Matrix& matrix() const { return matrix_; }
 
 private:
-  static constexpr int use_comm_world = -987654;
+  static constexpr int use_comm_world = -987654, amd = 0, given = 1;
   void call(int job) {
     mumps_.job = job;
     dmumps_c(&mumps_);
@@ -147,6 +154,7 @@ private:
   DMUMPS_STRUC_C mumps_{};
   Matrix matrix_;
   std::vector<int> rows_, columns_; ///< of the entries, from 1
+  std::vector<int> places_;         ///< of the rows among the pivots, from 1
   bool analyzed_ = false;
 };
 #endif
@@ -157,7 +165,9 @@ private:
 class SymmetricSolver final : public LinearSolver {
 public:
 #ifdef ENTS_HOST_CHOLMOD
-  using Decomposition = Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower>;
+  struct Decomposition : Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower> {
+    const int* order() const { return static_cast<const int*>(m_cholmodFactor->Perm); }
+  };
   std::string name() const override { return "CHOLMOD supernodal Cholesky"; }
   SymmetricSolver() { cholesky_.cholmod().print = 0; } // an indefinite matrix is no news for the terminal
 #else
@@ -170,6 +180,9 @@ public:
     analyzed_general_ = false;
 #ifdef ENTS_HOST_MUMPS
     indefinite_.forget_pattern();
+#ifdef ENTS_HOST_CHOLMOD
+    indefinite_.set_order(cholesky_.order(), static_cast<int>(matrix.rows()));
+#endif
 #endif
   }
   bool factorize(const Matrix& matrix) override {
