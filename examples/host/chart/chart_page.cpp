@@ -24,7 +24,7 @@ std::string fate_text(const Cell& cell) {
   return text + ", " + std::to_string(cell.outcome.iterations) + " iterations";
 }
 
-constexpr int cell_size = 14, left = 40, bottom = 34, top = 4;
+constexpr int cell_size = 14, left_of_map = 40, below_map = 34, above_map = 4;
 
 /// One panel: cells, ends of the axes, what a cell says when it is pointed at.
 std::string panel_svg(const Map& map, const Panel& panel) {
@@ -33,10 +33,11 @@ std::string panel_svg(const Map& map, const Panel& panel) {
   const auto px = [](int value) { return std::to_string(value); };
   // Names of axes may be longer than a map of few points.
   const auto half = [](const std::string& text) { return 7 * static_cast<int>(text.size()) / 2; };
-  const int x_half = half(map.x.label), y_half = half(map.y.label), x_middle = left + width / 2,
-            y_middle = top + height / 2;
-  const int x0 = std::min(0, x_middle - x_half), x1 = std::max(left + width + 6, x_middle + x_half);
-  const int y0 = std::min(0, y_middle - y_half), y1 = std::max(top + height + bottom, y_middle + y_half);
+  const int x_half = half(map.x.label), y_half = half(map.y.label), x_middle = left_of_map + width / 2,
+            y_middle = above_map + height / 2;
+  const int x0 = std::min(0, x_middle - x_half), x1 = std::max(left_of_map + width + 6, x_middle + x_half);
+  const int y0 = std::min(0, y_middle - y_half),
+            y1 = std::max(above_map + height + below_map, y_middle + y_half);
   std::string svg = "<svg viewBox=\"" + px(x0) + " " + px(y0) + " " + px(x1 - x0) + " " + px(y1 - y0) +
                     "\" role=\"img\" aria-label=\"" +
                     escaped(map.title + ", " + word(panel.method.surface) + ", " +
@@ -46,8 +47,8 @@ std::string panel_svg(const Map& map, const Panel& panel) {
     for (std::size_t i = 0; i < columns; ++i) {
       const Cell& cell = panel.cells[j * columns + i];
       const Look look = look_of(cell);
-      const int x = left + static_cast<int>(i) * cell_size,
-                y = top + height - static_cast<int>(j + 1) * cell_size;
+      const int x = left_of_map + static_cast<int>(i) * cell_size,
+                y = above_map + height - static_cast<int>(j + 1) * cell_size;
       svg += "<g><title>" + format_number(map.x.values[i], 3) + ", " + format_number(map.y.values[j], 3) +
              ": " + escaped(fate_text(cell)) + "</title><rect x=\"" + px(x) + "\" y=\"" + px(y) +
              "\" width=\"14\" height=\"14\" fill=\"" + hex(look.rgb) + "\"/>";
@@ -61,13 +62,13 @@ std::string panel_svg(const Map& map, const Panel& panel) {
     svg += "<text class=\"a\" x=\"" + px(x) + "\" y=\"" + px(y) + "\" style=\"text-anchor:" + anchor + "\"" +
            more + ">" + escaped(text) + "</text>";
   };
-  label(left, top + height + 14, "start", format_number(map.x.values.front(), 2));
-  label(left + width, top + height + 14, "end", format_number(map.x.values.back(), 2));
-  label(left + width / 2, top + height + 29, "middle", map.x.label);
-  label(left - 4, top + height - 3, "end", format_number(map.y.values.front(), 2));
-  label(left - 4, top + 11, "end", format_number(map.y.values.back(), 2));
-  const std::string turn = " transform=\"rotate(-90 10 " + px(top + height / 2) + ")\"";
-  label(10, top + height / 2, "middle", map.y.label, turn.c_str());
+  label(left_of_map, above_map + height + 14, "start", format_number(map.x.values.front(), 2));
+  label(left_of_map + width, above_map + height + 14, "end", format_number(map.x.values.back(), 2));
+  label(left_of_map + width / 2, above_map + height + 29, "middle", map.x.label);
+  label(left_of_map - 4, above_map + height - 3, "end", format_number(map.y.values.front(), 2));
+  label(left_of_map - 4, above_map + 11, "end", format_number(map.y.values.back(), 2));
+  const std::string turn = " transform=\"rotate(-90 10 " + px(above_map + height / 2) + ")\"";
+  label(10, above_map + height / 2, "middle", map.y.label, turn.c_str());
   return svg + "</svg>";
 }
 
