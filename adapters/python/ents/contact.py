@@ -179,6 +179,8 @@ class Contact(ContactResults):
         found, _, _ = self._add(points, self._elements, self._hint, self._xi, False)
         segment, bad = found["segment"], found["status"] > 0
         warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
+        self._pairs.judge(self.tree, segment)
+        bad[self._pairs.turned_away(self.tree, np.flatnonzero(segment >= 0), segment)] = True  # on facets that do not face them
         closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
         kept = bad[:, None] | (not self.model.layout.friction)
         state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
