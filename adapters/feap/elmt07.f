@@ -34,8 +34,8 @@
           character (kind=c_char)   :: text(*)
         end function
         integer (c_int) function ents_feap_form(d,xl,ul,du,number,
-     &              nodes,ndf,ndm,nst,want,factor,start,end,words,s,p,text,
-     &              length) bind(c)
+     &              nodes,ndf,ndm,nst,want,factor,start,end,words,
+     &              s,p,text,length) bind(c)
           import :: c_int, c_double, c_char
           real (c_double)           :: d(*),xl(*),ul(*),du(*)
           real (c_double)           :: start(*),end(*)
