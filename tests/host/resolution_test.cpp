@@ -45,17 +45,17 @@ TEST(ShortestWave, OfEveryHeightThatHasOne) {
 TEST(ShortestWave, OfHeightsOfHeights) {
   const std::string one = R"({"type": "sine", "amplitude": 1, "wave_vector": [2, 0]})",
                     two = R"({"type": "sine", "amplitude": 1, "wave_vector": [0, 3]})",
-                    unknown = R"({"type": "expression", "h": "sin(u)"})";
+                    unknown = R"x({"type": "expression", "h": "sin(u)"})x";
   const auto of = [](const char* type, const std::string& a, const std::string& b) {
-  return wave_of(("{\"type\": \"" + std::string(type) + "\", \"of\": [" + a + ", " + b + "]}").c_str());
+    return wave_of(("{\"type\": \"" + std::string(type) + "\", \"of\": [" + a + ", " + b + "]}").c_str());
   };
-EXPECT_DOUBLE_EQ(of("sum", one, two), 1. / 3);
-EXPECT_DOUBLE_EQ(of("product", one, two), 1. / 5); // at most: these two are across each other
-EXPECT_DOUBLE_EQ(wave_of((R"({"type": "scale", "by": 2, "of": )" + one + "}").c_str()), 0.5);
-EXPECT_TRUE(std::isnan(of("sum", one, unknown)));
-EXPECT_TRUE(std::isnan(of("product", unknown, two)));
-EXPECT_TRUE(std::isinf(wave_of(R"({"type": "polynomial", "coefficients": [[0, 0, 1], [0], [1]]})")));
-EXPECT_TRUE(std::isinf(wave_of("null")));
+  EXPECT_DOUBLE_EQ(of("sum", one, two), 1. / 3);
+  EXPECT_DOUBLE_EQ(of("product", one, two), 1. / 5); // at most: these two are across each other
+  EXPECT_DOUBLE_EQ(wave_of((R"({"type": "scale", "by": 2, "of": )" + one + "}").c_str()), 0.5);
+  EXPECT_TRUE(std::isnan(of("sum", one, unknown)));
+  EXPECT_TRUE(std::isnan(of("product", unknown, two)));
+  EXPECT_TRUE(std::isinf(wave_of(R"({"type": "polynomial", "coefficients": [[0, 0, 1], [0], [1]]})")));
+  EXPECT_TRUE(std::isinf(wave_of("null")));
 }
 
 Resolution of_scene(const Json& json) {
