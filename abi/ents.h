@@ -38,7 +38,7 @@
  * segment with the reversed normal, open slave nodes are pressed and penetrating ones are open; a quadratic segment whose middle nodes
  * stand between the corners in the list is another surface.
  * A surface of triangles and quadrilaterals is one of quad4: the triangle a b c is the row a b c c. All functions take such rows, as
- * segments, as slave facets and in a "patch", but ents_smooth. Surface coordinates of the two nodes in one place have to be equal. Natural
+ * segments, as slave facets and in a "patch"; ents_smooth and ents_surface_check refuse them. Surface coordinates of the two nodes in one place have to be equal. Natural
  * coordinates have no meaning in that corner: projections and points of the surface stay 1e-9 of a side away from it, with a height 1e-6
  * (as exact are the forces of a slave node right there, unless another segment meets it with an ordinary corner: ents_detect takes that one),
  * and a height in natural coordinates (s = xi) has a crease there. Friction measures the elastic slip in natural coordinates: where it is not

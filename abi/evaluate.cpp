@@ -211,7 +211,7 @@ int32_t ents_surface_evaluate(const ents_model* model, int64_t count, const ents
         return ents::explain_non_finite(plan, "surface.", s->master, s->surface_coordinates,
                                         s->xi + plan.parameters * i, i, report);
       double place[2];
-      if (status == ENTS_DEGENERATE_SEGMENT &&
+      if ((status == ENTS_DEGENERATE_SEGMENT || status == ENTS_OUT_OF_RANGE) &&
           ents::height_is_undefined(plan, s->master, s->surface_coordinates, s->xi + plan.parameters * i,
                                     place))
         return ents::report_undefined_height(plan, "point", i, place, report);

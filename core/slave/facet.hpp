@@ -29,7 +29,10 @@ double facet_density(const std::int64_t* nodes, const double* positions, double 
   double density = square_root(dot(m, m));
   if constexpr (D == 2) {
     double radius = 0.0;
-    for (int i = 0; i < M; ++i) radius += N.n[i] * positions[D * nodes[i]];
+    for (int i = 0; i < M; ++i) {
+      if (!(thickness > 0.0) && positions[D * nodes[i]] < 0.0) return -1.0; // beyond the axis
+      radius += N.n[i] * positions[D * nodes[i]];
+    }
     density *= thickness > 0.0 ? thickness : 6.283185307179586 * radius;
   }
   return density;
