@@ -108,9 +108,9 @@ std::int32_t smooth_facets(const Surface& s, int corners, Ends ends, bool regula
   if (const auto outcome = all.add(planes, bad); outcome != MirroredFacets::Outcome::done)
     return report_message(
         report, ENTS_BAD_VALUE, -1,
-        "mirror: the facets %s plane %zu (%c = %.9g); a plane of symmetry is one of their borders",
-        outcome == MirroredFacets::Outcome::no_node ? "have no node on" : "lie on both sides of", bad,
-        "xyz"[planes[bad].axis], planes[bad].place);
+        "mirror: the facets %s plane %lld (%c = %.9g); a plane of symmetry is one of their borders",
+        outcome == MirroredFacets::Outcome::no_node ? "have no node on" : "lie on both sides of",
+        static_cast<long long>(bad), "xyz"[planes[bad].axis], planes[bad].place);
   Refusal refusal = call(all.all_facets(), all.connectivity(), all.all_nodes());
   if (refusal.reason != Refusal::none) {
     for (std::int64_t* facet : {&refusal.facet, &refusal.other_facet})
