@@ -114,7 +114,7 @@ TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
       good = scene({{"length_unit", 1e-3}});
   for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
     const ProgramOutput fine = ents_host("run " + good + more);
-    EXPECT_EQ(fine.text.find("warning"), std::string::npos) << fine.text;
+    EXPECT_EQ(fine.text.find(warning), std::string::npos) << fine.text;
   }
   const std::string bad = scene(Json::object());
   for (const char* more : {"", " --explicit 8", " --compare 4,8", " --json"}) {
