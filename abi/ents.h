@@ -478,7 +478,7 @@ typedef struct ents_input {
                                     penetrated, but has no segment */
 #define ENTS_FLAG_LEFT 1024 /* ents_detect: a slave node in contact has left all segments beside a free edge, or is deeper than `reach` */
 #define ENTS_FLAG_NO_BEGIN 2048 /* in contact, but where the slave node was at the begin of the increment is not known (no state, that of
-                                   ents_state_init, or one of another segment): no friction in this increment. Since contract 1.8 */
+                                   ents_state_init, or one of another segment), or the law's multipliers are unknowns: no friction in this increment. Since contract 1.8 */
 #define ENTS_FLAG_CHANGED  128 /* the element was open, sticking or slipping at the begin of the increment and is not now; a new state is open */
 
 /* Outputs. The caller owns all arrays; the library writes those whose bit is set in `wanted`, and the others may be null. A stride is the

@@ -73,14 +73,13 @@ private:
     const auto& f = at.friction;
     const double area = area_of(k), rate = 1.0 / plan.law.friction_stiffness;
     const bool rubs = plan.law.has_friction_force() && (bits_of(f.active) >> k & 1),
-               slips = bits_of(f.slip) >> k & 1,
-               closes = bits_of(f.closes) >> k & 1; // then no force depends on lambda_b
+               slips = bits_of(f.slip) >> k & 1;
     double* column = out + n * leading;
     for (int b = 0; b < T; ++b) {
       double* by_multiplier = out + (n + 1 + b) * leading;
       for (int a = 0; a < T; ++a) {
         double d = 0.0; // dt_a / dlambda_b
-        if (rubs && !closes) {
+        if (rubs) {
           d = a == b ? area : 0.0;
           if (slips)
             d = lane(f.limit, k) / lane(f.norm, k) *

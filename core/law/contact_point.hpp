@@ -87,12 +87,12 @@ template <class B, bool H, class S> struct ContactPoint {
     }
     pair.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
     if (plan.law.has_friction()) {
-      if (plan.law.multiplier_is_dof())
-        slipping = slip_share(begin.clearance,
-                              -law.force / law_number<S>(plan.law.stiffness, plan.law.rates.normal));
+      SlipBegin<S, T> of = begin;
+      if (plan.law.multiplier_is_dof()) // these leave no depth, and no measure of the way after the touch
+        of.known = select(begin.clearance > 0.0, none, begin.known);
       else if (!worn)
         slipping = slip_share(begin.clearance, -clearance);
-      friction.evaluate(plan.law, pair, begin, slipping, -(pair.area * law.force),
+      friction.evaluate(plan.law, pair, of, slipping, -(pair.area * law.force),
                         multiplier ? multiplier + 1 : nullptr);
     } else {
       friction.set_none();

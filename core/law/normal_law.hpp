@@ -96,7 +96,7 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
   case NormalKind::augmented_multiplier: {
     const S p = multiplier - eps * gap;
     held = open_multiplier_energy(eps, multiplier);
-    f = {-p, eps, 0.5 * p * p * (1.0 / eps) + held, p >= 0.0};
+    f = {-p, eps, 0.5 * p * p * (1.0 / eps) + held, p > 0.0};
     break;
   }
   case NormalKind::table:
@@ -104,7 +104,7 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
     break;
   case NormalKind::multiplier:
     held = open_multiplier_energy(eps, multiplier);
-    f = {-multiplier, S(0.0), -(multiplier * gap), multiplier - eps * gap >= 0.0};
+    f = {-multiplier, S(0.0), -(multiplier * gap), multiplier - eps * gap > 0.0};
     break;
   }
   f.force = select(f.contact, f.force, S(0.0));

@@ -116,10 +116,7 @@ private:
     S inverse[K], own[T];
     const double compliance = 1.0 / law.friction_stiffness;
     invert_with(metric, unchecked_inverse(determinant(metric)), inverse);
-    // A multiplier that is a dof is the force of an element that touches within the increment.
     for (int a = 0; a < T; ++a) own[a] = select(active, compliance * multiplier[a], S(0.0));
-    if (law.multiplier_is_dof())
-      for (int a = 0; a < T; ++a) own[a] = select(closes, S(0.0), own[a]);
     for (int a = 0; a < T; ++a) {
       lowered[a] = lowered[a] + own[a];
       S raised_own = inverse[symmetric_index(a, 0)] * own[0];
@@ -145,10 +142,7 @@ private:
     for (int a = 0; a < T; ++a) {
       const S change = q * (lowered[a] - select(slip, direction[a] * along, none));
       const S by_depth = select(closes, change, none);
-      if (law.multiplier_is_dof())
-        by_force[a] = select(closes, by_force[a] + by_depth / (law.stiffness * pair.area), by_force[a]);
-      else
-        by_gap[a] = none - by_depth;
+      by_gap[a] = none - by_depth;
     }
   }
 };

@@ -4,7 +4,7 @@
 // gap that falls linearly, the part z / (c_n + z) of the increment comes after the touch, z >= 0: the depth at the end. Slip
 // and wear of this increment are that part of xi - xi_n:
 //   D = s (xi - xi_n),  s = z / (c_n + z),  ds/dz = c_n / (c_n + z)^2
-// Multipliers that are dofs leave no depth: there z = p / eps, which is what a spring in their place has.
+// Multipliers that are dofs leave no depth: an element that touches within an increment has no friction in it.
 #pragma once
 
 #include "core/law/normal_law.hpp"
