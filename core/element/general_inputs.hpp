@@ -23,8 +23,7 @@ ENTS_INLINE bool has_sound_values(const Plan& plan, const PairBlock& block, std:
 // What an element, or each lane's, is evaluated from.
 template <class B, bool H, class S> struct GeneralInputs {
   static constexpr int D = B::dim, T = D - 1;
-  SlipBegin<S, T> begin; // friction, or wear
-  S multiplier[1 + T];
+  S anchor[T], history, multiplier[1 + T];
   S offset, scale; // of the gap, beside the law's own; of a table
   bool has_multiplier, has_wear;
   WornState<S, T> worn;
@@ -33,16 +32,14 @@ template <class B, bool H, class S> struct GeneralInputs {
     const auto state = [&](int k) ENTS_LAMBDA_INLINE {
       return element_at(block.state_begin, block.state_begin_stride, first + k);
     };
-    begin.known = begin.clearance = S(0.0);
-    for (S& x : begin.from) x = S(0.0);
+    history = S(0.0);
+    for (S& x : anchor) x = S(0.0);
     for (S& x : multiplier) x = S(0.0);
-    if (plan.state.clearance_at >= 0 && block.state_begin) {
-      const auto slip = [&](int k)
-                            ENTS_LAMBDA_INLINE { return slip_begin<T>(state(k), plan.state.clearance_at); };
-      begin.known = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).known; });
-      begin.clearance = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).clearance; });
+    if (plan.state.anchor_at >= 0 && block.state_begin) {
+      history = of_each<S>(
+          [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
       for (int a = 0; a < T; ++a)
-        begin.from[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).from[a]; });
+        anchor[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return state(k)[plan.state.anchor_at + a]; });
     }
     const int count = plan.law.has_friction() ? 1 + T : 1;
     has_multiplier = plan.law.multiplier_is_dof() || (plan.law.multiplier_in_state() && block.state_begin);
@@ -70,11 +67,9 @@ template <class B, bool H, class S> struct GeneralInputs {
     };
     worn.depth = number(StateLayout::worn_slave) + number(StateLayout::worn_master);
     worn.pressure = number(StateLayout::worn_pressure);
-    worn.seen = begin.known;
-    for (int a = 0; a < T; ++a)
-      worn.anchor[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
-        return slip_begin<T>(state(k), plan.state.wear_at + StateLayout::worn_anchor).from[a];
-      });
+    worn.seen = of_each<S>(
+        [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
+    for (int a = 0; a < T; ++a) worn.anchor[a] = number(StateLayout::worn_anchor + a);
   }
 
   // As ContactPoint::evaluate_law() takes them
