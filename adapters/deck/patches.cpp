@@ -146,21 +146,6 @@ Patch numbered(const Neighbours& all, std::vector<int> faces, int seed, bool tur
   return best.patch;
 }
 
-/// Can faces of these shapes be segments of one element? A triangle is a quad4 with two nodes in one.
-bool go_together(Shape a, Shape b) {
-  const auto linear = [](Shape s) { return s == Shape::tri3 || s == Shape::quad4; };
-  return a == b || (linear(a) && linear(b));
-}
-
-/// The shape of a patch's segments; triangles among quadrilaterals become such.
-void set_shape(const Neighbours& all, Patch& patch) {
-  patch.shape = all.face(patch.faces[0]).shape;
-  for (const int f : patch.faces)
-    if (all.face(f).shape != patch.shape) patch.shape = Shape::quad4;
-  for (auto& segment : patch.topology)
-    if (patch.shape == Shape::quad4 && segment.size() == 3) segment.push_back(segment.back());
-}
-
 double slide_of(const PatchRequest& request, const Point& normal) {
   if (request.slide) return *request.slide;
   double sum = 0;
@@ -233,26 +218,24 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
     std::sort(ring.begin(), ring.end());
     for (const auto& [distance, f] : ring) {
       if (chosen.count(f) != 0) continue;
-      if (!go_together(all.face(f).shape, all.face(under.face).shape)) continue;
+      if (all.face(f).shape != all.face(under.face).shape) continue;
       std::set<int> with = nodes_with(all, nodes, f);
       if (static_cast<int>(with.size()) > largest) continue;
       nodes = std::move(with);
       chosen.insert(f);
     }
     for (const int f : chosen) {
-      if (!go_together(all.face(f).shape, all.face(under.face).shape))
+      if (all.face(f).shape != all.face(under.face).shape)
         mesh.source.fail(master.place, "'" + master.name + "' has faces of several shapes (" +
                                            segment_name(all.face(f).shape) + ", " +
                                            segment_name(all.face(under.face).shape) +
                                            ") within the slide of " + label_of(mesh, node) +
-                                           "; one element has segments of one shape, or tri3 and quad4. Take "
-                                           "elements of first order there, or a smaller --slide");
+                                           "; one element has segments of one shape");
       for (const int other : all.around(f))
         if (chosen.count(other) == 0) out.reserve = std::min(out.reserve, tree.distance(under.point, other));
     }
     out.widest = std::max(out.widest, static_cast<int>(nodes.size() + node.nodes.size()));
     Patch patch = numbered(all, {chosen.begin(), chosen.end()}, under.face, request.turn);
-    set_shape(all, patch);
     patch.slave = i;
     patch.face = under.face;
     out.list.push_back(std::move(patch));

@@ -6,8 +6,6 @@
 #include "deck_text.hpp"
 #include "facet_tree.hpp"
 
-#include <ents.h>
-
 namespace ents_deck::deck_patches_test {
 namespace {
 
@@ -79,125 +77,6 @@ TEST(DeckPatches, HaveAllFacesWithinTheSlide) {
       }
     }
   }
-}
-
-// ---- triangles among quadrilaterals ----
-
-/// n x n cells of side 1/n and height 1: bricks and, in every second one, two wedges.
-string bricks_and_wedges(int first, double low, int n, const string& set) {
-  std::ostringstream nodes, bricks, wedges;
-  nodes.precision(17);
-  const auto number = [&](int i, int j, int k) { return first + i + (n + 1) * (j + (n + 1) * k); };
-  for (int k = 0; k <= 1; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i)
-        nodes << number(i, j, k) << ", " << double(i) / n << ", " << double(j) / n << ", " << low + k << "\n";
-  int e = first;
-  const auto prism = [&](std::ostream& out, std::initializer_list<std::pair<int, int>> corners) {
-    out << e++;
-    for (int k = 0; k <= 1; ++k)
-      for (const auto& [i, j] : corners) out << ", " << number(i, j, k);
-    out << "\n";
-  };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      if ((i + j) % 2 == 0) {
-        prism(bricks, {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
-      } else {
-        prism(wedges, {{i, j}, {i + 1, j}, {i + 1, j + 1}});
-        prism(wedges, {{i, j}, {i + 1, j + 1}, {i, j + 1}});
-      }
-    }
-  return "*NODE, NSET=N" + set + "\n" + nodes.str() + "*ELEMENT, TYPE=C3D8, ELSET=" + set + "\n" +
-         bricks.str() + "*ELEMENT, TYPE=C3D6, ELSET=" + set + "\n" + wedges.str();
-}
-
-string mixed_deck() {
-  return bricks_and_wedges(1, 0, 4, "LOW") + bricks_and_wedges(101, 1, 4, "HIGH") +
-         "*SURFACE, NAME=SLAVE\nHIGH, S1\n*SURFACE, NAME=MASTER\nLOW, S2\n" + material + law +
-         pair_of_surfaces + "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nNHIGH, 3, 3, -0.01\n*END STEP\n";
-}
-
-/// Residuals of all elements with the slave lower by `depth`, summed up at the nodes of the deck, [nodes].
-std::vector<Point> forces(const Job& job, double depth) {
-  std::vector<Point> sum(job.mesh.nodes.size());
-  for (const ContactElement& element : job.elements) {
-    const string text = job.models.at(static_cast<std::size_t>(element.model)).text.dump();
-    ents_model* model = nullptr;
-    ents_report report{};
-    report.struct_size = sizeof report;
-    EXPECT_EQ(ents_model_create(text.c_str(), -1, nullptr, nullptr, 0, &model, &report), ENTS_OK)
-        << report.message;
-    Point slave = element.slave.x;
-    slave[2] -= depth;
-    std::vector<double> master, residual(3 + 3 * element.masters.size());
-    for (const int node : element.masters) {
-      const Point& x = job.mesh.nodes[static_cast<std::size_t>(node)].x;
-      master.insert(master.end(), x.begin(), x.end());
-    }
-    ents_input in{};
-    in.struct_size = sizeof in;
-    in.slave = slave.data(), in.master = master.data(), in.area = &element.slave.area;
-    ents_output out{};
-    out.struct_size = sizeof out;
-    out.wanted = ENTS_RESIDUAL;
-    out.residual = residual.data();
-    EXPECT_EQ(ents_evaluate(model, 0, 1, &in, &out, &report), ENTS_OK) << report.message;
-    ents_model_destroy(&model, nullptr);
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (std::size_t i = 0; i < element.slave.nodes.size(); ++i)
-        sum[static_cast<std::size_t>(element.slave.nodes[i])][k] += element.slave.weights[i] * residual[k];
-      for (std::size_t i = 0; i < element.masters.size(); ++i)
-        sum[static_cast<std::size_t>(element.masters[i])][k] += residual[3 + 3 * i + k];
-    }
-  }
-  return sum;
-}
-
-// A body of bricks and wedges on another one with the same mesh, pressed by the same depth everywhere: every
-// node of both has the force of a uniform pressure, whether its elements have one kind of faces or both.
-TEST(DeckPatches, OfTrianglesAndQuadrilateralsPassThePatchTest) {
-  constexpr double depth = 0.05, stiffness = 1e6, cell = 1.0 / 16;
-  for (const double slide : {0.0, 0.3})
-    for (const int points : {0, 1, 2, 3}) {
-      Options options;
-      options.slide = slide;
-      options.points = points;
-      options.program = Program::abaqus;
-      const Job job = converted(mixed_deck(), options);
-      std::set<string> segments;
-      for (const Model& model : job.models) segments.insert(model.text.at("segment").get<string>());
-      EXPECT_TRUE(segments.count("quad4"));
-      const double pressure = stiffness * (depth + job.contacts.at(0).rise);
-      std::vector<double> share(job.mesh.nodes.size());
-      for (const Side* side : {&job.contacts.at(0).slave, &job.contacts.at(0).master})
-        for (const Face& face : side->faces)
-          for (const int node : face.nodes)
-            share[static_cast<std::size_t>(node)] +=
-                (side == &job.contacts.at(0).slave ? -1 : 1) * (face.nodes.size() == 3 ? cell / 6 : cell / 4);
-      const std::vector<Point> found = forces(job, depth);
-      double worst = 0;
-      for (std::size_t i = 0; i < share.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-          worst = std::max(worst, std::abs(found[i][k] / pressure - (k == 2 ? share[i] : 0)) / cell);
-      // positions of 1 and forces of a depth of 0.05: twenty roundings and a few
-      EXPECT_LT(worst, 1e-13) << "slide " << slide << ", points " << points;
-    }
-}
-
-// Where segments of both kinds are in one element a height needs coordinates that both have.
-TEST(DeckPatches, OfTrianglesAndQuadrilateralsNeedCoordinatesForAHeight) {
-  write("job/wave.json",
-        R"({"height": {"type": "sine", "amplitude": 0.001, "wave_vector": [6.283, 0], "phase": 0}})");
-  Options options;
-  options.slide = 0.3;
-  options.program = Program::abaqus;
-  options.model = "job/wave.json";
-  const string error = error_of([&] { converted(mixed_deck(), options); });
-  EXPECT_NE(error.find("'MASTER' has triangles and quadrilaterals in one element"), string::npos) << error;
-  EXPECT_NE(error.find("--coordinates"), string::npos) << error;
-  options.coordinates = "xy";
-  EXPECT_GT(converted(mixed_deck(), options).elements.size(), 0u);
 }
 
 // ---- moved nodes ----

@@ -67,7 +67,7 @@ class Header(unittest.TestCase):
         mine.update(("ENTS_FLAG_" + name, value.value) for name, value in ents.Flag.__members__.items())
         mine.update(("ENTS_SHARED_" + name, value.value) for name, value in ents.Shared.__members__.items())
         mine.update(("ENTS_" + ("STATE" if name == "state_end" else name.upper()), bit) for name, bit in ents.QUANTITIES.items())
-        mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED"))
+        mine.update(("ENTS_ENDS_" + name, getattr(ents, "ENDS_" + name)) for name in ("STRAIGHT", "REPEATED", "QUASI_CUBIC", "QUASI_PARABOLIC"))
         mine.update(("ENTS_CHECK_" + name.upper(), place) for place, name in enumerate(ents.CONDITIONS))
         theirs = {name: value[0] for name, value in self.numbers.items() if name.startswith("ENTS_") and "%" not in name}
         self.assertEqual(mine, theirs)

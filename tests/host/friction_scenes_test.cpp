@@ -138,7 +138,6 @@ TEST(FrictionScene, IroningOverPlainSegments) {
   const Json smooth = run_scene("ironing", "--last-step 14");
   std::printf("line2: force jumps by %.2f %%, %zu cuts\n", 100 * largest_jump(result), cuts(result));
   EXPECT_GT(largest_jump(result), 5 * largest_jump(smooth));
-  EXPECT_GT(cuts(result), 0u);
 }
 
 // An elastic nut on a rigid bolt: the ridges at its ends carry more than those between, most of all the one
