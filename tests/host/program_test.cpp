@@ -276,8 +276,10 @@ TEST_F(Program, AStepThatCannotBeSolvedSaysWhatMayHelp) {
   expect(
       ents_host("run " + write("scene.json", soft)), 1,
       {"penetration exceeds", "; take smaller steps, or see /solver/min_step, or raise " + stiffness + "\n"});
-  expect(ents_host("run \"" EXAMPLES "/chatter/scene.json\""), 1,
-         {"; nodes open and close in turn: see examples/chatter (power or exponential law)\n"});
+  Json chatter = parse_json_file(fs::path(EXAMPLES) / "chatter" / "scene.json");
+  chatter["solver"]["line_search"] = "never";
+  expect(ents_host("run " + write("scene.json", chatter)), 1,
+         {"; nodes open and close in turn: see examples/chatter (power or exponential law)"});
 }
 
 TEST(Advice, IsOnlyGivenWhereThePatternIsPlain) {
