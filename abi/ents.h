@@ -767,7 +767,7 @@ typedef struct ents_mirror {
  *   segment_points ... weights  as of ents_smooth, of the facets themselves, not of their images
  *   reflected            [terms] out
  *   shifts               [points][d] out
- * Errors: those of ents_smooth; NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT (planes), BAD_VALUE: an axis that is none, a plane without
+ * Errors: those of ents_smooth; NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT (planes), BAD_VALUE: an axis outside 0 ... d - 1, a plane without
  * nodes or with nodes on both sides; NON_FINITE. */
 ENTS_API int32_t ents_smooth_mirrored_size(const char *facet, const char *basis, int32_t ends, int64_t facets,
                                            const int64_t *connectivity, int64_t nodes, const ents_mirror *mirror,
