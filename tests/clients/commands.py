@@ -28,7 +28,7 @@ LONG = {  # a part of a command: why it is not run
     "mutations.py": "minutes", "compare_peers.py": "a test of its own", "curved.py": "half an hour", "_block.py": "tests of their own",
     "joint.py": "bolted_joint_test.py runs it with --quick", "torque.py": "minutes",
     "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "rough_afm/scene.json --out": "package.debian runs it", "gallery.sh": "minutes",
-    "setup.sh": "builds", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
+    "setup.sh": "builds", "-m venv": "prints nothing; package.wheel installs into an environment", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
     "--variant fine": "a minute of boundary elements; the gallery runs it", "--variant layer": "a minute of boundary elements; LayerBody.* runs some", "variants examples/cattaneo": "a minute; that of hertz2d is run",
     "area_bounds.py": "minutes; host.area_bounds runs it with --quick",

@@ -27,7 +27,8 @@ sys.path.insert(0, str(root / "adapters" / "python"))
 mistakes = []
 counts = dict.fromkeys(["READMEs", "listings", "links", "commands", "filters", "heights", "models", "python"], 0)
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
-RUN_ELSEWHERE = {"adapters/README.md": "python"}  # python_test.py runs this block
+# python_test.py runs the block of the first page, python_page_test.py those of the second.
+RUN_ELSEWHERE = {"adapters/README.md": "python", "adapters/python/README.md": "python"}
 
 
 def slug(heading):

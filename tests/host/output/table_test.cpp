@@ -50,8 +50,7 @@ TEST(Table, EveryLineOfNumbersHasTheSameWidthOnTheTerminal) {
 TEST(Table, IsBrokenWhereItIsWiderThanATerminal) {
   Table table;
   table.column("step");
-  for (const char* name :
-       {"mean pressure", "contact fraction, estimated", "pressure (rms of the difference)"})
+  for (const char* name : {"mean pressure", "contact fraction", "pressure (rms of the difference)"})
     table.column(name, "MPa", 5).column("exact", "MPa", 5).beside().column("error", "%", 2).beside();
   table.row({1, 1.25, 1.5, -17.0, 0.5, 0.25, 100.0, 3.0, 2.0, 50.0});
   for (const int width : {120, 100, 60, 40}) {
@@ -63,7 +62,7 @@ TEST(Table, IsBrokenWhereItIsWiderThanATerminal) {
     for (std::size_t i = 0; i < lines.size(); i += 5) EXPECT_TRUE(lines[i].starts_with("step  ")) << lines[i];
   }
   // A number never stands apart from its exact value and its error.
-  EXPECT_EQ(lines_of(table.text(60))[0], "step  mean pressure  exact  error");
+  EXPECT_EQ(lines_of(table.text(60))[0], "step  mean pressure   exact  error");
   EXPECT_EQ(table.text(), table.text(Table::terminal_width));
 }
 
