@@ -57,8 +57,7 @@ struct Host {
 ///   2  tributary area of the slave node [A], > 0; 0: from ents_k.txt
 ///   3  a sum of the options that the host has. May be absent
 ///   4 ..  with option 8: n, then n weights of the slave's nodes; surface coordinates [m][d-1] of the master
-///   nodes.
-///         May be absent; zeros at the end do not count
+///         nodes. May be absent; zeros at the end do not count
 struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none

@@ -41,7 +41,7 @@ struct Patches {
 };
 
 /// @throws Error with the numbers where the faces within the slide of a node have more than `largest` nodes,
-/// or are not of one shape
+///         or are not of one shape
 Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const Side& master,
                    const PatchRequest& request);
 

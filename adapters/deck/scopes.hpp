@@ -20,7 +20,7 @@ struct Scopes {
 };
 
 /// @throws Error for a nesting that is none, an unknown part, or a keyword that changes the mesh and is not
-/// read
+///         read
 Scopes scopes_of(const Source& source);
 
 /// A point of a part where its instance puts it: translated first, then turned.

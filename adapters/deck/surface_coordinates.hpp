@@ -11,8 +11,7 @@
 namespace ents_deck {
 
 /// @param how  "x", "xy", "zx" ...: coordinates of the undeformed mesh; "cylinder x|y|z": angle in radians
-/// about
-///             that axis, and the coordinate along it (2D: the angle about the origin); "file": from `file`
+///             about that axis, and the coordinate along it (2D: the angle about the origin); "file": from `file`
 /// @return [faces] of [m][d-1]; angles go on smoothly within a face
 std::vector<std::vector<double>> coordinates_of_faces(const Mesh& mesh, const Side& master,
                                                       const std::string& how,

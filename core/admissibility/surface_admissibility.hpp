@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is an enrichment admissible on a whole surface? The conditions of section 3 and Fig. 4 of the paper
-// (theory, section 5), each with its worst place. Measured on grids of natural coordinates; the worst place
-// of a smooth quantity is then sought between the samples.
+// (theory.md, section 10), each with its worst place. Measured on grids of natural coordinates; the worst
+// place of a smooth quantity is then sought between the samples.
 #pragma once
 
 #include <vector>

@@ -124,7 +124,7 @@ ENTS_NOINLINE void write_forces_apart(Arguments&... arguments) {
 }
 template <bool F, class B, class... Arguments>
 ENTS_INLINE void write_forces_of(bool rigid, Arguments&... arguments) {
-  if constexpr (dof_count < B, false >> 30) {
+  if constexpr ((dof_count<B, false>) > 30) {
     if (rigid)
       write_forces_apart<F, true>(arguments...);
     else

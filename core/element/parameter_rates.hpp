@@ -2,8 +2,8 @@
 // Derivatives of an element's gap, energy and residual by a named parameter theta of its height or law, at
 // fixed positions and state:
 //   dR/dtheta = R_,theta + R_,xi dxi/dtheta,   dxi/dtheta = - F_,xixi^-1 F_,xi theta   (normal projection)
-// The element is evaluated in dual numbers, whose derivatives are those along (theta, xi(theta)): theory
-// section 8.
+// The element is evaluated in dual numbers, whose derivatives are those along (theta, xi(theta)):
+// theory.md, section 8.
 #pragma once
 
 #include "core/element/general_inputs.hpp"

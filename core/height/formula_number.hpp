@@ -2,8 +2,7 @@
 // What a height that is a formula says of itself. A file that describes one has
 //
 //   template <class P> struct Sine     its numbers as the formula needs them; P: double, or Dual<double>
-//   where a
-//                                      number is differentiated by
+//                                      where a number is differentiated by
 //     type, formula                    its name in a model, and what the schema says of it
 //     table                            its keys, from which the reader and the schema follow
 //   set_height(sine, numbers, T)       from the numbers of the table

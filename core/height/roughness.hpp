@@ -4,8 +4,9 @@
 //
 // The wave vectors are those of the period, (i / size_1, j / size_2). The mean square of each is proportional
 // to
-//   1 from the longest wavelength to roll_off, (roll_off k)^-(2 hurst + T) for shorter ones down to the
-//   shortest, 0 beyond,
+//   1                              from the longest wavelength to roll_off,
+//   (roll_off k)^-(2 hurst + T)    for shorter ones down to the shortest,
+//   0                              beyond;
 // T the number of surface coordinates: the profile's -(2 H + 1), the surface's -2 (H + 1) (Persson et al., J.
 // Phys. Condens. Matter 17, R1, 2005). All of them together are rms^2.
 #pragma once

@@ -3,9 +3,9 @@
 //
 //     crest                      h = 0 on the pitch line, where ridge and groove are equally wide
 //    /     \                     depth = (pitch - crest - root) / (tan rising + tan falling)
-//   /       \______ root         rising, falling: angles of the flanks to the plane across the axis (ISO
-//   5408), as in ISO metric
-//                                threads 30 and 30 degrees (ISO 68-1), in buttress threads 3 and 30 (DIN 513)
+//   /       \______ root         rising, falling: angles of the flanks to the plane across the axis
+//                                (ISO 5408), as in ISO metric threads 30 and 30 degrees (ISO 68-1), in
+//                                buttress threads 3 and 30 (DIN 513)
 //
 // The height is the cubic B-spline whose coefficients are samples of these straight lines: the lines
 // themselves but for `rounding` on either side of a corner, which it rounds: C2, and inside the corner, for a

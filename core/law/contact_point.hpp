@@ -2,9 +2,9 @@
 // An element at its projection, for every law and both projections: covectors of gap and xi, normal force,
 // friction.
 //
-//   delta g = c . p,  delta xi^a = onto^a . p          c = n_e (normal projection), n_e / (n_e . e) (shadow)
-//   with p = delta x_s - delta rho_e (- g delta e where the ray turns with the slave); under normal
-//   projection delta xi^a = M^ab f_b
+//   delta g    = c . p         c = n_e (normal projection), n_e / (n_e . e) (shadow)
+//   delta xi^a = onto^a . p    (shadow), M^ab f_b (normal projection)
+//   p = delta x_s - delta rho_e (- g delta e where the ray turns with the slave)
 #pragma once
 
 #include "core/law/pair_friction.hpp"

@@ -5,12 +5,12 @@
 // motion of the element does not move it, and no vector has to be rotated. Covariant tangential force, per
 // element, work-conjugate to delta xi^a:
 //   trial  t_a = A (lambda_a + eps_t A_ab (xi^b - xi_0^b)),  A_ab = rho_e,a . rho_e,b
-//   stick  |t| = sqrt(t_a A^ab t_b) <= L,  slip  t_a = L m_a, m_a = t_a / |t|,  L = min(mu p A, shear limit
-//   A)
+//   stick  |t| = sqrt(t_a A^ab t_b) <= L,  L = min(mu p A, shear limit A)
+//   slip   t_a = L m_a,  m_a = t_a / |t| of the trial
 //
 //   R = A W' dg + t_a dxi^a,   dxi^a = M^ab f_b,  M = F_,xixi^-1
 //   K = A W'/g D2F* [+ law] + dxi^a dt_a + t_a D2xi^a
-// with, y = - M t and ' the derivative along y (theory section 3),
+// with, y = - M t and ' the derivative along y (theory.md, section 5),
 //   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
 // All but the last expansion to dofs happens in the reduced space of forms.hpp.
 #pragma once

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Archard's wear within an increment (Archard, J. Appl. Phys. 24, 1953): a surface that slides by ds under
-// the pressure p loses the depth dw = k p ds. It is part of the element's gap (theory section 7):
+// the pressure p loses the depth dw = k p ds. It is part of the element's gap (theory.md, section 7):
 //
 //   w = w_n + k ds ((1 - q) p_n + q p),   p = - W'(g + w)        q: Wear::implicit
 //
 // which for every law is one equation for p with one root, since W' does not fall: a compliance q k ds in
 // series with that of the law. No new unknown; stable for every ds if q = 1.
 //
-//   ds^2 = D^a A_ab D^b + s^2,  D = xi - xi_n    xi_n: projection at the begin of the increment, s:
-//   Wear::sliding delta W' = W''/(1 + q k ds W'') (delta g + k ((1 - q) p_n + q p) delta ds) delta ds = m .
-//   ((rho_e,c + D^b rho_e,bc) delta xi^c + D^b delta rho_e,b),  m = D^a rho_e,a / ds
+//   ds^2 = D^a A_ab D^b + b^2,  D = xi - xi_n
+//     xi_n: projection at the begin of the increment, b: Wear::sliding
+//   delta W' = W''/(1 + q k ds W'') (delta g + k ((1 - q) p_n + q p) delta ds)
+//   delta ds = m . ((rho_e,c + D^b rho_e,bc) delta xi^c + D^b delta rho_e,b),  m = D^a rho_e,a / ds
 //
 // All of the slip counts, its elastic part with friction included.
 #pragma once

@@ -119,15 +119,17 @@ template <int W> inline constexpr bool has_masks = sizeof(LaneTruth<W>) == 1;
 // a < b, or a <= b
 template <int W, bool OrEqual>
 ENTS_INLINE LaneTruth<W> is_less(typename VectorOf<W>::Numbers a, typename VectorOf<W>::Numbers b) {
+  // clang-format off
 #if defined(ENTS_HAS_MASKS)
   if constexpr (has_masks<W>)
     return {_mm512_cmp_pd_mask((__m512d)a, (__m512d)b, OrEqual ? _CMP_LE_OS : _CMP_LT_OS)};
   else
 #endif
-      if constexpr (OrEqual)
+  if constexpr (OrEqual)
     return {a <= b};
   else
     return {a < b};
+  // clang-format on
 }
 template <int W>
 ENTS_INLINE typename VectorOf<W>::Numbers chosen(LaneTruth<W> c, typename VectorOf<W>::Numbers a,

@@ -7,8 +7,7 @@
 // Bounds come from the kernel's own formulae evaluated with balls (ball.hpp). A box is dropped when
 //   - all of it is farther from the slave (normal) or from the ray (shadow) than any candidate may be,
 //   - the equations of the projection have no root in it (Krawczyk 1969; Moore, Kearfott, Cloud, Introduction
-//   to
-//     Interval Analysis, 2009, section 8.2), or only roots that are no minimum,
+//     to Interval Analysis, 2009, section 8.2), or only roots that are no minimum,
 //   - those equations have one root at most and Newton's method has found it.
 // What is left when the budget is spent makes the result `ambiguous`: the best that is known, but not
 // certain.

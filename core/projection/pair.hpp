@@ -61,10 +61,10 @@ template <class B, bool H, class S> struct Pair {
 
   // Is the slave above all of the enriched segment, so that a projection could only find it open? False: not
   // known.
-  //   flat   rho_e is a graph over the plane: n_e . n > 0, and x_s - rho_e = g n_e has the component zeta - h
-  //   > 0 along n quad4, plain   rho is a graph over the plane of its middle if its normals are on the side
-  //   of that normal; they and rho are
-  //          bilinear, so their corners decide
+  //   flat           rho_e is a graph over the plane: n_e . n > 0, and x_s - rho_e = g n_e has the component
+  //                  zeta - h > 0 along n
+  //   quad4, plain   rho is a graph over the plane of its middle if its normals are on the side of that
+  //                  normal; they and rho are bilinear, so their corners decide
   ENTS_INLINE Truth<S> is_clearly_open(const Plan& plan) const {
     if constexpr (is_flat<B>) {
       if constexpr (H)

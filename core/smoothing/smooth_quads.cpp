@@ -2,14 +2,15 @@
 // Smoothed quadrilaterals. Where four facets meet in each corner of a facet, its 16 control points are the
 // nodes around it. Else its segment is a bicubic patch close to the Catmull-Clark surface, made as a Bezier
 // patch and written as a B-spline:
-//   C. Loop and S. Schaefer, Approximating Catmull-Clark subdivision surfaces with bicubic patches, ACM TOG
-//   27(1), 2008 ("2008"): corners on the limit surface, points that belong to regular corners as those of the
-//   B-spline, so that neighbours meet with one tangent along all edges with regular ends; C. Loop, S.
-//   Schaefer, T. Ni and I. Castano, Approximating subdivision surfaces with Gregory patches for hardware
-//   tessellation, ACM TOG 28(5), 2009 ("2009"): edge points of extraordinary corners in the limit tangent
-//   plane, so that neighbours have one normal there, and what inner points continuity across an edge asks
-//   for. A bicubic patch has one such point where two edges ask: it gets the mean. The jump of the normal
-//   that remains along these edges is a quarter of what the points of 2008 leave.
+//   "2008"  C. Loop and S. Schaefer, Approximating Catmull-Clark subdivision surfaces with bicubic patches,
+//           ACM TOG 27(1), 2008: corners on the limit surface, points that belong to regular corners as those
+//           of the B-spline, so that neighbours meet with one tangent along all edges with regular ends
+//   "2009"  C. Loop, S. Schaefer, T. Ni and I. Castano, Approximating subdivision surfaces with Gregory
+//           patches for hardware tessellation, ACM TOG 28(5), 2009: edge points of extraordinary corners in
+//           the limit tangent plane, so that neighbours have one normal there, and the inner points that
+//           continuity across an edge asks for. A bicubic patch has one such point where two edges ask: it
+//           gets the mean. The jump of the normal that remains along these edges is a quarter of what the
+//           points of 2008 leave.
 #include "core/smoothing/patch_weights.hpp"
 
 namespace ents {

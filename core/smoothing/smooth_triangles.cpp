@@ -3,10 +3,10 @@
 // based on triangles, University of Utah, 1987. Where six facets meet in each corner of a facet, the patch is
 // that surface (the quartic box spline, C2). Next to an extraordinary corner
 //   corner and tangent plane   are those of the limit surface, so that neighbours have one point and one
-//   normal there; the rest of the boundary   is that of the regular patch, one and the same for both
-//   neighbours; the inner point            is the mean of what continuity across its two edges asks for, near
-//   the corner; a kink
-//                              remains along these edges, and none along the others.
+//                              normal there;
+//   the rest of the boundary   is that of the regular patch, one and the same for both neighbours;
+//   the inner point            is the mean of what continuity across its two edges asks for near the corner;
+//   a kink                     remains along these edges, and none along the others.
 #include "core/smoothing/patch_weights.hpp"
 #include "core/surface/basis.hpp"
 

@@ -103,7 +103,9 @@ ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M])
 
 // rho - x_s and its derivatives. Every basis has
 //   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the
-//   height needs it thirds            rho_,abc third_rates       how they change along y, y^d rho_,abcd
+//                     height needs it
+//   thirds            rho_,abc
+//   third_rates       how they change along y, y^d rho_,abcd
 template <class B, class S> struct Rho;
 
 template <class F, class S>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The forms (forms.hpp) of which the tangent of Coulomb friction is the sum of products, with, y = - M t and
-// ' the derivative along y (theory section 3),
+// ' the derivative along y (theory.md, section 5),
 //   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
-//   x_a = dxi^a = M^ab f_b,  Y_a = - f'_a + (F'_ab - (A W'/g) F_,ab) x_b / 2,  dt_a,  Z_a = z'_a + (A W'/g)
-//   z_a
+//   x_a = dxi^a = M^ab f_b
+//   Y_a = - f'_a + (F'_ab - (A W'/g) F_,ab) x_b / 2
+//   Z_a = z'_a + (A W'/g) z_a
+//   dt_a: ChangeOfForce
 // The derivative along y of a form's expansion is the expansion of another form, for delta X' = - y^k delta
 // a_k and delta a_k' = y^l delta a_kl; only third derivatives of the basis ask for an expansion of their own.
 #pragma once

@@ -160,12 +160,13 @@ ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std:
   using S = Lanes<W>;
   const auto between = [&]() ENTS_LAMBDA_INLINE { interleave_copy(last, (W * N * N + steps - 1) / steps); };
   S entries[N * N];
-  ENTS_ROLLED // as in for_each_coordinate()
-      for (int c = 0; c < D; ++c)
-          expand_columns(t, c, between, [&](int m, int n, auto& v) ENTS_LAMBDA_INLINE {
-            if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
-            store(v, entries + (D * n + c) * N + D * m);
-          });
+  // rolled as in for_each_coordinate()
+  ENTS_ROLLED
+  for (int c = 0; c < D; ++c)
+    expand_columns(t, c, between, [&](int m, int n, auto& v) ENTS_LAMBDA_INLINE {
+      if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
+      store(v, entries + (D * n + c) * N + D * m);
+    });
   write_columns<N>(out, leading, used, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entries[i]; });
 }
 #endif

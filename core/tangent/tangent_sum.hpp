@@ -5,13 +5,14 @@
 //
 // normal    D2g = - n_e . DD'rho_e + q G q + q P dxi + dxi P^T q + dxi (H P) dxi,
 //           q_a = n_e . delta rho_e,a,  H_ab = n_e . rho_e,ab,  G = g A_e^-1,  P = G H - 1
-//           (D2g of theory section 2 with p eliminated in favour of dxi: no difference of large numbers is
-//           left where g is small)
+//           (D2g of theory.md, section 3, with p eliminated in favour of dxi: no difference of large numbers
+//           is left where g is small)
 //           = - n_e . DD'rho_e + g sum_a qq_a qq_a + sum_a (dxi^a Y_a + Y_a dxi^a),
 //           qq = C^-1 q with A_e = C C^T,  Y = P^T q + H P dxi / 2
 // small gap the same with G = 0, P = -1 and dxi = A_e^-1 p
 // shadow    C . (D2 of the ray's equations) with the covector C = b c + t_a onto^a: G = 0, P = -1, and the
-// terms of a ray that turns D2xi      of the normal projection: second_xi.hpp
+//           terms of a ray that turns
+// D2xi      of the normal projection: second_xi.hpp
 #pragma once
 
 #include "core/law/contact_point.hpp"

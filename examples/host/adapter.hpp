@@ -18,8 +18,7 @@ std::vector<std::string> adapter_names();
 /// Put the adapter of this name between `library` and its users. Models that are made later are written for
 /// it as ents_k.json into a folder of their own, which is removed when the program ends.
 /// @throws InputError for a name that is none, JobError if the adapter's library is not there; later
-/// InputError for a
-///         model that elements of that program cannot have, JobError where the program would end the job
+///         InputError for a model that elements of that program cannot have, JobError where the program would end the job
 void install_adapter(EntsLibrary& library, const std::string& name);
 
 } // namespace host

@@ -40,7 +40,7 @@ std::string describe(const SurfaceExtent& extent);
 /// Tell on stderr which maps of a scene are too small, as `describe` does of a model; heights are not
 /// sampled.
 /// @param of_segments  [segments][m][d-1] surface coordinates of a master that deforms; empty: the model's
-/// own, else s = xi
+///                     own, else s = xi
 void note_small_maps(const Scene& scene, const std::vector<double>& of_segments);
 
 Json extent_json(const SurfaceExtent& extent);

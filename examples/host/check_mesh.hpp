@@ -24,9 +24,8 @@ struct MasterSurface {
 };
 
 /// @param file     .json: {"nodes": [[x, y], ...], "segments": [[0, 1], ...]} and, if wanted,
-/// "surface_coordinates": one
-///                 entry per node; else an Abaqus/CalculiX deck whose elements are the segments; empty: one
-///                 segment whose nodes lie at their natural coordinates
+///                 "surface_coordinates": one entry per node; else an Abaqus/CalculiX deck whose elements are
+///                 the segments; empty: one segment whose nodes lie at their natural coordinates
 /// @param segment  of the model
 /// @throws InputError naming file and key or line
 MasterSurface read_surface(const std::filesystem::path& file, const std::string& segment,

@@ -10,7 +10,7 @@ namespace host {
 /// "this scene needs: ...", "it does not need: ..." (unless it needs all), each thing with its why, and
 /// "kernels: ...": three lines.
 /// @param law  has the model one of contact? Without, it is a surface, and nothing says what its elements
-/// will take
+///             will take
 std::string describe_needs(const ents_layout& layout, bool law);
 
 /// {"needs": [..], "does_not_need": [..], "instruction_set": ".."}; names are those of the bits, in small

@@ -34,9 +34,9 @@ public:
 
   /// @param slaves  [slaves][d] positions
   /// @param at      in: the projections of before, which are followed; segment -1: all segments are searched.
-  /// out: the present ones
+  ///                out: the present ones
   /// @return the first slave that is lost: behind an edge, or one that had a segment and is beside all of
-  /// them
+  ///         them
   /// @throws JobError with the library's message
   Lost find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const;
 

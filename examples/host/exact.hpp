@@ -3,8 +3,8 @@
 // quantities. E* = E / (1 - nu^2), in plane stress E.
 //   Hertz, line and point contact: K. L. Johnson, Contact Mechanics, 1985, sections 4.2(a), 4.2(c);
 //   Westergaard's sinusoidal surface in plane strain: ibid., section 13.2;
-//   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985)
-//   383.
+//   double sine, full contact: K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci.
+//     27 (1985) 383.
 #pragma once
 
 #include <limits>

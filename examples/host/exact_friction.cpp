@@ -7,9 +7,9 @@
 //   a^2 = 4 P R / (pi E*),  p0 = 2 P / (pi a),  stick for |x| <= c = a sqrt(1 - Q / (mu P)),
 //   q = mu p0 (sqrt(1 - x^2/a^2) - (c/a) sqrt(1 - x^2/c^2)).
 // An elliptical traction of total Q on |x| <= a moves the surface of one half-plane by (ibid., 2.25b)
-//   u(x) = -2 (1 - nu^2) / (pi E) Q f(x, a) + constant,  f = ln(a/2) - 1/2 + x^2/a^2 |x| <= a,
-//                                f = ln((|x| + r)/2) - 1/2 + |x| (|x| - r) / a^2,  r = sqrt(x^2 - a^2) |x| >
-//                                a,
+//   u(x) = -2 (1 - nu^2) / (pi E) Q f(x, a) + constant,
+//     f = ln(a/2) - 1/2 + x^2/a^2                                             |x| <= a,
+//     f = ln((|x| + r)/2) - 1/2 + |x| (|x| - r) / a^2,  r = sqrt(x^2 - a^2)   |x| > a,
 // so the stick zone moves relative to the points at |x| = L of its own surface by
 //   2 (1 - nu^2) / (pi E) (mu P (f(L, a) - f(0, a)) - (mu P - Q) (f(L, c) - f(0, c))).
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Torque and axial force of a screw: a rigid helix whose flanks are inclined by beta in an axial section
 // slides in its nut (e.g. VDI 2230; Shigley, Mechanical Engineering Design: square and inclined threads),
 //   T / F = r (tan a + mu sec b) / (1 - mu sec b tan a)   tightened,
-//   T / F = r (mu sec b - tan a) / (1 + mu sec b tan a)   loosened,   tan a = lead / (2 pi r), tan b = tan
-//   beta cos a
+//   T / F = r (mu sec b - tan a) / (1 + mu sec b tan a)   loosened,
+//   tan a = lead / (2 pi r),  tan b = tan beta cos a
 // at the radius r at which the flanks carry on average; below mu = tan a cos b the second is negative: the
 // load turns the screw.
 #include <algorithm>

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 /// Parse a file whose outermost value is an object.
 /// @throws InputError naming it: a syntax error, a duplicate key, a device, or more than any input of this
-/// program takes (the limits stand in json_reader.cpp)
+///         program takes (the limits stand in json_reader.cpp)
 Json parse_json_file(const std::filesystem::path& file);
 
 /// The same from text; `name` stands for the file in messages.

@@ -18,7 +18,7 @@ std::string checkpoint_text(const Simulation& simulation, int step);
 
 /// @return the step it was written after
 /// @throws InputError naming the file: no checkpoint, damaged, of another scene, or of other steps up to
-/// there
+///         there
 int read_checkpoint(const std::filesystem::path& file, Simulation& simulation);
 
 } // namespace host

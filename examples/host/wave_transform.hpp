@@ -16,8 +16,9 @@ enum class Grid {
 
 /// F, the matrix of the modes [points][modes]:
 ///   nodes     sqrt(a_m / n) cos(pi m i / n), a = 1 for m = 0 and m = n, else 2;  F^T W F = 1 with the
-///   weights W cells     sqrt(a_m / n) cos(pi m (i + 1/2) / n), a = 1 for m = 0, else 2;  F^T F = 1 periodic
-///   exp(2 pi i m j / n) / sqrt(n);  F^* F = 1
+///             weights W
+///   cells     sqrt(a_m / n) cos(pi m (i + 1/2) / n), a = 1 for m = 0, else 2;  F^T F = 1
+///   periodic  exp(2 pi i m j / n) / sqrt(n);  F^* F = 1
 class WaveTransform {
 public:
   /// @param nx, ny  cells

@@ -7,8 +7,8 @@
 // their derivatives exactly (implicit function theorem): r(xi, u) = 0, d xi = F_,xixi^-1 d r. At the
 // projection x_s - rho_e = g n_e, so that with d = x_s - rho_e the residual is  R = A eps d . delta d  at
 // fixed xi, and
-//   d . delta (h n) = q_a . delta a_a,   p = h (d - n (n . d)) / |m|,   q_1 = a_2 x p,  q_2 = p x a_1   (2D:
-//   p turned by -90 degrees).
+//   d . delta (h n) = q_a . delta a_a,   p = h (d - n (n . d)) / |m|,
+//   q_1 = a_2 x p,  q_2 = p x a_1   (2D: q_1 = p turned by -90 degrees).
 // Neither second derivatives of the height nor n_e are needed.
 #pragma once
 

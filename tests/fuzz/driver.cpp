@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Runs a fuzz target without libFuzzer: random changes of the seeds, blindly. It understands the options of
 // libFuzzer that the tests use, and like libFuzzer it keeps the input that ended the program:
-//   NAME [-max_total_time=SECONDS] [-runs=N] [-seed=N] [-timeout=SECONDS] [-artifact_prefix=PATH] [FILE or
-//   FOLDER ...]
+//   NAME [-max_total_time=SECONDS] [-runs=N] [-seed=N] [-timeout=SECONDS] [-artifact_prefix=PATH]
+//        [FILE or FOLDER ...]
 // Seeds are run as they are first. Without a time and a number of runs only they are: NAME FILE repeats a
 // failure.
 #include <algorithm>

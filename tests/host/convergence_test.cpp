@@ -13,8 +13,7 @@ namespace host::convergence_test {
 namespace {
 
 /// @param divisions  each twice the one before and odd: with one segment more or less than a doubling the
-/// ratio of lengths is exact,
-///                   and no mesh line lies where the axis of symmetry is
+///                   ratio of lengths is exact, and no mesh line lies where the axis of symmetry is
 void expect_second_order(const std::string& scene, const std::string& divisions) {
   const Json result = test::run_scene(scene, "--compare" + (divisions.empty() ? "" : " " + divisions));
   const Json& rows = result.at("explicit");

@@ -63,7 +63,7 @@ Loop loop(double share) {
 
 // The area of a loop is a small difference (k^3/3 at first) and asks for more than the forces do:
 // * the trapezoidal rule over 8 steps misses 1.7 % of it (3 % of load and unload with 4 steps each),
-// Simpson's rule some tenths of a per cent;
+//   Simpson's rule some tenths of a per cent;
 // * the common surface of the bodies turns under the shear traction by up to
 //   (1 - 2 nu) (1 + nu) q / E = 9e-4; the normal force has a component of that part along it, 0.3 % of Q, to
 //   whose fourth power the area is nearly proportional. The exact solution neglects rotations. At a tenth of

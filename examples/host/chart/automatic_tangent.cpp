@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library finds the projection xi, in double precision, and says what is in contact. From there, with d =
-// x_s - rho_e:
-//   r_a(xi, x_s) = rho_e,a . d = 0  in numbers with derivatives along xi and x_s   ->  d xi / d x_s (implicit
-//   function theorem) R = A eps d                     in numbers with derivatives along x_s          ->  K
+// The library finds the projection xi, in double precision, and says what is in contact. From there, with
+// d = x_s - rho_e:
+//   r_a(xi, x_s) = rho_e,a . d = 0  in numbers with derivatives along xi and x_s   ->  d xi / d x_s
+//                                   (implicit function theorem)
+//   R = A eps d                     in numbers with derivatives along x_s          ->  K
 #include "chart/automatic_tangent.hpp"
 
 #include <algorithm>

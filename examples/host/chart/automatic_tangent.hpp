@@ -12,7 +12,7 @@ namespace host::chart {
 class AutomaticTangent {
 public:
   /// @param scene  a rigid quad4 master whose height is a sine or a product of sines, with a penalty,
-  /// frictionless
+  ///               frictionless
   /// @throws JobError for another scene
   AutomaticTangent(const EntsLibrary& library, const Scene& scene);
   ~AutomaticTangent();

@@ -12,7 +12,7 @@ namespace host::chart {
 /// too few.
 /// @param share  positive
 /// @return their number; 0: the master is not rigid or has no height, or 1024 in each direction are not
-/// enough
+///         enough
 std::size_t segments_that_follow(const EntsLibrary& library, const Scene& scene, double share);
 
 } // namespace host::chart

@@ -12,7 +12,7 @@ namespace host::chart {
 
 /// Runs that no other beats in price and error together, cheapest first.
 /// @param price  of a run; runs without error (failed, or the truth itself) or with another tangent than the
-/// exact one are left out
+///               exact one are left out
 std::vector<const WorkRun*> pareto_front(const std::vector<WorkRun>& runs,
                                          const std::function<double(const WorkRun&)>& price);
 

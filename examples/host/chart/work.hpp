@@ -135,9 +135,9 @@ struct Work {
 
 /// Solve a problem in all its ways; the runs are repeated in turns, so that a busy minute hits all of them.
 /// @param repetitions  of runs that take less than 1.5 s (if more than one: two more below 0.3 s); longer
-/// ones are solved once
+///                     ones are solved once
 /// @return the quantity of the problem itself, then the contact area and the shares of the error where they
-/// are known: other errors of the same runs
+///         are known: other errors of the same runs
 std::vector<Work> measure(const Problem& problem, const EntsLibrary& library, int repetitions,
                           const std::function<void(const std::string&)>& progress);
 
