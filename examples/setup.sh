@@ -4,29 +4,36 @@ set -eu
 
 usage() {
   cat <<'HELP'
-usage: sh examples/setup.sh [--target NAME] [--with PACKAGE] [--try PACKAGE] [-DNAME=VALUE ...]
+usage: sh examples/setup.sh [--configuration NAME] [--target NAME ...] [--with PACKAGE] [--try PACKAGE] [-DNAME=VALUE ...]
 
 Installs what is missing from Debian's packages (as root, or through sudo when it asks for no password), configures and builds the
 library, the reference host, the benchmark and the tests in build/; with --target, only that and what it needs; with --with, that
-package, too; with --try, that package, too, if it can be had. -D... goes to CMake:
+package, too; with --try, that package, too, if it can be had. A configuration is an initial cache of CMake, and has a folder of its own;
+tests/configurations/README.md says what each costs:
+  --configuration native                 build/: what is built without this option
+  --configuration dev                    build-dev/: to change the sources
+  --configuration release                build-release/: for every processor of this family, without tests; what packages are made of
+  --configuration asan                   build-asan/: under the address and undefined-behaviour sanitizers
+-D... goes to CMake:
   -DENTS_WERROR=ON                       warnings are errors
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
   -DENTS_INSTRUCTION_SETS=all            kernels for every processor of this family, as in packages; default: for this processor, in
                                          about half the time
   -DENTS_GROUPED=OFF                     every source file of ents-host and of the tests on its own: sooner built after a change of
                                          one, in twice the time from nothing
-They stay in force in build/ until changed or until build/ is removed. Packages that are used where they are installed:
+They stay in force until changed or until the folder is removed. Packages that are used where they are installed:
   --with libtrilinos-sacado-dev          Sacado, which ents-bench --differentiation compares with
 
 exit status: 0 built; 1 the build failed; 2 a package is missing and cannot be installed, or the command line is wrong
 HELP
 }
 
-target=all with='' try=''
+targets='' with='' try='' configuration=native
 while [ $# -ge 2 ]; do
   case $1,$2 in
     *,-*) break ;;
-    --target,*) target=$2 ;;
+    --configuration,*) configuration=$2 ;;
+    --target,*) targets="$targets $2" ;;
     --with,*) with="$with $2" ;;
     --try,*) try="$try $2" ;;
     *) break ;;
@@ -37,13 +44,21 @@ for option; do
   case $option in
     -h | --help) usage; exit 0 ;;
     -D?*) ;;
-    --target) echo "setup.sh: --target needs a NAME and stands before -D..." >&2; exit 2 ;;
+    --target | --configuration) echo "setup.sh: $option needs a NAME and stands before -D..." >&2; exit 2 ;;
     --with | --try) echo "setup.sh: $option needs a PACKAGE and stands before -D..." >&2; exit 2 ;;
     *) echo "setup.sh: unknown option '$option'" >&2; usage >&2; exit 2 ;;
   esac
 done
 
 cd "$(dirname "$0")/.."
+cache=tests/configurations/$configuration.cmake
+if [ ! -f "$cache" ]; then
+  echo "setup.sh: there is no configuration '$configuration'; write one of:" \
+    "$(cd tests/configurations && echo *.cmake | sed 's/\.cmake//g')" >&2
+  exit 2
+fi
+build=build
+[ "$configuration" = native ] || build=build-$configuration
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
@@ -93,7 +108,8 @@ else
   echo "== no dpkg here: assuming that the equivalents of these Debian packages are installed:" $packages
 fi
 
-if [ -f build/CMakeCache.txt ]; then echo "== building in build/"; else echo "== building in build/ (the first time takes some minutes)"; fi
-[ -f build/CMakeCache.txt ] || set -- -G Ninja -DENTS_INSTRUCTION_SETS=native -DENTS_GROUPED=ON "$@"
-cmake -S . -B build "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
-cmake --build build --target "$target" --parallel "$(nproc)" || exit 1
+if [ -f $build/CMakeCache.txt ]; then echo "== building in $build/"; else echo "== building in $build/ (the first time takes some minutes)"; fi
+[ -f $build/CMakeCache.txt ] || set -- -G Ninja -C "$cache" "$@"
+cmake -S . -B $build "$@" >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+# shellcheck disable=SC2086 # words
+cmake --build $build --target ${targets:-all} --parallel "$(nproc)" || exit 1

@@ -1,0 +1,10 @@
+# To change the sources: every file on its own, warnings are errors, and ccache where it is installed.
+set(ENTS_INSTRUCTION_SETS native CACHE STRING "")
+set(ENTS_GROUPED OFF CACHE BOOL "")
+set(ENTS_WERROR ON CACHE BOOL "")
+find_program(ENTS_CCACHE ccache)
+if(ENTS_CCACHE)
+  foreach(language C CXX)
+    set(CMAKE_${language}_COMPILER_LAUNCHER ${ENTS_CCACHE} CACHE STRING "")
+  endforeach()
+endif()
