@@ -26,7 +26,8 @@ namespace ents {
 #define ENTS_NAME(member, Formula) member,
 enum class HeightKind : std::int32_t {
   none,
-  ENTS_FORMULA_HEIGHTS(ENTS_NAME) polynomial,
+  ENTS_FORMULA_HEIGHTS(ENTS_NAME) // the formulas
+  polynomial,
   map,
   profile,
   sum,

@@ -38,8 +38,7 @@ enum class FrictionKind : std::int32_t {
 struct Wear {
   bool on = false;
   double coefficient = 0.0; // k [L^2/F]
-  double implicit =
-      1.0; // weight of the pressure at the end of the increment: 1 implicit, 1/2 trapezoidal, 0 explicit
+  double implicit = 1.0;    // weight of the end's pressure: 1 implicit, 1/2 trapezoidal, 0 explicit
   double slave = 1.0;   // part of the depth that the slave surface loses, the master surface loses the rest
   double sliding = 0.0; // [L] per increment, beside and perpendicular to that of the slave on the master
 };
@@ -58,11 +57,11 @@ struct LawRates {
 // Numbers that hold for one slave node: ents_input.slave_values
 namespace slave_value {
 enum : std::int32_t {
-  offset,
-  wear,
-  sliding,
-  scale
-}; // added to the law's offset; factors of k and of `sliding`; of a table's gaps and pressures
+  offset,  // added to the law's offset
+  wear,    // factor of k
+  sliding, // factor of `sliding`
+  scale    // factor of a table's gaps and pressures
+};
 }
 
 // A point of a table, derivatives of W by the gap: law_table.hpp
