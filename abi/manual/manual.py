@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build the manual: the READMEs, theory.md, and a reference of ents.h, as HTML with a search.
+"""Build the manual: the READMEs, the pages of this folder, and a reference of ents.h, as HTML with a search.
 
 usage: manual.py --version X.Y.Z --out FOLDER        -> FOLDER/html/README.html
 
@@ -20,6 +20,7 @@ ROOT = HERE.parents[1]
 CHAPTERS = {  # title in the list of contents: texts
     "Learn": ["abi/manual/theory", "abi/README", "core/README", "abi/manual/reference"],
     "Host programs": ["adapters/README", "adapters/python/README", "abi/manual/python", "adapters/deck/README", "adapters/calculix/README"],
+    "Maintain": [".github/CONTRIBUTING", "abi/manual/decisions", "abi/manual/changes", "tests/configurations/README", "abi/manual/cite"],
     "Examples and evidence": ["examples/README", "examples/host/README", "examples/slide/README", "tests/README", "tests/bench/README"],
 }
 IN_CONTENTS = {"README", *(name for names in CHAPTERS.values() for name in names)}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""readmes.py ROOT BUILD: what the READMEs show is what is there.
+"""readmes.py ROOT BUILD: what the READMEs show is what is there; of the pages of the manual and of .github, links and commands.
 
 listings   a fenced block of code is a part, unchanged, of a file that its README links to
 links      relative links name files, and headings of READMEs
@@ -185,7 +185,8 @@ def sources(name):
 
 
 targets = "\n".join(path.read_text() for path in sources("CMakeLists.txt"))
-for readme in sources("README.md"):
+pages = [root / ".github" / "CONTRIBUTING.md", *(root / "abi" / "manual" / f"{name}.md" for name in ("changes", "decisions"))]
+for readme in sources("README.md") + pages:
     check_readme(readme)
 check_top(root / "README.md")
 for readme in sources("README.md"):
