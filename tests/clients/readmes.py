@@ -8,6 +8,7 @@ heights    the library accepts every height of the top README
 models     the library accepts every model of a README, {"segment": ...
 python     the indented Python of adapters/python/README.md prints a number
 size       the top README has at most 160 lines; its lines of prose have at most 120 characters
+versions   of library and contract, in the top README and the pages of the manual
 
 BUILD has bin/ with the programs and CTestTestfile.cmake; ENTS_LIBRARY names libents.so. Exit status 3: no NumPy.
 """
@@ -177,6 +178,17 @@ def check_python(file):
         mistakes.append(f"{file.relative_to(root)}: its Python: {done.stdout}{done.stderr}")
 
 
+def check_versions():
+    """The pages that name a version name that of CMakeLists.txt, or the contract of ents.h."""
+    library = re.search(r"VERSION (\d+\.\d+\.\d+)", (root / "CMakeLists.txt").read_text())[1]
+    contract = ".".join(re.findall(r"#define ENTS_CONTRACT_M\w+ (\d+)", (root / "abi" / "ents.h").read_text()))
+    for page, words in (("README.md", ("Version {library}", "contract {contract}")), ("abi/manual/cite.md", ("version {library}",)),
+                        ("abi/manual/changes.md", ("({library}, `ents_version`)", "({contract},", "| {contract} |"))):
+        text = (root / page).read_text()
+        mistakes.extend(f"{page}: does not say \"{word}\"" for word in (w.format(library=library, contract=contract) for w in words)
+                        if word not in text)
+
+
 FOLDERS = ("core", "abi", "adapters", "examples", "tests")  # and nothing of a build
 
 
@@ -189,6 +201,7 @@ pages = [root / ".github" / "CONTRIBUTING.md", *(root / "abi" / "manual" / f"{na
 for readme in sources("README.md") + pages:
     check_readme(readme)
 check_top(root / "README.md")
+check_versions()
 for readme in sources("README.md"):
     check_models(readme)
 check_python(root / "adapters" / "python" / "README.md")
