@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled kernels of ordinary elements (pair.hpp). They exist once per instruction set; the bits of
-// their results are the same.
+// The compiled kernels of blocks of elements: pair_kernel.hpp (penalty and power law), general_block.hpp (any
+// law). They exist once per instruction set; the bits of their results are the same.
 #pragma once
 
 #include "core/model/plan.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ordinary element: projection along the normal from a start next to it, penalty or power law, consistent
-// tangent. It is what nearly all elements of nearly all calls are, so it is written for speed, for one
-// element (S = double) or one per lane; both run the same operations in the same order. Whatever is not
-// ordinary (no start, a projection that needs care, an edge of the range of numbers, an error) is left to
-// evaluate_element().
+// An element on its way to its projection: xi, gap, normal and the surface there, found by Newton's method
+// from a start next to it. It serves every law and both projections, for one element (S = double) or one per
+// lane; both run the same operations in the same order. Whatever is not ordinary (no start, a projection that
+// needs care, an edge of the range of numbers, an error) is left to evaluate_element().
 //
-// F = |x_s - rho_e|^2 / 2 is g^2 / 2 at its minimum, so that with s the weights of delta X = x_s - rho and
-// f_a = - F_,xi_a u
+// evaluate_law() is that of the penalty and the power law under normal projection: F = |x_s - rho_e|^2 / 2 is
+// g^2 / 2 at its minimum, so that with s the weights of delta X = x_s - rho and f_a = - F_,xi_a u
 //   dg dg^T + g D2g = D2F* = F_uu - f F_,xixi^-1 f,   F_uu = s s^T I + sum_k (w_k z_k^T + z_k w_k^T)
 //   K = A [ W'/g D2F* + (W'' - W'/g) dg dg^T ]
 // W'/g is finite where the pressure vanishes with the gap.
@@ -27,7 +26,6 @@ template <int K, class S> ENTS_INLINE Truth<S> minimum_of(const S (&f2)[K], cons
   return both(f2[0] > 1e-8 * metric[0], determinant(f2) > 1e-8 * determinant(metric));
 }
 
-// An element on its way through.
 template <class B, bool H, class S> struct Pair {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   const PairNodes<B, S>& nodes;
