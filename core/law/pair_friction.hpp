@@ -10,7 +10,7 @@
 //
 //   R = A W' dg + t_a dxi^a,   dxi^a = M^ab f_b,  M = F_,xixi^-1
 //   K = A W'/g D2F* [+ law] + dxi^a dt_a + t_a D2xi^a
-// with, y = - M t and ' the derivative along y (theory.md, section 5),
+// with, y = - M t and ' the derivative along y (theory.md, section 3),
 //   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
 // All but the last expansion to dofs happens in the reduced space of forms.hpp.
 #pragma once

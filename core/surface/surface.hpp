@@ -5,7 +5,7 @@
 // and unit normal n (D stands for a variation by the dofs or for a derivative by xi):
 //   D n  = - a^k (n . D a_k)                                            from n . a_k = 0
 //   DD'n = - n (Dn . D'n) - a^k (Dn . D'a_k + D'n . Da_k + n . DD'a_k)  the same, once more
-// They replace the projector formulae of theory.md, section 3; the two agree term by term.
+// theory.md, section 1, has them, and the same from the area vector a_1 x a_2.
 #pragma once
 
 #include "core/height/height.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The forms (forms.hpp) of which the tangent of Coulomb friction is the sum of products, with, y = - M t and
-// ' the derivative along y (theory.md, section 5),
+// ' the derivative along y (theory.md, section 3),
 //   t_a D2xi^a = F_uu' - dxi^a f'_a - f'_a dxi^a + F'_ab dxi^a dxi^b .
 //   x_a = dxi^a = M^ab f_b
 //   Y_a = - f'_a + (F'_ab - (A W'/g) F_,ab) x_b / 2
