@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is an enrichment admissible on a segment? Conditions of section 3 and Fig. 4 of the paper (theory.md,
-// section 10), measured on a regular grid of natural coordinates.
+// Is an enrichment admissible on a segment? Conditions of section 3 and Fig. 4 of the paper
+// (theory.md, section 10), measured on a regular grid of natural coordinates.
 #pragma once
 
 #include "core/model/plan.hpp"
