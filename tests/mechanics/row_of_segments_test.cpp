@@ -145,8 +145,8 @@ INSTANTIATE_TEST_SUITE_P(Basis, PartsOfASegment,
                          [](const auto& parameter) { return parameter.param; });
 
 // Neighbouring smoothed segments with a height: the points of rho_e meet where rho has a common normal (C1),
-// the normals n_e where it has a common curvature (C2). A surface that is only C1 has kinks in n_e where h is not
-// zero (theory.md, section 10).
+// the normals n_e where it has a common curvature (C2). theory.md, section 10: C1 smoothing leaves kinks in n_e
+// where h is not zero.
 TEST(SmoothedSegments, MeetAtTheirEnds) {
   Random random(83);
   double largest_kink = 0.0;
