@@ -2,7 +2,7 @@
 // FreeFEM's plugin "ents": types and functions of the language. What they do is in border_contact.cpp.
 //
 //   load "ents"
-//   EntsContact contact(Th, slave, master, "model.json");           // labels of two borders of Th
+//   EntsContact contact(Th, slave, master, "model.json");  // labels of two borders of Th
 //   real factor = entsForces(contact, u[], r, I, J, C);    // r += R, triplets of K; factor < 1: cut the step
 //   entsAccept(contact);                                   // the increment has converged: its history counts
 //   entsReject(contact);                                   // or it is thrown away: back to its begin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every scene of Part 1 against its exact solution, and Newton's iteration on it.
+// Frictionless scenes against their exact solutions, and Newton's iteration on them.
 #include <cmath>
 #include <vector>
 
