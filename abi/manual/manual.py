@@ -87,7 +87,7 @@ def mathml(text):
     drawn = iter(re.findall(r"<math.*?</math>", done, re.S))
 
     def one(match):
-        element = next(drawn).replace("\n", " ")
+        element = next(drawn).replace("\n", " ").replace("|", "&#124;")  # a bar would end the cell of a table
         return f'\n<div class="formula">{element}</div>\n' if match[1] else element
     return re.sub(r"\$\$(.+?)\$\$|\$([^$\n]+?)\$", one, text, flags=re.S)
 

@@ -303,3 +303,20 @@ def one_side(truth):
     if np.all(truth) != np.any(truth):
         raise ValueError("some elements of a case are on either side of a switch")
     return bool(np.all(truth))
+
+
+def worn_pressure(law, g, multiplier, wear, moved_by, metric, unit):
+    """Section 7.1: p, from the gap, the motion D^a and A_ab."""
+    T = len(metric)
+    slid = sqrt(sum(metric[a][b] * moved_by[a] * moved_by[b] for a in range(T) for b in range(T)) + wear["sliding"] ** 2)
+    known = g + wear["depth"] + wear["chi"] * slid * (1 - wear["beta"]) * wear["pressure"]
+    share, p = wear["beta"] * wear["chi"] * slid, 0.0 * g
+
+    def miss(p):
+        return p + derivative_of_energy(law, known + share * p, multiplier + 0.0 * g, unit, "gap")
+
+    step = 1e-7
+    for _ in range(30):  # each is exact for one unit more, once the value is
+        slope = (value(miss(p + step)) - value(miss(p - step))) / (2 * step)
+        p = p - miss(p) * (1.0 / slope)
+    return p

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The laws, friction and tangents of sections 4 and 5 of abi/manual/theory.md as that page states them, for one element."""
+"""The laws, friction and tangents of sections 4, 5, 6 and 7.1 of abi/manual/theory.md as that page states them, for one element."""
 import numpy as np
 
 from theory_formulas import SecondXi, solve, symmetric
@@ -133,3 +133,40 @@ def short_tangent(normal, law, area, w, friction):
         return total
     f = Friction(normal, law, w, area, -area * W1, np.zeros(p.T), False)
     return SecondXi(normal, f.t).matrix(k) + normal.dxi.T @ f.dt(-f.by_pressure * m * k * normal.dg) + np.outer(gamma, gamma)
+
+
+def worn_tangent(variations, law, area, multiplier, wear, w):
+    """Section 7.1, with friction where w is not None."""
+    v, p, D = variations, variations.p, wear["moved"]
+    way = D @ p.e
+    slid = np.sqrt(way @ way + wear["sliding"] ** 2)
+    m = way / slid
+    dslid = sum((m @ (p.e[c] + sum(D[b] * p.e2[b, c] for b in range(p.T)))) * v.dxi[c] + D[c] * p.expand(p.form_of_slope(c, m)) for c in range(p.T))
+    known = v.g + wear["depth"] + wear["chi"] * slid * (1 - wear["beta"]) * wear["pressure"]
+    share, pressure = wear["beta"] * wear["chi"] * slid, 0.0
+    for _ in range(60):
+        _, W1, W2 = law_numbers(law, known + share * pressure, multiplier)
+        pressure -= (pressure + W1) / (1 + share * W2)
+    by_gap = area * W2 / (1 + share * W2)
+    by_slid = by_gap * wear["chi"] * ((1 - wear["beta"]) * wear["pressure"] + wear["beta"] * pressure)
+    change = by_gap * v.dg + by_slid * dslid
+    if w is None:
+        return np.outer(v.dg, change) + v.D2(-area * pressure, np.zeros(p.T))
+    f = Friction(v, law, w, area, area * pressure, np.zeros(p.T), False)
+    return np.outer(v.dg, change) + v.D2(-area * pressure, f.t) + v.dxi.T @ f.dt(-f.by_pressure * change)
+
+
+def cross_matrix(v):
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def rigid_tangent(Q, d, force, tangent):
+    """Section 6; force and tangent: phi and its derivative in the frame of the body."""
+    n = len(d)
+    spins = [2] if n == 2 else [0, 1, 2]
+    K, f = np.zeros((3, 3)), np.zeros(3)
+    K[:n, :n], f[:n] = Q[:n, :n] @ tangent @ Q[:n, :n].T, Q[:n, :n] @ force
+    D, F = cross_matrix(np.append(d, [0.0] * (3 - n))), cross_matrix(f)
+    X, Y = K @ D - F, F - D @ K
+    K, X_n, Y_n = K[:n, :n], X[:n, spins], Y[spins, :n]
+    return np.block([[K, -K, X_n], [-K, K, -X_n], [Y_n, -Y_n, -(D @ X)[np.ix_(spins, spins)]]])

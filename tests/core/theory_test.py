@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""theory_test.py ROOT [SEED]: the formulas of sections 3, 4 and 5 of abi/manual/theory.md (theory_formulas.py) against
-derivatives of what its sections 1, 2, 4 and 5 define (theory_definitions.py), without the library.
+"""theory_test.py ROOT [SEED]: the formulas of sections 3, 4 and 5 of abi/manual/theory.md (theory_formulas.py, theory_laws.py) and the
+tangents of its sections 6 and 7.1 against derivatives of what the page defines (theory_definitions.py), without the library.
 
 exact        derivatives by numbers whose units have the square zero (theory_numbers.py): 1e-12 of the largest entry
 differences  nested differences of order six of the projection in floating-point numbers: 1e-7 of the sum of the products
@@ -22,105 +22,23 @@ except ModuleNotFoundError as error:
     print(f"theory_test.py: {error} (Debian: python3-numpy)")
     sys.exit(3)
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import theory_cases as cases  # noqa: E402
 import theory_definitions as definitions  # noqa: E402
 import theory_formulas as formulas  # noqa: E402
 import theory_laws as laws  # noqa: E402
-from theory_numbers import Nil, moved, value  # noqa: E402
+from theory_cases import DIFFERENCES, Case, Checked, random_law  # noqa: E402
+from theory_numbers import moved, value  # noqa: E402
 
 ROOT = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parents[2]
-SEED = int(sys.argv.pop(1)) if len(sys.argv) > 1 else 20260
-EXACT, DIFFERENCES = 1e-12, 1e-7
-MOST_PAIRS = 60  # of unknowns, per case
+if len(sys.argv) > 1 and sys.argv[1].isdigit():
+    cases.SEED = int(sys.argv.pop(1))
 OFFSETS, FACTORS = np.array([-3, -2, -1, 1, 2, 3]), np.array([-1 / 60, 3 / 20, -3 / 4, 3 / 4, -3 / 20, 1 / 60])
-worst = {}
-
-
-class Case:
-    """A random element at its projection."""
-
-    def __init__(self, rng, basis, height="sine", ray=None, gap=None, coordinates=False):
-        b = self.basis = definitions.BASES[basis]
-        self.name = f"{basis}, {height}, {ray or 'normal'}"
-        linear = [[1.0 if e == tuple(int(c == a) for c in range(b.T)) else 0.0 for e in b.exponents] for a in range(b.T)]
-        flat = np.linalg.lstsq(b.coefficients.T, np.array(linear).T, rcond=None)[0]  # the nodes of rho = xi
-        turn = np.linalg.qr(rng.normal(size=(b.D, b.D)))[0]
-        turn[:, 0] *= np.linalg.det(turn)
-        nodes = np.hstack([flat, np.zeros((b.nodes, 1))]) + 0.08 * rng.uniform(-1, 1, (b.nodes, b.D))
-        s = flat + 0.1 * rng.uniform(-1, 1, flat.shape) if coordinates else None
-        self.surface = definitions.Surface(b, definitions.HEIGHTS[height], s)
-        xi = rng.uniform(0.15, 0.4, b.T) if b.simplex else rng.uniform(-0.6, 0.6, b.T)
-        self.gap = gap if gap is not None else rng.uniform(-0.12, -0.05)
-        x = np.vstack([np.zeros(b.D), nodes @ turn.T + rng.normal(size=b.D)])
-        at = formulas.Point(self.surface, x, xi)
-        foot = x[0] - at.d
-        self.e, self.q, self.ray = None, 0.0, None
-        along = at.n_e
-        if ray:
-            along = at.n_e + 0.4 * rng.uniform(-1, 1, b.D)
-            along = self.e = along / np.linalg.norm(along)
-        x[0] = foot + self.gap * along
-        if ray == "direction":
-            self.ray = ("direction", self.e)
-        elif ray == "emitter":
-            distance = rng.uniform(1.0, 2.0)
-            self.q, self.ray = 1 / distance, ("emitter", x[0] + distance * self.e)
-        self.projection = definitions.Projection(self.surface, self.ray)
-        self.x = x
-        self.xi = self.projection.solve(x, xi, iterations=2)
-        self.point = formulas.Point(self.surface, x, self.xi)
-        self.variations = formulas.Normal(self.point) if ray is None else formulas.Shadow(self.point, self.e, self.q)
-
-    def dofs(self):
-        return self.x.size
-
-    def pairs(self, rng, others=0):
-        """Pairs of unknowns; the second may be one of `others` that follow those of the nodes."""
-        n = self.dofs()
-        every = list(itertools.product(range(n), range(n + others)))
-        chosen = rng.choice(len(every), min(MOST_PAIRS, len(every)), replace=False)
-        pairs = [every[k] for k in chosen] + [(k % n, n + k) for k in range(others)]
-        return np.array([p[0] for p in pairs]), np.array([p[1] for p in pairs])
-
-    def varied(self, first, second, vary_xi=True):
-        """x and xi with the units 1 and 2 along the unknowns `first` and `second`."""
-        n, count = self.dofs(), len(first)
-        c = np.zeros((4, count, n))
-        c[0] = self.x.ravel()
-        c[1, range(count), first] = 1.0
-        inner = second < n
-        c[2, np.flatnonzero(inner), second[inner]] = 1.0
-        x = Nil(c.reshape(4, count, *self.x.shape))
-        if vary_xi:
-            return x, self.projection.solve(x, self.xi, 2)
-        return x, Nil(np.array([self.xi + np.zeros((count, self.basis.T))] + [np.zeros((count, self.basis.T))] * 3))
-
-
-def random_law(rng, kind, contact=True):
-    law = {"type": kind, "contact": contact, "eps": rng.uniform(5, 20), "m": rng.choice([1.5, 2.0, 2.5, 3.0]), "p0": 2.0, "c0": 0.4, "r": 1.3,
-           "mu": 0.3, "eps_t": 7.0}
-    if kind == "table":
-        law["table"] = definitions.Table([-0.3, -0.2, 0.05, 0.1], [3.0, 1.7, 0.4, 0.0])
-    return law
-
-
-class Checked(unittest.TestCase):
-    def near(self, section, name, got, wanted, scale=None, limit=EXACT):
-        got, wanted = np.asarray(got), np.asarray(wanted)
-        size = np.max(np.abs(wanted)) if scale is None else scale
-        error = np.max(np.abs(got - wanted)) / (size or 1.0)
-        key = (section, "exact" if limit == EXACT else "differences")
-        count, largest = worst.get(key, (0, 0.0))
-        worst[key] = count + 1, max(largest, error)
-        self.assertLessEqual(error, limit, f"section {section}: {name}")
-
-    def rng(self):
-        return np.random.default_rng([SEED, sum(map(ord, self.id()))])
 
 
 class Variations(Checked):
     """Section 3."""
 
-    def cases(self, ray=False):
+    def elements(self, ray=False):
         rng = self.rng()
         for k, basis in enumerate(definitions.BASES):
             heights = ("sine", "gaussian", "product") if ray is False else ("sine", "none")
@@ -130,7 +48,7 @@ class Variations(Checked):
                     yield rng, Case(rng, basis, height, kind, coordinates=k % 2 == 1)
 
     def test_at_fixed_natural_coordinates(self):
-        for rng, case in self.cases():
+        for rng, case in self.elements():
             p, T = case.point, case.basis.T
             first, second = case.pairs(rng)
             x, xi = case.varied(first, second, vary_xi=False)
@@ -161,7 +79,7 @@ class Variations(Checked):
                 self.near("1.2", f"n_,{a} of {case.name}", m1[a] - p.n * along[a], p.area * p.n1[a], scale=p.area)
 
     def test_of_the_projection(self):
-        for rng, case in [*self.cases(), *self.cases(ray=True)]:
+        for rng, case in [*self.elements(), *self.elements(ray=True)]:
             v, T = case.variations, case.basis.T
             first, second = case.pairs(rng)
             x, xi = case.varied(first, second)
@@ -368,8 +286,56 @@ class Tangents(Checked):
             self.near("5.9", "mu / (1 - kappa |g|)", tangential / (-law["eps"] * v.g), law["mu"] / (1 - kappa * abs(v.g)))
 
 
+class OtherTangents(Checked):
+    """Sections 6 and 7.1."""
+
+    def test_wear(self):
+        rng = self.rng()
+        for kind, mode, ray, scheme in itertools.product(("penalty", "power", "exponential", "augmented"), (None, "slip"), (None, "emitter"), (1.0, 0.5, 0.0)):
+            case, law = Case(rng, rng.choice(list(definitions.BASES)), "product", ray), random_law(rng, kind)
+            T, n, area, multiplier = case.basis.T, case.dofs(), rng.uniform(0.5, 2.0), 0.3 if kind == "augmented" else 0.0
+            wear = {"chi": 0.05, "beta": scheme, "depth": 0.01, "pressure": 0.6, "sliding": 0.1, "moved": rng.uniform(0.1, 0.2, T)}
+            law["mu"] = 0.01
+            w = rng.uniform(0.1, 0.2, T) if mode else None
+            K = laws.worn_tangent(case.variations, law, area, multiplier, wear, w)
+            first, second = case.pairs(rng)
+            x, xi = case.varied(first, second)
+            g, metric = case.projection.gap(x, xi, 3)
+            p = definitions.worn_pressure(law, g, multiplier, wear, [xi[..., a] - case.xi[a] + wear["moved"][a] for a in range(T)], metric, 3)
+            wanted = -area * (p.part(2) * g.part(1) + p.part() * g.part(1, 2))
+            if mode:
+                t, slips = definitions.friction_force(law, metric, [xi[..., a] - case.xi[a] + w[a] for a in range(T)], area * p, area, [0.0 * g] * T)
+                self.assertTrue(slips)
+                for a in range(T):
+                    wanted = wanted + t[a].part(2) * xi[..., a].part(1) + t[a].part() * xi[..., a].part(1, 2)
+            self.near("7.1", f"K of {kind}, {mode}, wear {scheme}, {case.name}", K[first, second], wanted, scale=np.max(np.abs(K)))
+
+    def test_rigid_master(self):
+        rng = self.rng()
+        for D in (2, 3):
+            spins = [2] if D == 2 else [0, 1, 2]
+            B, x_s, x_r, Q = rng.normal(size=(D, D)), rng.normal(size=D), rng.normal(size=D), np.eye(3)
+            Q[:D, :D] = np.linalg.qr(rng.normal(size=(D, D)))[0]
+            Q[:, 0] *= np.linalg.det(Q)
+
+            def residual(x_s, x_r, spin):
+                """Of a force phi(y) = sin(B y) in the frame of the body, turned on by a small spin."""
+                turned = (np.eye(3) + laws.cross_matrix(spin)) @ Q
+                f = turned[:D, :D] @ np.sin(B @ (turned[:D, :D].T @ (x_s - x_r)))
+                return np.concatenate([f, -f, -np.cross(np.append(x_s - x_r, [0.0] * (3 - D)), np.append(f, [0.0] * (3 - D)))[spins]])
+
+            y = Q[:D, :D].T @ (x_s - x_r)
+            K = laws.rigid_tangent(Q, x_s - x_r, np.sin(B @ y), np.cos(B @ y)[:, None] * B)
+            columns = []
+            for k in range(2 * D + len(spins)):
+                step = np.zeros(2 * D + 3, dtype=complex)
+                step[k if k < 2 * D else 2 * D + spins[k - 2 * D]] = 1j * formulas.STEP
+                columns.append(residual(x_s + step[:D], x_r + step[D:2 * D], step[2 * D:]).imag / formulas.STEP)
+            self.near("6", f"K in {D}D", K, np.array(columns).T)
+
+
 if __name__ == "__main__":
     result = unittest.main(exit=False, verbosity=1).result
-    for (section, kind), (count, largest) in sorted(worst.items(), key=lambda item: [int(k) for k in item[0][0].split(".")]):
+    for (section, kind), (count, largest) in sorted(cases.worst.items(), key=lambda item: [int(k) for k in item[0][0].split(".")]):
         print(f"section {section:5} {kind:12} {count:6} comparisons, worst {largest:.1e}")
     sys.exit(not result.wasSuccessful())
