@@ -11,7 +11,7 @@ from theory_numbers import Nil
 
 SEED = 20260
 EXACT, DIFFERENCES = 1e-12, 1e-7
-MOST_PAIRS = 60  # of unknowns, per case
+MOST_PAIRS = 40  # of unknowns, per case
 worst = {}
 
 

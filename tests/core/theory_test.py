@@ -291,7 +291,9 @@ class OtherTangents(Checked):
 
     def test_wear(self):
         rng = self.rng()
-        for kind, mode, ray, scheme in itertools.product(("penalty", "power", "exponential", "augmented"), (None, "slip"), (None, "emitter"), (1.0, 0.5, 0.0)):
+        kinds = itertools.product(("penalty", "power", "exponential", "augmented"), (1.0, 0.5, 0.0), (0, 1))
+        for k, (kind, scheme, mode) in enumerate(kinds):
+            ray = (None, "emitter")[(k // 2 + mode) % 2]
             case, law = Case(rng, rng.choice(list(definitions.BASES)), "product", ray), random_law(rng, kind)
             T, n, area, multiplier = case.basis.T, case.dofs(), rng.uniform(0.5, 2.0), 0.3 if kind == "augmented" else 0.0
             wear = {"chi": 0.05, "beta": scheme, "depth": 0.01, "pressure": 0.6, "sliding": 0.1, "moved": rng.uniform(0.1, 0.2, T)}
@@ -308,7 +310,7 @@ class OtherTangents(Checked):
                 self.assertTrue(slips)
                 for a in range(T):
                     wanted = wanted + t[a].part(2) * xi[..., a].part(1) + t[a].part() * xi[..., a].part(1, 2)
-            self.near("7.1", f"K of {kind}, {mode}, wear {scheme}, {case.name}", K[first, second], wanted, scale=np.max(np.abs(K)))
+            self.near("7.1", f"K of {kind}, {'slip' if mode else None}, wear {scheme}, {case.name}", K[first, second], wanted, scale=np.max(np.abs(K)))
 
     def test_rigid_master(self):
         rng = self.rng()
