@@ -8,11 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "keywords.hpp"
 #include "mesh.hpp"
 
 namespace ents_deck {
-
-enum class Program { calculix, abaqus };
 
 struct ContactPair {
   std::string slave, master, interaction;
@@ -21,12 +20,19 @@ struct ContactPair {
   std::optional<double> adjust;         ///< [L] ADJUST=
 };
 
-/// All of *CONTACT PAIR, in the order of the deck.
+/// All of *CONTACT PAIR, in the order of the deck, as they are written.
 std::vector<ContactPair> contact_pairs(const Mesh& mesh);
+
+/// The statement of a pair that becomes elements.
+/// @return what the user has to know of its parameters, a sentence each
+/// @throws Error with the line of what contact elements cannot do
+std::vector<std::string> check_pair(const Mesh& mesh, const ContactPair& pair, Program program);
 
 /// What a law needs to know where the deck leaves a number to the program.
 struct Bodies {
-  double first_young = 0; ///< of the first *ELASTIC; 0: there is none
+  double first_constant =
+      0; ///< of the first material, whatever its law: what ccx's defaults take; 0: there is none
+  bool first_is_young = true;
   double largest_young = 0;
   double face_size = 0; ///< mean size of the master's faces, [L]
 };
@@ -35,6 +41,7 @@ Bodies bodies_of(const Mesh& mesh);
 struct Law {
   nlohmann::ordered_json contact;   ///< key "contact" of a model
   std::vector<std::string> remarks; ///< what was chosen, a sentence each
+  double clearance = 0;             ///< [L] gap at which the pressure begins
 };
 
 /// *SURFACE BEHAVIOR and *FRICTION of the pair's interaction.
@@ -42,9 +49,6 @@ struct Law {
 /// @throws Error with the line for TIED and for tables and behaviours that no law fits
 Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Program program,
            std::optional<double> stiffness);
-
-/// @throws Error with the line of a step, a procedure or a keyword that user elements cannot follow
-void refuse_what_cannot_be_done(const Mesh& mesh, const ContactPair& pair, Program program);
 
 struct Motion {
   Point range{}; ///< [L] of prescribed displacements over all steps, per direction: what one body may slide

@@ -61,13 +61,13 @@ std::vector<ContactPair> wanted_pairs(const Mesh& mesh, const Options& options) 
   }
   std::vector<ContactPair> out;
   for (const auto& [slave, master] : options.pairs) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&, s = upper(slave), m = upper(master)](const ContactPair& p) {
-          return upper(p.slave) == s && upper(p.master) == m;
-        });
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&, s = canonical(slave), m = canonical(master)](const ContactPair& p) {
+                                      return canonical(p.slave) == s && canonical(p.master) == m;
+                                    });
     if (found == all.end()) {
       const bool turned = std::any_of(all.begin(), all.end(), [&](const ContactPair& p) {
-        return upper(p.slave) == upper(master) && upper(p.master) == upper(slave);
+        return canonical(p.slave) == canonical(master) && canonical(p.master) == canonical(slave);
       });
       if (turned)
         throw Error("--pair " + slave + "," + master + ": in the deck '" + master +
@@ -109,7 +109,7 @@ ordered_json raised(ordered_json height, double rise) {
 /// ADJUST=: nodes nearer to the master than that are put on it, as the programs do before they begin.
 void adjust(Mesh& mesh, Contact& contact, std::vector<Move>& moves) {
   if (!contact.pair.adjust) return;
-  const auto set = mesh.node_sets.find(upper(contact.pair.statement->value("ADJUST")));
+  const auto set = mesh.node_sets.find(canonical(contact.pair.statement->value("ADJUST")));
   std::set<int> named;
   if (set != mesh.node_sets.end()) named.insert(set->second.begin(), set->second.end());
   const FacetTree tree(mesh, contact.master.faces);
@@ -156,8 +156,8 @@ int points_per_direction(const Contact& contact, const Options& options) {
 /// One pair: sides, law, patches.
 Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, const ordered_json& base,
                 std::vector<Move>& moves) {
-  refuse_what_cannot_be_done(mesh, pair, options.program);
   Contact out;
+  out.remarks = check_pair(mesh, pair, options.program);
   out.pair = pair;
   out.slave = side_of(mesh, pair.slave, pair.line);
   out.master = side_of(mesh, pair.master, pair.line);
@@ -182,7 +182,8 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
   if (!out.model.contains("contact")) {
     Law law = law_of(mesh, pair, bodies, options.program, options.stiffness);
     out.model["contact"] = std::move(law.contact);
-    out.remarks = std::move(law.remarks);
+    out.remarks.insert(out.remarks.end(), law.remarks.begin(), law.remarks.end());
+    out.rise = law.clearance;
   } else if (options.stiffness) {
     throw Error("--stiffness and \"contact\" of the model contradict each other: leave one out");
   }
@@ -226,7 +227,8 @@ void raise_master(const Mesh& mesh, Contact& contact) {
   const double size = mean_size(mesh, contact.master);
   contact.touch = touch_share * size;
   const Findings found = findings_of(mesh, contact, contact.touch);
-  if (found.touching == 0) return;
+  if (found.touching == 0 || contact.rise > contact.touch)
+    return; // a clearance of the law closes them already
   contact.rise = found.widest_touch + rise_share * size;
   char text[200];
   std::snprintf(
@@ -242,7 +244,9 @@ int dimension_of(const Side& master) { return corner_count(master.faces.at(0).sh
 
 Job convert(const Options& options) {
   Job job;
-  job.mesh = read_mesh(read_source(options.deck));
+  Source source = read_source(options.deck);
+  check_keywords(source, options.program);
+  job.mesh = read_mesh(std::move(source));
   ordered_json base = model_file(options.model);
   resolve_files(base, options.model.parent_path());
   std::map<string, int> by_text;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace ents_deck {
@@ -101,10 +102,12 @@ std::vector<int> nodes_of_elements(const Mesh& mesh, const std::vector<int>& ele
   return out;
 }
 
-/// Faces of *SURFACE, TYPE=ELEMENT. A whole element (face below 0) stands for its free faces.
+/// Faces of *SURFACE, TYPE=ELEMENT, each once, as host programs take one that is named again. A whole element (face
+/// below 0) stands for its free faces.
 std::vector<Face> faces_of_surface(const Mesh& mesh, const Surface& surface) {
   std::vector<Face> out;
   std::map<Key, Face> boundary;
+  std::set<std::pair<int, int>> seen;
   const bool whole =
       std::any_of(surface.facets.begin(), surface.facets.end(), [](const Facet& f) { return f.face < 0; });
   if (whole) {
@@ -114,6 +117,7 @@ std::vector<Face> faces_of_surface(const Mesh& mesh, const Surface& surface) {
   }
   for (const Facet& f : surface.facets) {
     Face face = face_at(mesh, f.element, f.face < 0 ? -1 - f.face : f.face);
+    if (!seen.emplace(face.element, face.face).second) continue;
     if (f.face >= 0 || mesh.kind(f.element) == Kind::shell || boundary.count(key_of(face)) != 0)
       out.push_back(std::move(face));
   }
@@ -189,7 +193,7 @@ Point face_middle(const Mesh& mesh, const Face& face) {
 }
 
 Side side_of(const Mesh& mesh, const std::string& name, Place asked_at) {
-  const std::string key = upper(name);
+  const std::string key = canonical(name);
   Side out{name, {}, {}, {}, asked_at};
   const auto surface = mesh.surfaces.find(key);
   const auto elements = mesh.element_sets.find(key);

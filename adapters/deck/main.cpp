@@ -32,6 +32,18 @@ string counted(std::size_t n, const string& what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+/// CLI11's own check prints the largest double with all its digits.
+CLI::Validator number_from(double least, bool itself) {
+  return CLI::Validator(
+      [least, itself](string& text) {
+        double value = 0;
+        if (parse(text, value) && (value > least || (itself && value == least))) return string();
+        return "expected a number " + string(itself ? "from " : "above ") + shown(least) + ", found '" +
+               text + "'";
+      },
+      "");
+}
+
 /// SLAVE,MASTER; names with commas cannot be named.
 std::pair<string, string> pair_of(const string& text) {
   const std::size_t comma = text.find(',');
@@ -173,10 +185,10 @@ int program(int argc, char** argv) {
       ->type_name("K");
   CLI::Option* out = app.add_option("--out", line.out, "folder of the new job")->type_name("DIR");
   app.add_option("--slide", line.slide, "how far slave nodes slide [from the deck's *BOUNDARY]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from(0, true))
       ->type_name("LENGTH");
   app.add_option("--stiffness", line.stiffness, "of a penalty law [*SURFACE BEHAVIOR, or a proposal]")
-      ->check(CLI::PositiveNumber)
+      ->check(number_from(0, false))
       ->type_name("NUMBER");
   app.add_option("--coordinates", line.coordinates,
                  "surface coordinates of the height: xy, yz ... (positions), cylinder x|y|z (angle, height), "

@@ -56,7 +56,7 @@ private:
 
   string prefix(int instance) const {
     return instance == no_instance ? ""
-                                   : upper(mesh.instances[static_cast<std::size_t>(instance)].name) + ".";
+                                   : canonical(mesh.instances[static_cast<std::size_t>(instance)].name) + ".";
   }
 
   static std::size_t slot(int instance) { return static_cast<std::size_t>(instance + 1); }
@@ -68,6 +68,8 @@ private:
     return value;
   }
 
+  static string article(const string& what) { return (what == "element" ? "an " : "a ") + what; }
+
   string required(const Statement& s, string_view name) const {
     const string out = s.value(name);
     if (out.empty()) fail(s.place, "*" + s.keyword + " needs " + string(name) + "=");
@@ -78,9 +80,9 @@ private:
   int instance_of(string_view& field, int instance) const {
     const std::size_t point = field.find('.');
     if (point == string_view::npos) return instance;
-    const string name = upper(field.substr(0, point));
+    const string name = canonical(field.substr(0, point));
     for (std::size_t i = 0; i < mesh.instances.size(); ++i)
-      if (upper(mesh.instances[i].name) == name) {
+      if (canonical(mesh.instances[i].name) == name) {
         field.remove_prefix(point + 1);
         return static_cast<int>(i);
       }
@@ -91,7 +93,7 @@ private:
     const string name = s.statement->value("INSTANCE");
     if (name.empty()) return s.instance;
     for (std::size_t i = 0; i < mesh.instances.size(); ++i)
-      if (upper(mesh.instances[i].name) == upper(name)) return static_cast<int>(i);
+      if (canonical(mesh.instances[i].name) == canonical(name)) return static_cast<int>(i);
     fail(s.statement->place, "there is no *INSTANCE, NAME=" + name);
   }
 
@@ -99,7 +101,11 @@ private:
            const string& what) const {
     string_view rest = field;
     const int owner = instance_of(rest, instance);
-    const auto found = index[slot(owner)].find(number(place, rest, "a " + what + " number"));
+    std::int64_t id = 0;
+    if (!parse(rest, id) || id < 1)
+      fail(place, "there is no " + what + " set '" + string(field) + "' here, nor is it " + article(what) +
+                      " number; name a set, or write a whole number from 1");
+    const auto found = index[slot(owner)].find(id);
     if (found == index[slot(owner)].end())
       fail(place, what + " " + string(field) + " is not defined in this deck");
     return found->second;
@@ -107,9 +113,9 @@ private:
 
   void nodes(const Scoped& scoped) {
     const Statement& s = *scoped.statement;
-    if (s.has("SYSTEM") && upper(s.value("SYSTEM")) != "R")
+    if (s.has("SYSTEM") && canonical(s.value("SYSTEM")) != "R")
       fail(s.place, "*NODE, SYSTEM=" + s.value("SYSTEM") + " is not read; write rectangular coordinates");
-    const string set = s.value("NSET").empty() ? "" : prefix(scoped.instance) + upper(s.value("NSET"));
+    const string set = s.value("NSET").empty() ? "" : prefix(scoped.instance) + canonical(s.value("NSET"));
     if (!set.empty()) mesh.node_sets[set];
     for (const Line& line : s.lines) {
       const auto fields = fields_of(line.text);
@@ -143,9 +149,9 @@ private:
 
   void elements(const Scoped& scoped) {
     const Statement& s = *scoped.statement;
-    const int type = type_index(upper(required(s, "TYPE")));
+    const int type = type_index(canonical(required(s, "TYPE")));
     const Shape shape = mesh.types[static_cast<std::size_t>(type)].shape;
-    const string set = s.value("ELSET").empty() ? "" : prefix(scoped.instance) + upper(s.value("ELSET"));
+    const string set = s.value("ELSET").empty() ? "" : prefix(scoped.instance) + canonical(s.value("ELSET"));
     if (!set.empty()) mesh.element_sets[set];
     const auto count = static_cast<std::size_t>(node_count(shape));
     std::vector<string_view> entry; // element number and nodes, perhaps from several lines
@@ -224,7 +230,7 @@ private:
       }
     }
     // A set at the level of the assembly has its plain name, one of an instance its instance's before it.
-    auto& target = sets[prefix(scoped.instance) + upper(required(s, key))];
+    auto& target = sets[prefix(scoped.instance) + canonical(required(s, key))];
     set_total_ -= target.size();
     target.insert(target.end(), members.begin(), members.end()); // a set may be given in several pieces
     unique(target);
@@ -256,7 +262,7 @@ private:
 
   /// A set by its name where `instance` looks for it: its own, then the assembly's. Null: there is none.
   template <class T> const T* named(const std::map<string, T>& sets, string_view field, int instance) const {
-    const string name = upper(field);
+    const string name = canonical(field);
     auto found = sets.find(prefix(instance) + name);
     if (found == sets.end()) found = sets.find(name);
     return found == sets.end() ? nullptr : &found->second;
@@ -264,9 +270,15 @@ private:
 
   void surface(const Scoped& scoped) {
     const Statement& s = *scoped.statement;
-    const string type = upper(s.value("TYPE"));
-    Surface& target = mesh.surfaces[prefix(scoped.instance) + upper(required(s, "NAME"))];
-    target.place = s.place;
+    const string type = canonical(s.value("TYPE"));
+    const auto [entry, is_new] =
+        mesh.surfaces.try_emplace(prefix(scoped.instance) + canonical(required(s, "NAME")));
+    Surface& target = entry->second;
+    if (!is_new && target.of_nodes != (type == "NODE"))
+      fail(s.place, "the surface " + s.value("NAME") + " is of " + (target.of_nodes ? "nodes" : "faces") +
+                        " at " + mesh.source.at(target.place) +
+                        " and of the other kind here: give one of them another name");
+    if (is_new) target.place = s.place;
     target.of_nodes = type == "NODE";
     if (!type.empty() && type != "ELEMENT" && type != "NODE")
       return;                                      // analytical: it has neither faces nor nodes
@@ -274,6 +286,11 @@ private:
     const int instance = instance_parameter(scoped);
     for (const Line& line : s.lines) {
       const auto fields = fields_of(line.text);
+      for (std::size_t i = 2; i < fields.size(); ++i)
+        if (!fields[i].empty())
+          fail(line.place, "*SURFACE has an entry " + std::to_string(i + 1) + ", '" + string(fields[i]) +
+                               "', which means nothing here; expected " +
+                               (target.of_nodes ? "node or node set, area" : "element or element set, face"));
       if (target.of_nodes)
         surface_nodes(line, fields, instance, target);
       else
@@ -302,7 +319,7 @@ private:
       members = *set;
     else
       members = {find(line.place, element_index_, fields[0], instance, "element")};
-    const string label = fields.size() > 1 ? upper(fields[1]) : "";
+    const string label = fields.size() > 1 ? canonical(fields[1]) : "";
     for (const int e : members) {
       const Shape shape = mesh.shape(e);
       if (label.empty()) { // all free faces of the element: sorted out where the surface is used

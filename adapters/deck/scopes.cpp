@@ -60,7 +60,7 @@ Scopes scopes_of(const Source& source) {
       open = &s;
     }
     if (k == "PART") {
-      const auto [entry, is_new] = parts.emplace(upper(name()), std::vector<const Statement*>{});
+      const auto [entry, is_new] = parts.emplace(canonical(name()), std::vector<const Statement*>{});
       if (!is_new) source.fail(s.place, "part " + name() + " is defined a second time");
       part = &entry->second;
     } else if (k == "END PART") {
@@ -75,7 +75,7 @@ Scopes scopes_of(const Source& source) {
       Instance in{name(), s.value("PART"), s.place, {}, {}};
       read_placement(source, s, in);
       instance = static_cast<int>(out.instances.size());
-      const auto found = parts.find(upper(in.part));
+      const auto found = parts.find(canonical(in.part));
       if (found == parts.end())
         source.fail(s.place, "there is no *PART, NAME=" + in.part + " before this line");
       for (const Statement* of_part : found->second) out.list.push_back({of_part, instance, true});

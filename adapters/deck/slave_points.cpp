@@ -16,9 +16,10 @@ double thickness_of(const Mesh& mesh, int element) {
   for (const Statement& s : mesh.source.list) {
     if (s.keyword != "SOLID SECTION" || s.lines.empty()) continue;
     const int instance = mesh.elements[static_cast<std::size_t>(element)].instance;
-    const std::string owner =
-        instance == no_instance ? "" : upper(mesh.instances[static_cast<std::size_t>(instance)].name) + ".";
-    const auto set = mesh.element_sets.find(owner + upper(s.value("ELSET")));
+    const std::string owner = instance == no_instance
+                                  ? ""
+                                  : canonical(mesh.instances[static_cast<std::size_t>(instance)].name) + ".";
+    const auto set = mesh.element_sets.find(owner + canonical(s.value("ELSET")));
     if (set == mesh.element_sets.end() ||
         std::find(set->second.begin(), set->second.end(), element) == set->second.end())
       continue;

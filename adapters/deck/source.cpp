@@ -22,16 +22,20 @@ Statement keyword_line(std::string_view text, Place place, int last_line) {
   Statement out;
   out.place = place;
   out.last_line = last_line;
-  std::istringstream words(upper(fields[0].substr(1)));
-  for (std::string word; words >> word;) out.keyword += (out.keyword.empty() ? "" : " ") + word;
+  out.keyword = spelled(fields[0].substr(1));
   for (std::size_t i = 1; i < fields.size(); ++i) {
     const std::size_t equal = std::min(fields[i].find('='), fields[i].size());
     const std::size_t value = std::min(equal + 1, fields[i].size());
-    std::string name = upper(trimmed(fields[i].substr(0, equal)));
+    std::string name = canonical(fields[i].substr(0, equal));
     if (!name.empty())
       out.parameters.emplace_back(std::move(name), unquoted(trimmed(fields[i].substr(value))));
   }
   return out;
+}
+
+/// Two asterisks, between which ccx takes blanks.
+bool is_comment(std::string_view line) {
+  return line.starts_with('*') && trimmed(line.substr(1)).starts_with('*');
 }
 
 class Reader {
@@ -61,6 +65,7 @@ public:
                const std::string& who) {
     total_ += text.size();
     if (total_ > largest_text) too_long(who);
+    check_encoding(text, who);
     if (out.files.size() >= static_cast<std::size_t>(largest_file_count))
       throw Error(who + ": the deck includes more than " + std::to_string(largest_file_count) + " files");
     out.texts.push_back(std::move(text));
@@ -77,6 +82,20 @@ private:
   [[noreturn]] static void too_long(const std::string& who) {
     throw Error(who + ": the deck and what it includes have more than " + std::to_string(largest_text) +
                 " bytes");
+  }
+
+  /// Host programs read bytes, a character each; a mark of UTF-8 at the begin is left out, in the written deck, too.
+  static void check_encoding(std::string& text, const std::string& who) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
+        std::string_view(text).substr(0, 256).find("\0"sv) != std::string_view::npos)
+      throw Error(
+          who + ": the file is in UTF-16 (or is no text); decks are ASCII or UTF-8: save it as one of these");
+    if (text.find('\r') != std::string::npos && text.find('\n') == std::string::npos)
+      throw Error(
+          who + ": its lines end in a carriage return (CR) alone, which no program reads as a line end; save "
+                "it with line ends LF or CR LF");
   }
 
   void include(Statement statement, const Path& folder) {
@@ -106,7 +125,9 @@ private:
       const std::string_view line = trimmed(text.substr(start, end - start));
       start = end + 1;
       ++place.line;
-      if (line.empty() || line.starts_with("**")) continue;
+      if (line.find('\r') != std::string_view::npos)
+        out.fail(place, "a carriage return (CR) stands inside the line; write line ends LF or CR LF alone");
+      if (line.empty() || is_comment(line)) continue;
       if (begun.empty() && !line.starts_with('*')) {
         if (out.list.empty())
           out.fail(place, "data before the first keyword; expected a line that starts with *");
@@ -132,14 +153,15 @@ private:
 } // namespace
 
 std::string Statement::value(std::string_view name) const {
+  const std::string wanted = canonical(name);
   for (const auto& [key, text] : parameters)
-    if (key == name) return text;
+    if (key == wanted) return text;
   return "";
 }
 
 bool Statement::has(std::string_view name) const {
   return std::any_of(parameters.begin(), parameters.end(),
-                     [&](const auto& entry) { return entry.first == name; });
+                     [wanted = canonical(name)](const auto& entry) { return entry.first == wanted; });
 }
 
 std::string Source::at(Place place) const {
@@ -160,10 +182,12 @@ Source read_source_text(std::string_view text, const std::string& name, const Pa
   return std::move(reader.out);
 }
 
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+std::string canonical(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+  std::string out;
+  for (const char c : text)
+    if (c != ' ' && c != '\t') out += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   return out;
 }
 
@@ -186,14 +210,17 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 }
 
 bool parse(std::string_view text, std::int64_t& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
+  std::string copy(text);
+  std::erase(copy, ' ');
+  const char* begin = copy.data() + copy.starts_with('+');
+  const auto [end, error] = std::from_chars(begin, copy.data() + copy.size(), value);
+  return error == std::errc{} && end == copy.data() + copy.size();
 }
 
 bool parse(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
   std::string copy(text);
+  std::erase(copy, ' ');
+  if (copy.starts_with('+')) copy.erase(0, 1);
   std::replace_if(
       copy.begin(), copy.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e'); // Fortran: 1.5D+00
   const auto [end, error] = std::from_chars(copy.data(), copy.data() + copy.size(), value);

@@ -32,13 +32,14 @@ struct Line {
 };
 
 struct Statement {
-  std::string keyword; ///< upper case, without the asterisk, single blanks: "NODE", "SURFACE BEHAVIOR"
-  std::vector<std::pair<std::string, std::string>> parameters; ///< name in upper case, value as written
+  std::string
+      keyword; ///< upper case, without the asterisk, as spelled() spells it: "NODE", "SURFACE BEHAVIOR"
+  std::vector<std::pair<std::string, std::string>> parameters; ///< canonical name, value as written
   std::vector<Line> lines;                                     ///< data lines
   Place place;                                                 ///< first line of the keyword
   int last_line = 0; ///< last line of the keyword: larger than place.line if it is continued
 
-  /// Value of a parameter as written, "" if it is absent or has no value.
+  /// Value of a parameter as written, "" if it is absent or has no value. Names are compared without blanks.
   std::string value(std::string_view name) const;
   bool has(std::string_view name) const;
 };
@@ -71,13 +72,23 @@ Source read_source(const std::filesystem::path& file);
 /// The same from memory; `name` stands for the file in messages, includes start at `folder`.
 Source read_source_text(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
-std::string upper(std::string_view text);
+/// How host programs compare keywords, parameters, values and names: in upper case, without blanks and without
+/// quotation marks around them.
+std::string canonical(std::string_view text);
+
+/// A keyword in upper case with the blanks of the manuals where they are known: "CONTACTPAIR" is "CONTACT PAIR".
+/// Others keep single blanks where they have some.
+std::string spelled(std::string_view keyword);
+/// Is it one of the keywords of several words that the manuals have?
+bool has_known_spelling(std::string_view keyword);
+
 std::string_view trimmed(std::string_view text);
 
 /// Comma-separated fields without blanks at their ends; an empty one behind a last comma is not counted.
 std::vector<std::string_view> fields_of(std::string_view line);
 
-/// A whole number, or a real one (Fortran's 1.5D+00, too); false: it is none, or not finite.
+/// A whole number, or a real one (Fortran's 1.5D+00, too), blanks inside left out as ccx does; false: it is none,
+/// or not finite.
 bool parse(std::string_view text, std::int64_t& value);
 bool parse(std::string_view text, double& value);
 

@@ -34,7 +34,7 @@ std::map<string, std::vector<double>> read_table(const std::filesystem::path& fi
     if (s.size() != parameters)
       throw Error(file.string() + ":" + std::to_string(line) + ": expected a node and " +
                   std::to_string(parameters) + " surface coordinates");
-    out[upper(node)] = s;
+    out[canonical(node)] = s;
   }
   return out;
 }
@@ -68,7 +68,7 @@ std::vector<std::vector<double>> coordinates_of_faces(const Mesh& mesh, const Si
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       const Point& x = mesh.nodes[static_cast<std::size_t>(face.nodes[i])].x;
       if (how == "file") {
-        const auto found = table.find(upper(mesh.node_label(face.nodes[i])));
+        const auto found = table.find(canonical(mesh.node_label(face.nodes[i])));
         if (found == table.end())
           throw Error(file.string() + " has no line for the master node " + mesh.node_label(face.nodes[i]));
         out.insert(out.end(), found->second.begin(), found->second.end());

@@ -90,7 +90,7 @@ void allow_iterations(const Job& job, Edits& edits) {
     if (s.keyword == "STEP") procedure = nullptr, own = false;
     if (s.keyword == "STATIC" || s.keyword == "VISCO") procedure = &s;
     if (s.keyword == "CONTROLS")
-      own = own || upper(s.value("PARAMETERS")) == "TIME INCREMENTATION" || s.has("RESET");
+      own = own || canonical(s.value("PARAMETERS")) == "TIMEINCREMENTATION" || s.has("RESET");
     if (s.keyword != "END STEP" || !procedure || own) continue;
     const int behind = last_line_of(source, *procedure) + 1;
     edits[procedure->place.file].push_back(

@@ -162,7 +162,7 @@ private:
   }
 
   void nodes(const Statement& s) {
-    const string set = upper(parameter(s, "NSET", {"NSET"}));
+    const string set = canonical(parameter(s, "NSET", {"NSET"}));
     if (!set.empty()) deck.node_sets[set];
     for (const Line& line : s.lines) {
       const auto fields = fields_of(line.text);
@@ -189,7 +189,7 @@ private:
 
   void elements(const Statement& s) {
     const Names known{"TYPE", "ELSET"};
-    const string name = upper(required(s, "TYPE", known)), set = upper(parameter(s, "ELSET", known));
+    const string name = canonical(required(s, "TYPE", known)), set = canonical(parameter(s, "ELSET", known));
     const Type* type =
         std::find_if(std::begin(types), std::end(types), [&](auto& t) { return t.name == name; });
     if (type == std::end(types)) {
@@ -231,7 +231,7 @@ private:
   void set(const Statement& s, string_view key, const string& what, std::map<string, std::vector<int>>& sets,
            const Index& index) {
     const Names known{key, "GENERATE", "UNSORTED", "INTERNAL"};
-    const string name = upper(required(s, key, known));
+    const string name = canonical(required(s, key, known));
     const bool generate =
         std::any_of(s.parameters.begin(), s.parameters.end(), [](auto& p) { return p.first == "GENERATE"; });
     std::vector<int> members;
@@ -251,7 +251,7 @@ private:
         continue;
       }
       for (const string_view field : fields) {
-        const auto other = sets.find(upper(field));
+        const auto other = sets.find(canonical(field));
         if (other != sets.end())
           members.insert(members.end(), other->second.begin(), other->second.end());
         else if (const auto id = parsed<std::int64_t>(field))
@@ -274,7 +274,7 @@ private:
 
   void surface(const Statement& s) {
     const Names known{"NAME", "TYPE"};
-    const string name = upper(required(s, "NAME", known)), type = upper(parameter(s, "TYPE", known));
+    const string name = canonical(required(s, "NAME", known)), type = canonical(parameter(s, "TYPE", known));
     if (!type.empty() && type != "ELEMENT" && type != "NODE")
       error(s.place, "*SURFACE of TYPE=" + type + " is not read; expected TYPE=ELEMENT or TYPE=NODE");
     Surface& target = deck.surfaces[name];
@@ -289,7 +289,7 @@ private:
         target.nodes.insert(target.nodes.end(), members.begin(), members.end());
         continue;
       }
-      const string label = upper(fields[1]);
+      const string label = canonical(fields[1]);
       const int face = label.starts_with('S')
                            ? static_cast<int>(std::min<std::int64_t>(
                                  parsed<std::int64_t>(string_view(label).substr(1)).value_or(0), 1000))
@@ -309,7 +309,7 @@ private:
 
   std::vector<int> members_of(Place place, string_view field, const string& what,
                               const std::map<string, std::vector<int>>& sets, const Index& index) const {
-    if (const auto named = sets.find(upper(field)); named != sets.end()) return named->second;
+    if (const auto named = sets.find(canonical(field)); named != sets.end()) return named->second;
     if (const auto id = parsed<std::int64_t>(field)) return {find(place, index, *id, what)};
     error(place, "no " + what + " set '" + string(field) + "'; the deck has " + listed(keys(sets)));
   }

@@ -181,7 +181,7 @@ std::vector<Face> faces_of_surface(const Deck& deck, const Surface& surface) {
 
 /// The entry of that name (in any case), or null.
 template <class T> const T* found(const std::map<string, T>& sets, string_view name) {
-  const auto entry = sets.find(upper(name));
+  const auto entry = sets.find(canonical(name));
   return entry == sets.end() ? nullptr : &entry->second;
 }
 

@@ -9,12 +9,12 @@
 
 namespace host::inp {
 
+using ents_deck::canonical;
 using ents_deck::fields_of;
 using ents_deck::Line;
 using ents_deck::Place;
 using ents_deck::Source;
 using ents_deck::Statement;
-using ents_deck::upper;
 
 /// Throw an Error "FILE:LINE: what".
 [[noreturn]] inline void fail(const std::vector<std::string>& files, Place place, const std::string& what) {

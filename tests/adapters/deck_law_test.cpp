@@ -91,15 +91,15 @@ TEST(DeckLaw, Friction) {
   };
   EXPECT_EQ(friction("*FRICTION\n0.2, 4e5\n", Program::calculix).dump(),
             R"({"type":"coulomb","coefficient":0.2,"stiffness":400000.0})");
-  // ccx's default is half of E of the first material; Abaqus has other numbers behind the coefficient.
+  // ccx's default is half of E of the first material; Abaqus has a slip rate behind the coefficient.
   EXPECT_EQ(friction("*FRICTION\n0.2\n", Program::calculix).at("stiffness"), 500.0);
-  EXPECT_EQ(friction("*FRICTION\n0.2, 4e5\n", Program::abaqus).at("stiffness"), 5e5);
+  EXPECT_EQ(friction("*FRICTION\n0.2\n", Program::abaqus).at("stiffness"), 5e5);
   EXPECT_TRUE(friction("*FRICTION\n0.\n", Program::abaqus).is_null());
   EXPECT_EQ(friction("*FRICTION, ROUGH\n", Program::abaqus).dump(),
             R"({"type":"rough","stiffness":1000000.0})");
   const string error =
       error_of([&] { friction("*FRICTION, EXPONENTIAL DECAY\n0.2, 0.1, 1.\n", Program::abaqus); });
-  EXPECT_NE(error.find("*FRICTION, EXPONENTIAL DECAY is not read"), string::npos) << error;
+  EXPECT_NE(error.find("*FRICTION, EXPONENTIAL DECAY: "), string::npos) << error;
 }
 
 // The range of each direction over all steps: the motion from -0.2 to 0.3 slides by 0.5. What stands before
