@@ -120,6 +120,11 @@ PATCHES = {
          "    if(ents_elements) idiscon=1;\n    if (*mortar==-1){\n      memcpy(&v[0], &vold[0],"),
         # ... and with a linear iteration, as ccx begins a step: else a surface that is moved runs into nodes that are still where they were, these slip under
         # a pressure that is many times the real one, and are thrown to and fro
+        # what has moved farther than its elements reach is noticed where an increment has converged
+        ("    /* icutb=0 means that the iterations in the increment converged,\n",
+         "    extern void ents_ccx_increment_end_(double *,double *,ITG *,ITG *,ITG *);\n"
+         "    if(ents_elements&&(icutb==0)) ents_ccx_increment_end_(co,vold,mi,istep,&iinc);\n"
+         "    /* icutb=0 means that the iterations in the increment converged,\n"),
         ("    if((iinc==1)&&(*ithermal<2)&&(*nmethod!=4)){\n", "    if(((iinc==1)||ents_unsymmetric)&&(*ithermal<2)&&(*nmethod!=4)){\n")],
 }
 

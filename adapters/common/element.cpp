@@ -262,6 +262,7 @@ Result evaluate(const Element& e) {
   result.contact = (flags & ENTS_FLAG_CONTACT) != 0;
   if (has_left(arguments, input, flags, gap)) {
     result.outcome = Outcome::cut;
+    result.left = true;
     result.step_factor = 0.5;
     say(result, e,
         model.file + ": the slave at " + place_of(unknowns, layout.dimension) +

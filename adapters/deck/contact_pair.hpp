@@ -51,9 +51,13 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
            std::optional<double> stiffness);
 
 struct Motion {
-  Point range{}; ///< [L] of prescribed displacements over all steps, per direction: what one body may slide
-                 ///< over the other
-  bool rotates = false; ///< rotations are prescribed, too: they are not in `range`
+  Point
+      range{}; ///< [L] of prescribed displacements over all steps, per direction, with the largest values of
+               ///< their amplitudes: what one body may slide over the other
+  double any_direction =
+      0; ///< [L] more, of directions that are not the axes': *TRANSFORM, rigid bodies that turn
+  bool rotates = false;             ///< other rotations are prescribed, too: they are not counted
+  std::vector<std::string> remarks; ///< of motions that the deck does not tell, a sentence each
 };
 Motion prescribed_motion(const Mesh& mesh);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +21,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> pairs; ///< slave, master; empty: all of the deck
   Program program = Program::calculix;
   std::optional<double> slide, stiffness;
+  std::map<std::string, double> slides; ///< [L] by pair ("SLAVE, MASTER"), at least; where `slide` is absent
   std::optional<int> points; ///< per direction of a slave face; 0: its nodes. Absent: as TYPE= of the pair
   int first_model = 1;       ///< k of the first ents_k.json
   std::string coordinates;   ///< "": s = xi; "xy" ...; "cylinder x|y|z"; "file"

@@ -12,6 +12,7 @@
 #include "convert.hpp"
 #include "library.hpp"
 #include "picture.hpp"
+#include "run_job.hpp"
 #include "write.hpp"
 
 namespace {
@@ -22,10 +23,10 @@ using std::string;
 struct CommandLine {
   Options options;
   std::vector<string> pairs, coordinates;
-  string program, out;
+  string program, out, ccx;
   double slide = -1, stiffness = 0;
   int points = -1;
-  bool explain = false, pictures = true;
+  bool explain = false, pictures = true, solve = false;
 };
 
 string counted(std::size_t n, const string& what) {
@@ -107,31 +108,35 @@ void report(const Job& job, const Contact& contact, const Findings& found, const
   for (const string& remark : contact.remarks) std::printf("  note      %s\n", remark.c_str());
 }
 
-int run(CommandLine& line) {
+/// Options as the program takes them. @throws Error
+void read_options(CommandLine& line) {
   for (const string& pair : line.pairs) line.options.pairs.push_back(pair_of(pair));
   read_coordinates(line);
-  line.options.program = line.program == "calculix" ? Program::calculix : Program::abaqus;
+  line.options.program = line.program == "abaqus" ? Program::abaqus : Program::calculix;
   if (line.slide >= 0) line.options.slide = line.slide;
   if (line.points >= 0) line.options.points = line.points;
   if (line.stiffness > 0) line.options.stiffness = line.stiffness;
-  const Job job = convert(line.options);
+}
+
+/// @return the surfaces are admissible
+bool report(const Job& job, const Options& options) {
   bool admissible = true;
   for (const Contact& contact : job.contacts) {
     const Findings found = findings_of(job.mesh, contact, 2 * contact.touch);
     const Admissibility surface = admissibility_of(job.mesh, contact);
-    report(job, contact, found, surface, line.options.program);
+    report(job, contact, found, surface, options.program);
     admissible = admissible && surface.violations.empty();
   }
   const bool friction =
       std::any_of(job.models.begin(), job.models.end(), [](const Model& m) { return !m.symmetric; });
-  std::printf("elements  %lld .. %lld, %s%s\n", static_cast<long long>(first_free_element(job)),
-              static_cast<long long>(first_free_element(job)) + static_cast<long long>(job.elements.size()) -
-                  1,
+  const auto first = static_cast<long long>(first_free_element(job));
+  std::printf("elements  %lld .. %lld, %s%s\n", first,
+              first + static_cast<long long>(job.elements.size()) - 1,
               counted(job.models.size(), "model").c_str(), friction ? ", unsymmetric stiffness" : "");
-  if (line.explain) {
-    std::printf("nothing is written (--explain)\n");
-    return 0;
-  }
+  return admissible;
+}
+
+void write(const Job& job, const CommandLine& line, bool admissible) {
   const auto files = write_job(job, line.options, line.out);
   std::printf("deck      %s\n", files.front().string().c_str());
   for (std::size_t i = 0; line.pictures && i < job.contacts.size(); ++i) {
@@ -140,23 +145,62 @@ int run(CommandLine& line) {
     for (const auto& file : pictures.files) std::printf(" %s", file.string().c_str());
     std::printf("%s%s\n", pictures.problem.empty() ? "" : "; ", pictures.problem.c_str());
   }
-  std::printf("next      %s\n",
-              line.options.program == Program::calculix
-                  ? "run ccx with U1E (adapters/calculix/run.sh builds it) in that folder"
-                  : "run Abaqus with libents_abaqus.so as user library (adapters/abaqus/uel) in that folder");
   if (!admissible)
     std::printf(
         "The surface is NOT ADMISSIBLE, see above: results near these places are not to be trusted.\n");
+}
+
+int translate(CommandLine& line) {
+  read_options(line);
+  if (!line.explain) check_folder(line.out);
+  const Job job = convert(line.options);
+  const bool admissible = report(job, line.options);
+  if (line.explain) {
+    files_of_job(job, line.options,
+                 line.out.empty() ? "ents-deck.explained" : line.out); // refuses what the run refuses
+    std::printf("nothing is written (--explain)\n");
+    return 0;
+  }
+  write(job, line, admissible);
+  const string name = line.options.deck.stem().string();
+  std::printf("next      %s\n",
+              line.options.program == Program::calculix
+                  ? ("cd " + line.out + " && ccx_ents " + name +
+                     "   (sh adapters/calculix/run.sh --only-build makes build/calculix/ccx_ents)")
+                        .c_str()
+                  : ("cd " + line.out + " && abaqus job=" + name +
+                     " user=...   with libents_abaqus.so as user library (adapters/abaqus/uel)")
+                        .c_str());
   return 0;
+}
+
+int solve(CommandLine& line) {
+  read_options(line);
+  if (line.out.empty()) line.out = line.options.deck.stem().string() + "_ents";
+  check_folder(line.out);
+  return run_job({line.options, line.out, line.ccx}, [&](const Options& options, bool first) {
+    line.options = options;
+    const Job job = convert(options);
+    if (first) {
+      write(job, line, report(job, options));
+      return;
+    }
+    write_job(job, options, line.out);
+  });
 }
 
 int program(int argc, char** argv) {
   CommandLine line;
+  line.solve = argc > 1 && string(argv[1]) == "run";
+  if (line.solve) --argc, ++argv;
   CLI::App app{"Contact pairs of an Abaqus or CalculiX deck become contact elements of ents.\n", "ents-deck"};
   app.footer("Every line of the deck but those of the pairs stays as it is, byte for byte. Exit codes: 0 "
              "done, 2 the command line or the deck is wrong,\n"
              "or asks for what contact elements cannot do (the message names file and line).\n\n"
              "Examples:\n"
+             "  ents-deck run job.inp                                translates, solves with ccx_ents, and "
+             "makes patches "
+             "larger where they were too small\n"
              "  ents-deck job.inp --for calculix --out job_ents\n"
              "  ents-deck job.inp --pair SLAVE,MASTER --model scan.json --coordinates xy --for abaqus --out "
              "job_ents\n"
@@ -170,13 +214,16 @@ int program(int argc, char** argv) {
   app.add_option("--model", line.options.model,
                  "model with height, law ...; what it does not say comes from the deck [no height]")
       ->type_name("FILE");
-  app.add_option("--for", line.program, "calculix or abaqus")
-      ->required()
+  app.add_option("--for", line.program, "calculix or abaqus [run: calculix]")
+      ->required(!line.solve)
       ->check(CLI::IsMember({"calculix", "abaqus"}))
       ->type_name("PROGRAM");
+  if (line.solve)
+    app.add_option("--ccx", line.ccx, "ccx with U1E [ccx_ents of the build folder, or of the search path]")
+        ->type_name("PROGRAM");
   app.add_option("--points", line.points,
-                 "elements per direction of a slave face, at points inside of it; 0: one per slave node [2, "
-                 "3 on quadratic faces; nodes where the slave is of nodes alone]")
+                 "elements per direction of a slave face, at points inside of it; 0: one per slave node [3, "
+                 "6 on quadratic faces, 8 in the plane; nodes where the slave is of nodes alone]")
       ->check(CLI::Range(0, 8))
       ->type_name("N");
   app.add_option("--first-model", line.options.first_model,
@@ -200,14 +247,17 @@ int program(int argc, char** argv) {
       "--no-pictures", [&] { line.pictures = false; }, "leave the pictures out");
   try {
     app.parse(argc, argv);
-    if (!line.explain && out->count() == 0) throw CLI::RequiredError("--out DIR (or --explain)");
+    if (!line.solve && !line.explain && out->count() == 0)
+      throw CLI::RequiredError("--out DIR (or --explain)");
+    if (line.solve && (line.explain || line.program == "abaqus"))
+      throw CLI::ValidationError("run", "solves with ccx: leave --explain and --for abaqus out");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error); // --help
     std::fprintf(stderr, "ents-deck: %s\nents-deck --help lists what there is\n", error.what());
     return 2;
   }
   try {
-    return run(line);
+    return line.solve ? solve(line) : translate(line);
   } catch (const Error& error) {
     std::fprintf(stderr, "ents-deck: %s\n", error.what());
     return 2;

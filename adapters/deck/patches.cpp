@@ -146,12 +146,79 @@ Patch numbered(const Neighbours& all, std::vector<int> faces, int seed, bool tur
   return best.patch;
 }
 
+std::set<int> nodes_of(const Neighbours& all, const std::set<int>& faces) {
+  std::set<int> out;
+  for (const int f : faces) out = nodes_with(all, std::move(out), f);
+  return out;
+}
+
+/// All faces within a distance, over common nodes.
+std::set<int> within(const FacetTree& tree, const Neighbours& all, const FacetTree::Closest& under,
+                     double distance) {
+  std::set<int> chosen{under.face};
+  std::deque<int> queue{under.face};
+  while (!queue.empty()) {
+    const int f = queue.front();
+    queue.pop_front();
+    for (const int other : all.around(f)) {
+      if (chosen.count(other) != 0 || tree.distance(under.point, other) > distance) continue;
+      chosen.insert(other);
+      queue.push_back(other);
+    }
+  }
+  return chosen;
+}
+
+/// The one direction that all of the driven motion has along the surface, as long as it; absent: there are several.
+std::optional<Point> straight_path(const PatchRequest& request, const Point& normal) {
+  if (request.slide || request.any_direction > 0 || request.least > 0) return {};
+  std::optional<Point> out;
+  const double whole = length(request.motion);
+  for (std::size_t j = 0; j < 3; ++j) {
+    Point along{};
+    along[j] = request.motion[j];
+    const double off = dot(along, normal);
+    for (std::size_t k = 0; k < 3; ++k) along[k] -= off * normal[k];
+    if (length(along) <= 1e-3 * whole) continue;
+    if (out) return {};
+    out = along;
+  }
+  return out;
+}
+
+/// Faces that a point meets on a straight way, there and back, and those nearer to it than `width`.
+std::set<int> along(const FacetTree& tree, const Neighbours& all, const FacetTree::Closest& under,
+                    const Point& path, double width) {
+  std::set<int> chosen{under.face};
+  std::deque<int> queue{under.face};
+  const int steps = 200;
+  const auto nearest = [&](int face) {
+    double out = std::numeric_limits<double>::infinity();
+    for (int i = -steps; i <= steps; ++i) {
+      Point x = under.point;
+      for (std::size_t k = 0; k < 3; ++k) x[k] += path[k] * i / steps;
+      out = std::min(out, tree.distance(x, face));
+    }
+    return out;
+  };
+  while (!queue.empty()) {
+    const int f = queue.front();
+    queue.pop_front();
+    for (const int other : all.around(f)) {
+      if (chosen.count(other) != 0 || nearest(other) > width) continue;
+      chosen.insert(other);
+      queue.push_back(other);
+    }
+  }
+  return chosen;
+}
+
 double slide_of(const PatchRequest& request, const Point& normal) {
   if (request.slide) return *request.slide;
   double sum = 0;
   for (std::size_t j = 0; j < 3; ++j)
     sum += request.motion[j] * request.motion[j] * (1 - normal[j] * normal[j]);
-  return std::sqrt(std::max(sum, 0.0));
+  return std::max(std::sqrt(std::max(sum, 0.0)) + request.any_direction, request.least);
 }
 
 } // namespace
@@ -187,21 +254,16 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
     }
     out.slide = std::max(out.slide, slide);
 
-    // All faces within the slide, over common nodes. Without a slide to speak of the face below is enough: at
-    // a peak many faces are equally near.
-    const bool slides = slide > 0.05 * face_size;
-    std::set<int> chosen{under.face}, nodes = nodes_with(all, {}, under.face);
-    std::deque<int> queue{under.face};
-    while (slides && !queue.empty()) {
-      const int f = queue.front();
-      queue.pop_front();
-      for (const int other : all.around(f)) {
-        if (chosen.count(other) != 0 || tree.distance(under.point, other) > slide + tolerance) continue;
-        chosen.insert(other);
-        nodes = nodes_with(all, std::move(nodes), other);
-        queue.push_back(other);
+    // Without a slide to speak of the face below is enough: at a peak many faces are equally near.
+    std::set<int> chosen{under.face};
+    if (slide > 0.05 * face_size) chosen = within(tree, all, under, slide + tolerance);
+    std::set<int> nodes = nodes_of(all, chosen);
+    if (static_cast<int>(nodes.size()) > largest)
+      if (const auto path = straight_path(request, normal)) {
+        chosen = along(tree, all, under, *path, 0.1 * face_size);
+        nodes = nodes_of(all, chosen);
+        ++out.narrow;
       }
-    }
     if (static_cast<int>(nodes.size()) > largest)
       mesh.source.fail(master.place, label_of(mesh, node) + " slides by up to " + shown(slide) +
                                          ": the faces of '" + master.name + "' within that distance are " +
@@ -209,7 +271,9 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
                                          std::to_string(nodes.size()) + " nodes, and an element may have " +
                                          std::to_string(largest) +
                                          " master nodes. A coarser master with a height instead of its mesh "
-                                         "has fewer, or write a smaller --slide if the job slides less");
+                                         "has fewer, --points 0 leaves " +
+                                         std::to_string(request.largest - 1) +
+                                         " of them, or write a smaller --slide if the job slides less");
     // Then the ring around, nearest first, as far as it fits: bodies deform.
     std::vector<std::pair<double, int>> ring;
     for (const int f : std::set<int>(chosen))

@@ -25,6 +25,8 @@ struct Patch {
 
 struct PatchRequest {
   Point motion{};              ///< [L] range of prescribed motion per direction
+  double any_direction = 0;    ///< [L] more, in whichever direction
+  double least = 0;            ///< [L] the slide is at least this
   std::optional<double> slide; ///< [L] instead
   int largest = 0;             ///< nodes that an element may have, those of the slave included
   bool turn =
@@ -33,8 +35,10 @@ struct PatchRequest {
 
 struct Patches {
   std::vector<Patch> list;
-  int left_out = 0;   ///< slave points beside the master, farther than they slide
-  double slide = 0;   ///< largest of all nodes, [L]
+  int narrow = 0;   ///< slave points whose patch is the faces along their straight way alone: all within the
+                    ///< slide are too many
+  int left_out = 0; ///< slave points beside the master, farther than they slide
+  double slide = 0; ///< largest of all nodes, [L]
   double reserve = 0; ///< [L] smallest distance from a point's place to the border of its patch inside the
                       ///< surface; infinite: patches are the whole surface
   int widest = 0;     ///< most nodes of an element

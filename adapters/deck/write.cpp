@@ -71,13 +71,6 @@ void move_nodes(const Job& job, Edits& edits) {
   }
 }
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-  std::ofstream stream(path, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.flush()) throw Error(path.string() + " cannot be written");
-}
-
 /// ccx ends an increment after 16 iterations, and gives up after 5 cuts; with its own contact it goes on
 /// longer. So do these steps, unless the deck has limits of its own.
 constexpr const char* ccx_limits = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n10, 20, 9, 60, 10, 4, , 10\n";
@@ -115,26 +108,19 @@ std::filesystem::path target_of(const Source& source, std::size_t file, const st
 
 /// Files of height maps are copied into the job's folder, which then needs nothing else.
 void take_maps_along(nlohmann::ordered_json& node, const std::filesystem::path& out,
-                     std::map<string, string>& copied, std::vector<std::filesystem::path>& written) {
+                     std::map<string, string>& copied, std::vector<JobFile>& files) {
   if (node.is_object() && node.contains("file") && node["file"].is_string()) {
     const string from = node["file"].get<string>();
     auto [entry, is_new] = copied.emplace(from, "");
     if (is_new) {
       entry->second =
           "ents_map_" + std::to_string(copied.size()) + std::filesystem::path(from).extension().string();
-      std::error_code error;
-      std::filesystem::create_directories(out, error);
-      std::filesystem::copy_file(from, out / entry->second, std::filesystem::copy_options::overwrite_existing,
-                                 error);
-      if (error)
-        throw Error("the height map " + from + " cannot be copied to " + (out / entry->second).string() +
-                    ": " + error.message());
-      written.push_back(out / entry->second);
+      files.push_back({out / entry->second, "", from});
     }
     node["file"] = entry->second;
   }
   if (node.is_structured())
-    for (auto& value : node) take_maps_along(value, out, copied, written);
+    for (auto& value : node) take_maps_along(value, out, copied, files);
 }
 
 string table_text(const Job& job, int model, std::int64_t first) {
@@ -198,16 +184,15 @@ string edited(std::string_view text, std::vector<Edit> edits) {
 }
 
 std::int64_t first_free_element(const Job& job) {
-  if (job.mesh.has_parts()) return 1; // those of the assembly have a space of their own
-  std::int64_t largest = 0;
-  for (const Element& e : job.mesh.elements) largest = std::max(largest, e.id);
+  std::int64_t largest = 0; // those of an instance have a space of their own
+  for (const Element& e : job.mesh.elements)
+    if (!job.mesh.has_parts() || e.instance == no_instance) largest = std::max(largest, e.id);
   return largest + 1;
 }
 
 bool has_tables(const Job& job) { return !job.mesh.has_parts(); }
 
-std::vector<std::filesystem::path> write_job(const Job& job, const Options& options,
-                                             const std::filesystem::path& out) {
+std::vector<JobFile> files_of_job(const Job& job, const Options& options, const std::filesystem::path& out) {
   const Source& source = job.mesh.source;
   Edits edits;
   bool pairs_left = false;
@@ -219,7 +204,7 @@ std::vector<std::filesystem::path> write_job(const Job& job, const Options& opti
   edits[host.before.file].push_back({host.before.line, host.before.line - 1, host.text});
 
   std::map<std::filesystem::path, std::size_t> targets; // a file that is included twice is written once
-  std::vector<std::filesystem::path> written;
+  std::vector<JobFile> files;
   for (std::size_t f = 0; f < source.files.size(); ++f) {
     const auto own = edits.find(static_cast<int>(f));
     const std::filesystem::path target = target_of(source, f, out);
@@ -240,23 +225,24 @@ std::vector<std::filesystem::path> write_job(const Job& job, const Options& opti
     std::error_code error;
     if (std::filesystem::equivalent(target, source.files[f].path, error))
       throw Error(target.string() + " is the deck itself: name another folder with --out");
-    write_file(target,
-               own == edits.end() ? string(source.files[f].text) : edited(source.files[f].text, own->second));
-    written.push_back(target);
+    files.push_back(
+        {target,
+         own == edits.end() ? string(source.files[f].text) : edited(source.files[f].text, own->second),
+         {}});
   }
+  if (options.program == Program::calculix)
+    files.push_back({out / "ents_patches.json", watched(job).dump() + "\n", {}});
   const std::int64_t first = first_free_element(job);
   std::map<string, string> maps;
   for (std::size_t m = 0; m < job.models.size(); ++m) {
     const string name = "ents_" + std::to_string(job.models[m].number);
     nlohmann::ordered_json text = job.models[m].text;
-    take_maps_along(text, out, maps, written);
-    write_file(out / (name + ".json"), text.dump(1) + "\n");
-    written.push_back(out / (name + ".json"));
-    if (!has_tables(job)) continue;
-    write_file(out / (name + ".txt"), table_text(job, static_cast<int>(m), first));
-    written.push_back(out / (name + ".txt"));
+    take_maps_along(text, out, maps, files);
+    files.push_back({out / (name + ".json"), text.dump(1) + "\n", {}});
+    if (has_tables(job))
+      files.push_back({out / (name + ".txt"), table_text(job, static_cast<int>(m), first), {}});
   }
-  return written;
+  return files;
 }
 
 } // namespace ents_deck

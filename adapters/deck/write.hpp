@@ -36,7 +36,24 @@ std::int64_t first_free_element(const Job& job);
 /// Are areas and coordinates in tables ents_k.txt (flat decks), or in properties (decks with parts)?
 bool has_tables(const Job& job);
 
-/// Writes the folder. @return the files, the deck first
+/// ents_patches.json, from which the adapter of CalculiX notices slave points beside their patches.
+nlohmann::ordered_json watched(const Job& job);
+
+/// A file of the job: its text, or a copy of another one.
+struct JobFile {
+  std::filesystem::path target;
+  std::string text;
+  std::filesystem::path copy_of;
+};
+
+/// All files of the job, the deck first. @throws Error for what cannot be written into another folder
+std::vector<JobFile> files_of_job(const Job& job, const Options& options, const std::filesystem::path& out);
+
+/// @throws Error for a folder that has other files than those of a job of ents-deck
+void check_folder(const std::filesystem::path& folder);
+
+/// Writes the folder: all files, or none where one cannot be written. The files of a job that was there go.
+/// @return the files, the deck first
 std::vector<std::filesystem::path> write_job(const Job& job, const Options& options,
                                              const std::filesystem::path& out);
 
