@@ -223,7 +223,7 @@ int program(int argc, char** argv) {
         ->type_name("PROGRAM");
   app.add_option("--points", line.points,
                  "elements per direction of a slave face, at points inside of it; 0: one per slave node [3, "
-                 "6 on quadratic faces, 8 in the plane; nodes where the slave is of nodes alone]")
+                 "7 on quadratic faces, 8 in the plane; nodes where the slave is of nodes alone]")
       ->check(CLI::Range(0, 8))
       ->type_name("N");
   app.add_option("--first-model", line.options.first_model,

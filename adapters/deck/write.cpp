@@ -72,8 +72,8 @@ void move_nodes(const Job& job, Edits& edits) {
 }
 
 /// ccx ends an increment after 16 iterations, and gives up after 5 cuts; with its own contact it goes on
-/// longer. So do these steps, unless the deck has limits of its own.
-constexpr const char* ccx_limits = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n10, 20, 9, 60, 10, 4, , 10\n";
+/// longer, and lets increments grow after 16 iterations as it does. So do these steps, unless the deck has limits of its own.
+constexpr const char* ccx_limits = "*CONTROLS, PARAMETERS=TIME INCREMENTATION\n10, 20, 9, 60, 22, 16, , 10\n";
 
 void allow_iterations(const Job& job, Edits& edits) {
   const Source& source = job.mesh.source;

@@ -133,6 +133,43 @@ TEST(DeckLaw, DefaultsAreThoseOfTheFirstMaterial) {
   EXPECT_EQ(contact.at("friction").at("stiffness"), 0.25);
 }
 
+// Two blocks that are one at x = 0: in ccx a point in a face may have a node of its own patch, a node alone has no
+// contact with itself.
+TEST(DeckPoints, OfBodiesThatShareNodes) {
+  const string text =
+      "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 2., 0.\n4, 0., 1.\n5, 1., 1.\n6, 2., 1.\n7, 1., 1.\n8, 2., 1.\n9, 0., "
+      "2.\n"
+      "10, 1., 2.\n11, 2., 2.\n*ELEMENT, TYPE=CPE4, ELSET=LOW\n1, 1, 2, 5, 4\n2, 2, 3, 6, 5\n*ELEMENT, "
+      "TYPE=CPE4, ELSET=HIGH\n3, 4, 7, 10, 9\n4, 7, 8, 11, 10\n*SURFACE, NAME=SLAVE\nHIGH, S1\n*SURFACE, "
+      "NAME=MASTER\nLOW, S3\n" +
+      material + law + pair_of_surfaces + "*STEP\n*STATIC\n*END STEP\n";
+  Options options;
+  options.points = 2;
+  EXPECT_EQ(converted(text, options).elements.size(), 4u);
+  options.points = 0;
+  EXPECT_EQ(converted(text, options).elements.size(), 2u); // of three nodes
+  options.program = Program::abaqus;
+  EXPECT_NE(error_of([&] {
+              converted(text, options);
+            }).find("node 4 belongs to slave and master, and a user element"),
+            string::npos);
+}
+
+// A rigid element is its own surface: it has no thickness, as a shell has.
+TEST(DeckFaces, OfRigidElementsAreTaken) {
+  const string text = block(101, {0.5, 0.5, 1}, {2.5, 2.5, 2}, 2, 2, 1, "HIGH") +
+                      "*NODE\n1, 0., 0., 1.\n2, 3., 0., 1.\n3, 3., 3., 1.\n4, 0., 3., 1.\n*ELEMENT, "
+                      "TYPE=R3D4, ELSET=LOW\n1, 1, "
+                      "2, 3, 4\n*SURFACE, NAME=SLAVE\nHIGH, S1\n*SURFACE, NAME=MASTER\nLOW, SPOS\n" +
+                      material + law + pair_of_surfaces + "*STEP\n*STATIC\n*END STEP\n";
+  Options options;
+  options.program = Program::abaqus;
+  EXPECT_EQ(converted(text, options).elements.size(), 36u);
+  string shell = text;
+  shell.replace(shell.find("R3D4"), 4, "S4");
+  EXPECT_NE(error_of([&] { converted(shell, options); }).find("half a thickness"), string::npos);
+}
+
 TEST(DeckPoints, TooFewAreRemarked) {
   const auto remarked = [](std::optional<int> points) {
     Options options;

@@ -133,7 +133,8 @@ TEST(DeckPrograms, CcxReadsElementsBehindAllOthersAndItsOwnLimits) {
   std::size_t controls = 0; // those of the first step are written, those of the second its own
   for (std::size_t at = 0; (at = text.find("*CONTROLS", at)) != string::npos; ++at) ++controls;
   EXPECT_EQ(controls, 2u);
-  EXPECT_LT(text.find("*CONTROLS, PARAMETERS=TIME INCREMENTATION\n10, 20"), text.find("*END STEP"));
+  EXPECT_LT(text.find("*CONTROLS, PARAMETERS=TIME INCREMENTATION\n10, 20, 9, 60, 22, 16, , 10\n"),
+            text.find("*END STEP"));
   // The elements stand before the first step, a type for each number of nodes, with as many states as the
   // model asks for.
   EXPECT_LT(text.find("*USER ELEMENT"), text.find("\n*STEP"));
