@@ -85,7 +85,13 @@ struct ElementCall {
     const double number = state[plan->state.size];
     if (!is_segment_number(number)) return false;
     return !keeps_history || !in->mesh || number == 0.0 || number == static_cast<double>(segment(e) + 1) ||
-           !(state[StateLayout::history_at] > 1.0);
+           !(state[StateLayout::history_at] >= 1.0);
+  }
+  // A sound state of an open element?
+  bool was_open(std::int64_t e) const {
+    const double* state = at(in->state_begin, in->state_begin_stride, e);
+    return is_segment_number(state[plan->state.size]) && is_state(plan->state, state) &&
+           state[StateLayout::history_at] == static_cast<double>(History::open);
   }
   // Its state at the end knows the segment.
   void mark_state(std::int64_t e) const {

@@ -96,6 +96,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_AMBIGUOUS = 256
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_LEFT = 1024
+  integer(c_int32_t), parameter :: ENTS_FLAG_NO_BEGIN = 2048
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
   integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
   integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
@@ -176,7 +177,7 @@ module ents
   end type ents_detection
 
   type, bind(c) :: ents_input
-    integer(c_int32_t) :: struct_size = 88 + 11*pointer_bytes
+    integer(c_int32_t) :: struct_size = 88 + 12*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: slave_stride = 0
@@ -199,6 +200,7 @@ module ents
     integer(c_int64_t) :: shared = 0
     type(c_ptr) :: slave_values = c_null_ptr ! (slave_values, elements)
     integer(c_int64_t) :: slave_values_stride = 0
+    type(c_ptr) :: slave_begin = c_null_ptr ! (d, elements)
   end type ents_input
 
   type, bind(c) :: ents_output

@@ -385,7 +385,11 @@ ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *me
 /* Inputs of contact elements: one slave node and one master segment each. The caller owns all arrays; the library only reads them.
  * `..._stride` is the distance between consecutive elements, in numbers of the array's type; 0 means that all elements share the
  * values (one segment for many slave nodes, say), see ENTS_SHARED_... A call that ends at element 0 (first = 0, count = 1) does not
- * read strides. */
+ * read strides.
+ * The first increment. Friction and wear of a slave that touches within an increment begin at the touch, which takes where it was at the
+ * begin: before the first increment evaluate the elements once at its begin, with states of ents_state_init and ENTS_STATE; the states
+ * that this returns are the increment's state_begin (ents_iterate: `slave_begin`). Without it such an element has no friction in that
+ * increment, and ENTS_FLAG_NO_BEGIN. */
 typedef struct ents_input {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */
@@ -421,6 +425,10 @@ typedef struct ents_input {
                                         is an angle); scale r > 0 of the table, whose pressure is r p(g/r). Null: 0, 1, 1, 1. For models
                                         with "offset", "wear" or "table". Since contract 1.6; the scale and "table" since 1.7 */
   int64_t slave_values_stride;
+  const double *slave_begin;         /* [elements][d] positions of the slave nodes at the begin of the increment, [L], or null; ents_iterate alone reads them,
+                                        for states that are still those of ents_state_init, or of slaves that were not within reach:
+                                        it evaluates these there first (in positions_begin), so that friction and wear of a slave that touches
+                                        within the increment begin at the touch. Since contract 1.8 */
 } ents_input;
 
 /* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a
@@ -458,7 +466,7 @@ typedef struct ents_input {
 #define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
 
 /* Bits of flags. If the model has "contact", they describe the contact element (in contact or open ...), whichever results are wanted. */
-#define ENTS_FLAG_CONTACT  1   /* the element carries pressure */
+#define ENTS_FLAG_CONTACT  1   /* the element is closed: it carries pressure, or its gap is exactly that at which the law's contact begins (0) */
 #define ENTS_FLAG_OUTSIDE  2   /* the projection lies outside the segment: open, R = 0, K = 0 */
 #define ENTS_FLAG_FAR_SIDE 4   /* the slave node is beyond a centre of curvature: the projection is no minimum of the distance */
 #define ENTS_FLAG_SEARCHED 8   /* the whole segment was searched */
@@ -469,6 +477,8 @@ typedef struct ents_input {
 #define ENTS_FLAG_BEHIND_EDGE 512 /* ents_detect: the closest point is on an edge between segments and the slave node is behind it: it has
                                     penetrated, but has no segment */
 #define ENTS_FLAG_LEFT 1024 /* ents_detect: a slave node in contact has left all segments beside a free edge, or is deeper than `reach` */
+#define ENTS_FLAG_NO_BEGIN 2048 /* in contact, but where the slave node was at the begin of the increment is not known (no state, that of
+                                   ents_state_init, or one of another segment), or the law's multipliers are unknowns: no friction in this increment. Since contract 1.8 */
 #define ENTS_FLAG_CHANGED  128 /* the element was open, sticking or slipping at the begin of the increment and is not now; a new state is open */
 
 /* Outputs. The caller owns all arrays; the library writes those whose bit is set in `wanted`, and the others may be null. A stride is the

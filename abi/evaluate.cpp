@@ -28,6 +28,7 @@ static_assert(flag::contact == ENTS_FLAG_CONTACT && flag::outside == ENTS_FLAG_O
 static_assert(flag::far_side == ENTS_FLAG_FAR_SIDE && flag::searched == ENTS_FLAG_SEARCHED);
 static_assert(flag::stick == ENTS_FLAG_STICK && flag::slip == ENTS_FLAG_SLIP);
 static_assert(flag::shear_limit == ENTS_FLAG_SHEAR_LIMIT && flag::changed == ENTS_FLAG_CHANGED);
+static_assert(flag::no_begin == ENTS_FLAG_NO_BEGIN);
 
 std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_report* report, bool hard) const {
   SegmentNodes nodes;
@@ -50,11 +51,18 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   if (also.residual) results.residual = also.residual;
   if (also.tangent) results.tangent = also.tangent, results.tangent_leading_dimension = plan->dofs;
   if (also.flags) results.flags = also.flags;
-  const bool follows = state_follows(e);
+  bool follows = state_follows(e);
+  ElementInput input = element(e, nodes);
+  double without_path[largest_state];
+  if (!follows && was_open(e)) { // on another segment: where it was from here is not known
+    std::copy_n(input.state_begin, plan->state.size, without_path);
+    without_path[StateLayout::history_at] = static_cast<double>(History::none);
+    input.state_begin = without_path;
+    follows = true;
+  }
   bool open;
   ElementOutput nothing = results;
   nothing.wanted = 0;
-  const ElementInput input = element(e, nodes);
   std::int32_t outcome =
       static_cast<std::int32_t>(evaluate_one(input, follows ? results : nothing, hard, open));
   if (double s[2]; (outcome == ENTS_DEGENERATE_SEGMENT || outcome == ENTS_OUT_OF_RANGE) &&

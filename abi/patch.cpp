@@ -45,7 +45,7 @@ public:
     double state_begin[largest_state], state_end[largest_state];
     if (in_.state_begin) {
       std::copy_n(in_.state_begin, plan_.state.size, state_begin);
-      if (in_contact() && before() != segment_) {
+      if (in_.state_begin[StateLayout::history_at] >= 1.0 && before() >= 0 && before() != segment_) {
         SegmentNodes old;
         if (const Status status = gather(plan_, mesh_, before(), old); status != Status::ok) return status;
         const Status status = plan_.transfer(plan_, old.positions, old.surface_coordinates, nodes.positions,

@@ -37,10 +37,10 @@ Element describe(int nelem, const char* label, const double* properties) {
 
 /// Force pass: fn += R; history of the increment.
 CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
-                             const double* co, const double* v, const int* mi, const int* ielprop,
-                             const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
-                             const int* calcul_qa, const double* xstateini, double* xstate,
-                             const int* nstate_, std::size_t) {
+                             const double* co, const double* v, const double* vini, const int* mi,
+                             const int* ielprop, const double* prop, double* fn, double* qa, int* nal,
+                             const int* calcul_fn, const int* calcul_qa, const double* xstateini,
+                             double* xstate, const int* nstate_, std::size_t) {
   Element e = describe(*nelem, lakonl, prop + ielprop[*nelem - 1]);
   ccx::check_history("U1E", *nelem, *nstate_, xstateini, xstate);
   const int* nodes = kon + ipkon[*nelem - 1];
@@ -49,16 +49,18 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
     return static_cast<std::ptrdiff_t>(mi[1] + 1) * (nodes[i / 3] - 1) + 1 + i % 3;
   };
   double reference[ccx::leading_dimension], displacement[ccx::leading_dimension],
-      residual[ccx::leading_dimension];
+      change[ccx::leading_dimension], residual[ccx::leading_dimension];
   for (int i = 0; i < dofs; ++i) {
     reference[i] = co[3 * (nodes[i / 3] - 1) + i % 3];
     displacement[i] = v[nodal(i)];
+    change[i] = v[nodal(i)] - vini[nodal(i)];
   }
   std::vector<double>& tangent = ccx::stiffness(*nelem);
   tangent.resize(static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs));
   const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(*nstate_) * mi[0] * (*nelem - 1);
   e.position = {reference, 1, 3};
   e.displacement = {displacement, 1, 3};
+  e.change = {change, 1, 3};
   e.history = {xstateini + at};
   e.history_size = *nstate_;
   e.residual = {residual, 1, 3};

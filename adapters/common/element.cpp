@@ -195,30 +195,92 @@ Result check(const Element& e) {
   return result;
 }
 
+namespace {
+
+// Where slave and master are: for the library, and the body's pose.
+struct Place {
+  double unknowns[3 * (1 + largest_body_nodes)]; // slave, master nodes (of a body in its frame), multipliers
+  Body body;
+  bool finite;
+};
+
+/// @return "" or what is wrong
+std::string place(const Element& e, const Arguments& arguments, Place& at) {
+  const LoadedModel& model = *arguments.model;
+  const int dimension = model.layout.dimension;
+  at.finite = gather(e, arguments, at.unknowns);
+  if (!arguments.body) return "";
+  if (std::string wrong = place_body(e, dimension, arguments.slave_nodes, arguments.turn_node,
+                                     model.layout.state_size, at.body, at.finite);
+      !wrong.empty())
+    return wrong;
+  if (at.finite) ents_pose_to_body(dimension, &at.body.pose, 1, at.unknowns, at.unknowns, nullptr);
+  std::copy(model.body.begin(), model.body.end(), at.unknowns + dimension);
+  return "";
+}
+
+ents_input input_at(const Arguments& arguments, const Place& at, const double* state_begin) {
+  const ents_layout& layout = arguments.model->layout;
+  ents_input input{};
+  input.struct_size = sizeof input;
+  input.slave = at.unknowns;
+  input.master = at.unknowns + layout.dimension;
+  input.multiplier = layout.multipliers ? at.unknowns + layout.dimension * (layout.nodes + 1) : nullptr;
+  input.surface_coordinates = arguments.surface_coordinates;
+  input.area = &arguments.area;
+  if (arguments.has_offset) input.slave_values = arguments.slave_values;
+  input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
+  return input;
+}
+
+/// The state at the begin of the increment from the positions there, for an element that has none.
+/// @return false: the host does not tell them, or there is no projection
+bool find_begin(const Element& e, const Arguments& arguments, double* state) {
+  double displacement[3 * (1 + largest_body_nodes)];
+  const int all = e.dofs * e.nodes + (e.reference_turns ? turns_of(arguments.model->layout.dimension) : 0);
+  if (!e.change || all > 3 * (1 + largest_body_nodes)) return false;
+  for (int k = 0; k < all; ++k) {
+    const int node = std::min(k / e.dofs, e.nodes - 1), i = k - e.dofs * node;
+    double u = e.displacement ? e.displacement(i, node) : 0.0;
+    if (e.increment) u += e.increment(i, node);
+    displacement[k] = u - e.change(i, node);
+  }
+  Element begin = e;
+  begin.displacement = {displacement, 1, e.dofs};
+  begin.increment = {}, begin.spin = {};
+  Place at;
+  if (!place(begin, arguments, at).empty() || !at.finite) return false;
+  double there[largest_state];
+  const ents_input input = input_at(arguments, at, state);
+  ents_output output{};
+  output.struct_size = sizeof output;
+  output.wanted = ENTS_STATE;
+  output.state_end = there;
+  if (ents_evaluate(arguments.model->model, 0, 1, &input, &output, nullptr) != ENTS_OK) return false;
+  std::copy(there, there + arguments.model->layout.state_size, state);
+  return true;
+}
+
+} // namespace
+
 Result evaluate(const Element& e) {
   Arguments arguments;
   if (const std::string wrong = read(e, arguments); !wrong.empty()) return fail(e, wrong);
   const LoadedModel& model = *arguments.model;
   const ents_layout& layout = model.layout;
 
-  double unknowns[3 * (1 + largest_body_nodes)], state_begin[largest_state], state_end[largest_state];
+  Place at;
+  double state_begin[largest_state], state_end[largest_state];
   double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0;
   if (layout.state_size > 0) begin_state(e, model, state_begin);
   clear(e);
   Result result;
   result.message[0] = 0;
   describe(arguments, result);
-  bool finite = gather(e, arguments, unknowns);
-  Body body;
-  if (arguments.body) {
-    if (const std::string wrong = place_body(e, layout.dimension, arguments.slave_nodes, arguments.turn_node,
-                                             layout.state_size, body, finite);
-        !wrong.empty())
-      return fail(e, wrong);
-    if (finite) ents_pose_to_body(layout.dimension, &body.pose, 1, unknowns, unknowns, nullptr);
-    std::copy(model.body.begin(), model.body.end(), unknowns + layout.dimension);
-  }
-  if (!finite) { // a diverged iteration of the host
+  if (const std::string wrong = place(e, arguments, at); !wrong.empty()) return fail(e, wrong);
+  double* unknowns = at.unknowns;
+  const Body& body = at.body;
+  if (!at.finite) { // a diverged iteration of the host
     result.outcome = Outcome::cut;
     result.step_factor = 0.5;
     say(result, e, "the host's displacements are not finite");
@@ -227,15 +289,7 @@ Result evaluate(const Element& e) {
 
   ents_report report{};
   report.struct_size = sizeof report;
-  ents_input input{};
-  input.struct_size = sizeof input;
-  input.slave = unknowns;
-  input.master = unknowns + layout.dimension;
-  input.multiplier = layout.multipliers ? unknowns + layout.dimension * (layout.nodes + 1) : nullptr;
-  input.surface_coordinates = arguments.surface_coordinates;
-  input.area = &arguments.area;
-  if (arguments.has_offset) input.slave_values = arguments.slave_values;
-  input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
+  ents_input input = input_at(arguments, at, state_begin);
   double start[2];
   if (find_start(model, input, start)) input.start = start;
   int32_t flags = 0;
@@ -253,7 +307,10 @@ Result evaluate(const Element& e) {
   output.tangent = tangent;
   output.energy = &energy;
   output.state_end = state_end;
-  if (const int32_t status = ents_evaluate(model.model, 0, 1, &input, &output, &report); status != ENTS_OK) {
+  int32_t status = ents_evaluate(model.model, 0, 1, &input, &output, &report);
+  if (status == ENTS_OK && (flags & ENTS_FLAG_NO_BEGIN) && find_begin(e, arguments, state_begin))
+    status = ents_evaluate(model.model, 0, 1, &input, &output, &report);
+  if (status != ENTS_OK) {
     result.outcome = status > 0 ? Outcome::cut : Outcome::failed;
     result.step_factor = status > 0 ? report.step_factor : 1;
     say(result, e, model.file + ": " + report.message);

@@ -71,6 +71,9 @@ struct Element {
   Grid<const double>
       displacement;             ///< (dof, node) or null; multipliers are the "displacements" of the last node
   Grid<const double> increment; ///< (dof, node) or null: added, too
+  Grid<const double>
+      change; ///< (dof, node) or null: what of the above belongs to this increment. A slave that touches
+              ///< within an increment without a history has friction only where it is known
   Row<const double> spin; ///< [3] rotation vector of the reference node in this increment, or null: none
   Row<const double> properties;
   int property_count = 0;

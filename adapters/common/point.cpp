@@ -45,6 +45,9 @@ Result evaluate(const Point& p) {
       position[d * (1 + corner) + a] = properties[3 + (d - 1) * corner + a] =
           p.start[a] + half * sign[corner][a];
 
+  double change[3 * (1 + largest_corners)] = {};
+  for (int a = 0; p.change && a + 1 < d; ++a) change[a] = p.change[1 + a];
+  if (p.change) change[d - 1] = -p.change[0];
   double residual[3 * (1 + largest_corners)], tangent[9 * (1 + largest_corners) * (1 + largest_corners)];
   const int rows = d * (1 + corners);
   Element e;
@@ -54,6 +57,7 @@ Result evaluate(const Point& p) {
   e.nodes = 1 + corners;
   e.dofs = e.coordinates = d;
   e.position = {position, 1, d};
+  if (p.change) e.change = {change, 1, d};
   e.properties = {properties};
   e.property_count = 3 + (d - 1) * corners;
   e.history = p.history;

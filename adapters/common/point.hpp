@@ -14,6 +14,7 @@ struct Point {
   int directions = 0; ///< 2 or 3: normal, then tangents
   const double* closing =
       nullptr; ///< [directions] penetration of the face without height (> 0), then slip, [L]
+  const double* change = nullptr; ///< [directions] or null: what of `closing` belongs to this increment
   const double* start = nullptr; ///< [directions-1] surface coordinates of the point where it has not slipped
   Row<const double> properties;
   int property_count = 0;

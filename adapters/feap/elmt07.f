@@ -33,11 +33,12 @@
           integer (c_int)           :: words
           character (kind=c_char)   :: text(*)
         end function
-        integer (c_int) function ents_feap_form(d,xl,ul,number,nodes,
-     &              ndf,ndm,nst,want,factor,start,end,words,s,p,text,
-     &              length) bind(c)
+        integer (c_int) function ents_feap_form(d,xl,ul,du,number,
+     &              nodes,ndf,ndm,nst,want,factor,start,end,words,
+     &              s,p,text,length) bind(c)
           import :: c_int, c_double, c_char
-          real (c_double)           :: d(*),xl(*),ul(*),start(*),end(*)
+          real (c_double)           :: d(*),xl(*),ul(*),du(*)
+          real (c_double)           :: start(*),end(*)
           real (c_double)           :: s(*),p(*)
           integer (c_int), value    :: number,nodes,ndf,ndm,nst,want
           integer (c_int), value    :: words,length
@@ -58,8 +59,9 @@
         want   = 0
         if(isw.eq.3) want = 1
         words  = nint(d(4))
-        status = ents_feap_form(d,xl,ul,n_el,nel,ndf,ndm,nst,want,
-     &           ctan(1),hr(nh1),hr(nh2),words,s,p,text,width)
+!       ul(:,:,2): u - u_n
+        status = ents_feap_form(d,xl,ul,ul(1,1,2),n_el,nel,ndf,ndm,
+     &           nst,want,ctan(1),hr(nh1),hr(nh2),words,s,p,text,width)
       elseif(isw.eq.14) then
         do i = 0,nint(d(4))-1
           hr(nh1+i) = 0.0d0

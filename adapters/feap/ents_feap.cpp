@@ -57,13 +57,15 @@ FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* 
 /// isw 3, 6: p = -R, s = factor K.
 /// @param factor  ctan(1)
 /// @return 0; 1: stop; 2: the selfcheck has something to say
-FEAP_API int ents_feap_form(const double* d, const double* xl, const double* ul, int number, int nodes,
-                            int ndf, int ndm, int nst, int tangent, double factor, const double* begin,
-                            double* end, int history, double* s, double* p, char* text, int length) {
+FEAP_API int ents_feap_form(const double* d, const double* xl, const double* ul, const double* du, int number,
+                            int nodes, int ndf, int ndm, int nst, int tangent, double factor,
+                            const double* begin, double* end, int history, double* s, double* p, char* text,
+                            int length) {
   Element e = describe(d, nodes, ndf, ndm);
   e.number = number;
   e.position = {xl, 1, ndm};
   e.displacement = {ul, 1, ndf};
+  e.change = {du, 1, ndf};
   e.history = {begin};
   e.history_size = history;
   e.sign = -1;

@@ -82,6 +82,7 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   }
   const std::vector<double> at_rest(static_cast<std::size_t>(dofs_), 0.0);
   points_ = points_begin_ = points(at_rest.data());
+  now_ = now_begin_ = positions(slave_, at_rest.data());
   if (options.coordinate > 1) throw std::runtime_error("coordinate: 0 (x) or 1 (y)");
   for (std::size_t a = 0; options.coordinate >= 0 && a < segments_.size(); ++a)
     coordinates_.push_back(
@@ -158,6 +159,24 @@ std::int32_t BorderContact::transfer(std::size_t k, double* state, ents_report& 
                report);
 }
 
+/// The state of a slave that was open at the begin of the increment, as its present segment sees it there: what
+/// touches within the increment slips from there. False: not known.
+bool BorderContact::find_begin(std::size_t k, double* state) const {
+  ents_master_mesh mesh = mesh_;
+  mesh.positions = points_begin_.data();
+  std::vector<double> end(static_cast<std::size_t>(layout_.state_size));
+  auto in = made<ents_input>();
+  in.slave = now_begin_.data() + 2 * k;
+  in.mesh = &mesh, in.segment = &segment_[k];
+  in.start = &xi_[k], in.area = &areas_[k], in.state_begin = state;
+  auto out = made<ents_output>();
+  out.wanted = ENTS_STATE, out.state_end = end.data();
+  auto report = made<ents_report>();
+  if (check(ents_evaluate(model_, 0, 1, &in, &out, &report), report) != ENTS_OK) return false;
+  std::copy(end.begin(), end.end(), state);
+  return true;
+}
+
 /// What a local node of slave k's element is in the mesh: first dof and weight of each vertex.
 void BorderContact::terms(std::size_t k, std::size_t local, std::vector<Term>& of) const {
   of.clear();
@@ -184,7 +203,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   };
   const std::size_t n = slave_.vertices.size(), size = static_cast<std::size_t>(layout_.state_size),
                     dofs = static_cast<std::size_t>(layout_.dofs);
-  const std::vector<double> slave = positions(slave_, u);
+  const std::vector<double> slave = now_ = positions(slave_, u);
   points_ = points(u);
   mesh_.positions = points_.data();
   check(ents_tree_refit(model_, &mesh_, tree_.data(), signed_size(tree_.size()), &report), report);
@@ -234,8 +253,15 @@ Forces BorderContact::evaluate(const double* u, double* r) {
     out.wanted |= ENTS_STATE;
     out.state_end = end.data(), out.state_end_stride = signed_size(size);
   }
-  if (check(ents_evaluate(model_, 0, signed_size(closed.size()), &in, &out, &report), report) != ENTS_OK)
-    return cut(report);
+  const auto evaluate_all = [&] {
+    return check(ents_evaluate(model_, 0, signed_size(closed.size()), &in, &out, &report), report);
+  };
+  if (evaluate_all() != ENTS_OK) return cut(report);
+  bool found = false;
+  for (std::size_t e = 0; e < closed.size(); ++e)
+    if ((outcome[e] & ENTS_FLAG_NO_BEGIN) != 0)
+      found = find_begin(closed[e], state.data() + e * size) || found;
+  if (found && evaluate_all() != ENTS_OK) return cut(report);
 
   std::vector<Term> rows, columns;
   for (std::size_t e = 0; e < closed.size(); ++e) {
@@ -268,6 +294,7 @@ void BorderContact::accept() {
   xi_begin_ = xi_;
   state_begin_ = state_end_;
   points_begin_ = points_;
+  now_begin_ = now_;
 }
 
 void BorderContact::reject() {
@@ -275,6 +302,7 @@ void BorderContact::reject() {
   xi_ = xi_begin_;
   state_end_ = state_begin_;
   points_ = points_begin_;
+  now_ = now_begin_;
 }
 
 } // namespace freefem

@@ -64,6 +64,7 @@ private:
   std::vector<double> positions(const Border& border, const double* u) const;
   std::vector<double> points(const double* u) const;
   std::int32_t transfer(std::size_t slave, double* state, ents_report& report) const;
+  bool find_begin(std::size_t slave, double* state) const;
   void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
 
   ents_model* model_ = nullptr;
@@ -80,7 +81,7 @@ private:
   std::vector<double> tree_;
   // Where slave nodes are and their history: at the begin of the increment, and as of the last evaluation.
   std::vector<std::int64_t> segment_, segment_begin_;
-  std::vector<double> xi_, xi_begin_, state_begin_, state_end_, points_begin_;
+  std::vector<double> xi_, xi_begin_, state_begin_, state_end_, points_begin_, now_, now_begin_;
 };
 
 } // namespace freefem

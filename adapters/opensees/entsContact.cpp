@@ -28,6 +28,7 @@ int ops_getdoubleinput_(int* count, double* data);
 int ops_allocateelement_(eleObject* element, int* material_tags, int* material_type);
 int ops_getnodecrd_(int* node, int* count, double* data);
 int ops_getnodedisp_(int* node, int* count, double* data);
+int ops_getnodeincrdisp_(int* node, int* count, double* data); // trial minus committed
 int ops_error_(char* text, int length);
 
 } // extern "C"
@@ -117,18 +118,20 @@ int read(eleObject* ele) {
 
 int evaluate_element(eleObject* ele, double* tang, double* resid) {
   int d = static_cast<int>(ele->param[3]);
-  double position[largest_dofs], displacement[largest_dofs], residual[largest_dofs],
+  double position[largest_dofs], displacement[largest_dofs], change[largest_dofs], residual[largest_dofs],
       tangent[largest_dofs * largest_dofs];
   int begin[largest_nodes]; // of the nodes' degrees of freedom in the host's arrays
   for (int node = 0, at = 0; node < ele->nNode; ++node) {
-    std::array<double, largest_node_dofs> values{};
+    std::array<double, largest_node_dofs> values{}, increments{};
     int dofs = static_cast<int>(ele->param[parameters + node]);
     if (ops_getnodecrd_(&ele->node[node], &d, position + d * node) != 0 ||
-        ops_getnodedisp_(&ele->node[node], &dofs, values.data()) != 0)
+        ops_getnodedisp_(&ele->node[node], &dofs, values.data()) != 0 ||
+        ops_getnodeincrdisp_(&ele->node[node], &dofs, increments.data()) != 0)
       return tell(
           "ents: the nodes of entsContact need the coordinates of the model, 2 in 2D, 3 in 3D, and their "
           "displacements as first degrees of freedom");
     std::copy(values.begin(), values.begin() + d, displacement + d * node);
+    std::copy(increments.begin(), increments.begin() + d, change + d * node);
     begin[node] = at;
     at += dofs;
   }
@@ -140,6 +143,7 @@ int evaluate_element(eleObject* ele, double* tang, double* resid) {
   e.dofs = e.coordinates = d;
   e.position = {position, 1, d};
   e.displacement = {displacement, 1, d};
+  e.change = {change, 1, d};
   e.properties = {ele->param};
   e.property_count = 3;
   e.history = {ele->cState};

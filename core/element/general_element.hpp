@@ -78,8 +78,7 @@ template <class B, bool H> struct GeneralElement {
 
     const PairBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<B, H, double> begin(plan, block, 0);
-    at.evaluate_law(plan, begin.anchor, begin.history, begin.multipliers(), begin.worn_or_null(),
-                    begin.offset, begin.scale);
+    at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale);
     if (element && !at.solved) return Status::out_of_range;
     if (!verdict_wanted) pair.contact = false;
     if (pair.contact && element) {
@@ -141,7 +140,7 @@ private:
   // May every force and small result be computed without leaving the range of double precision?
   bool law_in_range() const {
     const double area = at.pair.area;
-    double size = area * (absolute(at.law.force) + at.law.stiffness);
+    double size = area * (absolute(at.law.force) + absolute(at.law.stiffness));
     if (plan.law.wear.on) size += area * (absolute(at.wear.by_slid) + at.wear.slid + absolute(at.wear.lost));
     double tangential = at.friction.active ? sum_of_absolutes(at.friction.force) : 0.0;
     size += tangential;

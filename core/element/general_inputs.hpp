@@ -23,7 +23,8 @@ ENTS_INLINE bool has_sound_values(const Plan& plan, const PairBlock& block, std:
 // What an element, or each lane's, is evaluated from.
 template <class B, bool H, class S> struct GeneralInputs {
   static constexpr int D = B::dim, T = D - 1;
-  S anchor[T], history, multiplier[1 + T];
+  SlipBegin<S, T> begin; // friction, or wear
+  S multiplier[1 + T];
   S offset, scale; // of the gap, beside the law's own; of a table
   bool has_multiplier, has_wear;
   WornState<S, T> worn;
@@ -32,14 +33,16 @@ template <class B, bool H, class S> struct GeneralInputs {
     const auto state = [&](int k) ENTS_LAMBDA_INLINE {
       return element_at(block.state_begin, block.state_begin_stride, first + k);
     };
-    history = S(0.0);
-    for (S& x : anchor) x = S(0.0);
+    begin.known = begin.clearance = S(0.0);
+    for (S& x : begin.from) x = S(0.0);
     for (S& x : multiplier) x = S(0.0);
-    if (plan.state.anchor_at >= 0 && block.state_begin) {
-      history = of_each<S>(
-          [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
+    if (plan.state.clearance_at >= 0 && block.state_begin) {
+      const auto slip = [&](int k)
+                            ENTS_LAMBDA_INLINE { return slip_begin<T>(state(k), plan.state.clearance_at); };
+      begin.known = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).known; });
+      begin.clearance = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).clearance; });
       for (int a = 0; a < T; ++a)
-        anchor[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return state(k)[plan.state.anchor_at + a]; });
+        begin.from[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE { return slip(k).from[a]; });
     }
     const int count = plan.law.has_friction() ? 1 + T : 1;
     has_multiplier = plan.law.multiplier_is_dof() || (plan.law.multiplier_in_state() && block.state_begin);
@@ -67,9 +70,11 @@ template <class B, bool H, class S> struct GeneralInputs {
     };
     worn.depth = number(StateLayout::worn_slave) + number(StateLayout::worn_master);
     worn.pressure = number(StateLayout::worn_pressure);
-    worn.seen = of_each<S>(
-        [&](int k) ENTS_LAMBDA_INLINE { return state(k)[StateLayout::history_at] > 1.0 ? 1.0 : 0.0; });
-    for (int a = 0; a < T; ++a) worn.anchor[a] = number(StateLayout::worn_anchor + a);
+    worn.seen = begin.known;
+    for (int a = 0; a < T; ++a)
+      worn.anchor[a] = of_each<S>([&](int k) ENTS_LAMBDA_INLINE {
+        return slip_begin<T>(state(k), plan.state.wear_at + StateLayout::worn_anchor).from[a];
+      });
   }
 
   // As ContactPoint::evaluate_law() takes them

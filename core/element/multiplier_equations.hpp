@@ -50,9 +50,8 @@ template <class B, bool H, class S> struct MultiplierEquations {
       return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
     const double rate = 1.0 / plan.law.friction_stiffness;
     double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
-    if (f.slip)
-      by_multiplier +=
-          at.pair.area * sum_of_absolutes(f.direction) * (sum_of_absolutes(f.raised) + f.by_pressure);
+    if (f.slip) by_multiplier += at.pair.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);
+    by_multiplier += at.pair.area * sum_of_absolutes(f.by_force);
     for (int a = 0; a < T; ++a) {
       bound += rate * sum_of_absolutes(sum.P[a]);
       nodes += sum_of_absolutes(sum.dxi[a]);
@@ -93,11 +92,9 @@ private:
     if (!rubs) return;
     for (int a = 0; a < T; ++a) {
       for (int i = 0; i < n; ++i) out[i * leading + n + 1 + a] = rate * lane(sum->P[a][i], k);
-      if (slips) { // the limit follows the pressure, that is lambda_n
-        const double d = lane(f.direction[a], k) * lane(f.by_pressure, k) * area;
-        for (int i = 0; i < n; ++i) column[i] += lane(sum->dxi[a][i], k) * d;
-        column[n + 1 + a] = rate * d;
-      }
+      const double d = lane(f.by_force[a], k) * area; // the pressure follows lambda_n
+      for (int i = 0; i < n; ++i) column[i] += lane(sum->dxi[a][i], k) * d;
+      column[n + 1 + a] = rate * d;
     }
   }
 };

@@ -3,6 +3,7 @@
 // arrays to numbers of one element or of one per lane.
 #pragma once
 
+#include "core/law/touch.hpp"
 #include "core/tangent/pair_tangent.hpp"
 
 namespace ents::ENTS_ISA {
@@ -54,21 +55,12 @@ ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std
   return start;
 }
 
-// The anchor in the state, and whether there is one.
-template <int T>
-ENTS_INLINE const double* anchor_of(const Plan& plan, const PairBlock& block, std::int64_t e,
-                                    double& history) {
-  static const double none[T] = {};
-  const double* state = element_at(block.state_begin, block.state_begin_stride, e);
-  history = state && state[StateLayout::history_at] >= 2.0 ? 1.0 : 0.0;
-  return state ? state + plan.state.anchor_at : none;
-}
-
 // Inputs of element e.
 template <class B, bool H, bool F> struct PairOne {
   static constexpr int T = B::dim - 1;
   PairNodes<B, double> nodes;
-  double xi[T], area, anchor[T] = {}, history = 0.0; // as of PairLanes
+  double xi[T], area;
+  SlipBegin<double, T> begin{}; // friction
   bool known;
 
   ENTS_INLINE PairOne(const Plan& plan, const PairBlock& block, std::int64_t e) {
@@ -79,10 +71,9 @@ template <class B, bool H, bool F> struct PairOne {
                  coordinates_of(plan, block, e), nodes);
     for (int a = 0; a < T; ++a) xi[a] = start[a];
     area = block.area ? block.area[e * block.area_stride] : 1.0;
-    if constexpr (F) {
-      const double* at = anchor_of<T>(plan, block, e, history);
-      for (int a = 0; a < T; ++a) anchor[a] = at[a];
-    }
+    if constexpr (F)
+      if (block.state_begin)
+        begin = slip_begin<T>(block.state_begin + e * block.state_begin_stride, plan.state.anchor_at);
   }
 };
 
@@ -105,8 +96,8 @@ template <class B, bool H, bool F, int W> struct PairLanes {
   using S = Lanes<W>;
   PairNodes<B, S> nodes;
   S xi[T], area;
-  S anchor[T], history; // friction: that of the state, and 1 where there is one
-  std::uint32_t known;  // bit k: element e + k has a start
+  SlipBegin<S, T> begin; // friction
+  std::uint32_t known;   // bit k: element e + k has a start
 
   ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
     prefetch_inputs(plan, block, e + 2 * W);
@@ -147,13 +138,13 @@ template <class B, bool H, bool F, int W> struct PairLanes {
       read_states(plan, block, from);
     } else {
       if (!block.start) known = 0;
-      history = S(0.0);
-      for (S& x_0 : anchor) x_0 = S(0.0);
+      begin.known = begin.clearance = S(0.0);
+      for (S& x_0 : begin.from) x_0 = S(0.0);
     }
     if (known != (1u << W) - 1) { // others begin anywhere
-      double begin[W];
-      for (int k = 0; k < W; ++k) begin[k] = known >> k & 1 ? 1.0 : 0.0;
-      const Truth<S> has_start = load<S>(begin) > 0.5;
+      double starts[W];
+      for (int k = 0; k < W; ++k) starts[k] = known >> k & 1 ? 1.0 : 0.0;
+      const Truth<S> has_start = load<S>(starts) > 0.5;
       for (S& x_0 : xi) x_0 = select(has_start, x_0, S(0.0));
     }
   }
@@ -180,9 +171,11 @@ private:
       for (int a = 0; a < T; ++a)
         xi[a] = block.start ? select(touched, state[StateLayout::xi_at + a], xi[a])
                             : state[StateLayout::xi_at + a];
-    if constexpr (F) {
-      history = select(touched, S(1.0), S(0.0));
-      for (int a = 0; a < T; ++a) anchor[a] = state[StateLayout::xi_at + T + a];
+    if constexpr (F) { // as slip_begin() has it
+      const S *place = state + StateLayout::xi_at, *anchor = place + T;
+      begin.known = select(last >= 1.0, S(1.0), S(0.0));
+      begin.clearance = select(both(is(last, 1.0), anchor[0] > 0.0), anchor[0], S(0.0));
+      for (int a = 0; a < T; ++a) begin.from[a] = select(touched, anchor[a], place[a]);
     }
   }
   // Of a later element, or of none: inputs of long calls come from memory, and the hardware prefetch of the

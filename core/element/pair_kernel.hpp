@@ -39,10 +39,11 @@ template <class B, bool H, class S> ENTS_NOINLINE Truth<S> height_has_thirds(con
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
 ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p,
-                              PairFriction<B, H, S>& f, const S (&anchor)[B::dim - 1], const S& history) {
+                              PairFriction<B, H, S>& f, const SlipBegin<S, B::dim - 1>* begin) {
   p.evaluate_at_solution();
   p.evaluate_law(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
-  if constexpr (F) f.evaluate(plan.law, p, anchor, history, -(p.area * p.per_gap * p.gap));
+  if constexpr (F)
+    f.evaluate(plan.law, p, *begin, slip_share(begin->clearance, -p.gap), -(p.area * p.per_gap * p.gap));
   if constexpr (F && H)
     if ((wanted & want::tangent) != 0 && has_functions(plan))
       p.ordinary = both(p.ordinary, height_has_thirds(p));
@@ -149,7 +150,7 @@ ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int6
     return true;
   }
   p.project();
-  evaluate_law<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  evaluate_law<F>(plan, block.wanted, p, f, &in.begin);
   if (!p.ordinary || (block.rest && !write_rest(plan, block, p))) return false;
   if (!p.contact)
     write_zeros(block, e, plan.dofs);
@@ -231,7 +232,7 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
   constexpr int D = B::dim;
   using S = Lanes<W>;
   PairFriction<B, H, S> f;
-  evaluate_law<F>(plan, block.wanted, p, f, in.anchor, in.history);
+  evaluate_law<F>(plan, block.wanted, p, f, &in.begin);
   const std::uint32_t done = in.known & (bits_of(p.ordinary) | far);
   if (!done) return 0;
   const std::uint32_t contact = done & bits_of(p.contact) & ~far;

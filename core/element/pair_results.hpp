@@ -20,6 +20,7 @@ template <class B, bool F, class S> struct SmallResults {
   S moved[T], stretch[T], raised[T], limit, norm, scale; // friction
   S tangential[T], metric[K]; // t_a and rho_e,a . rho_e,b, where the law has multipliers
   S lost;                     // of the increment, where the law has wear
+  S clearance;                // of an open element
   std::int32_t more_flags = 0;
   bool escaped = false; // the projection left the segment for good
 
@@ -29,6 +30,7 @@ template <class B, bool F, class S> struct SmallResults {
     normal_gap = gap = p.gap;
     force = p.per_gap * p.gap;
     normal = p.normal;
+    clearance = p.gap;
   }
   // Any element
   template <bool H> ENTS_INLINE explicit SmallResults(const ContactPoint<B, H, S>& at) {
@@ -41,6 +43,7 @@ template <class B, bool F, class S> struct SmallResults {
       for (int a = 0; a < T; ++a) tangential[a] = at.friction.force[a];
     for (int k = 0; k < K; ++k) metric[k] = at.pair.projector.metric[k];
     lost = at.wear.lost;
+    clearance = at.clearance;
   }
 
   // Of lane k, to element e
@@ -157,6 +160,7 @@ private:
       block.flags[e * block.flags_stride] =
           (pair ? flag::contact : 0) | (outside >> k & 1 ? flag::outside : 0) |
           (changed ? flag::changed : 0) | (rubs ? (slips ? flag::slip : flag::stick) : 0) |
+          (F && pair && !rubs && plan.law.has_friction() ? flag::no_begin : 0) |
           (at_shear_limit >> k & 1 ? flag::shear_limit : 0) | more_flags;
     if (wanted & want::age) block.age[e * block.age_stride] = age;
     double anchor[T] = {}, slipped = 0.0;
@@ -177,6 +181,10 @@ private:
       }
     if (plan.state.multiplier_at >= 0) write_multipliers(plan.law, k, end + plan.state.multiplier_at);
     if (plan.state.wear_at >= 0) write_wear(plan, k, begin, end);
+    if (plan.state.clearance_at >= 0 && now == static_cast<double>(History::open)) {
+      for (int a = 1; a < T; ++a) end[plan.state.clearance_at + a] = 0.0;
+      end[plan.state.clearance_at] = lane(clearance, k);
+    }
   }
 };
 

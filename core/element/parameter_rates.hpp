@@ -72,17 +72,19 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   at.measure(plan);
   const PairBlock block = block_of(in, ElementOutput{}, nullptr, 0);
   const GeneralInputs<B, true, double> begin(plan, block, 0);
-  S anchor[T], multiplier[1 + T];
+  SlipBegin<S, T> slip;
+  S multiplier[1 + T];
   WornState<S, T> worn;
-  for (int a = 0; a < T; ++a) anchor[a] = S(begin.anchor[a]);
+  slip.known = S(begin.begin.known), slip.clearance = S(begin.begin.clearance);
+  for (int a = 0; a < T; ++a) slip.from[a] = S(begin.begin.from[a]);
   for (int a = 0; a < 1 + T; ++a) multiplier[a] = S(begin.multiplier[a]);
   if (begin.has_wear) {
     worn.depth = S(begin.worn.depth), worn.pressure = S(begin.worn.pressure), worn.seen = S(begin.worn.seen);
     for (int a = 0; a < T; ++a) worn.anchor[a] = S(begin.worn.anchor[a]);
     worn.factor = S(begin.worn.factor), worn.sliding_factor = S(begin.worn.sliding_factor);
   }
-  at.evaluate_law(plan, anchor, S(begin.history), begin.has_multiplier ? multiplier : nullptr,
-                  begin.has_wear ? &worn : nullptr, S(begin.offset), S(begin.scale));
+  at.evaluate_law(plan, slip, begin.has_multiplier ? multiplier : nullptr, begin.has_wear ? &worn : nullptr,
+                  S(begin.offset), S(begin.scale));
   out.gap = at.gap.d;
   out.energy = pair.area.v * at.law.energy.d;
   out.pressure = 0.0 - at.law.force.d;

@@ -31,9 +31,11 @@ template <class B, bool H, class S> struct ContactPoint {
   Pair<B, H, S>& pair;            // its projector is at xi
   const Ray<S, D>* ray = nullptr; // shadow projection
   S gap, normal_gap, law_gap;     // the last with the offset
-  V normal, c, onto[T];           // n_e; onto: shadow
-  NormalForce<S> law;             // 0 where there is no contact
-  Truth<S> safe;                  // has the ray a frame, and does it enter the surface from the front?
+  S clearance;                    // to the gap from which on there is contact, with what is worn
+  SlipShare<S> slipping;
+  V normal, c, onto[T]; // n_e; onto: shadow
+  NormalForce<S> law;   // 0 where there is no contact
+  Truth<S> safe;        // has the ray a frame, and does it enter the surface from the front?
   PairFriction<B, H, S> friction;
   WearOfIncrement<S, D> wear; // if the law has it
   Truth<S> solved;            // was its pressure found?
@@ -51,14 +53,17 @@ template <class B, bool H, class S> struct ContactPoint {
     return at;
   }
 
-  // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; history: 1 where
-  // there is an anchor; worn: null without wear; offset, scale: of the slave node.
-  ENTS_INLINE void evaluate_law(const Plan& plan, const S (&anchor)[T], const S& history, const S* multiplier,
+  // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; worn: null without
+  // wear; offset, scale: of the slave node.
+  ENTS_INLINE void evaluate_law(const Plan& plan, const SlipBegin<S, T>& begin, const S* multiplier,
                                 const WornState<S, T>* worn, const S& offset, const S& scale) {
     const S none(0.0), lambda = multiplier ? multiplier[0] : none;
     law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
+    clearance = law_gap - touching_gap(plan.law, scale);
     if (worn) {
-      set_slid(plan.law, *worn, pair.xi, pair.projector.s.e, wear);
+      clearance = clearance + worn->depth;
+      slipping = slip_share(begin.clearance, -clearance);
+      set_slid(plan.law, *worn, pair.xi, pair.projector.s.e, slipping, wear);
       law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
     } else {
       solved = gap <= gap;
@@ -81,18 +86,24 @@ template <class B, bool H, class S> struct ContactPoint {
       wear.lost = select(outside, none, wear.lost);
     }
     pair.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
-    if (plan.law.has_friction())
-      friction.evaluate(plan.law, pair, anchor, history, -(pair.area * law.force),
+    if (plan.law.has_friction()) {
+      SlipBegin<S, T> of = begin;
+      if (plan.law.multiplier_is_dof()) // these leave no depth, and no measure of the way after the touch
+        of.known = select(begin.clearance > 0.0, none, begin.known);
+      else if (!worn)
+        slipping = slip_share(begin.clearance, -clearance);
+      friction.evaluate(plan.law, pair, of, slipping, -(pair.area * law.force),
                         multiplier ? multiplier + 1 : nullptr);
-    else
+    } else {
       friction.set_none();
+    }
   }
 
   // The variation of ds at fixed xi is sum_b form_of_slope<b>(wear.moved[b] m), that by xi:
   ENTS_INLINE void slid_by_xi(S (&by_xi)[T]) const {
     const auto& s = pair.projector.s;
     for (int a = 0; a < T; ++a) {
-      Vec<S, D> along = s.e[a];
+      Vec<S, D> along = slipping.share * s.e[a];
       for (int b = 0; b < T; ++b) add_scaled(along, wear.moved[b], s.e2[symmetric_index(a, b)]);
       by_xi[a] = dot(wear.m, along);
     }

@@ -80,7 +80,7 @@ ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, con
   case NormalKind::power: {
     const double m = 0.5 * law.twice_exponent;
     const S per_gap = force_per_gap(law, gap);
-    f = {per_gap * gap, m * per_gap, per_gap * gap * gap / S(m + 1.0), gap < 0.0};
+    f = {per_gap * gap, m * per_gap, per_gap * gap * gap / S(m + 1.0), gap <= 0.0};
     break;
   }
   case NormalKind::exponential: {

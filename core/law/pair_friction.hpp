@@ -5,6 +5,7 @@
 // motion of the element does not move it, and no vector has to be rotated. Covariant tangential force, per
 // element, work-conjugate to delta xi^a:
 //   trial  t_a = A (lambda_a + eps_t A_ab (xi^b - xi_0^b)),  A_ab = rho_e,a . rho_e,b
+//          of an element that touches within the increment s (xi^b - xi_n^b) instead (theory.md, section 5.10)
 //   stick  |t| = sqrt(t_a A^ab t_b) <= L,  L = min(mu p A, shear limit A)
 //   slip   t_a = L m_a,  m_a = t_a / |t| of the trial
 //
@@ -15,6 +16,7 @@
 // All but the last expansion to dofs happens in the reduced space of forms.hpp.
 #pragma once
 
+#include "core/law/touch.hpp"
 #include "core/tangent/pair_tangent.hpp"
 
 namespace ents::ENTS_ISA {
@@ -22,23 +24,29 @@ namespace ents::ENTS_ISA {
 template <class B, bool H, class S> struct PairFriction {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   Truth<S> active, slip, at_shear_limit;
-  S moved[T];           // xi - xi_0; 0 where there is no friction
+  Truth<S> closes;      // was it open at the begin of the increment?
+  S share;              // s of touch.hpp
+  S moved[T];           // s (xi - xi_0); 0 where there is no friction
   S stretch[T];         // A^ab t_b / (eps_t A) of the trial: that of the elastic slip, and of the multiplier
   S force[T];           // t_a
   S scale;              // eps_t A
   S norm;               // |t| of the trial
   S limit, by_pressure; // L, dL / d(p A)
   S direction[T], raised[T];
+  S by_gap[T], by_force[T]; // dt_a / dg, dt_a / d(p A) at a fixed place
 
-  // history: 1 where the element was in contact; pressure_force: p A; multiplier: lambda_a [F/L], or null
-  ENTS_INLINE void evaluate(const ContactLaw& law, Pair<B, H, S>& pair, const S (&anchor)[T],
-                            const S& history, const S& pressure_force, const S* multiplier = nullptr) {
+  // slipping: the part of the increment; pressure_force: p A; multiplier: lambda_a [F/L], or null
+  ENTS_INLINE void evaluate(const ContactLaw& law, Pair<B, H, S>& pair, const SlipBegin<S, T>& begin,
+                            const SlipShare<S>& slipping, const S& pressure_force,
+                            const S* multiplier = nullptr) {
     const auto& metric = pair.projector.metric;
-    active = both(pair.contact, history > 0.0);
+    active = both(pair.contact, begin.known > 0.0);
+    closes = both(active, slipping.touches > 0.5);
+    share = slipping.share;
     scale = law.friction_stiffness * pair.area;
     S lowered[T], far = scale / safe_magnitude;
     for (int a = 0; a < T; ++a) {
-      moved[a] = select(active, pair.xi[a] - anchor[a], S(0.0));
+      moved[a] = select(active, share * (pair.xi[a] - begin.from[a]), S(0.0));
       far = far + 1e-6 * absolute(moved[a]);
     }
     pair.ordinary = both(pair.ordinary, far < 1.0);
@@ -75,14 +83,22 @@ template <class B, bool H, class S> struct PairFriction {
       direction[a] = q * lowered[a];
       raised[a] = q * stretch[a];
       force[a] = select(slip, limit * direction[a], scale * lowered[a]);
+      by_gap[a] = S(0.0);
+      by_force[a] = select(slip, direction[a] * by_pressure, S(0.0));
     }
+    if (slipping.some) differentiate_share(law, pair, begin, slipping.rate);
   }
 
   // No friction.
   ENTS_INLINE void set_none() {
     const S zero(0.0);
     active = slip = at_shear_limit = zero < zero;
-    for (int a = 0; a < T; ++a) moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
+    closes = active;
+    share = S(1.0);
+    for (int a = 0; a < T; ++a) {
+      moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
+      by_gap[a] = by_force[a] = zero;
+    }
     scale = norm = limit = by_pressure = zero;
   }
 
@@ -92,7 +108,7 @@ private:
     slip = active;
     at_shear_limit = norm < norm;
     limit = by_pressure = S(0.0);
-    for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = S(0.0);
+    for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = by_gap[a] = by_force[a] = S(0.0);
   }
 
   ENTS_INLINE void add_multiplier(const ContactLaw& law, const S (&metric)[K], const S* multiplier,
@@ -106,6 +122,27 @@ private:
       S raised_own = inverse[symmetric_index(a, 0)] * own[0];
       if constexpr (T == 2) raised_own = raised_own + inverse[symmetric_index(a, 1)] * own[1];
       stretch[a] = stretch[a] + select(active, raised_own, S(0.0));
+    }
+  }
+
+  // t_a changes with the part of the increment that is slip; its direction only beside a multiplier.
+  ENTS_INLINE void differentiate_share(const ContactLaw& law, const Pair<B, H, S>& pair,
+                                       const SlipBegin<S, T>& begin, const S& rate) {
+    const auto& metric = pair.projector.metric;
+    S lowered[T], along = S(0.0);
+    for (int a = 0; a < T; ++a) {
+      lowered[a] = metric[symmetric_index(a, 0)] * (pair.xi[0] - begin.from[0]);
+      if constexpr (T == 2)
+        lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * (pair.xi[1] - begin.from[1]);
+    }
+    for (int a = 0; a < T; ++a) along = along + raised[a] * lowered[a];
+    // The direction of an element that slips follows its multiplier, if it has one beside the trial.
+    const S turns(law.multiplier_in_state() ? 1.0 : 0.0), none(0.0);
+    const S q = select(slip, turns * (limit / select(slip, norm, S(1.0))), S(1.0)) * (scale * rate);
+    for (int a = 0; a < T; ++a) {
+      const S change = q * (lowered[a] - select(slip, direction[a] * along, none));
+      const S by_depth = select(closes, change, none);
+      by_gap[a] = none - by_depth;
     }
   }
 };

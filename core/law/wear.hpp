@@ -7,15 +7,16 @@
 // which for every law is one equation for p with one root, since W' does not fall: a compliance q k ds in
 // series with that of the law. No new unknown; stable for every ds if q = 1.
 //
-//   ds^2 = D^a A_ab D^b + b^2,  D = xi - xi_n
-//     xi_n: projection at the begin of the increment, b: Wear::sliding
+//   ds^2 = D^a A_ab D^b + b^2,  D = s (xi - xi_n)
+//     xi_n: projection at the begin of the increment, s: the part that is slip (theory.md, section 5.10), b: Wear::sliding
 //   delta W' = W''/(1 + q k ds W'') (delta g + k ((1 - q) p_n + q p) delta ds)
-//   delta ds = m . ((rho_e,c + D^b rho_e,bc) delta xi^c + D^b delta rho_e,b),  m = D^a rho_e,a / ds
+//   delta ds = m . ((s rho_e,c + D^b rho_e,bc) delta xi^c + D^b delta rho_e,b
+//                   - s' (xi - xi_n)^a rho_e,a delta g),   m = D^a rho_e,a / ds,  s' = ds/dz
 //
 // All of the slip counts, its elastic part with friction included.
 #pragma once
 
-#include "core/law/normal_law.hpp"
+#include "core/law/touch.hpp"
 #include "core/numbers/vec.hpp"
 
 namespace ents::ENTS_ISA {
@@ -23,7 +24,7 @@ namespace ents::ENTS_ISA {
 // What an element begins the increment with.
 template <class S, int T> struct WornState {
   S depth, pressure;        // w_n of both surfaces, p_n
-  S anchor[T], seen;        // xi_n; 1 where the element was in contact, else it has not slid yet
+  S anchor[T], seen;        // xi_n; 1 where it is known, else the element has not slid yet
   S factor, sliding_factor; // of k and of Wear::sliding, for this slave node
 };
 
@@ -31,6 +32,7 @@ template <class S, int D> struct WearOfIncrement {
   S slid;             // ds
   S lost = S(0.0);    // w - w_n
   S by_slid = S(0.0); // dW'/dds
+  S by_gap;           // dds/dg at a fixed place
   S moved[D - 1];     // D
   Vec<S, D> m;
 };
@@ -38,8 +40,13 @@ template <class S, int D> struct WearOfIncrement {
 // ds, and what its variation needs
 template <class S, int D>
 ENTS_INLINE void set_slid(const ContactLaw& law, const WornState<S, D - 1>& begin, const S (&xi)[D - 1],
-                          const Vec<S, D> (&tangents)[D - 1], WearOfIncrement<S, D>& to) {
-  for (int a = 0; a < D - 1; ++a) to.moved[a] = select(begin.seen > 0.0, xi[a] - begin.anchor[a], S(0.0));
+                          const Vec<S, D> (&tangents)[D - 1], const SlipShare<S>& slipping,
+                          WearOfIncrement<S, D>& to) {
+  S whole[D - 1];
+  for (int a = 0; a < D - 1; ++a) {
+    whole[a] = select(begin.seen > 0.0, xi[a] - begin.anchor[a], S(0.0));
+    to.moved[a] = slipping.share * whole[a];
+  }
   Vec<S, D> way = to.moved[0] * tangents[0];
   if constexpr (D == 3) add_scaled(way, to.moved[1], tangents[1]);
   const S beside = begin.sliding_factor * law_number<S>(law.wear.sliding, law.rates.sliding);
@@ -47,6 +54,8 @@ ENTS_INLINE void set_slid(const ContactLaw& law, const WornState<S, D - 1>& begi
   to.slid = square_root(squared);
   const Truth<S> moves = to.slid > 0.0;
   to.m = (1.0 / select(moves, to.slid, S(1.0))) * way;
+  to.by_gap = S(0.0);
+  for (int a = 0; a < D - 1; ++a) to.by_gap = to.by_gap - slipping.rate * (whole[a] * dot(to.m, tangents[a]));
 }
 
 inline constexpr int most_wear_steps = 200;
@@ -105,6 +114,7 @@ ENTS_INLINE NormalForce<S> worn_force(const ContactLaw& law, const S& gap, const
   f.force = select(f.contact, -p, f.force);
   f.stiffness = f.stiffness / (1.0 + share * f.stiffness);
   to.by_slid = f.stiffness * (coefficient * mean);
+  f.stiffness = f.stiffness + to.by_slid * to.by_gap;
   to.lost = rate * mean;
   return f;
 }

@@ -48,7 +48,7 @@ const PairKernels& best_pair_kernels() {
 StateLayout make_state_layout(const Model& model) {
   const ContactLaw& law = model.law;
   const std::int32_t parameters = basis_entry(model.basis).parameters;
-  StateLayout s{-1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
+  StateLayout s{-1, -1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
   if (law.has_friction()) {
     s.anchor_at = s.size;
     s.slip_at = s.anchor_at + parameters;
@@ -62,6 +62,9 @@ StateLayout make_state_layout(const Model& model) {
     s.wear_at = s.size;
     s.size += StateLayout::worn_anchor + parameters;
   }
+  s.clearance_at = s.anchor_at >= 0 ? s.anchor_at
+                   : s.wear_at >= 0 ? s.wear_at + StateLayout::worn_anchor
+                                    : -1;
   constexpr double ents = 1701737587.0; // the four letters
   const auto basis = static_cast<std::int32_t>(model.basis), normal = static_cast<std::int32_t>(law.normal),
              friction = static_cast<std::int32_t>(law.friction);

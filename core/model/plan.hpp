@@ -34,7 +34,8 @@ enum : std::int32_t {
   stick = 16,
   slip = 32,
   shear_limit = 64,
-  changed = 128
+  changed = 128,
+  no_begin = 2048
 };
 }
 
@@ -50,14 +51,15 @@ constexpr bool same_status(double before, double now) {
   return before == now || (before <= 1.0 && now <= 1.0);
 }
 struct StateLayout {
-  static constexpr std::int32_t version = 2;
+  static constexpr std::int32_t version = 3;
   static constexpr std::int32_t tag_at = 0, history_at = 1;
   static constexpr std::int32_t age_at = 2; // increments since the last change of status
   static constexpr std::int32_t xi_at = 3;  // [T]
-  std::int32_t anchor_at;                   // [T], friction
+  std::int32_t anchor_at;                   // [T], friction; of an open element see clearance_at
   std::int32_t slip_at;                     // accumulated slip [L], friction
   std::int32_t multiplier_at;               // [1] or, with friction, [1 + T]: augmented Lagrangian
-  std::int32_t wear_at; // [worn_slave, worn_master, pressure, anchor [T]], see below; wear
+  std::int32_t wear_at;      // [worn_slave, worn_master, pressure, anchor [T]], see below; wear
+  std::int32_t clearance_at; // of an open element: how far from contact it was [L], in place of an anchor
   std::int32_t size;
   double tag; // "ents", version, basis and kinds of law in one exactly representable number
   // From wear_at on: depth that the slave surface has lost [L]; depth that the master surface has lost here

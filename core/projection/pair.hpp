@@ -255,7 +255,7 @@ template <class B, bool H, class S> struct Pair {
   ENTS_INLINE void evaluate_law(const Plan& plan, bool measures) {
     const Measured at = measure(plan, measures);
     ordinary = both(ordinary, is_regular(at));
-    contact = without(at.across < 0.0, outside);
+    contact = without(at.across <= 0.0, outside);
     per_gap = force_per_gap(plan.law, gap);
     ordinary = both(ordinary, area * per_gap < safe_magnitude);
     ordinary = without(ordinary, both(contact, is_deep(plan, at, at.across)));

@@ -153,9 +153,9 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
   Projection<B, H> from, to;
   for (int which = 0; seen && which < 3; ++which) {
     if (points[which] < 0) continue;
-    // No force depends on the anchor of an open slave: that it is not found is no reason to cut the step.
-    if (which > 0 && !touches) {
-      for (int a = 0; a < T; ++a) end[points[which] + a] = end[StateLayout::xi_at + a];
+    if (which > 0 && !touches) { // an open slave has no anchor
+      if (points[which] != layout.clearance_at)
+        for (int a = 0; a < T; ++a) end[points[which] + a] = end[StateLayout::xi_at + a];
       continue;
     }
     const double* old_xi = state + points[which];
@@ -195,7 +195,10 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
       const bool found = closest_place(plan, g, to);
       if (!found && which > 0) return Status::no_projection;
       // Where the next projection starts is no history: a slave that went far may start from the middle.
-      if (!found) domain_centre<B>(to.xi);
+      if (!found) {
+        domain_centre<B>(to.xi);
+        if (!touches) end[StateLayout::history_at] = static_cast<double>(History::none);
+      }
       for (int a = 0; a < T; ++a) xi[a] = to.xi[a];
     }
     for (int a = 0; a < T; ++a) end[points[which] + a] = xi[a];

@@ -56,13 +56,14 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     }
   }
 
-  // dt_a = by_xi[a][c] x_c + sum_b towards[a][b] . D(rho_e,b) + slips_a dL, where D is at fixed xi. With w =
-  // moved, u = stretch, n_a the direction of the trial t_a = scale (A_ab w^b + multiplier) and m = u / |u|,
+  // dt_a = by_xi[a][c] x_c + sum_b towards[a][b] . D(rho_e,b) + dt_a/dg dg, where D is at fixed xi, and w =
+  // moved changes by share dxi. With u = stretch, n_a the direction of the trial t_a = scale (A_ab w^b +
+  // multiplier) and m = u / |u|,
   //   stick  dt_a = scale D(A_ab w^b)
   //   slip   t_a = L n_a,  dn_a = (D(A_ab w^b) - n_a m^b (D(A_bc w^c) - D(A_bc) u^c / 2)) / |u|
   // Without a multiplier u = w, and what is subtracted becomes n_a (m_c dxi^c + m^b w^c D(A_bc) / 2).
   struct ChangeOfForce {
-    S by_xi[T][T], slips[T];
+    S by_xi[T][T];
     Vec<S, D> towards[T][T];
 
     ENTS_INLINE ChangeOfForce(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
@@ -74,7 +75,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
       const S ratio = select(friction.slip,
                              friction.scale * (friction.limit / select(friction.slip, friction.norm, S(1.0))),
                              select(friction.active, friction.scale, none));
-      S m[T];
+      S m[T], slips[T];
       for (int a = 0; a < T; ++a) {
         slips[a] = select(friction.slip, friction.direction[a], none);
         m[a] = select(friction.slip, friction.raised[a], none);
@@ -84,8 +85,8 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
       if constexpr (T == 2) add_scaled(W, w[1], surface.e[1]);
       S along[T];
       for (int c = 0; c < T; ++c) {
-        along[c] = slips[c];
-        for (int a = 0; a < T; ++a) by_xi[a][c] = metric[symmetric_index(a, c)];
+        along[c] = friction.share * slips[c];
+        for (int a = 0; a < T; ++a) by_xi[a][c] = friction.share * metric[symmetric_index(a, c)];
         if constexpr (H || !is_flat<B>) {
           Vec<S, D> bend = w[0] * surface.e2[symmetric_index(0, c)];
           if constexpr (T == 2) add_scaled(bend, w[1], surface.e2[symmetric_index(1, c)]);
@@ -144,12 +145,11 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     }
   };
 
-  // dL of the penalty and the power law
-  static ENTS_INLINE void form_of_limit(const Plan& plan, const Pair<B, H, S>& pair,
-                                        const PairFriction<B, H, S>& friction, Form<B, S>& limit) {
+  // dt_a/dg of the penalty and the power law: by the gap itself, and by the pressure
+  static ENTS_INLINE S by_gap(int a, const Plan& plan, const Pair<B, H, S>& pair,
+                              const PairFriction<B, H, S>& friction) {
     const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
-    form_of_p<B, H>(pair.projector.s,
-                    (-friction.by_pressure * (exponent * pair.area * pair.per_gap)) * pair.normal, limit);
+    return friction.by_gap[a] - friction.by_force[a] * (exponent * pair.area * pair.per_gap);
   }
 
   // (F'_ab - (A W'/g) F_,ab) / 2
@@ -165,11 +165,11 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     set_form<parts_of_rate>(Y, S(-1.0), rate);
     for (int c = 0; c < T; ++c) add_form<parts>(Y, half_bend(a, c, derivative, stiffness), x[c]);
   }
-  // dt_a or, if Joined, Y_a + dt_a
+  // dt_a or, if Joined, Y_a + dt_a; gap: dg
   template <bool Joined>
   static ENTS_INLINE void set_P(int a, const Derivative& derivative, const S& stiffness,
                                 const Form<B, S>& rate, const Form<B, S> (&x)[T], const ChangeOfForce& change,
-                                const Form<B, S>& limit, Form<B, S>& P) {
+                                const S& by_gap, const Form<B, S>& gap, Form<B, S>& P) {
     if constexpr (Joined) set_form<parts_of_rate>(P, S(-1.0), rate);
     for (int c = 0; c < T; ++c) {
       if constexpr (Joined)
@@ -180,7 +180,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
         add_form<parts>(P, change.by_xi[a][c], x[c]);
     }
     change.add_to(a, derivative.p.s, P);
-    add_form<parts_of_p<H>>(P, change.slips[a], limit);
+    add_form<parts_of_p<H>>(P, by_gap, gap);
   }
 
   static constexpr bool by_third =

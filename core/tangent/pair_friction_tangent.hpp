@@ -71,13 +71,14 @@ private:
                                         const Derivative& derivative) {
     const S stiffness = pair.area * pair.per_gap;
     const typename Forms::ChangeOfForce change(pair, friction, false);
-    Form<B, S> limit;
-    Forms::form_of_limit(plan, pair, friction, limit);
+    Form<B, S> gap;
+    form_of_p<B, H>(pair.projector.s, pair.normal, gap);
     Base::set_projection_terms(
         pair, inverse, derivative, stiffness,
         [&](int a, const Form<B, S>& rate, const Form<B, S>(&xf)[T], const Form<B, S>&) ENTS_LAMBDA_INLINE {
           Form<B, S> Pf;
-          Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change, limit, Pf);
+          Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change,
+                                            Forms::by_gap(a, plan, pair, friction), gap, Pf);
           expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, pair.projector.N, P[a]);
         });
   }

@@ -160,12 +160,13 @@ private:
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     const typename Forms::ChangeOfForce change(pair, friction, false);
-    Form<B, S> limit;
-    Forms::form_of_limit(plan, pair, friction, limit);
+    Form<B, S> gap;
+    form_of_p<B, H>(pair.projector.s, pair.normal, gap);
     for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> rate, Yf, Pf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
-      Forms::template set_P<true>(a, derivative, stiffness, rate, xf, change, limit, Pf);
+      Forms::template set_P<true>(a, derivative, stiffness, rate, xf, change,
+                                  Forms::by_gap(a, plan, pair, friction), gap, Pf);
       keep<Forms::parts>(xf[a], x[a]);
       keep<Forms::parts_of_rate>(Yf, Y[a]);
       keep<Forms::parts_of_rate>(Pf, P[a]);

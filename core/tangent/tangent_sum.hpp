@@ -353,8 +353,8 @@ private:
       change.add_to(a, at.pair.projector.s, f);
       expand<parts_of_slope<B, H>>(at, f, P[a]);
       for (int b = 0; b < T; ++b) add(P[a], change.by_xi[a][b], dxi[b]);
-      const S per_force = -(change.slips[a] * friction_at.by_pressure);
-      add(P[a], per_force * sum.by_gap, dg);
+      const S per_force = -friction_at.by_force[a];
+      add(P[a], friction_at.by_gap[a] + per_force * sum.by_gap, dg);
       if (has_dW) add(P[a], per_force, dW);
     }
   }

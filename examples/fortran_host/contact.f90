@@ -22,7 +22,8 @@ module contact
   integer(int64) :: slave_count, state_size
   integer(int64), allocatable, target :: segments(:, :), begin(:), of(:), rows(:), columns(:), segment(:)
   integer(int64), allocatable, target :: slave_equations(:, :), master_equations(:, :)
-  real(real64), allocatable, target :: weights(:), points(:, :), coordinates(:, :), tree(:), areas(:), xi(:), slave_now(:, :)
+  real(real64), allocatable, target :: weights(:), points(:, :), coordinates(:, :), tree(:), areas(:), xi(:)
+  real(real64), allocatable, target :: slave_now(:, :), slave_begin(:, :)
   real(real64), allocatable, target :: state_begin(:, :), state_end(:, :), points_begin(:, :)
 
 contains
@@ -78,6 +79,7 @@ contains
     segment = -1
     xi = 0
     points_begin = points
+    slave_begin = slave_now
   end subroutine start_history
 
   ! The host's equations are its dofs, all of them, and its matrix is full: compressed rows with every column.
@@ -107,7 +109,7 @@ contains
     call check(ents_tree_refit(model, mesh, tree, size(tree, kind=int64), report))
     detection = ents_detection(slave=c_loc(slave_now), reach=reach, segment=c_loc(segment), xi=c_loc(xi))
     input = ents_input(area=c_loc(areas), area_stride=1, state_begin=c_loc(state_begin), state_begin_stride=state_size, &
-      positions_begin=c_loc(points_begin))
+      positions_begin=c_loc(points_begin), slave_begin=c_loc(slave_begin))
     output = ents_output(wanted=ENTS_STATE + ENTS_FLAGS, state_end=c_loc(state_end), state_end_stride=state_size, &
       flags=c_loc(flags), flags_stride=1)
     system%residual = c_loc(r)
@@ -123,6 +125,7 @@ contains
   subroutine accept_contact()
     state_begin = state_end
     points_begin = points
+    slave_begin = slave_now
   end subroutine accept_contact
 
   ! Mistakes end the program with the library's message.

@@ -177,13 +177,18 @@ std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<doub
 
 void Contact::place(const Configuration& at) {
   bind(at);
-  slave_positions_.resize(points_.size() * d_);
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    std::copy_n(position_of(k, at.displacement).begin(), d_, slave_positions_.data() + k * d_);
-  see_from_master(at, slave_positions_);
+  slave_positions_ = slave_points(at);
   multiplier_values_ = at.multiplier;
   if (master_.rigid) return;
   master_positions_ = master_points(at.displacement);
+}
+
+std::vector<double> Contact::slave_points(const Configuration& at) {
+  std::vector<double> positions(points_.size() * d_);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    std::copy_n(position_of(k, at.displacement).begin(), d_, positions.data() + k * d_);
+  see_from_master(at, positions);
+  return positions;
 }
 
 std::vector<double> Contact::master_points(const std::vector<double>& displacement) const {

@@ -217,6 +217,8 @@ private:
   SegmentCorners segment_corners() const;
   /// Positions as the master sees them, [points][d]: it stays where it is.
   void see_from_master(const Configuration& at, std::vector<double>& positions);
+  /// Positions of the slave points, of a rigid master that moves in its frame
+  std::vector<double> slave_points(const Configuration& at);
   /// The model with the parameters of a configuration, and what has been slid since the begin of the
   /// increment.
   void bind(const Configuration& at);
@@ -252,6 +254,9 @@ private:
   void gather(std::int64_t segment, std::vector<double>& positions) const;
   /// History of the elements as seen from their segments.
   void move_history(ents_report& report);
+  /// States of open points as their present segments see them at the begin of the increment: what touches
+  /// within it slips from there.
+  void find_begin(const std::vector<std::size_t>& points);
   void count_changes(const std::vector<std::int32_t>& flags);
   void couple(const std::vector<double>& force, RigidCoupling& coupling) const;
 
@@ -288,7 +293,7 @@ private:
   std::vector<char> closed_; ///< [slaves] by the last `assemble`
   int status_changes_ = 0, switches_ = 0, moves_ = 0;
   std::vector<double> slave_positions_, master_positions_, multiplier_values_;
-  std::vector<double> master_begin_; ///< positions at the begin of the increment
+  std::vector<double> master_begin_, slave_begin_; ///< positions at the begin of the increment
   std::vector<double> state_in_, state_out_;
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
   // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes,

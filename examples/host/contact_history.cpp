@@ -22,6 +22,7 @@ bool fields_fit(const std::map<std::string, std::vector<double>>& theirs,
 void Contact::begin_increment(const Configuration& begin) {
   begin_ = begin;
   master_begin_ = master_points(begin.displacement);
+  if (has_history()) slave_begin_ = slave_points(begin);
   at_ = begin_at_;
   pressure_ = accepted_.pressure;
   traction_ = accepted_.traction;
@@ -60,11 +61,15 @@ void Contact::move_history(ents_report& report) {
                ? nullptr
                : master_.surface_coordinates.data() + static_cast<std::size_t>(segment) * m_ * parameters_;
   };
+  std::vector<std::size_t> fresh;
+  constexpr double closed = 2; // the least of the states' histories that are in contact
   for (std::size_t k = 0; k < points_.size(); ++k) {
     const std::int64_t before = begin_at_.segment[k], now = at_.segment[k];
     const double* begin = state_begin_.data() + k * state_size_;
     double* moved = state_in_.data() + k * state_size_;
-    if (before < 0 || now < 0) { // no history but what has been worn off
+    const bool was_open = begin[1] < closed;
+    if (now >= 0 && was_open && (before != now || begin[1] == 0)) fresh.push_back(k);
+    if (before < 0 || now < 0 || (was_open && before != now)) { // no history but what has been worn off
       if (const std::int32_t worn = master_.model->layout().worn; worn >= 0)
         std::copy_n(begin + worn, 2, moved + worn);
       continue;
@@ -79,6 +84,47 @@ void Contact::move_history(ents_report& report) {
       continue;
     std::copy_n(state_out_.data() + k * state_size_, state_size_, moved); // a valid one; the step will be cut
     if (report.status == ENTS_OK) report = one;
+  }
+  if (has_history()) find_begin(fresh);
+}
+
+void Contact::find_begin(const std::vector<std::size_t>& points) {
+  if (points.empty() || slave_begin_.empty()) return;
+  const auto n = points.size();
+  std::vector<double> slaves, states, xi, none, end(n * state_size_);
+  std::vector<std::int64_t> segments;
+  std::vector<std::int32_t> status(n);
+  for (const std::size_t k : points) {
+    slaves.insert(slaves.end(), slave_begin_.data() + k * d_, slave_begin_.data() + (k + 1) * d_);
+    states.insert(states.end(), state_in_.data() + k * state_size_, state_in_.data() + (k + 1) * state_size_);
+    xi.insert(xi.end(), at_.xi.data() + k * parameters_, at_.xi.data() + (k + 1) * parameters_);
+    segments.push_back(at_.segment[k]);
+    none.resize(none.size() + multipliers_);
+  }
+  ents_master_mesh where = mesh();
+  where.positions = master_begin_.data();
+  auto in = ents_struct<ents_input>();
+  in.slave = slaves.data(), in.slave_stride = stride(d_);
+  in.mesh = &where;
+  in.segment = segments.data(), in.segment_stride = 1;
+  in.start = xi.data(), in.start_stride = stride(parameters_);
+  in.state_begin = states.data(), in.state_begin_stride = stride(state_size_);
+  if (multipliers_ > 0) in.multiplier = none.data(), in.multiplier_stride = stride(multipliers_);
+  auto out = ents_struct<ents_output>();
+  out.wanted = ENTS_STATE;
+  out.state_end = end.data(), out.state_end_stride = stride(state_size_);
+  out.status = status.data(), out.status_stride = 1;
+  auto report = ents_struct<ents_report>();
+  const EntsLibrary& library = master_.model->library();
+  if (const std::int32_t failed = library.evaluate(master_.model->get(), 0, stride(n), &in, &out, &report);
+      failed < 0)
+    throw JobError("contact state: " + describe(library, failed, report));
+  const std::int32_t worn = master_.model->layout().worn;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (status[i] != ENTS_OK) continue; // its way is not known
+    double *to = state_in_.data() + points[i] * state_size_, *from = end.data() + i * state_size_;
+    if (worn >= 0) std::copy_n(to + worn, 2, from + worn); // an evaluation of the begin wears nothing
+    std::copy_n(from, state_size_, to);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { n = 4, most = 1000 }; /* slave nodes; segments */
-static double nodes[most + 1][2], s[most][2], x[n][2], xi[n], gap[n], R[n][2], K[n][2][2];
+static double nodes[most + 1][2], s[most][2], x[n][2], x_begin[n][2], xi[n], gap[n], R[n][2], K[n][2][2];
 static int64_t ends[most][2], segment[n], size;
 static ents_report report = {.struct_size = sizeof report};
 
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < segments; i++) /* towards +x: the normal is +y; s: the length along x */
     for (int a = 0; a < 2; a++) ends[i][a] = i + a, s[i][a] = nodes[i + a][0] = 10.0 * (i + a) / segments;
   for (int i = 0; i < n; i++) x[i][0] = 1 + 0.3 * i, x[i][1] = 0.1, segment[i] = -1;
+  memcpy(x_begin, x, sizeof x);
 
   ents_master_mesh mesh = {sizeof mesh, 0, segments, ends[0], segments + 1, nodes[0], s[0]};
   check(ents_tree_size(model, segments, &size, &report));
@@ -37,7 +38,7 @@ int main(int argc, char** argv) {
   check(ents_tree_build(model, &mesh, tree, size, &report));
   ents_detection found = {sizeof found, .slave = x[0], .reach = 0.5, .segment = segment, .xi = xi};
   found.gap = gap;
-  ents_input in = {sizeof in, .state_begin = begin, .state_begin_stride = m};
+  ents_input in = {sizeof in, .state_begin = begin, .state_begin_stride = m, .slave_begin = x_begin[0]};
   ents_output out = {sizeof out, .wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE};
   /* Those of each slave node; with `system` instead of NULL below they are added to sparse rows. */
   out.residual = R[0], out.residual_stride = 2, out.tangent = K[0][0], out.tangent_stride = 4;
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
       }
     }
     memcpy(begin, end, (size_t)(n * m) * sizeof *begin); /* the step is accepted */
+    memcpy(x_begin, x, sizeof x);
     printf("step %2d  force on the slave nodes %14.9f %14.9f\n", step, -force[0], -force[1]);
   }
   free(tree), free(begin);

@@ -7,7 +7,7 @@ program slide
   use ents
   implicit none
   integer(long), parameter :: n = 4 ! slave nodes
-  real(dp), target :: x(2, n), xi(n), gap(n), R(2, n), K(2, 2, n)
+  real(dp), target :: x(2, n), x_begin(2, n), xi(n), gap(n), R(2, n), K(2, 2, n)
   integer(long), target :: segment(n) = -1
   real(dp), allocatable, target :: nodes(:, :), s(:, :), tree(:), begin(:, :), end(:, :)
   integer(long), allocatable, target :: ends(:, :)
@@ -32,12 +32,13 @@ program slide
   ends = reshape([(i, i + 1, i=0, segments - 1)], [2_long, segments]) ! nodes and segments are counted from 0
   s = reshape([(nodes(1, i:i + 1), i=1, segments)], [2_long, segments]) ! the length along x
   x = reshape([(1 + 0.3_dp*i, 0.1_dp, i=0, n - 1)], [2_long, n])
+  x_begin = x
 
   mesh = ents_master_mesh(segments=segments, connectivity=c_loc(ends), nodes=segments + 1, positions=c_loc(nodes), &
                           surface_coordinates=c_loc(s))
   call check(ents_tree_allocate(model, mesh, tree, report))
   found = ents_detection(slave=c_loc(x), reach=0.5_dp, segment=c_loc(segment), xi=c_loc(xi), gap=c_loc(gap))
-  in = ents_input(state_begin=c_loc(begin), state_begin_stride=size(begin, 1, long))
+  in = ents_input(state_begin=c_loc(begin), state_begin_stride=size(begin, 1, long), slave_begin=c_loc(x_begin))
   ! Those of each slave node; with a `system` instead of c_null_ptr below they are added to sparse rows.
   out = ents_output(wanted=ENTS_RESIDUAL + ENTS_TANGENT + ENTS_STATE, residual=c_loc(R), residual_stride=2, &
                     tangent=c_loc(K), tangent_stride=4, state_end=c_loc(end), state_end_stride=size(end, 1, long))
@@ -59,6 +60,7 @@ program slide
       where (gap > 0) segment = -1 ! search open nodes anew: they may have moved over a flank
     end do
     begin = end ! the step is accepted
+    x_begin = x
     print '(a, i2, a, f14.9, 1x, f14.9)', "step ", step, "  force on the slave nodes ", -force
   end do
   call check(ents_model_destroy(model, report))

@@ -87,7 +87,7 @@ struct Motion {
     for (std::size_t i = 0; i < segment.size(); ++i) {
       const double* from = &begin[i * static_cast<std::size_t>(size)];
       const auto old = static_cast<int64_t>(from[size - 1]) - 1;
-      if (segment[i] < 0 || old < 0 || segment[i] == old || !(from[1] > 1.0)) continue;
+      if (segment[i] < 0 || old < 0 || segment[i] == old || !(from[1] >= 1.0)) continue; // open ones, too
       EXPECT_EQ(call::state_transfer(model.get(), master(old).data(), coordinates(old),
                                      master(segment[i]).data(), coordinates(segment[i]), from,
                                      &states[i * static_cast<std::size_t>(size)], nullptr),
@@ -185,6 +185,74 @@ TEST(IterateFriction, IsDetectionTransferAndAssembly) {
   }
   EXPECT_GT(moved, samples(60) * 20);
   EXPECT_GT(contacts, samples(60) * 40);
+}
+
+// A fresh state with slave_begin is that of an evaluation at the begin, then of the iteration: with friction from the
+// touch on, and no flag. Without slave_begin the flag says that there is none.
+TEST(IterateFriction, BeginsAtTheTouchWithSlaveBegin) {
+  mechanics::Random random(61);
+  int touched = 0, unknown = 0;
+  for (int trial = 0; trial < samples(40); ++trial) {
+    const int d = trial % 2 == 0 ? 2 : 3;
+    Surface surface(random, d);
+    const Model model(text_of(d, coulomb));
+    Motion motion(model, surface, random);
+    const std::vector<double> fresh = motion.begin;
+    std::vector<double> slave_begin = surface.slave;
+    for (std::size_t i = 0; i < slave_begin.size(); ++i)
+      slave_begin[i] +=
+          (i + 1) % static_cast<std::size_t>(d) == 0 ? random.uniform(0.0, 0.2) : random.uniform(-0.05, 0.05);
+    std::vector<int32_t> status(Surface::slaves), flags(Surface::slaves);
+    const auto iterate = [&](const ents_input& in, std::vector<double>& end) {
+      ents_output out = motion.output(end, status);
+      out.wanted |= ENTS_FLAGS;
+      out.flags = flags.data(), out.flags_stride = 1;
+      std::fill(motion.segment.begin(), motion.segment.end(), -1);
+      ASSERT_EQ(motion.iterate(in, out, nullptr), ENTS_OK) << motion.report.message;
+    };
+    // at the begin, then at the end
+    std::vector<double> between = motion.states(), by_hand = between, at_once = between, without = between;
+    std::swap(surface.slave, slave_begin);
+    iterate(motion.rest(), between);
+    std::swap(surface.slave, slave_begin);
+    motion.begin = between;
+    iterate(motion.rest(), by_hand);
+    // at once
+    motion.begin = fresh;
+    ents_input in = motion.rest();
+    in.slave_begin = slave_begin.data();
+    iterate(in, at_once);
+    for (const int32_t flag : flags) EXPECT_FALSE(flag & ENTS_FLAG_NO_BEGIN);
+    iterate(motion.rest(), without);
+    for (std::size_t k = 0; k < Surface::slaves; ++k) {
+      const auto size = static_cast<std::size_t>(motion.size);
+      const double* end = &at_once[k * size];
+      if (motion.segment[k] < 0 || end[1] < 2.0) continue;
+      // what began on another segment goes on from there by hand, and is looked at from here at once
+      if (between[k * size + size - 1] != end[size - 1]) continue;
+      if (between[k * size + 1] == 1.0) ++touched;
+      for (std::size_t i = 3; i + 1 < size; ++i)
+        EXPECT_NEAR(end[i], by_hand[k * size + i], 1e-11) << trial << " " << k;
+      EXPECT_EQ(end[1], by_hand[k * size + 1]);
+      unknown += (flags[k] & ENTS_FLAG_NO_BEGIN) != 0;
+    }
+  }
+  EXPECT_GT(touched, samples(40) * 5);
+  EXPECT_GT(unknown, touched);
+}
+
+TEST(IterateFriction, RefusesASlaveBeginThatIsNoNumber) {
+  mechanics::Random random(67);
+  Surface surface(random, 2);
+  const Model model(text_of(2, coulomb));
+  Motion motion(model, surface, random);
+  std::vector<double> end = motion.states(), slave_begin = surface.slave;
+  std::vector<int32_t> status(Surface::slaves);
+  ents_input in = motion.rest();
+  in.slave_begin = slave_begin.data();
+  for (double& x : slave_begin) x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(motion.iterate(in, motion.output(end, status), nullptr), ENTS_NON_FINITE);
+  EXPECT_NE(std::strstr(motion.report.message, "slave_begin"), nullptr) << motion.report.message;
 }
 
 // The positions of now would move the anchor to another place: those of the begin count.

@@ -44,14 +44,14 @@ private:
     Guarded stiff(n * n), mass(n * n), damp(n * n), sstiff(n * n), fExt(n), fInt(n), save(at(size_)),
         energy(1);
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
-                        current(n, 1e99), still(n, 1e99);
+                        change = gather_change(element, displacement), current(n, 1e99), still(n, 1e99);
     double real[3] = {static_cast<double>(elements_.model), area(element),
                       static_cast<double>(elements_.options)},
            zero = 0;
     for (int i = 0; i < size_; ++i) save[at(i)] = committed(element)[at(i)];
     userelem_(&number, &one, keyMtx, &none, &d, &nNodes, nullptr, &one, &nUsrDof, &none, &none, &one, &none,
               nullptr, nullptr, nullptr, &zero, &none, &none, nullptr, &none, &nReal, real, &nSaveVars,
-              save.data(), x.data(), current.data(), u.data(), still.data(), still.data(), still.data(),
+              save.data(), x.data(), current.data(), u.data(), change.data(), still.data(), still.data(),
               still.data(), &none, &one, &one, &none, &none, &one, &keyHisUpd, &one, &one, &one, &zero,
               &keyEleErr, &keyEleCnv, stiff.data(), mass.data(), damp.data(), sstiff.data(), fExt.data(),
               fInt.data(), &zero, &zero, nullptr, &none, nullptr, &none, nullptr, &one, energy.data());

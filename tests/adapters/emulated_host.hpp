@@ -60,6 +60,14 @@ protected:
         values.push_back(nodal[static_cast<std::size_t>(node * elements_.dimension + i)]);
     return values;
   }
+  /// What these displacements have changed by in the increment
+  std::vector<double> gather_change(int element, const std::vector<double>& displacement) const {
+    std::vector<double> values = gather(element, displacement);
+    const std::vector<double> old =
+        begin_.empty() ? std::vector<double>(values.size()) : gather(element, begin_);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] -= old[i];
+    return values;
+  }
   const std::vector<int>& nodes(int element) const {
     return elements_.nodes[static_cast<std::size_t>(element)];
   }

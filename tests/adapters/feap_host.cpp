@@ -58,7 +58,9 @@ public:
     cdata_.nen = static_cast<int>(nodes(element).size()) + 1;
     const int ndf = elements_.dimension, nst = ndf * cdata_.nen, rows = ndf * (cdata_.nen - 1);
     std::vector<double> xl = gather(element, elements_.reference), ul = gather(element, displacement);
+    const std::vector<double> change = gather_change(element, displacement);
     xl.resize(at(nst), 1e99), ul.resize(at(6 * nst), 1e99);
+    std::copy(change.begin(), change.end(), ul.begin() + nst);
     Guarded s(at(nst * nst)), p(at(nst));
     const auto zero = [](Guarded& array) { std::fill(array.data(), array.data() + array.size(), 0.0); };
     zero(s), zero(p);

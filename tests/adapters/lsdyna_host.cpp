@@ -33,24 +33,28 @@ public:
     const int mine = first,
               used = static_cast<int>(nodes(element).size()); // in the middle; the block counts from 1
     const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement);
-    std::array<std::array<std::vector<double>, 8>, 3> now;
+    const std::vector<double> u_change = gather_change(element, displacement);
+    std::array<std::array<std::vector<double>, 8>, 3> now, change;
     for (int i = 0; i < 3; ++i)
       for (int node = 0; node < 8; ++node) {
         const int k = node < used ? node : used - 1; // the last node again and again
         now[at(i)][at(node)].assign(nlq, x[at(3 * k + i)] + u[at(3 * k + i)]);
+        change[at(i)][at(node)].assign(nlq, u_change[at(3 * k + i)]);
       }
     Guarded force(nlq * 24), stiff(nlq * 24 * 24), hsv(at(nlq * size_)), dener(nlq);
-    std::vector<double> cm(40), still(nlq, 1e99);
+    std::vector<double> cm(40);
     cm[0] = elements_.model, cm[1] = area(element), cm[2] = elements_.options;
     for (int i = 0; i < size_; ++i)
       for (int b = 0; b < nlq; ++b) hsv[at(b + nlq * i)] = committed(element)[at(i)];
     const auto c = [&](int i, int node) { return now[at(i)][at(node)].data(); };
-    double* const d = still.data();
+    const auto d = [&](int i, int node) { return change[at(i)][at(node)].data(); };
     usld_e101_(force.data(), stiff.data(), &ndtot, &istif, c(0, 0), c(0, 1), c(0, 2), c(0, 3), c(0, 4),
                c(0, 5), c(0, 6), c(0, 7), c(1, 0), c(1, 1), c(1, 2), c(1, 3), c(1, 4), c(1, 5), c(1, 6),
-               c(1, 7), c(2, 0), c(2, 1), c(2, 2), c(2, 3), c(2, 4), c(2, 5), c(2, 6), c(2, 7), nullptr, d, d,
-               d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, d, nullptr, hsv.data(), &ihsv,
-               &nhsv, cm.data(), &lmc, nullptr, &first, &last, dener.data());
+               c(1, 7), c(2, 0), c(2, 1), c(2, 2), c(2, 3), c(2, 4), c(2, 5), c(2, 6), c(2, 7), nullptr,
+               d(0, 0), d(0, 1), d(0, 2), d(0, 3), d(0, 4), d(0, 5), d(0, 6), d(0, 7), d(1, 0), d(1, 1),
+               d(1, 2), d(1, 3), d(1, 4), d(1, 5), d(1, 6), d(1, 7), d(2, 0), d(2, 1), d(2, 2), d(2, 3),
+               d(2, 4), d(2, 5), d(2, 6), d(2, 7), nullptr, hsv.data(), &ihsv, &nhsv, cm.data(), &lmc,
+               nullptr, &first, &last, dener.data());
     for (const Guarded* array : {&force, &stiff, &hsv, &dener}) array->check_guards("an array");
     Answer answer;
     const int rows = 3 * used;

@@ -24,7 +24,7 @@ public:
     const auto n = at(idss);
     Guarded xk(n * n), xm(n * n), f(n), r(n), dt(at(size_));
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
-                        increment(n, 1e99), t = committed(element);
+                        increment = gather_change(element, displacement), t = committed(element);
     double geom[8] = {static_cast<double>(elements_.model),
                       area(element),
                       static_cast<double>(elements_.options),

@@ -27,7 +27,7 @@ namespace {
 thread_local struct Domain {
   std::vector<int> integers; ///< left on the command line
   std::vector<double> doubles;
-  const std::vector<double>*reference = nullptr, *displacement = nullptr;
+  const std::vector<double>*reference = nullptr, *displacement = nullptr, *change = nullptr;
   int dimension = 0;
   int extra = 0; ///< degrees of freedom of node n beside its displacements: extra + n modulo 3; 0: none
   std::string error;
@@ -70,7 +70,9 @@ public:
     for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 2, nullptr, nullptr); // REVERT
   }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    domain.reference = &elements_.reference, domain.displacement = &displacement,
+    std::vector<double> change = displacement;
+    for (std::size_t i = 0; i < begin_.size(); ++i) change[i] -= begin_[i];
+    domain.reference = &elements_.reference, domain.displacement = &displacement, domain.change = &change,
     domain.dimension = elements_.dimension, domain.extra = extra_;
     const auto n = at(objects_[at(element)]->nDOF);
     Guarded tang(n * n), resid(n);
@@ -165,6 +167,9 @@ int ops_getnodecrd_(int* node, int* count, double* data) {
 }
 int ops_getnodedisp_(int* node, int* count, double* data) {
   return adapters::nodal(*domain.displacement, node, count, data, domain.dofs(*node));
+}
+int ops_getnodeincrdisp_(int* node, int* count, double* data) {
+  return adapters::nodal(*domain.change, node, count, data, domain.dofs(*node));
 }
 int ops_error_(char* text, int length) {
   domain.error.assign(text, static_cast<std::size_t>(length));

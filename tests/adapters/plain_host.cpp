@@ -53,7 +53,24 @@ public:
     projection.wanted = ENTS_XI;
     projection.xi = start;
     if (ents_evaluate(base_.get(), 0, 1, &no_history, &projection, nullptr) == ENTS_OK) input.start = start;
-    const int32_t status = ents_evaluate(model_.get(), 0, 1, &input, &output, &report);
+    int32_t flags = 0;
+    output.wanted |= ENTS_FLAGS;
+    output.flags = &flags;
+    int32_t status = ents_evaluate(model_.get(), 0, 1, &input, &output, &report);
+    if (status == 0 && (flags & ENTS_FLAG_NO_BEGIN)) { // its way begins where the increment did
+      const std::vector<double> change = gather_change(element, displacement);
+      std::vector<double> before = position, state(history_[k]);
+      for (std::size_t i = 0; i < before.size(); ++i) before[i] -= change[i];
+      auto at_begin = input;
+      at_begin.slave = before.data(), at_begin.master = before.data() + d, at_begin.start = nullptr;
+      auto begin = ents_struct<ents_output>();
+      begin.wanted = ENTS_STATE;
+      begin.state_end = state.data();
+      if (ents_evaluate(model_.get(), 0, 1, &at_begin, &begin, nullptr) == ENTS_OK) {
+        input.state_begin = state.data();
+        status = ents_evaluate(model_.get(), 0, 1, &input, &output, &report);
+      }
+    }
     if (status < 0) throw HostStopped(report.message);
     Answer answer;
     answer.step_factor = report.step_factor;

@@ -36,7 +36,7 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   c.coords = gather(element, elements_.reference);
   c.u = gather(element, displacement);
   const std::vector<double> old = begin_.empty() ? std::vector<double>(c.u.size()) : gather(element, begin_);
-  for (std::size_t i = 0; i < c.u.size(); ++i) c.du.push_back(c.u[i] - old[i]);
+  c.du = gather_change(element, displacement);
   c.props = {static_cast<double>(elements_.model), area(element)};
   if (elements_.options != 0) c.props.push_back(elements_.options);
   for (std::size_t i = 0; i < c.svars.size(); ++i)

@@ -26,20 +26,26 @@ public:
     HostWithHistory::accept();
     plain().accept();
   }
+  void begin(const std::vector<double>& displacement) override {
+    HostWithHistory::begin(displacement);
+    plain().begin(displacement);
+  }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     const int blocks[] = {1, 7, 136};
     int block = blocks[element % 3], d = elements_.dimension, nnode = static_cast<int>(nodes(element).size()),
         ndofel = nnode * d, nsvars = size_, nprops = elements_.options != 0 ? 3 : 2, none = 0, one = 1;
     const int mine = block / 2;
-    const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement);
+    const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
+                              du = gather_change(element, displacement);
     Guarded rhs(at(block * ndofel)), amass(at(block * ndofel * ndofel)), stable(at(block)),
         svars(at(block * nsvars)), energy(at(12 * block));
-    std::vector<double> coords(at(block * ndofel)), total(at(block * ndofel)), still(at(block * ndofel)),
-        scale(at(block), 1.0);
+    std::vector<double> coords(at(block * ndofel)), total(at(block * ndofel)), change(at(block * ndofel)),
+        still(at(block * ndofel)), scale(at(block), 1.0);
     for (int b = 0; b < block; ++b) { // the others are lifted so that they do not touch
       for (int node = 0; node < nnode; ++node)
         for (int i = 0; i < d; ++i) {
           coords[at(b + block * (node + nnode * i))] = x[at(node * d + i)];
+          change[at(b + block * (node * d + i))] = du[at(node * d + i)];
           total[at(b + block * (node * d + i))] =
               u[at(node * d + i)] + (b != mine && node == 0 && i == d - 1 ? 0.5 : 0.0);
         }
@@ -52,7 +58,7 @@ public:
     const auto call = [&](int operation) {
       int lflags[3] = {17, 1, operation};
       vuel_(&block, rhs.data(), amass.data(), stable.data(), svars.data(), &nsvars, energy.data(), &nnode,
-            &ndofel, props, &nprops, nullptr, &none, coords.data(), &d, total.data(), still.data(),
+            &ndofel, props, &nprops, nullptr, &none, coords.data(), &d, total.data(), change.data(),
             still.data(), still.data(), &one, jelem.data(), time, &period, &dtime, &dtime, &one, &one, lflags,
             scale.data(), nullptr, &none, nullptr, nullptr);
     };

@@ -81,14 +81,17 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
     plan.law.friction_stiffness = 1.0;
   }
   const PairNodes<B, Counted> nodes = bent_segment<B, H>(node);
-  Counted start[T], anchor[T];
+  Counted start[T];
+  SlipBegin<Counted, T> begin{};
   for (Counted& x : start) x = B::simplex ? 0.2 : 0.1;
   Pair<B, H, Counted> at(nodes, start);
   at.project();
   for (int a = 0; a < T; ++a) {
     start[a] = at.xi[a].v + 1e-2;
-    anchor[a] = at.xi[a].v - 1e-2;
+    begin.from[a] = at.xi[a].v - 1e-2;
   }
+
+  begin.known = 1.0;
 
   Counted::operations = 0;
   Pair<B, H, Counted> pair(nodes, start);
@@ -100,7 +103,8 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   if (!pair.ordinary || !pair.contact) return std::nan("");
   Counted residual[N];
   if (friction) {
-    rub.evaluate(plan.law, pair, anchor, Counted(1.0), -(pair.area * pair.per_gap * pair.gap));
+    rub.evaluate(plan.law, pair, begin, slip_share(begin.clearance, -pair.gap),
+                 -(pair.area * pair.per_gap * pair.gap));
     friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
     if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
   } else {

@@ -103,8 +103,9 @@ inline std::vector<Method> all_methods() {
   return all;
 }
 
-// Elements with a state that has been in contact at an anchor, and values of the multiplier dofs and, where
-// the law wears, of the slave nodes.
+// Elements with a state that has been in contact at an anchor or, a third of them where friction or wear asks
+// for it, open and so touches within the increment; and values of the multiplier dofs and, where the law
+// wears, of the slave nodes.
 struct LawElements {
   mechanics::Elements at;
   std::vector<double> state, multiplier, slave_values;
@@ -134,7 +135,8 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
   e.multiplier.resize(n * m);
   for (std::size_t i = 0; i < n; ++i) {
     double* s = &e.state[i * size];
-    s[1] = 2.0; // in contact at the begin of the increment
+    const bool touches = (e.layout.friction || e.layout.worn >= 0) && random.uniform(0.0, 1.0) < 1.0 / 3.0;
+    s[1] = touches ? 1.0 : 2.0; // open, in contact at the begin of the increment
     std::size_t next = 3;
     for (std::size_t a = 0; a < t; ++a) s[next++] = e.at.start[i * t + a];
     if (e.layout.friction) {
@@ -153,6 +155,10 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
       s[next++] = random.uniform(0.0, 3.0);
       for (std::size_t a = 0; a < t; ++a)
         s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
+    }
+    if (touches) { // a projection from which it comes and, where an anchor would be, its clearance there
+      for (std::size_t a = 0; a < t; ++a) s[3 + a] += random.uniform(-elastic, elastic);
+      s[e.layout.friction ? 3 + t : static_cast<std::size_t>(e.layout.worn) + 3] = random.uniform(0.02, 0.2);
     }
     if (e.layout.worn >= 0)
       for (const double value :

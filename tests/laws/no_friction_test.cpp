@@ -125,10 +125,12 @@ void compare(const Case& c, const LawResults& none, const ents_layout& plain, co
       ASSERT_EQ(zero.traction[i * static_cast<std::size_t>(l.dimension) + d], 0.0);
     const double *begin = &e.state[i * size], *end = &zero.state[i * size];
     ASSERT_TRUE(contact ? end[1] == 3.0 : end[1] <= 1.0) << testing::PrintToString(c) << " element " << i;
-    for (std::size_t a = 0; a < t; ++a) ASSERT_EQ(end[3 + t + a], end[3 + a]) << testing::PrintToString(c);
+    for (std::size_t a = 0; contact && a < t; ++a) // an open element has no anchor
+      ASSERT_EQ(end[3 + t + a], end[3 + a]) << testing::PrintToString(c);
     if (contact) {
       ++slipping;
-      ASSERT_GT(end[3 + 2 * t], begin[3 + 2 * t]) << testing::PrintToString(c);
+      // what touches within the increment has slipped only where it penetrates: augmented laws hold it above, too
+      ASSERT_TRUE(end[3 + 2 * t] > begin[3 + 2 * t] || begin[1] == 1.0) << testing::PrintToString(c);
     }
     for (std::size_t a = 0; l.augmentable && a < t; ++a)
       ASSERT_EQ(end[3 + 2 * t + 2 + a], 0.0) << testing::PrintToString(c);

@@ -307,7 +307,7 @@ TEST(State, MovesToTheClosestPlaceOfASteepTexture) {
   }
 }
 
-// A hundred segments on, where the place that it comes from is not found: an open slave starts anew there,
+// A hundred segments on, where the place that it comes from is not found: an open slave has no history there,
 // and one in contact, whose anchor would be lost, asks for a smaller step.
 TEST(State, OfAnOpenSlaveMovesAnywhere) {
   const mechanics::Model model(
@@ -323,8 +323,7 @@ TEST(State, OfAnOpenSlaveMovesAnywhere) {
                                                     state.data(), moved.data(), nullptr);
     EXPECT_EQ(status, history > 1 ? ENTS_NO_PROJECTION : ENTS_OK) << history;
     if (status != ENTS_OK) continue;
-    EXPECT_EQ(moved[1], history);
-    EXPECT_EQ(moved[4], moved[3]);
+    EXPECT_EQ(moved[1], 0.0) << "where it was is not known from here";
     EXPECT_LE(std::abs(moved[3]), 1.0);
   }
 }

@@ -92,6 +92,7 @@ ENTS_ENTRY(uel, UEL,
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
   if (moose) e.increment = {du, 1, e.dofs};
+  if (!perturbation) e.change = {du, 1, e.dofs};
   // Where the host asks for both, DU leads from the begin of the increment to now; in a perturbation it does
   // not.
   if (e.reference_turns && !perturbation) e.spin = {du + dofs - turns};

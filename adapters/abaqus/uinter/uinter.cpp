@@ -33,7 +33,7 @@ constexpr int start_size = 3;
 ENTS_ENTRY(uinter, UINTER,
            (double* stress, double* ddsddr, UINTER_MATRICES double* flux, double* ddfddt, double* ddsddt,
             double* ddfddr, double* statev, double* sed, double*, double*, double*, double*, double* pnewdt,
-            double* rdisp, double*, double*, double*, double*, double*, double*, double*,
+            double* rdisp, double* drdisp, double*, double*, double*, double*, double*, double*,
             UINTER_FREQUENCY char*, char*, char*, double* props, double* coords, double* alocaldir, double*,
             double*, double*, int* node, int* ndir, int* nstatv, int*, int* nprops, int* mcrd, int*, int*,
             int*, int* linper, int* lopenclose, int*, int*, int*, std::size_t, std::size_t, std::size_t)) {
@@ -55,6 +55,7 @@ ENTS_ENTRY(uinter, UINTER,
   p.number = *node;
   p.directions = d;
   p.closing = rdisp;
+  p.change = drdisp;
   p.properties = {props};
   p.property_count = *nprops;
   if (*linper == 1 || *nstatv < start_size) {

@@ -28,7 +28,7 @@ constexpr int internal_energy = 2;                                              
 ENTS_ENTRY(vuel, VUEL,
            (int* nblock, double* rhs, double* amass, double* dtime_stable, double* svars, int* nsvars,
             double* energy, int* nnode, int* ndofel, double* props, int* nprops, int*, int*, double* coords,
-            int* mcrd, double* u, double*, double*, double*, int*, int* jelem, double*, double* period,
+            int* mcrd, double* u, double* du, double*, double*, int*, int* jelem, double*, double* period,
             double*, double*, int*, int*, int* lflags, double*, double*, int*, int*, double*)) {
   const std::ptrdiff_t block = *nblock, dofs = *ndofel, nodes = *nnode;
   if (lflags[2] == form_mass) {
@@ -49,6 +49,7 @@ ENTS_ENTRY(vuel, VUEL,
     e.coordinates = *mcrd;
     e.position = {coords + b, block * nodes, block};
     e.displacement = {u + b, block, block * e.dofs};
+    e.change = {du + b, block, block * e.dofs};
     e.properties = {props};
     e.property_count = *nprops;
     e.history = {svars + b, block};

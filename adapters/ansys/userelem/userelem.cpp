@@ -29,12 +29,12 @@ enum Key { stiffness, mass, damping, stress_stiffness, external_force, internal_
 USERELEM_API void USERELEM_NAME(int* elId, int*, int* keyMtx, int*, int* nDim, int* nNodes, int*, int*,
                                 int* nUsrDof, int*, int*, int*, int*, int*, double*, double*, double*, int*,
                                 int*, double*, int*, int* nReal, double* RealConst, int* nSaveVars,
-                                double* saveVars, double* xRef, double*, double* TotValDofs, double*, double*,
-                                double*, double*, int*, int*, int*, int*, int*, int*, int* keyHisUpd, int*,
-                                int*, int*, double*, int* keyEleErr, int* keyEleCnv, double* eStiff,
-                                double* eMass, double* eDamp, double* eSStiff, double* fExt, double* fInt,
-                                double*, double*, double*, int*, double*, int*, double*, int* nElEng,
-                                double* elEnergy) {
+                                double* saveVars, double* xRef, double*, double* TotValDofs,
+                                double* IncValDofs, double*, double*, double*, int*, int*, int*, int*, int*,
+                                int*, int* keyHisUpd, int*, int*, int*, double*, int* keyEleErr,
+                                int* keyEleCnv, double* eStiff, double* eMass, double* eDamp, double* eSStiff,
+                                double* fExt, double* fInt, double*, double*, double*, int*, double*, int*,
+                                double*, int* nElEng, double* elEnergy) {
   const std::ptrdiff_t dofs = *nUsrDof, entries = dofs * dofs;
   const auto clear = [&](Key key, double* array, std::ptrdiff_t size) {
     if (keyMtx[key] == 1) std::fill(array, array + size, 0.0);
@@ -52,6 +52,7 @@ USERELEM_API void USERELEM_NAME(int* elId, int*, int* keyMtx, int*, int* nDim, i
   e.coordinates = *nDim;
   e.position = {xRef, 1, *nDim};
   e.displacement = {TotValDofs, 1, e.dofs};
+  e.change = {IncValDofs, 1, e.dofs};
   e.properties = {RealConst};
   e.property_count = *nReal;
   e.history = {saveVars};

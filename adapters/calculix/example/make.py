@@ -28,7 +28,7 @@ CASES = {  # height, friction, travel of the rigid surface
     "friction": (WAVES, {"type": "coulomb", "coefficient": 0.3, "stiffness": 2e4}, [0.05, 0.02, -0.06]),
     "turned": (WAVES, {"type": "coulomb", "coefficient": 0.3, "stiffness": 2e4}, [0.05, 0.02, -0.06]),
 }
-REFERENCE, TURNS, OVERLAP = [0.05, 0.05, 0.5], [0.02, None, 0.25], 0.02  # turns: of the body, None: it is free
+REFERENCE, TURNS = [0.05, 0.05, 0.5], [0.02, None, 0.25]  # turns: of the body, None: it is free
 
 
 def main():
@@ -59,8 +59,6 @@ def main():
 
     turned = sys.argv[1] == "turned"
     body = [[x - c for x, c in zip(p, REFERENCE)] for p in MASTER]
-    for p in body:
-        p[2] -= OVERLAP
     model = {"segment": "quad4", **({"master": "rigid"} if turned else {}), "surface_coordinates": [p[:2] for p in MASTER], "height": height,
              "contact": {"normal": PENALTY, **({"friction": friction} if friction else {})}}
     (out / "ents_1.json").write_text(json.dumps(model, indent=1) + "\n")

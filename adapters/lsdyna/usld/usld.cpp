@@ -42,17 +42,23 @@ extern "C" __attribute__((visibility("default"))) void
 usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, double* x2, double* x3,
            double* x4, double* x5, double* x6, double* x7, double* x8, double* y1, double* y2, double* y3,
            double* y4, double* y5, double* y6, double* y7, double* y8, double* z1, double* z2, double* z3,
-           double* z4, double* z5, double* z6, double* z7, double* z8, double*, double*, double*, double*,
-           double*, double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
-           double*, double*, double*, double*, double*, double*, double*, double*, double*, double*, double*,
-           double* hsv, int*, int* nhsv, double* cm, int* lmc, double*, int* lft, int* llt, double* dener) {
+           double* z4, double* z5, double* z6, double* z7, double* z8, double*, double* dx1, double* dx2,
+           double* dx3, double* dx4, double* dx5, double* dx6, double* dx7, double* dx8, double* dy1,
+           double* dy2, double* dy3, double* dy4, double* dy5, double* dy6, double* dy7, double* dy8,
+           double* dz1, double* dz2, double* dz3, double* dz4, double* dz5, double* dz6, double* dz7,
+           double* dz8, double*, double* hsv, int*, int* nhsv, double* cm, int* lmc, double*, int* lft,
+           int* llt, double* dener) {
   const double* const x[3][nodes] = {
       {x1, x2, x3, x4, x5, x6, x7, x8}, {y1, y2, y3, y4, y5, y6, y7, y8}, {z1, z2, z3, z4, z5, z6, z7, z8}};
+  const double* const dx[3][nodes] = {{dx1, dx2, dx3, dx4, dx5, dx6, dx7, dx8},
+                                      {dy1, dy2, dy3, dy4, dy5, dy6, dy7, dy8},
+                                      {dz1, dz2, dz3, dz4, dz5, dz6, dz7, dz8}};
   const std::ptrdiff_t rows = *ndtot;
   for (std::ptrdiff_t b = *lft - 1; b < *llt; ++b) {
-    double position[3 * nodes];
+    double position[3 * nodes], change[3 * nodes];
     for (int node = 0; node < nodes; ++node)
-      for (int i = 0; i < 3; ++i) position[3 * node + i] = x[i][node][b];
+      for (int i = 0; i < 3; ++i)
+        position[3 * node + i] = x[i][node][b], change[3 * node + i] = dx[i][node][b];
     for (std::ptrdiff_t i = 3 * nodes; i < rows; ++i) { // dofs of the host's that are not coordinates
       force[b + nlq * i] = 0;
       for (std::ptrdiff_t j = 0; *istif == 1 && j < rows; ++j)
@@ -64,6 +70,7 @@ usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, dou
     e.nodes = nodes;
     e.dofs = e.coordinates = 3;
     e.position = {position, 1, 3};
+    e.change = {change, 1, 3};
     e.properties = {cm};
     e.property_count = *lmc;
     e.history = {hsv + b, nlq};

@@ -65,6 +65,7 @@ uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double
   e.coordinates = *ncrd;
   e.position = {coord, 1, *ncrd};
   e.displacement = {dispt, 1, *ndeg};
+  e.change = {disp, 1, *ndeg};
   e.properties = {geom};
   e.property_count = property_count;
   const int option = options(e.properties, e.property_count);

@@ -214,13 +214,14 @@ class Model(Varying):
         return result
 
     def iterate(self, slave: Any, tree: Tree, reach: float, segment: Any = None, xi: Any = None, want: Union[str, list] = "", *,
-                system: Optional[System] = None, positions_begin: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
+                system: Optional[System] = None, positions_begin: Any = None, slave_begin: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
                 slave_values: Any = None, permitted: int = 0) -> dict[str, Any]:
         """Contact of one Newton iteration in one call: `tree.detect`, states moved to the segments that were found, and `assemble` into
         `system` (None: results only).
 
         slave, reach, segment, xi, permitted    as of Tree.detect: segment [n] (-1: open) and xi [n][d-1] of the last projection
         positions_begin                         [nodes][d] of the tree at the begin of the increment: needed with friction, if the master deforms
+        slave_begin                             [n][d] slaves there: what was not within reach then has friction from the touch on, too
         want, area, state ...                   as of evaluate; state is that of the begin of the increment
 
         Returns what evaluate does, and segment, xi, detected ([n] flags of the detection), detected_gap, other. CutStep: a contact is lost that
@@ -233,6 +234,9 @@ class Model(Varying):
         if positions_begin is not None:
             given["begin"] = _array("positions_begin", positions_begin, tree.positions.shape)
             block.positions_begin = given["begin"].ctypes.data
+        if slave_begin is not None:
+            given["slave_begin"] = _array("slave_begin", slave_begin, (n, d))
+            block.slave_begin = given["slave_begin"].ctypes.data
         result, block_out = self._output(n, want, None)
         found = {"segment": np.full(n, -1, np.int64) if segment is None else _array("segment", segment, (n,), np.int64).copy(),
                  "xi": np.zeros((n, d - 1)) if xi is None else _array("xi", xi, (n, d - 1)).copy(),

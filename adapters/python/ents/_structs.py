@@ -50,6 +50,7 @@ class Flag(enum.IntFlag):
     AMBIGUOUS = 256
     BEHIND_EDGE = 512
     LEFT = 1024
+    NO_BEGIN = 2048
     CHANGED = 128
 
 
@@ -213,6 +214,7 @@ class Input(ctypes.Structure):
         ("shared", ctypes.c_int64),
         ("slave_values", ctypes.c_void_p),
         ("slave_values_stride", ctypes.c_int64),
+        ("slave_begin", ctypes.c_void_p),
     ]
 
 

@@ -243,7 +243,8 @@ class Contact(ContactResults):
         of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
         found, residual, matrix = self._assembly[1].add(
             tangent, slave=of(points), reach=self.reach, segment=of(hint), xi=of(xi), want="state_end gap pressure flags" + (
-                " traction" if self.model.layout.friction else ""), positions_begin=None if self.rigid else self._tree_begin, area=of(self.areas),
+                " traction" if self.model.layout.friction else ""), positions_begin=self._tree_begin,
+            slave_begin=None if self._path is None else of(self._path.points), area=of(self.areas),
             state=of(self._state_begin), slave_values=of(self._slave_values), permitted=LOST)
         residual, matrix = self._master.condensed(residual, matrix)
         if len(numbers) == len(points):

@@ -9,8 +9,8 @@ namespace {
 
 void call_ccx(void* library, UserElement& e) {
   using Force = void(const int*, const int*, const int*, const char*, const double*, const double*,
-                     const int*, const int*, const double*, double*, double*, int*, const int*, const int*,
-                     const double*, double*, const int*, std::size_t);
+                     const double*, const int*, const int*, const double*, double*, double*, int*, const int*,
+                     const int*, const double*, double*, const int*, std::size_t);
   using Stiffness = void(const int*, const char*, double*, double*, double*, std::size_t);
   static Force* const force = find<Force>(library, "ents_ccx_force_");
   static Stiffness* const stiffness = find<Stiffness>(library, "ents_ccx_stiffness_");
@@ -26,7 +26,7 @@ void call_ccx(void* library, UserElement& e) {
   for (std::size_t i = 0; i < e.displacement.size(); ++i) v[4 * (i / 3) + 1 + i % 3] = e.displacement[i];
   double qa[4] = {0, 0, -1, 0};
   int nal = 0;
-  force(&nelem, kon.data(), &first, label.data(), e.position.data(), v.data(), mi, &first,
+  force(&nelem, kon.data(), &first, label.data(), e.position.data(), v.data(), v.data(), mi, &first,
         e.properties.data(), fn.data(), qa, &nal, &yes, &yes, begin.data(), e.state.data(), &e.state_size, 8);
   stiffness(&nelem, label.data(), s.data(), sm.data(), ff.data(), 8);
   if (qa[2] > 0) e.step_factor = qa[2];

@@ -107,6 +107,11 @@ ENTS_HOST_SERVICE int ops_getnodecrd_(int* node, int* count, double* data) {
 ENTS_HOST_SERVICE int ops_getnodedisp_(int* node, int* count, double* data) {
   return host::adapters::nodal(domain.element->displacement, *node, *count, data);
 }
+/// The history says where the element was: nothing has moved since.
+ENTS_HOST_SERVICE int ops_getnodeincrdisp_(int*, int* count, double* data) {
+  std::fill(data, data + *count, 0.0);
+  return 0;
+}
 ENTS_HOST_SERVICE int ops_error_(char* text, int length) {
   domain.error.assign(text, at(length));
   while (!domain.error.empty() && domain.error.back() == '\n') domain.error.pop_back();
