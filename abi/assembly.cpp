@@ -307,6 +307,7 @@ std::int32_t iterate(const ents_model* model, const ents_master_mesh* mesh, cons
   assembly.move_states(in.positions_begin);
   slaves.state_begin = in.state_begin, slaves.state_begin_stride = in.state_begin_stride;
   slaves.needs_all = true;
+  if (in.slave_begin) slaves.slave_begin = in.slave_begin, slaves.positions_begin = in.positions_begin;
   if ((status = slaves.detect_all(first, count, report)) != ENTS_OK) return status;
   return system ? assembly.add(first, count) : evaluate_found(call, in.positions_begin, first, count, report);
 }

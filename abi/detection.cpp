@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole master surfaces: the tree and the detection.
-#include "core/search/detection.hpp"
+#include "core/search/way.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -115,10 +115,11 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
   judges = detection->struct_size >=
            static_cast<std::int32_t>(offsetof(ents_detection, permitted) + sizeof(ents_detection::permitted));
   if ((status = check_reserved(io->reserved, "detection", report)) != ENTS_OK) return status;
-  if (judges && (io->permitted & ~std::int64_t{ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE}) != 0)
+  if (judges &&
+      (io->permitted & ~std::int64_t{ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE | ENTS_FLAG_CROSSED}) != 0)
     return report_message(report, ENTS_BAD_MASK, -1,
-                          "detection.permitted has unknown bits (%lld): ENTS_FLAG_LEFT and "
-                          "ENTS_FLAG_BEHIND_EDGE are known",
+                          "detection.permitted has unknown bits (%lld): ENTS_FLAG_LEFT, "
+                          "ENTS_FLAG_BEHIND_EDGE and ENTS_FLAG_CROSSED are known",
                           static_cast<long long>(io->permitted));
   constexpr std::int64_t most = std::int64_t{1} << 50;
   if (first < 0 || count < 0 || first > most - count)
@@ -133,6 +134,7 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
                           !io->slave     ? "slave"
                           : !io->segment ? "segment"
                                          : "xi");
+  slave_begin = io->slave_begin, positions_begin = io->positions_begin;
   return ENTS_OK;
 }
 
@@ -159,6 +161,8 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
     std::int64_t slave = -1, before = -1;
     Lost contact = Lost::no;
   } lost; // the first one
+  const bool looks_at_ways = slave_begin && (permitted & ENTS_FLAG_CROSSED) == 0;
+  std::vector<char> open(looks_at_ways ? static_cast<std::size_t>(count) : 0);
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;
     double* xi = io->xi + i * plan.parameters;
@@ -195,6 +199,7 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
                            "ents_tree_build");
     if (outcome != Status::ok) return explain_segment(plan, mesh, outcome, found.segment, report);
     io->segment[i] = found.segment;
+    if (looks_at_ways) open[static_cast<std::size_t>(i - first)] = found.segment < 0 || found.at.gap > 0.0;
     Lost contact = Lost::no;
     if (found.segment < 0 && before >= 0)
       contact = judge_lost_contact(plan, mesh, tree, slave, before, xi_before, found);
@@ -213,7 +218,47 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
     if (contact != Lost::no && (permitted & flag) == 0 && lost.slave < 0) lost = {i, before, contact};
   }
   if (lost.slave >= 0) return explain_lost_contact(lost.contact, lost.slave, lost.before, io->reach, report);
-  return report_ok(report);
+  return looks_at_ways ? look_at_ways(first, count, open.data(), report) : report_ok(report);
+}
+
+std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count, const char* open,
+                                         ents_report* report) const {
+  const Plan& plan = model->plan;
+  const std::int64_t d = plan.dimension;
+  if (const std::int64_t k = first_non_finite(slave_begin + first * d, count * d); k >= 0)
+    return report_message(report, ENTS_NON_FINITE, first + k / d,
+                          "slave_begin[%lld] of node %lld is NaN or infinite", static_cast<long long>(k % d),
+                          static_cast<long long>(first + k / d));
+  if (positions_begin)
+    if (const std::int64_t k = first_non_finite(positions_begin, mesh.nodes * d); k >= 0)
+      return report_message(report, ENTS_NON_FINITE, k / d,
+                            "positions_begin of node %lld of the mesh is NaN or infinite",
+                            static_cast<long long>(k / d));
+  Crossing crossing;
+  if (const Status status =
+          find_crossing(plan, mesh, tree, {slave_begin, io->slave, positions_begin, io->slave_node}, first,
+                        count, open, io->reach, crossing);
+      status != Status::ok)
+    return report_status(report, static_cast<std::int32_t>(status), -1,
+                         "on the way from slave_begin and positions_begin to the end of the increment");
+  if (crossing.slave < 0) return report_ok(report);
+  const long long slave = crossing.slave;
+  const std::int32_t status =
+      crossing.seen
+          ? report_message(
+                report, ENTS_NO_PROJECTION, crossing.slave,
+                "slave %lld passes through the master surface within the increment (it is behind it "
+                "after %.3g of the increment): take a smaller step (ENTS_FLAG_CROSSED in "
+                "detection.permitted: go on)",
+                slave, crossing.part)
+          : report_message(
+                report, ENTS_NO_PROJECTION, crossing.slave,
+                "slave %lld moves by %.6g relative to the master surface, %.3g times reach: it may "
+                "pass through it unseen. Take a smaller step, or give a larger reach "
+                "(ENTS_FLAG_CROSSED in detection.permitted: go on)",
+                slave, crossing.moved, crossing.moved / io->reach);
+  report_step(report, crossing.part);
+  return status;
 }
 
 } // namespace ents

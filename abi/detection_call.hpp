@@ -2,6 +2,8 @@
 // One call of the caller's slave nodes: arguments checked once, then a detection each.
 #pragma once
 
+#include <vector>
+
 #include "abi/lost_contact.hpp"
 
 namespace ents {
@@ -21,6 +23,8 @@ struct DetectionCall {
   // none.
   const double* state_begin = nullptr;
   std::int64_t state_begin_stride = 0;
+  // Where slaves and nodes were at the begin of the increment, or null: ways are not looked at.
+  const double *slave_begin = nullptr, *positions_begin = nullptr;
   // A slave behind an edge that had no segment ends the call, too.
   bool needs_all = false;
 
@@ -28,6 +32,9 @@ struct DetectionCall {
   std::int32_t detect_all(std::int64_t first, std::int64_t count, ents_report* report) const;
 
 private:
+  // ENTS_NO_PROJECTION if a slave that is open has passed through the surface.
+  std::int32_t look_at_ways(std::int64_t first, std::int64_t count, const char* open,
+                            ents_report* report) const;
   std::int64_t segment_before(std::int64_t slave, double (&xi)[2]) const;
 
   bool judges;         // the caller's struct has `permitted`

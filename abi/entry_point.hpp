@@ -26,6 +26,8 @@ __attribute__((format(printf, 4, 5)))
 std::int32_t
 report_message(ents_report* report, std::int32_t status, std::int64_t element, const char* format,
                ...) noexcept;
+// After a message: how much of the increment to take.
+void report_step(ents_report* report, double factor) noexcept;
 
 inline constexpr std::int32_t smallest_struct = 8; // struct_size and one more field
 inline constexpr std::int32_t largest_struct =

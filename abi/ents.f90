@@ -97,6 +97,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_FLAG_BEHIND_EDGE = 512
   integer(c_int32_t), parameter :: ENTS_FLAG_LEFT = 1024
   integer(c_int32_t), parameter :: ENTS_FLAG_NO_BEGIN = 2048
+  integer(c_int32_t), parameter :: ENTS_FLAG_CROSSED = 4096
   integer(c_int32_t), parameter :: ENTS_FLAG_CHANGED = 128
   integer(c_int32_t), parameter :: ENTS_ENDS_STRAIGHT = 0
   integer(c_int32_t), parameter :: ENTS_ENDS_REPEATED = 1
@@ -163,7 +164,7 @@ module ents
   end type ents_master_mesh
 
   type, bind(c) :: ents_detection
-    integer(c_int32_t) :: struct_size = 24 + 7*pointer_bytes
+    integer(c_int32_t) :: struct_size = 24 + 9*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, count)
     real(c_double) :: reach = 0
@@ -174,6 +175,8 @@ module ents
     type(c_ptr) :: other = c_null_ptr ! (count), int64
     type(c_ptr) :: slave_node = c_null_ptr ! (count), int64
     integer(c_int64_t) :: permitted = 0
+    type(c_ptr) :: slave_begin = c_null_ptr ! (d, count)
+    type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
   end type ents_detection
 
   type, bind(c) :: ents_input

@@ -348,7 +348,10 @@ typedef struct ents_detection {
                                         connectivity are left out. Without it a slave that is a node of the master surface finds itself,
                                         at gap 0 (self-contact). Since contract 1.4 */
   int64_t permitted;                 /* ENTS_FLAG_LEFT, ENTS_FLAG_BEHIND_EDGE: slaves with this flag do not end the call with
-                                        ENTS_NO_PROJECTION: the caller looks at `flags`. Since contract 1.5 */
+                                        ENTS_NO_PROJECTION: the caller looks at `flags`. Since contract 1.5. ENTS_FLAG_CROSSED: ways are
+                                        not looked at. Since contract 1.8 */
+  const double *slave_begin;         /* [count][d] positions at the begin of the increment, [L], or null: ways are not looked at. Since contract 1.8 */
+  const double *positions_begin;     /* [nodes][d] of the mesh at the begin of the increment, [L]; null: the mesh does not move. Since contract 1.8 */
 } ents_detection;
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
@@ -375,6 +378,11 @@ typedef struct ents_detection {
  * slaves are then written, and the call returns ENTS_NO_PROJECTION for the first of them, unless `permitted` has the flag. Set
  * segment = -1 for open slaves before the call: they may leave the surface as they like. The call does not look for lost contact if the
  * caller's ents_detection ends before `permitted`.
+ * The way. With `slave_begin`, a slave that moves by more than `reach` relative to the mesh (less its mean motion) and is in front of the
+ * surface at the begin and at the end is looked for on its straight way, at places reach / 2 apart: if it is behind the surface there, it
+ * has passed through, and the call returns ENTS_NO_PROJECTION, with report.step_factor so that the increment ends there. It does so, too, if
+ * the way near the surface is longer than 32 reach. A part of the body that is thinner than reach / 2 may be missed. Allocates (NO_MEMORY) if
+ * there are such slaves.
  * Returns 0; ENTS_NO_PROJECTION as just said, after everything has been written; or a negative status, and then nothing is written from
  * the slave with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
@@ -426,7 +434,7 @@ typedef struct ents_input {
                                         with "offset", "wear" or "table". Since contract 1.6; the scale and "table" since 1.7 */
   int64_t slave_values_stride;
   const double *slave_begin;         /* [elements][d] positions of the slave nodes at the begin of the increment, [L], or null; ents_iterate alone reads them,
-                                        for states that are still those of ents_state_init, or of slaves that were not within reach:
+                                        for ways (as detection.slave_begin, with positions_begin), and for states that are still those of ents_state_init, or of slaves that were not within reach:
                                         it evaluates these there first (in positions_begin), so that friction and wear of a slave that touches
                                         within the increment begin at the touch. Since contract 1.8 */
 } ents_input;
@@ -479,6 +487,7 @@ typedef struct ents_input {
 #define ENTS_FLAG_LEFT 1024 /* ents_detect: a slave node in contact has left all segments beside a free edge, or is deeper than `reach` */
 #define ENTS_FLAG_NO_BEGIN 2048 /* in contact, but where the slave node was at the begin of the increment is not known (no state, that of
                                    ents_state_init, or one of another segment), or the law's multipliers are unknowns: no friction in this increment. Since contract 1.8 */
+#define ENTS_FLAG_CROSSED 4096 /* in ents_detection.permitted: slaves may pass through the surface within an increment */
 #define ENTS_FLAG_CHANGED  128 /* the element was open, sticking or slipping at the begin of the increment and is not now; a new state is open */
 
 /* Outputs. The caller owns all arrays; the library writes those whose bit is set in `wanted`, and the others may be null. A stride is the

@@ -52,6 +52,11 @@ std::int32_t report_message(ents_report* report, std::int32_t status, std::int64
   return status;
 }
 
+void report_step(ents_report* report, double factor) noexcept {
+  if (report && static_cast<std::size_t>(report->struct_size) >= offsetof(ents_report, message))
+    report->step_factor = factor;
+}
+
 } // namespace ents
 
 extern "C" const char* ents_status_text(int32_t status) {

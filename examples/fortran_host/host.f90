@@ -10,7 +10,7 @@ program host
   use bodies, only: rectangle, mesh_rectangle, add_stiffness
   use contact, only: start_contact, add_contact, accept_contact
   implicit none
-  integer, parameter :: steps = 8, iterations = 25
+  integer, parameter :: steps = 9, iterations = 25
   real(real64), parameter :: push(2) = [0.2d0, -0.3d0], tolerance = 1d-12
   type(rectangle) :: lower = rectangle([0d0, 0d0], [4d0, 2d0], [8, 4], 1000d0, 0.3d0), &
     upper = rectangle([1.1d0, 2.05d0], [2.95d0, 3.55d0], [5, 5], 5000d0, 0.3d0)

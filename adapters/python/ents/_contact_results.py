@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 
 from ._arrays import Error, _array, _frozen
-from ._path import Path
 from ._structs import Flag, Status
 
 if TYPE_CHECKING:
@@ -117,7 +116,7 @@ class ContactResults:
         if not np.isfinite(state).all():
             raise Error(Status.NON_FINITE, "state: it holds numbers that are not finite")
         self._state_begin = self._state = _frozen(state)
-        self._path = Path(self.points, self.tree.positions, self._hint < 0)
+        self._points_begin = self.points
         segments = state[:, -1] - 1  # a state knows its segment
         whole = (segments >= 0) & (segments < len(self.tree.connectivity)) & (segments == np.floor(segments))
         self._segment_begin, self._pending = np.where(whole, segments, -1).astype(np.int64), None
@@ -126,7 +125,7 @@ class ContactResults:
         """All that the next increment depends on, at the last commit()."""
         own = np.zeros(0) if self._own is None else self._own
         return {"state": self._state_begin, "segment_begin": self._segment_begin, "tree_begin": self._tree_begin, "hint": self._committed[0],
-                "xi": self._committed[1], "own": own, "points_begin": np.zeros((0, 0)) if self._path is None else self._path.points}
+                "xi": self._committed[1], "own": own, "points_begin": np.zeros((0, 0)) if self._points_begin is None else self._points_begin}
 
     def _restore(self, history: dict[str, np.ndarray]) -> None:
         now = self._history()
@@ -138,7 +137,7 @@ class ContactResults:
         self._committed = self._hint, self._xi = np.array(history["hint"]), np.array(history["xi"])
         self._own = None if self._own is None else np.array(history["own"])
         self._pending = None
-        self._path = Path(np.array(history["points_begin"]), self._tree_begin, self._hint < 0) if history["points_begin"].size else None
+        self._points_begin = np.array(history["points_begin"]) if history["points_begin"].size else None
 
     def _name(self) -> str:
         """A fingerprint of the surfaces."""

@@ -80,3 +80,16 @@ class SidePairs:
         found = few.detect(point[None], reach)
         segment = int(found["segment"][0])
         return int(near[segment]) if segment >= 0 else -1, found["xi"][0]
+
+
+def warn_of_deep(tree: Tree, pairs: SidePairs, points: np.ndarray, lost: np.ndarray, reach: float) -> None:
+    """Points `lost` that find no segment in the first configuration: which of them are behind the surface, deeper than reach? Two faces of one thin
+    solid are behind each other, too: hence a warning."""
+    if not len(lost):
+        return
+    far = tree.detect(points[lost], 1e90)
+    deep = np.flatnonzero((far["segment"] >= 0) & (far["gap"] < -reach))
+    deep = deep[pairs.faces(tree, lost[deep], far["segment"][deep])]
+    if len(deep):
+        warnings.warn(f"slave point {lost[deep[0]]} begins {-far['gap'][deep[0]]:.6g} behind the master, more than reach = {reach:.6g} ({len(deep)} such points): "
+                      "it has no contact. If it should, give a larger reach, or turn the facets of the master if they look the wrong way", UserWarning, stacklevel=4)

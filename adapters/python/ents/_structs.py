@@ -51,6 +51,7 @@ class Flag(enum.IntFlag):
     BEHIND_EDGE = 512
     LEFT = 1024
     NO_BEGIN = 2048
+    CROSSED = 4096
     CHANGED = 128
 
 
@@ -186,6 +187,8 @@ class Detection(ctypes.Structure):
         ("other", ctypes.c_void_p),
         ("slave_node", ctypes.c_void_p),
         ("permitted", ctypes.c_int64),
+        ("slave_begin", ctypes.c_void_p),
+        ("positions_begin", ctypes.c_void_p),
     ]
 
 

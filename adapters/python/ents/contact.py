@@ -13,9 +13,8 @@ from ._arrays import CutStep, Error, _array, _count, _frozen
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
-from ._path import Path, warn_of_deep
 from ._rows import Rows
-from ._side_pairs import SidePairs
+from ._side_pairs import SidePairs, warn_of_deep
 from ._structs import ENDS_STRAIGHT, Flag, Status
 from ._surface import Tree
 from ._surfaces import MasterSurface, SlavePoints
@@ -125,7 +124,7 @@ class Contact(ContactResults):
         self._hint, self._xi = np.full(count, -1, np.int64), np.zeros((count, d - 1))
         self._state_begin = self._state = _frozen(model.state_init(count))
         self._segment_begin, self._tree_begin, self._pending = self._hint, self.tree.positions.copy(), None
-        self._path: Optional[Path] = None  # of the increment, from the first update on
+        self._points_begin: Optional[np.ndarray] = None  # of the increment, from the first update on
 
     @property
     def reach(self) -> float:
@@ -156,7 +155,7 @@ class Contact(ContactResults):
         """Search and assemble at the displacements u: [rows], or [nodes][d] where some are no unknowns. Returns residual [rows] (internal force,
         to be added to that of the bodies) and tangent (csr_matrix; None with tangent=False, as for the trial steps of a line search).
         CutStep: take a smaller step from the last commit(); nothing has changed. Error: a mistake."""
-        if self._path is None:
+        if self._points_begin is None:
             self._begin()
         try:
             now = self._moved(u)
@@ -164,7 +163,6 @@ class Contact(ContactResults):
             self._move_tree(now)
             self._pairs.now = now
             result, residual, matrix = self._search_and_add(points, tangent)
-            self._path.refuse_crossed(self.tree, self._pairs, points, self._elements & (result["flags"] & Flag.CONTACT == 0), self.reach)
         except CutStep:  # the next step knows nothing of these iterates
             self._hint, self._xi = self._committed
             raise
@@ -190,7 +188,7 @@ class Contact(ContactResults):
             state[:, worn:worn + 3] = self._state_begin[:, worn:worn + 3]  # nothing has slid yet
         self._state_begin, self._segment_begin = _frozen(state), np.where(bad, -1, segment)
         self._committed = self._hint, self._xi = np.where(closed, segment, -1), found["xi"]
-        self._path = Path(points, self._tree_begin, ~closed)
+        self._points_begin = points
 
     def _moved(self, u: Any) -> np.ndarray:
         """Positions [nodes][d] at the displacements u."""
@@ -244,7 +242,7 @@ class Contact(ContactResults):
         found, residual, matrix = self._assembly[1].add(
             tangent, slave=of(points), reach=self.reach, segment=of(hint), xi=of(xi), want="state_end gap pressure flags" + (
                 " traction" if self.model.layout.friction else ""), positions_begin=self._tree_begin,
-            slave_begin=None if self._path is None else of(self._path.points), area=of(self.areas),
+            slave_begin=None if self._points_begin is None else of(self._points_begin), area=of(self.areas),
             state=of(self._state_begin), slave_values=of(self._slave_values), permitted=LOST)
         residual, matrix = self._master.condensed(residual, matrix)
         if len(numbers) == len(points):
@@ -285,7 +283,7 @@ class Contact(ContactResults):
         self._segment_begin, self._tree_begin = self._pending
         self._state_begin = self._state
         self._committed = self._hint, self._xi
-        self._path = Path(self.points, self._tree_begin, self._hint < 0)
+        self._points_begin = self.points
 
     def augment(self) -> None:
         """Uzawa's step of a model with "augmented": takes the multipliers of the last update() over; then solve the increment again."""

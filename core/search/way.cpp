@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/search/way.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/search/segment_tree.hpp"
+
+namespace ents {
+
+namespace {
+
+constexpr int most_places = 64; // on the way of a slave
+
+double distance(const double* a, const double* b, const double* shift, int d) {
+  double sum = 0.0;
+  for (int i = 0; i < d; ++i) {
+    const double difference = a[i] - b[i] - shift[i];
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+// The mesh's mean motion, and how much more one of its nodes moves at most.
+struct Motion {
+  double mean[3] = {};
+  double rest = 0.0;
+
+  Motion(const MasterMesh& mesh, const double* begin, int d) {
+    if (!begin || begin == mesh.positions || mesh.nodes == 0) return;
+    for (std::int64_t k = 0; k < mesh.nodes * d; ++k) mean[k % d] += mesh.positions[k] - begin[k];
+    for (int i = 0; i < d; ++i) mean[i] /= static_cast<double>(mesh.nodes);
+    for (std::int64_t n = 0; n < mesh.nodes; ++n)
+      rest = std::max(rest, distance(mesh.positions + n * d, begin + n * d, mean, d));
+  }
+};
+
+// Does the straight way from a to b pass a box by no more than `margin` on each axis?
+bool passes(const double* a, const double* b, const double* box, double margin, int d) {
+  double enter = 0.0, leave = 1.0;
+  for (int i = 0; i < d; ++i) {
+    const double low = box[i] - margin - a[i], high = box[d + i] + margin - a[i], way = b[i] - a[i];
+    if (way == 0.0) {
+      if (low > 0.0 || high < 0.0) return false;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / way, high / way));
+    leave = std::min(leave, std::max(low / way, high / way));
+  }
+  return enter <= leave;
+}
+
+// Does a slave come so near to a segment that the surface may be on its way? Seen from the mesh at the end.
+bool may_meet(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* from,
+              const double* to, const Motion& motion, double reach) {
+  double start[3];
+  for (int i = 0; i < plan.dimension; ++i) start[i] = from[i] + motion.mean[i];
+  bool meets = false;
+  visit_segments(
+      Tree(plan, mesh.segments), tree,
+      [&](const double* box) {
+        return passes(start, to, box, motion.rest + reach, plan.dimension) ? 0.0 : 1.0;
+      },
+      [&] { return meets ? -1.0 : 0.5; },
+      [&](std::int64_t) {
+        meets = true;
+        return Status::ok;
+      });
+  return meets;
+}
+
+struct Walk {
+  const Plan& plan;
+  const MasterMesh& mesh;
+  const Increment& way;
+  double reach;
+  std::vector<std::int64_t> far; // slaves that leave what the search sees
+  std::vector<double> since; // part of the increment since which each is behind the surface; < 0: it is not
+  std::vector<double> nodes, tree; // at a place on the way
+
+  Walk(const Plan& p, const MasterMesh& m, const Increment& w, double r)
+      : plan(p), mesh(m), way(w), reach(r) {}
+
+  // The slave and the mesh after `part` of the increment: is it behind the surface?
+  Status look(std::int64_t slave, double part, const MasterMesh& there, bool& behind) const {
+    const int d = plan.dimension;
+    double place[3];
+    for (int i = 0; i < d; ++i) {
+      const double from = way.slave_begin[slave * d + i];
+      place[i] = from + part * (way.slave[slave * d + i] - from);
+    }
+    Detection found;
+    found.segment = -1;
+    found.own_node = way.own_node ? way.own_node[slave] : -1;
+    const Status status = detect(plan, there, tree.data(), place, reach, found);
+    behind = status == Status::ok && (found.behind_edge || (found.segment >= 0 && found.at.gap < 0.0));
+    return status;
+  }
+
+  // Where slave far[k] is behind the surface `now`, or in front of it: has it passed through it?
+  void judge(std::size_t k, double part, bool now, Crossing& out) {
+    if (part == 0.0) {
+      since[k] = now ? 2.0 : -1.0; // 2: already at the begin
+    } else if (now) {
+      if (since[k] < 0.0) since[k] = part;
+    } else {
+      if (since[k] > 0.0 && since[k] < out.part) out = {far[k], since[k], out.moved, true};
+      since[k] = -1.0;
+    }
+  }
+
+  Status walk(int places, const double* tree_end, std::int64_t size, Crossing& out) {
+    const std::int64_t numbers = mesh.nodes * plan.dimension;
+    nodes.resize(static_cast<std::size_t>(numbers));
+    tree.assign(tree_end, tree_end + size);
+    since.assign(far.size(), -1.0);
+    MasterMesh there = mesh;
+    there.positions = nodes.data();
+    const double* begin = way.positions_begin ? way.positions_begin : mesh.positions;
+    for (int p = 0; p < places && out.part == 1.0; ++p) {
+      const double part = static_cast<double>(p) / places;
+      for (std::int64_t i = 0; i < numbers; ++i)
+        nodes[static_cast<std::size_t>(i)] = begin[i] + part * (mesh.positions[i] - begin[i]);
+      std::int64_t segment = -1;
+      if (const Status status = refit_tree(plan, there, tree.data(), segment); status != Status::ok)
+        return status;
+      for (std::size_t k = 0; k < far.size(); ++k) {
+        bool behind = false;
+        if (const Status status = look(far[k], part, there, behind); status != Status::ok) return status;
+        judge(k, part, behind, out);
+      }
+    }
+    for (std::size_t k = 0; k < far.size(); ++k) judge(k, 1.0, false, out); // in front at the end
+    return Status::ok;
+  }
+};
+
+} // namespace
+
+Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tree, const Increment& way,
+                     std::int64_t first, std::int64_t count, const char* open, double reach, Crossing& out) {
+  out = {};
+  const int d = plan.dimension;
+  const Motion motion(mesh, way.positions_begin, d);
+  Walk walk(plan, mesh, way, reach);
+  for (std::int64_t k = first; k < first + count; ++k) {
+    if (!open[k - first]) continue;
+    const double moved = distance(way.slave + k * d, way.slave_begin + k * d, motion.mean, d) + motion.rest;
+    if (!(moved > reach) ||
+        !may_meet(plan, mesh, tree, way.slave_begin + k * d, way.slave + k * d, motion, reach))
+      continue;
+    walk.far.push_back(k);
+    if (moved > out.moved) out.slave = k, out.moved = moved;
+  }
+  if (walk.far.empty()) return Status::ok;
+  const double places = std::ceil(2.0 * out.moved / reach);
+  if (!(places <= most_places)) {
+    // A way that is thousands of times too long is no step: the iteration has diverged.
+    out.part = out.moved < 1e4 * reach ? most_places * reach / (2.0 * out.moved) : 0.5;
+    return Status::ok;
+  }
+  out.slave = -1;
+  return walk.walk(static_cast<int>(places), tree, tree_size(plan, mesh.segments), out);
+}
+
+} // namespace ents
