@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Slaves that pass through the surface within an increment: in front of it at the begin and at the end, and
-// behind it in between (theory.md, section 9). A search at the end alone does not see them.
+// behind it in between (theory.md, section 9.5). A search at the end alone does not see them.
 #pragma once
 
 #include "core/search/detection.hpp"
