@@ -75,8 +75,8 @@ struct Motion {
     c.u.insert(c.u.end(), moved.data(), moved.data() + 3);
     for (int i = 0; i < 3; ++i)
       c.u.push_back(turn_node ? turned[i] + spin[i] : 1e3 + i); // UR is not looked at
-    c.du.assign(static_cast<std::size_t>(c.ndofel), 1e3);       // nor is DU, but for DUR
-    for (std::size_t i = 0; i < 3 && !turn_node; ++i)
+    c.du.assign(static_cast<std::size_t>(c.ndofel), 0.0);       // only turns belong to this increment
+    for (std::size_t i = 0; i < 3; ++i)
       c.du[static_cast<std::size_t>(c.ndofel) - 3 + i] = spin[static_cast<Eigen::Index>(i)];
     const auto at = static_cast<std::size_t>(state);
     for (std::size_t i = 0; i < 9; ++i)
@@ -108,11 +108,15 @@ TEST_F(RigidBodyElement, HasTheForcesAndTheMomentOfThePlainInterface) {
     ASSERT_TRUE(abaqus_messages().empty());
     const Values master{-1, -1, 0.1, 1, -1, 0, 1.1, 1, 0, -1, 1, 0};
     double residual[3], tangent[9], of_body[9], matrix[81], area = 0.7;
-    Values begin(static_cast<std::size_t>(motion.state_size()));
-    ents_state_init(plain.get(), 1, begin.data(), motion.state_size(), nullptr);
+    Values begin(static_cast<std::size_t>(motion.state_size())), fresh = begin;
+    ents_state_init(plain.get(), 1, fresh.data(), motion.state_size(), nullptr);
+    const Vector3d before = motion.begin.transpose() * motion.rotation() * motion.in_body;
     auto in = ents_struct<ents_input>();
-    in.slave = motion.in_body.data(), in.master = master.data(), in.area = &area,
-    in.state_begin = begin.data();
+    in.slave = before.data(), in.master = master.data(), in.area = &area, in.state_begin = fresh.data();
+    auto first = ents_struct<ents_output>();
+    first.wanted = ENTS_STATE, first.state_end = begin.data();
+    ASSERT_EQ(ents_evaluate(plain.get(), 0, 1, &in, &first, nullptr), ENTS_OK);
+    in.slave = motion.in_body.data(), in.state_begin = begin.data();
     auto out = ents_struct<ents_output>();
     out.wanted = ENTS_RESIDUAL | ENTS_TANGENT;
     out.residual = residual, out.tangent = tangent;
@@ -149,6 +153,7 @@ TEST_F(RigidBodyElement, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
         for (int side = 0; side < 2; ++side) {
           const double change = side == 0 ? -step : step;
           ends[side].u[column] += change;
+          ends[side].du[column] += change;
           if (column + 3 >= n && !turn_node) {
             Vector3d small = Vector3d::Zero();
             small[static_cast<Eigen::Index>(column + 3 - n)] = change;

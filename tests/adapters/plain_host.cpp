@@ -61,8 +61,11 @@ public:
       const std::vector<double> change = gather_change(element, displacement);
       std::vector<double> before = position, state(history_[k]);
       for (std::size_t i = 0; i < before.size(); ++i) before[i] -= change[i];
+      std::vector<double> multiplier(u.begin() + static_cast<std::ptrdiff_t>(of_nodes), u.end());
+      for (std::size_t i = 0; i < multiplier.size(); ++i) multiplier[i] -= change[of_nodes + i];
       auto at_begin = input;
       at_begin.slave = before.data(), at_begin.master = before.data() + d, at_begin.start = nullptr;
+      at_begin.multiplier = multiplier.data();
       auto begin = ents_struct<ents_output>();
       begin.wanted = ENTS_STATE;
       begin.state_end = state.data();

@@ -98,7 +98,8 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
     scene["supports"] = Json::array({{{"nodes", "block.z_min"}, {"x", 0.002}, {"y", 0.001}, {"z", 0}}});
     scene["symmetry_copies"] = 1;
     scene.erase("exact");
-    scene.erase("variants"); // without friction
+    scene.erase("variants");                // without friction
+    scene["solver"]["max_iterations"] = 60; // a step that is cut for want of iterations has another path
   }
   // Its bodies touch in one node with a gap of 0, whose last bit would decide whether this one is in contact.
   if (std::string(kind.folder) == "cattaneo_mindlin") scene["parts"][1]["y"]["from"] = 1e-9;

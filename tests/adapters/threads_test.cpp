@@ -15,9 +15,10 @@
 #include "uel_host.hpp"
 #include "uinter_host.hpp"
 
-extern "C" int ents_feap_form(const double* d, const double* xl, const double* ul, int number, int nodes,
-                              int ndf, int ndm, int nst, int tangent, double factor, const double* begin,
-                              double* end, int history, double* s, double* p, char* text, int length);
+extern "C" int ents_feap_form(const double* d, const double* xl, const double* ul, const double* du,
+                              int number, int nodes, int ndf, int ndm, int nst, int tangent, double factor,
+                              const double* begin, double* end, int history, double* s, double* p, char* text,
+                              int length);
 
 namespace adapters::threads_test {
 namespace {
@@ -152,8 +153,8 @@ TEST(Threads, EightGiveTheSameBitsInWhatElmt07Calls) {
       }
     const double d[3] = {static_cast<double>(p.elements.model), area, 0};
     char text[480];
-    ents_feap_form(d, xl.data(), ul.data(), element + 1, 5, 3, 3, rows, 1, 1.0, begin.data(), call.end.data(),
-                   p.elements.state_size, call.s.data(), call.p.data(), text, 480);
+    ents_feap_form(d, xl.data(), ul.data(), ul.data(), element + 1, 5, 3, 3, rows, 1, 1.0, begin.data(),
+                   call.end.data(), p.elements.state_size, call.s.data(), call.p.data(), text, 480);
   };
   std::vector<Call> parallel(threads * rounds), serial(threads * rounds);
   const auto one = [&](std::vector<Call>& calls, int i) {

@@ -73,6 +73,7 @@ TEST_F(Uel, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
   for (std::size_t column = 0; column < static_cast<std::size_t>(c.ndofel); ++column) {
     UelCall ends[2] = {request(1), request(1)};
     ends[0].u[column] -= step, ends[1].u[column] += step;
+    ends[0].du[column] -= step, ends[1].du[column] += step;
     ends[0](), ends[1]();
     for (std::size_t row = 0; row < static_cast<std::size_t>(c.ndofel); ++row)
       EXPECT_NEAR(c.amatrx[row + column * static_cast<std::size_t>(c.ndofel)],
@@ -82,6 +83,7 @@ TEST_F(Uel, StiffnessIsMinusTheSlopeOfTheRightHandSide) {
 
 TEST_F(Uel, PerturbationIsLinearAboutTheBaseState) {
   UelCall base = request(2);
+  std::fill(base.du.begin(), base.du.end(), 0.0); // nothing has moved since it touched
   base();
   for (const int columns : {1, 2}) { // of a steady state: real and imaginary part
     UelCall c = request(1);

@@ -28,7 +28,7 @@ public:
   }
   void begin(const std::vector<double>& displacement) override {
     HostWithHistory::begin(displacement);
-    plain().begin(displacement);
+    if (plain_) plain_->begin(displacement);
   }
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     const int blocks[] = {1, 7, 136};
@@ -87,7 +87,10 @@ public:
 private:
   /// Who knows the stiffness; made when the adapter has accepted the model.
   EmulatedHost& plain() {
-    std::call_once(made_, [&] { plain_ = plain_host(elements_); });
+    std::call_once(made_, [&] {
+      plain_ = plain_host(elements_);
+      plain_->begin(begin_);
+    });
     return *plain_;
   }
 

@@ -92,7 +92,8 @@ ENTS_ENTRY(uel, UEL,
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
   if (moose) e.increment = {du, 1, e.dofs};
-  if (!perturbation) e.change = {du, 1, e.dofs};
+  static constexpr double nothing = 0.0; // has moved before a perturbation: what touches, touches here
+  e.change = perturbation ? Grid<const double>{&nothing, 0, 0} : Grid<const double>{du, 1, e.dofs};
   // Where the host asks for both, DU leads from the begin of the increment to now; in a perturbation it does
   // not.
   if (e.reference_turns && !perturbation) e.spin = {du + dofs - turns};
