@@ -78,6 +78,9 @@ LawElements without_friction(const LawElements& with, const ents_model* model) {
     for (std::size_t k = 0; e.layout.worn >= 0 && k < 3 + t; ++k)
       after[static_cast<std::size_t>(e.layout.worn) + k] =
           before[static_cast<std::size_t>(with.layout.worn) + k];
+    if (e.layout.worn >= 0 &&
+        before[1] == 1.0) // the clearance of an open element stands in place of an anchor
+      after[static_cast<std::size_t>(e.layout.worn) + 3] = before[3 + t];
     if (e.layout.multipliers > 0)
       e.multiplier.push_back(with.multiplier[i * static_cast<std::size_t>(with.layout.multipliers)]);
   }
