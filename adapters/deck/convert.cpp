@@ -22,7 +22,7 @@ using std::string;
 /// CalculiX has room for 20 nodes in an element, the adapters for 33.
 int largest_element(Program program) { return program == Program::calculix ? 20 : 33; }
 
-constexpr double default_border = 0.05; ///< natural coordinates: nodes on the border of the master stay on it
+constexpr double default_border = 0.1; ///< natural coordinates: nodes on the border of the master stay on it
 
 ordered_json model_file(const std::filesystem::path& path) {
   if (path.empty()) return ordered_json::object();
