@@ -192,7 +192,10 @@ std::string spelled(std::string_view keyword) {
   if (found != spellings().end()) return found->second;
   std::istringstream words{std::string(keyword)};
   std::string out;
-  for (std::string word; words >> word;) out += (out.empty() ? "" : " ") + canonical(word);
+  for (std::string word; words >> word;) {
+    if (!out.empty()) out += ' ';
+    out += canonical(word);
+  }
   return out;
 }
 
