@@ -7,7 +7,7 @@ usage() {
 usage: sh adapters/calculix/run.sh [--build DIR] [--only-build]
 
   --build DIR   this project's build folder (default: build); ccx goes to DIR/calculix
-  --only-build  leave the program DIR/calculix/ccx_ents and stop
+  --only-build  leave the program DIR/calculix/ccx_ents, and DIR/bin/ents-deck, which makes jobs for it, and stop
 
 Fetches the source package calculix-ccx with apt-get (no system file is changed), installs the libraries that ccx needs (as root, or
 through sudo when it asks for no password), compiles ccx 2.20 once (1 to 3 minutes) and links it with libents_calculix.so. CCX_OPTIMIZE in the environment: how the compilers
@@ -94,10 +94,16 @@ if [ "$(cat "$work/optimize" 2>/dev/null)" != "$optimize" ]; then
 fi
 
 # 4. The adapter, the changed routines, and the program.
-if [ ! -f "$build/lib/libents_calculix.so" ] || [ ! -f "$build/lib/libents_abaqus.so" ] || [ ! -f "$build/bin/ents-host" ]; then
-  step "building ents"
-  cmake --build "$build" --target ents_calculix ents_abaqus ents-host --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
-fi
+targets='ents_calculix ents_abaqus ents-host' needed='lib/libents_calculix.so lib/libents_abaqus.so bin/ents-host'
+[ -z "$only_build" ] || targets='ents_calculix ents-deck' needed='lib/libents_calculix.so bin/ents-deck'
+for file in $needed; do
+  [ -f "$build/$file" ] && continue
+  step "building ents: $targets"
+  [ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release >"$log" 2>&1 || failed "cmake failed; sh examples/setup.sh installs what is missing"
+  # shellcheck disable=SC2086 # words
+  cmake --build "$build" --target $targets --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
+  break
+done
 step "linking ccx with libents_calculix.so"
 rm -rf "$work/patched"
 python3 "$here/patch.py" "$ccx" "$work/patched"

@@ -28,7 +28,7 @@ MUST_AGREE = ["contact1", "contact3", "contact4", "friction1", "hueeber1", "punc
 WHY = {
     "contact1": "exponential law: equal value and slope at d = 0 only",
     "contact3": "ccx's smoothed linear law (its second constant)",
-    "contact4": "quadratic faces, 3 x 3 points against ccx's",
+    "contact4": "quadratic faces, points in them against ccx's",
     "friction1": "points in faces against nodes (TYPE=NODE TO SURFACE)",
     "cubespring": "points in faces against nodes (TYPE=NODE TO SURFACE)",
     "scheibe2n2f": "points in faces against nodes that lie on kinks of the master; scheibe2f2f agrees",

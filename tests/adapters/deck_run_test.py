@@ -15,7 +15,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 TOLERANCE = 5e-3  # of the force: points in faces against ccx's cut faces
 # deck: runs that it takes. The first slide of a lever is that of its driven arm alone; the others are known before. The bodies of shared_tip have a common node.
-RUNS = {"lever": 2, "amplitude": 1, "transform": 1, "rotation": 1, "shared_tip": 1}
+RUNS = {"lever": 2, "amplitude": 1, "transform": 1, "rotation": 1, "shared_tip": 1, "press": 1}
 
 
 def force(dat):
@@ -40,7 +40,8 @@ def main():
         folder = build / "deck_run" / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
-        shutil.copy(HERE / "decks" / f"{name}.inp", folder)
+        paths = [HERE / "decks" / f"{name}.inp", HERE.parents[1] / "adapters/deck/example" / f"{name}.inp"]
+        shutil.copy(next(path for path in paths if path.exists()), folder)
         subprocess.run([ccx, name], cwd=folder, stdout=(folder / "own.log").open("w"), check=True)
         ran = subprocess.run([ents_deck, "run", f"{name}.inp", "--ccx", ccx, "--no-pictures"], cwd=folder, capture_output=True, text=True)
         (folder / "ents-deck.log").write_text(ran.stdout + ran.stderr)
