@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <unordered_map>
 
 namespace ents_deck {
 namespace {
@@ -44,14 +45,25 @@ std::map<string, Range> amplitudes(const Source& source, std::vector<string>& re
   return out;
 }
 
-/// Nodes of a set or the node with a number.
-std::vector<int> nodes_named(const Mesh& mesh, std::string_view name) {
-  if (const auto set = mesh.node_sets.find(canonical(name)); set != mesh.node_sets.end()) return set->second;
-  const string label = canonical(name);
-  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-    if (canonical(mesh.node_label(static_cast<int>(i))) == label) return {static_cast<int>(i)};
-  return {};
-}
+/// Nodes by the name of a set or their label.
+class NodeNames {
+public:
+  explicit NodeNames(const Mesh& mesh) : mesh_(mesh) {
+    for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+      labels_.emplace(canonical(mesh.node_label(static_cast<int>(i))), static_cast<int>(i));
+  }
+
+  std::vector<int> operator()(std::string_view name) const {
+    const string key = canonical(name);
+    if (const auto set = mesh_.node_sets.find(key); set != mesh_.node_sets.end()) return set->second;
+    const auto node = labels_.find(key);
+    return node == labels_.end() ? std::vector<int>{} : std::vector<int>{node->second};
+  }
+
+private:
+  const Mesh& mesh_;
+  std::unordered_map<string, int> labels_;
+};
 
 /// A rigid body that turns about its reference node.
 struct Turning {
@@ -60,10 +72,10 @@ struct Turning {
   double radius = 0; ///< [L] of its farthest node about the reference node
 };
 
-std::vector<Turning> rigid_bodies(const Mesh& mesh) {
+std::vector<Turning> rigid_bodies(const Mesh& mesh, const NodeNames& named) {
   std::vector<Turning> out;
   const auto node_of = [&](const string& name) {
-    const auto nodes = name.empty() ? std::vector<int>{} : nodes_named(mesh, name);
+    const auto nodes = name.empty() ? std::vector<int>{} : named(name);
     return nodes.empty() ? -1 : nodes[0];
   };
   for (const Statement& s : mesh.source.list) {
@@ -73,7 +85,7 @@ std::vector<Turning> rigid_bodies(const Mesh& mesh) {
     std::vector<int> nodes;
     for (const char* key : {"NSET", "PIN NSET", "TIE NSET"})
       if (s.has(key))
-        for (const int node : nodes_named(mesh, s.value(key))) nodes.push_back(node);
+        for (const int node : named(s.value(key))) nodes.push_back(node);
     if (const auto set = mesh.element_sets.find(canonical(s.value("ELSET"))); set != mesh.element_sets.end())
       for (const int e : set->second)
         for (const int node : mesh.elements[static_cast<std::size_t>(e)].nodes) nodes.push_back(node);
@@ -87,11 +99,11 @@ std::vector<Turning> rigid_bodies(const Mesh& mesh) {
   return out;
 }
 
-std::set<int> transformed_nodes(const Mesh& mesh) {
+std::set<int> transformed_nodes(const Mesh& mesh, const NodeNames& named) {
   std::set<int> out;
   for (const Statement& s : mesh.source.list)
     if (s.keyword == "TRANSFORM")
-      for (const int node : nodes_named(mesh, s.value("NSET"))) out.insert(node);
+      for (const int node : named(s.value("NSET"))) out.insert(node);
   return out;
 }
 
@@ -99,8 +111,9 @@ std::set<int> transformed_nodes(const Mesh& mesh) {
 class Driven {
 public:
   Driven(const Mesh& mesh, Motion& out)
-      : mesh_(mesh), out_(out), amplitudes_(amplitudes(mesh.source, out.remarks)),
-        bodies_(rigid_bodies(mesh)), turns_(bodies_.size()), transformed_(transformed_nodes(mesh)) {}
+      : mesh_(mesh), out_(out), named_(mesh), amplitudes_(amplitudes(mesh.source, out.remarks)),
+        bodies_(rigid_bodies(mesh, named_)), turns_(bodies_.size()),
+        transformed_(transformed_nodes(mesh, named_)) {}
 
   void statement(const Statement& s) {
     for (const char* unknown : {"USER", "SUBMODEL"})
@@ -147,6 +160,7 @@ public:
 private:
   const Mesh& mesh_;
   Motion& out_;
+  NodeNames named_;
   std::map<string, Range> amplitudes_;
   std::vector<Turning> bodies_;
   std::vector<std::array<Range, 3>> turns_; ///< [bodies_]
@@ -154,7 +168,7 @@ private:
   std::array<Range, 3> straight_{}, turned_{}; ///< in the directions of the axes, in directions of *TRANSFORM
 
   void drive(std::string_view name, std::size_t dof, double value) {
-    const std::vector<int> nodes = nodes_named(mesh_, name);
+    const std::vector<int> nodes = named_(name);
     bool of_body = false;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (const int node : nodes) {
