@@ -95,7 +95,10 @@ fi
 
 # 4. The adapter, the changed routines, and the program.
 targets='ents_calculix ents_abaqus ents-host' needed='lib/libents_calculix.so lib/libents_abaqus.so bin/ents-host'
-[ -z "$only_build" ] || targets='ents_calculix ents-deck' needed='lib/libents_calculix.so bin/ents-deck'
+if [ -n "$only_build" ]; then
+  targets=ents_calculix needed=lib/libents_calculix.so
+  if [ -f "$root/CMakeLists.txt" ]; then targets="$targets ents-deck" needed="$needed bin/ents-deck"; fi # a clone, no package
+fi
 for file in $needed; do
   [ -f "$build/$file" ] && continue
   step "building ents: $targets"

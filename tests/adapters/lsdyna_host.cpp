@@ -29,7 +29,10 @@ public:
   explicit LsDynaHost(const Elements& elements) : HostWithHistory(elements, 0) {}
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    int ndtot = 24, istif = 1, first = 5 + element, last = 7 + element, nhsv = size_, lmc = 40, ihsv = 0;
+    // Every second element has NXDOF = 1: x y z and one more, node by node (github.com/jfriedlein/usld_LS-Dyna_Fortran).
+    const int dofs = 3 + element % 2;
+    int ndtot = 8 * dofs, istif = 1, first = 5 + element, last = 7 + element, nhsv = size_, lmc = 40,
+        ihsv = 0;
     const int mine = first,
               used = static_cast<int>(nodes(element).size()); // in the middle; the block counts from 1
     const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement);
@@ -41,7 +44,7 @@ public:
         now[at(i)][at(node)].assign(nlq, x[at(3 * k + i)] + u[at(3 * k + i)]);
         change[at(i)][at(node)].assign(nlq, u_change[at(3 * k + i)]);
       }
-    Guarded force(nlq * 24), stiff(nlq * 24 * 24), hsv(at(nlq * size_)), dener(nlq);
+    Guarded force(at(nlq * ndtot)), stiff(at(nlq * ndtot * ndtot)), hsv(at(nlq * size_)), dener(nlq);
     std::vector<double> cm(40);
     cm[0] = elements_.model, cm[1] = area(element), cm[2] = elements_.options;
     for (int i = 0; i < size_; ++i)
@@ -57,19 +60,19 @@ public:
                nullptr, &first, &last, dener.data());
     for (const Guarded* array : {&force, &stiff, &hsv, &dener}) array->check_guards("an array");
     Answer answer;
-    const int rows = 3 * used;
-    for (int j = 0; j < 24; ++j) {
+    const auto is_used = [&](int i) { return i / dofs < used && i % dofs < 3; };
+    for (int j = 0; j < ndtot; ++j) {
       force.check_untouched("force", at(nlq * j), at(first - 1)),
           force.check_written("force", at(nlq * j + first - 1), 3);
       force.check_untouched("force", at(nlq * j + last), at(nlq - last));
-      for (int i = 0; i < 24; ++i) {
-        const double entry = stiff[at(mine + nlq * (i + 24 * j))];
-        if (i < rows && j < rows)
+      for (int i = 0; i < ndtot; ++i) {
+        const double entry = stiff[at(mine + nlq * (i + ndtot * j))];
+        if (is_used(i) && is_used(j))
           answer.tangent.push_back(entry);
         else if (entry != 0)
-          throw std::runtime_error("a node that the element has not");
+          throw std::runtime_error("a degree of freedom that the element has not");
       }
-      if (j < rows) answer.residual.push_back(force[at(mine + nlq * j)]);
+      if (is_used(j)) answer.residual.push_back(force[at(mine + nlq * j)]);
     }
     for (int i = 0; i < size_; ++i) trial(element)[at(i)] = hsv[at(mine + nlq * i)];
     return answer;

@@ -53,29 +53,33 @@ usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, dou
   const double* const dx[3][nodes] = {{dx1, dx2, dx3, dx4, dx5, dx6, dx7, dx8},
                                       {dy1, dy2, dy3, dy4, dy5, dy6, dy7, dy8},
                                       {dz1, dz2, dz3, dz4, dz5, dz6, dz7, dz8}};
-  const std::ptrdiff_t rows = *ndtot;
+  // With NXDOF > 0 a node has its displacements first and then the additional ones, in force, stiff and NDTOT.
+  const int rows = *ndtot, dofs = rows / nodes;
+  if (dofs < 3 || rows % nodes != 0) {
+    std::printf(
+        " *** ents: NDTOT = %d is no whole number of at least 3 degrees of freedom for each of 8 nodes; "
+        "write *SECTION_SOLID, ELFORM=101 with NXDOF=0\n",
+        rows);
+    std::fflush(stdout);
+    stop();
+  }
   for (std::ptrdiff_t b = *lft - 1; b < *llt; ++b) {
     double position[3 * nodes], change[3 * nodes];
     for (int node = 0; node < nodes; ++node)
       for (int i = 0; i < 3; ++i)
         position[3 * node + i] = x[i][node][b], change[3 * node + i] = dx[i][node][b];
-    for (std::ptrdiff_t i = 3 * nodes; i < rows; ++i) { // dofs of the host's that are not coordinates
-      force[b + nlq * i] = 0;
-      for (std::ptrdiff_t j = 0; *istif == 1 && j < rows; ++j)
-        stiff[b + nlq * (i + rows * j)] = stiff[b + nlq * (j + rows * i)] = 0;
-    }
     Element e;
     e.host = &host;
     e.listed = false; // its number is not told
     e.nodes = nodes;
-    e.dofs = e.coordinates = 3;
+    e.dofs = dofs, e.coordinates = 3;
     e.position = {position, 1, 3};
     e.change = {change, 1, 3};
     e.properties = {cm};
     e.property_count = *lmc;
     e.history = {hsv + b, nlq};
     e.history_size = *nhsv;
-    e.residual = {force + b, nlq, 3 * nlq};
+    e.residual = {force + b, nlq, dofs * nlq};
     if (*istif == 1) e.tangent = {stiff + b, nlq, nlq * rows};
     e.history_end = {hsv + b, nlq};
     e.energy = dener + b;
