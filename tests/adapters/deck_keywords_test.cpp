@@ -46,7 +46,8 @@ string in_small_letters(string text) {
 string good_value(const ParameterRule& rule) {
   if (rule.values == "*") return "=X1";
   if (rule.values.empty() || rule.values.front() == '|') return "";
-  return "=" + rule.values.substr(0, rule.values.find('|'));
+  string out(1, '=');
+  return out.append(rule.values, 0, rule.values.find('|'));
 }
 
 TEST(DeckKeywords, EveryParameterIsTakenOrRefusedHoweverItIsSpelled) {
@@ -284,12 +285,13 @@ TEST(DeckKeywords, ChangedDecksMeanTheSameOrAreRefused) {
       string& line = lines.all[where[pick(where.size())]];
       static const std::vector<string> names{"SLAVE", "MASTER", "ETOP", "LOW", "=I"};
       const string& name = names[pick(names.size())];
-      if (const std::size_t at = line.find(name); at != string::npos) line.insert(at + name.size(), "X");
+      if (const std::size_t at = line.find(name); at != string::npos) line.insert(at + name.size(), 1, 'X');
     } else { // an entry
       const auto where = lines_of_contact(lines, true);
       string& line = lines.all[where[pick(where.size())]];
       const std::size_t entries = fields_of(line).size();
-      line += string(1 + pick(3), ',') + (entries == 1 ? "S9" : "0.25");
+      line.append(1 + pick(3), ',');
+      line += entries == 1 ? "S9" : "0.25";
     }
     const string text = lines.text();
     string found;
