@@ -30,7 +30,14 @@ string program_of(const RunRequest& request) {
   std::error_code error;
   const Path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const Path beside = self.parent_path().parent_path() / "calculix" / "ccx_ents";
-  return !error && std::filesystem::exists(beside) ? beside.string() : "ccx_ents";
+  if (!error && std::filesystem::exists(beside)) return beside.string();
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (string folder; std::getline(folders, folder, ':');)
+    if (std::filesystem::exists(Path(folder) / "ccx_ents")) return (Path(folder) / "ccx_ents").string();
+  throw Error(
+      "ccx_ents, which is ccx with U1E, is neither beside this program nor on the search path: sh "
+      "adapters/calculix/run.sh --only-build builds it (of the packages: ents-ccx), or name it with --ccx");
 }
 
 string last_line(const Path& file) {

@@ -4,7 +4,7 @@
 
 usage: deck_run_test.py [--build DIR] [DECK ...]
 
-Prints a line per deck: reaction force of ccx's own contact, that of ents-deck run, runs. Exit status: 0 all within 0.5 %; 1 not; 3 ccx is not here."""
+Prints a line per deck: reaction force of ccx's own contact, that of ents-deck run, runs. Exit status: 0 all within 0.5 % (geared: 1 %); 1 not; 3 ccx is not here."""
 import argparse
 import pathlib
 import re
@@ -13,9 +13,10 @@ import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-TOLERANCE = 5e-3  # of the force: points in faces against ccx's cut faces
-# deck: runs that it takes. The first slide of a lever is that of its driven arm alone; the others are known before. The bodies of shared_tip have a common node.
-RUNS = {"lever": 2, "amplitude": 1, "transform": 1, "rotation": 1, "shared_tip": 1, "press": 1}
+# Of the force: points in faces against ccx's cut faces. The face of `geared` ends its way with a kink of the master between two of its eight points.
+TOLERANCE, WIDER = 5e-3, {"geared": 1e-2}
+# deck: runs that it takes. The first slides of lever and geared are those of what is driven alone, the first moves open and the second in contact; the others are known before. The bodies of shared_tip have a common node.
+RUNS = {"lever": 2, "geared": 3, "amplitude": 1, "transform": 1, "rotation": 1, "shared_tip": 1, "press": 1}
 
 
 def force(dat):
@@ -51,7 +52,7 @@ def main():
             continue
         own, ours = force(folder / f"{name}.dat"), force(folder / f"{name}_ents/{name}.dat")
         runs = ran.stdout.count("\nrun ")
-        right = own > 0 and abs(ours - own) <= TOLERANCE * own and runs == RUNS[name]
+        right = own > 0 and abs(ours - own) <= WIDER.get(name, TOLERANCE) * own and runs == RUNS[name]
         print(f"{name:12} {own:9.4f}   {ours:13.4f}   {runs}{'' if right else '   WRONG'}")
         wrong += not right
     return 1 if wrong else 0
