@@ -18,6 +18,7 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -107,6 +108,7 @@ def compare(name, path, build, out):
     """@return row of the table, differences or None"""
     folder = out / name
     own = folder / "ents"
+    shutil.rmtree(own, ignore_errors=True)
     folder.mkdir(parents=True, exist_ok=True)
     text = deck_text(path)
     deck = folder / f"{name}.inp"

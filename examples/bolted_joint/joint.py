@@ -10,6 +10,7 @@ import json
 import math
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -110,6 +111,7 @@ def enriched(name, joint, options, shaft, bore, stiffness):
     (folder / "joint.inp").write_text(decks.enriched_deck(mesh, joint))
     (folder / "model.json").write_text(json.dumps(model_of(joint, mesh, bore, stiffness / joint.pitch), indent=1) + "\n")
     print(f"{name}: plain cylinders, {len(mesh.nodes)} nodes; ents-deck, ccx ...", flush=True)
+    shutil.rmtree(folder / "job", ignore_errors=True)
     made, _ = clock([options.build / "bin/ents-deck", "joint.inp", "--pair", "RIDGE,SHAFT", "--model", "model.json", "--coordinates", "cylinder", "z", "--points", 0,
                      "--no-pictures", "--for", "calculix", "--out", "job"], folder, "ents-deck.log")
     if "NOT ADMISSIBLE" in (folder / "ents-deck.log").read_text():

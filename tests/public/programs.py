@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import re
+import shutil
 import subprocess
 
 import ents
@@ -136,6 +137,7 @@ def contact_print(check):
                         ("both, to the .dat and .frd files", ["*CONTACT PRINT", "CDIS", "*CONTACT FILE", "CDIS"])):
         folder = check.programs.folder / name.replace(" ", "_").replace("/", "_")
         folder.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(folder / "ents", ignore_errors=True)
         (folder / "job.inp").write_text(deck(extra))
         done = subprocess.run([check.programs.deck, folder / "job.inp", "--for", "calculix", "--out", folder / "ents"], capture_output=True, text=True,
                               check=False)

@@ -135,6 +135,7 @@ def height():
 
 def convert(folder, build):
     """@return the job's folder, elements, seconds"""
+    shutil.rmtree(folder / "ents", ignore_errors=True)
     begin = time.perf_counter()
     made = subprocess.run([build / "bin/ents-deck", folder / "job.inp", "--pair", "CAP,TOP", "--model", folder / "model.json", "--coordinates", "xy", "--points", "2",
                            "--slide", "0", "--for", "calculix", "--out", folder / "ents"], capture_output=True, text=True)
