@@ -80,6 +80,21 @@ protected:
     return worst / mechanics::largest_entry(&centre.tangent[e * n * n], n * n);
   }
 
+  // An augmented law holds an element that touches within the increment above the surface, too; its slip begins
+  // where it is not, with a kink.
+  static bool dips_in(const LawElements& e, const LawResults& centre, const LawResults& points,
+                      std::size_t element) {
+    if (GetParam().normal["type"] != "augmented" ||
+        e.state[element * static_cast<std::size_t>(e.layout.state_size) + 1] != 1.0)
+      return false;
+    const double offset = GetParam().offset.is_number() ? GetParam().offset.get<double>() : 0.0;
+    const bool above = centre.gap[element] + offset > 0.0;
+    bool same = true;
+    for (std::size_t k = 0; k < mechanics::stencil_points; ++k)
+      same = same && (points.gap[mechanics::stencil_points * element + k] + offset > 0.0) == above;
+    return !same;
+  }
+
   static bool same_branch(const LawResults& centre, const LawResults& points, std::size_t e, bool& flagged) {
     flagged = centre.status[e] != ENTS_OK;
     bool same = true;
@@ -108,11 +123,12 @@ protected:
     const std::vector<double> v = mechanics::draw_directions(random, e.at.count, e.layout.dofs);
     LawResults centre, points;
     std::array<LawResults, 3> finer;
-    evaluate_near(model, e, ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS | ENTS_STATE, centre);
-    evaluate_near(model, moved(e, *scene.basis, v, step), ENTS_RESIDUAL | ENTS_FLAGS, points);
+    evaluate_near(model, e, ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS | ENTS_STATE | ENTS_GAP, centre);
+    evaluate_near(model, moved(e, *scene.basis, v, step), ENTS_RESIDUAL | ENTS_FLAGS | ENTS_GAP, points);
     for (std::size_t i = 0; i < static_cast<std::size_t>(e.at.count); ++i) {
       bool flagged = false;
-      const bool same = same_branch(centre, points, i, flagged) && !starts_to_slide(e, centre, i);
+      const bool same = same_branch(centre, points, i, flagged) && !starts_to_slide(e, centre, i) &&
+                        !dips_in(e, centre, points, i);
       count_.flagged += flagged;
       count_.crossing += !flagged && !same;
       if (flagged || !same) continue;
