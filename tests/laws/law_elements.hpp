@@ -242,6 +242,11 @@ inline void evaluate(const ents_model* model, const LawElements& e, std::int32_t
   ents_report report;
   if (try_evaluate(model, e, wanted, r, report) < 0) throw std::runtime_error(report.message);
 }
+// From a start near the projection: without one an open element has its whole segment searched, each time.
+inline void evaluate_near(const ents_model* model, const LawElements& e, std::int32_t wanted, LawResults& r) {
+  ents_report report;
+  if (try_evaluate(model, e, wanted, r, report, e.at.start) < 0) throw std::runtime_error(report.message);
+}
 inline void evaluate(const mechanics::Model& model, const LawElements& e, std::int32_t wanted,
                      LawResults& r) {
   evaluate(model.handle(), e, wanted, r);

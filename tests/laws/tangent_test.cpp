@@ -58,14 +58,6 @@ protected:
     return out;
   }
 
-  // From a start near the projection: without one an open element has its whole segment searched, each time.
-  static void evaluate_near(const mechanics::Model& model, const LawElements& e, std::int32_t wanted,
-                            LawResults& r) {
-    ents_report report;
-    if (try_evaluate(model.handle(), e, wanted, r, report, e.at.start) < 0)
-      throw std::runtime_error(report.message);
-  }
-
   static double error_of(const LawResults& centre, const LawResults& points, std::size_t e, const double* v,
                          std::size_t n, double t) {
     double worst = 0.0;
@@ -123,8 +115,10 @@ protected:
     const std::vector<double> v = mechanics::draw_directions(random, e.at.count, e.layout.dofs);
     LawResults centre, points;
     std::array<LawResults, 3> finer;
-    evaluate_near(model, e, ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS | ENTS_STATE | ENTS_GAP, centre);
-    evaluate_near(model, moved(e, *scene.basis, v, step), ENTS_RESIDUAL | ENTS_FLAGS | ENTS_GAP, points);
+    evaluate_near(model.handle(), e, ENTS_RESIDUAL | ENTS_TANGENT | ENTS_FLAGS | ENTS_STATE | ENTS_GAP,
+                  centre);
+    evaluate_near(model.handle(), moved(e, *scene.basis, v, step), ENTS_RESIDUAL | ENTS_FLAGS | ENTS_GAP,
+                  points);
     for (std::size_t i = 0; i < static_cast<std::size_t>(e.at.count); ++i) {
       bool flagged = false;
       const bool same = same_branch(centre, points, i, flagged) && !starts_to_slide(e, centre, i) &&
@@ -139,7 +133,7 @@ protected:
         if (error <= tolerance) break;
         t /= 8.0;
         if (again.status.empty())
-          evaluate_near(model, moved(e, *scene.basis, v, t), ENTS_RESIDUAL | ENTS_FLAGS, again);
+          evaluate_near(model.handle(), moved(e, *scene.basis, v, t), ENTS_RESIDUAL | ENTS_FLAGS, again);
         error = error_of(centre, again, i, &v[i * n], n, t);
       }
       ++count_.checked;
