@@ -73,12 +73,25 @@ std::int32_t MovedState::move(std::int64_t e, const double* positions_begin, ent
   in_ = *call_.in;
   in_.state_begin = state_, in_.state_begin_stride = 0;
   state_[plan.state.size] = 0.0; // of any segment
+  const MasterMesh& mesh = call_.mesh;
   if (begins(call_, e)) {
+    // An open element that was above another segment: from there, if that place is found on the present one.
+    SegmentNodes there;
+    if (state[StateLayout::history_at] == static_cast<double>(History::open) && number >= 1.0 &&
+        number <= static_cast<double>(mesh.segments) &&
+        gather_nodes(e, static_cast<std::int64_t>(number) - 1, positions_begin, there, nullptr) == ENTS_OK &&
+        plan.transfer(plan, there.positions, there.surface_coordinates, now.positions,
+                      now.surface_coordinates, state, state_) == Status::ok &&
+        state_[StateLayout::history_at] == static_cast<double>(History::open)) {
+      call_.in = &in_;
+      state_[plan.state.size] = 0.0;
+      return ENTS_OK;
+    }
+    state_[plan.state.size] = 0.0;
     const std::int32_t status = begin(e, now, report);
     call_.in = &in_;
     return status;
   }
-  const MasterMesh& mesh = call_.mesh;
   if (!(number >= 1.0 && number <= static_cast<double>(mesh.segments)))
     return report_message(report, ENTS_BAD_STATE, e,
                           "input.state_begin of element %lld was made on segment %g; the mesh has segments 0 "

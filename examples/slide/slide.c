@@ -44,6 +44,9 @@ int main(int argc, char** argv) {
   out.residual = R[0], out.residual_stride = 2, out.tangent = K[0][0], out.tangent_stride = 4;
   out.state_end = end, out.state_end_stride = m;
 
+  /* Once at the beginning: the states know where each node is before it touches. */
+  check(ents_iterate(model, &mesh, tree, size, 0, n, &found, &in, &out, NULL, &report));
+  memcpy(begin, end, (size_t)(n * m) * sizeof *begin);
   for (int step = 1; step <= 60; step++) {
     double error = 1, force[2];
     for (int iteration = 0; error > 1e-11; iteration++) {

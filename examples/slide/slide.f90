@@ -43,6 +43,9 @@ program slide
   out = ents_output(wanted=ENTS_RESIDUAL + ENTS_TANGENT + ENTS_STATE, residual=c_loc(R), residual_stride=2, &
                     tangent=c_loc(K), tangent_stride=4, state_end=c_loc(end), state_end_stride=size(end, 1, long))
 
+  ! Once at the beginning: the states know where each node is before it touches.
+  call check(ents_iterate(model, mesh, tree, size(tree, kind=long), 0_long, n, found, in, c_loc(out), c_null_ptr, report))
+  begin = end
   do step = 1, 60
     do iteration = 0, 30
       ! A master that moves: ents_tree_refit first. One that deforms: in%positions_begin, too.
