@@ -377,7 +377,8 @@ void install_adapter(EntsLibrary& library, const std::string& name) {
   if (route.program == &direct) return;
   const std::string file = (fs::path(library.path()).parent_path() / route.program->file).string();
   route.adapter = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (route.adapter == nullptr) throw JobError(option() + dlerror() + "; build the adapters: cmake --build build");
+  if (route.adapter == nullptr)
+    throw JobError(option() + dlerror() + "; build the adapters: cmake --build build");
   std::string folder = (fs::temp_directory_path() / "ents-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) throw JobError("--adapter: no folder for models: " + folder);
   route.folder = folder;

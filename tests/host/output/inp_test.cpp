@@ -105,7 +105,7 @@ TEST(Inp, SetsByNumberNameAndGenerate) {
                                        "*nset, nset=SOME, unsorted\n1\n*ELSET, ELSET=\"all of it\"\nblock\n");
   EXPECT_EQ(deck.node_sets.at("ODD"), (std::vector<int>{0, 2}));
   EXPECT_EQ(deck.node_sets.at("SOME"), (std::vector<int>{3, 0, 2, 1})); // no repetition, the deck's order
-  EXPECT_EQ(deck.element_sets.at("ALLOFIT"), (std::vector<int>{0})); // blanks do not count
+  EXPECT_EQ(deck.element_sets.at("ALLOFIT"), (std::vector<int>{0}));    // blanks do not count
 }
 
 TEST(Inp, SurfacesOfElementFacesAndOfNodes) {
