@@ -162,7 +162,6 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
     Lost contact = Lost::no;
   } lost; // the first one
   const bool looks_at_ways = slave_begin && (permitted & ENTS_FLAG_CROSSED) == 0;
-  std::vector<char> open(looks_at_ways ? static_cast<std::size_t>(count) : 0);
   for (std::int64_t i = first; i < first + count; ++i) {
     const double* slave = io->slave + i * plan.dimension;
     double* xi = io->xi + i * plan.parameters;
@@ -199,7 +198,6 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
                            "ents_tree_build");
     if (outcome != Status::ok) return explain_segment(plan, mesh, outcome, found.segment, report);
     io->segment[i] = found.segment;
-    if (looks_at_ways) open[static_cast<std::size_t>(i - first)] = found.segment < 0 || found.at.gap > 0.0;
     Lost contact = Lost::no;
     if (found.segment < 0 && before >= 0)
       contact = judge_lost_contact(plan, mesh, tree, slave, before, xi_before, found);
@@ -218,11 +216,10 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
     if (contact != Lost::no && (permitted & flag) == 0 && lost.slave < 0) lost = {i, before, contact};
   }
   if (lost.slave >= 0) return explain_lost_contact(lost.contact, lost.slave, lost.before, io->reach, report);
-  return looks_at_ways ? look_at_ways(first, count, open.data(), report) : report_ok(report);
+  return looks_at_ways ? look_at_ways(first, count, report) : report_ok(report);
 }
 
-std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count, const char* open,
-                                         ents_report* report) const {
+std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count, ents_report* report) const {
   const Plan& plan = model->plan;
   const std::int64_t d = plan.dimension;
   if (const std::int64_t k = first_non_finite(slave_begin + first * d, count * d); k >= 0)
@@ -237,7 +234,7 @@ std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count,
   Crossing crossing;
   if (const Status status =
           find_crossing(plan, mesh, tree, {slave_begin, io->slave, positions_begin, io->slave_node}, first,
-                        count, open, io->reach, crossing);
+                        count, io->reach, crossing);
       status != Status::ok)
     return report_status(report, static_cast<std::int32_t>(status), -1,
                          "on the way from slave_begin and positions_begin to the end of the increment");

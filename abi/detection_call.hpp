@@ -2,8 +2,6 @@
 // One call of the caller's slave nodes: arguments checked once, then a detection each.
 #pragma once
 
-#include <vector>
-
 #include "abi/lost_contact.hpp"
 
 namespace ents {
@@ -33,8 +31,7 @@ struct DetectionCall {
 
 private:
   // ENTS_NO_PROJECTION if a slave that is open has passed through the surface.
-  std::int32_t look_at_ways(std::int64_t first, std::int64_t count, const char* open,
-                            ents_report* report) const;
+  std::int32_t look_at_ways(std::int64_t first, std::int64_t count, ents_report* report) const;
   std::int64_t segment_before(std::int64_t slave, double (&xi)[2]) const;
 
   bool judges;         // the caller's struct has `permitted`

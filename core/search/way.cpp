@@ -83,18 +83,19 @@ struct Walk {
       : plan(p), mesh(m), way(w), reach(r) {}
 
   // The slave and the mesh after `part` of the increment: is it behind the surface?
-  Status look(std::int64_t slave, double part, const MasterMesh& there, bool& behind) const {
+  Status look(std::int64_t slave, double part, const MasterMesh& there, const double* boxes,
+              bool& behind) const {
     const int d = plan.dimension;
     double place[3];
     for (int i = 0; i < d; ++i) {
       const double from = way.slave_begin[slave * d + i];
-      place[i] = from + part * (way.slave[slave * d + i] - from);
+      place[i] = part == 1.0 ? way.slave[slave * d + i] : from + part * (way.slave[slave * d + i] - from);
     }
     Detection found;
     found.segment = -1;
     found.own_node = way.own_node ? way.own_node[slave] : -1;
-    const Status status = detect(plan, there, tree.data(), place, reach, found);
-    behind = status == Status::ok && (found.behind_edge || (found.segment >= 0 && found.at.gap < 0.0));
+    const Status status = detect(plan, there, boxes, place, reach, found);
+    behind = status == Status::ok && (found.behind_edge || (found.segment >= 0 && found.at.gap <= 0.0));
     return status;
   }
 
@@ -127,7 +128,8 @@ struct Walk {
         return status;
       for (std::size_t k = 0; k < far.size(); ++k) {
         bool behind = false;
-        if (const Status status = look(far[k], part, there, behind); status != Status::ok) return status;
+        if (const Status status = look(far[k], part, there, tree.data(), behind); status != Status::ok)
+          return status;
         judge(k, part, behind, out);
       }
     }
@@ -139,17 +141,19 @@ struct Walk {
 } // namespace
 
 Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tree, const Increment& way,
-                     std::int64_t first, std::int64_t count, const char* open, double reach, Crossing& out) {
+                     std::int64_t first, std::int64_t count, double reach, Crossing& out) {
   out = {};
   const int d = plan.dimension;
   const Motion motion(mesh, way.positions_begin, d);
   Walk walk(plan, mesh, way, reach);
   for (std::int64_t k = first; k < first + count; ++k) {
-    if (!open[k - first]) continue;
     const double moved = distance(way.slave + k * d, way.slave_begin + k * d, motion.mean, d) + motion.rest;
     if (!(moved > reach) ||
         !may_meet(plan, mesh, tree, way.slave_begin + k * d, way.slave + k * d, motion, reach))
       continue;
+    bool behind = false;
+    if (const Status status = walk.look(k, 1.0, mesh, tree, behind); status != Status::ok) return status;
+    if (behind) continue;
     walk.far.push_back(k);
     if (moved > out.moved) out.slave = k, out.moved = moved;
   }

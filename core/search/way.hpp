@@ -22,11 +22,11 @@ struct Crossing {
   bool seen = false;       // false: the way is longer than what is looked at
 };
 
-// Slaves first .. first + count - 1 with open[k - first] != 0: those in front of the surface at the end. A slave
+// Of slaves first .. first + count - 1 those that are in front of the surface at the end. A slave
 // that moves by no more than `reach` relative to the master is always in sight of the search; the others are
 // looked for at places `reach` / 2 apart on their straight way, in the mesh as it is there.
 // Allocates (std::bad_alloc) if there are such slaves. ok, or what detect() and refit_tree() say.
 Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tree, const Increment& way,
-                     std::int64_t first, std::int64_t count, const char* open, double reach, Crossing& out);
+                     std::int64_t first, std::int64_t count, double reach, Crossing& out);
 
 } // namespace ents
