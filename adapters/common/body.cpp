@@ -9,23 +9,20 @@ namespace ents_adapter {
 std::string place_body(const Element& e, int dimension, int slave_nodes, bool turn_node, int state_size,
                        Body& body, bool& finite) {
   const int turns = turns_of(dimension);
-  const auto displacement = [&](int i, int node) {
-    double u = e.displacement ? e.displacement(i, node) : 0;
-    if (e.increment) u += e.increment(i, node);
-    finite = finite && std::isfinite(u);
-    return u;
-  };
   ents_report report{};
   report.struct_size = sizeof report;
   body.pose.struct_size = sizeof body.pose;
   ents_pose_init(dimension, &body.pose, nullptr);
   double point[3] = {};
-  for (int i = 0; i < dimension; ++i) point[i] = e.position(i, slave_nodes) + displacement(i, slave_nodes);
+  for (int i = 0; i < dimension; ++i) {
+    point[i] = e.position(i, slave_nodes) + e.moved(i, slave_nodes);
+    finite = finite && std::isfinite(point[i]);
+  }
   for (int i = 0; i < turns; ++i) {
     if (turn_node)
-      body.turns[i] = body.spin[i] = displacement(i, slave_nodes + 1);
+      body.turns[i] = body.spin[i] = e.moved(i, slave_nodes + 1);
     else if (dimension == 2)
-      body.spin[i] = displacement(2, slave_nodes); // the whole angle
+      body.spin[i] = e.moved(2, slave_nodes); // the whole angle
     else if (e.spin)
       body.spin[i] = e.spin(i);
     finite = finite && std::isfinite(body.spin[i]);

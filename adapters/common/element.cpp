@@ -45,12 +45,7 @@ Result fail(const Element& e, const std::string& text) {
 /// Current positions of slave and master nodes, then multipliers. @return all finite
 bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
   const ents_layout& layout = arguments.model->layout;
-  const auto current = [&](int i, int node) {
-    double x = e.position(i, node);
-    if (e.displacement) x += e.displacement(i, node);
-    if (e.increment) x += e.increment(i, node);
-    return x;
-  };
+  const auto current = [&](int i, int node) { return e.position(i, node) + e.moved(i, node); };
   const int slave_nodes = arguments.slave_nodes,
             host_nodes = slave_nodes + (arguments.body ? 0 : layout.nodes);
   bool finite = true;
@@ -66,8 +61,7 @@ bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
       finite = finite && std::isfinite(*out);
     }
   for (int i = 0; i < layout.multipliers; ++i, ++out) {
-    *out = e.displacement ? e.displacement(i, host_nodes) : 0.0;
-    if (e.increment) *out += e.increment(i, host_nodes);
+    *out = e.moved(i, host_nodes);
     finite = finite && std::isfinite(*out);
   }
   return finite;
@@ -236,18 +230,9 @@ ents_input input_at(const Arguments& arguments, const Place& at, const double* s
 /// The state at the begin of the increment from the positions there, for an element that has none.
 /// @return false: the host does not tell them, or there is no projection
 bool find_begin(const Element& e, const Arguments& arguments, double* state) {
-  double displacement[3 * (1 + largest_body_nodes)];
-  const int all = e.dofs * e.nodes + (e.reference_turns ? turns_of(arguments.model->layout.dimension) : 0);
-  if (!e.change || all > 3 * (1 + largest_body_nodes)) return false;
-  for (int k = 0; k < all; ++k) {
-    const int node = std::min(k / e.dofs, e.nodes - 1), i = k - e.dofs * node;
-    double u = e.displacement ? e.displacement(i, node) : 0.0;
-    if (e.increment) u += e.increment(i, node);
-    displacement[k] = u - e.change(i, node);
-  }
+  if (!e.change) return false;
   Element begin = e;
-  begin.displacement = {displacement, 1, e.dofs};
-  begin.increment = {}, begin.spin = {};
+  begin.undone = e.change, begin.spin = {};
   Place at;
   if (!place(begin, arguments, at).empty() || !at.finite) return false;
   double there[largest_state];

@@ -74,6 +74,13 @@ struct Element {
   Grid<const double>
       change; ///< (dof, node) or null: what of the above belongs to this increment. A slave that touches
               ///< within an increment without a history has friction only where it is known
+  Grid<const double> undone; ///< (dof, node) or null: subtracted, for the begin of the increment
+  /// What a node has moved by: the only place where these arrays are read, and only dofs that the element has.
+  double moved(int i, int node) const {
+    double u = displacement ? displacement(i, node) : 0.0;
+    if (increment) u += increment(i, node);
+    return undone ? u - undone(i, node) : u;
+  }
   Row<const double> spin; ///< [3] rotation vector of the reference node in this increment, or null: none
   Row<const double> properties;
   int property_count = 0;
