@@ -113,6 +113,19 @@ std::vector<KeywordRule> mesh_rules() {
        {}}};
 }
 
+/// own: a parameter of the program that concerns elements
+KeywordRule model_change(const char* own) {
+  return {
+      "MODEL CHANGE",
+      Use::used,
+      "",
+      {{"TYPE", Use::used, "ELEMENT", "contact elements stay for the whole job; write a deck for each state"},
+       {"ADD", Use::no_effect, "*", ""},
+       {"REMOVE", Use::no_effect, "", ""},
+       {own, Use::no_effect, "", ""}},
+      {}};
+}
+
 std::vector<KeywordRule> calculix_rules() {
   const std::string thickness =
       "the thickness of plane contact is that of the *SOLID SECTION; write 1 or leave the line out";
@@ -146,15 +159,7 @@ std::vector<KeywordRule> calculix_rules() {
        "U1E has been verified in *STATIC and *VISCO steps alone; leave the pair to ccx",
        {},
        {}},
-      {"MODEL CHANGE",
-       Use::used,
-       "",
-       {{"TYPE", Use::used, "ELEMENT",
-         "contact elements stay for the whole job; write a deck for each state"},
-        {"ADD", Use::no_effect, "*", ""},
-        {"REMOVE", Use::no_effect, "", ""},
-        {"MECHSTRAINTORESIDUAL", Use::no_effect, "", ""}},
-       {}}};
+      model_change("MECHSTRAINTORESIDUAL")};
 }
 
 std::vector<KeywordRule> abaqus_rules() {
@@ -263,15 +268,7 @@ std::vector<KeywordRule> abaqus_rules() {
          "contact elements ask for cuts, which an arc length does not follow; drive the motion"},
         any},
        {}},
-      {"MODEL CHANGE",
-       Use::used,
-       "",
-       {{"TYPE", Use::used, "ELEMENT",
-         "contact elements stay for the whole job; write a deck for each state"},
-        {"ADD", Use::no_effect, "*", ""},
-        {"REMOVE", Use::no_effect, "", ""},
-        {"ACTIVATE", Use::no_effect, "", ""}},
-       {}}};
+      model_change("ACTIVATE")};
 }
 
 std::vector<KeywordRule> together(std::vector<KeywordRule> rules) {
