@@ -381,8 +381,8 @@ typedef struct ents_detection {
  * The way. With `slave_begin`, a slave that moves by more than `reach` relative to the mesh (less its mean motion) and is in front of the
  * surface at the begin and at the end is looked for on its straight way, at places reach / 2 apart: if it is behind the surface there, it
  * has passed through, and the call returns ENTS_NO_PROJECTION, with report.step_factor so that the increment ends there. It does so, too, if
- * the way near the surface is longer than 32 reach. A part of the body that is thinner than reach / 2 may be missed. Allocates (NO_MEMORY) if
- * there are such slaves.
+ * the way near the surface is longer than 32 reach. A part of the body that is thinner than reach / 2 may be missed. Each such call reads the
+ * positions of all nodes once: take long ranges. Allocates (NO_MEMORY) if there are such slaves.
  * Returns 0; ENTS_NO_PROJECTION as just said, after everything has been written; or a negative status, and then nothing is written from
  * the slave with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
