@@ -199,6 +199,15 @@ void share_nodes(const Mesh& mesh, Contact& contact, Program program) {
       " nodes belong to slave and master");
 }
 
+/// Has one element triangles and quadrilaterals?
+bool has_mixed_patch(const Contact& contact) {
+  return std::any_of(contact.patches.list.begin(), contact.patches.list.end(), [&](const Patch& patch) {
+    return std::any_of(patch.faces.begin(), patch.faces.end(), [&](int f) {
+      return contact.master.faces[static_cast<std::size_t>(f)].shape != patch.shape;
+    });
+  });
+}
+
 /// One pair: sides, law, patches.
 Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, const ordered_json& base,
                 std::vector<Move>& moves) {
@@ -277,6 +286,10 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
   if (height && options.coordinates.empty() && out.master.faces.size() > 1)
     out.remarks.push_back(
         "the height repeats on every face of the master (s = xi); --coordinates spreads it over the surface");
+  if (height && options.coordinates.empty() && has_mixed_patch(out))
+    mesh.source.fail(out.master.place, "'" + pair.master +
+                                           "' has triangles and quadrilaterals in one element, over which a "
+                                           "height needs surface coordinates: write --coordinates");
   if (!options.coordinates.empty())
     out.face_coordinates =
         coordinates_of_faces(mesh, out.master, options.coordinates, options.coordinate_file);
@@ -331,7 +344,7 @@ Job convert(const Options& options) {
       else if (contact.plane_coordinates)
         element.surface_coordinates = plane_coordinates(job.mesh, contact.master, patch);
       ordered_json text = contact.model;
-      text["segment"] = segment_name(contact.master.faces[static_cast<std::size_t>(patch.face)].shape);
+      text["segment"] = segment_name(patch.shape);
       if (patch.topology.size() > 1 || patch.topology[0].size() != patch.nodes.size())
         text["patch"] = patch.topology;
       if (contact.rise > 0)

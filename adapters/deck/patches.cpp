@@ -213,6 +213,21 @@ std::set<int> along(const FacetTree& tree, const Neighbours& all, const FacetTre
   return chosen;
 }
 
+/// Can faces of these shapes be segments of one element? A triangle is a quad4 with two nodes in one.
+bool go_together(Shape a, Shape b) {
+  const auto has_corners_only = [](Shape s) { return s == Shape::tri3 || s == Shape::quad4; };
+  return a == b || (has_corners_only(a) && has_corners_only(b));
+}
+
+/// The shape of a patch's segments; triangles among quadrilaterals become such.
+void set_shape(const Neighbours& all, Patch& patch) {
+  patch.shape = all.face(patch.faces[0]).shape;
+  for (const int f : patch.faces)
+    if (all.face(f).shape != patch.shape) patch.shape = Shape::quad4;
+  for (auto& segment : patch.topology)
+    if (patch.shape == Shape::quad4 && segment.size() == 3) segment.push_back(segment.back());
+}
+
 double slide_of(const PatchRequest& request, const Point& normal) {
   if (request.slide) return *request.slide;
   double sum = 0;
@@ -282,27 +297,26 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
     std::sort(ring.begin(), ring.end());
     for (const auto& [distance, f] : ring) {
       if (chosen.count(f) != 0) continue;
-      if (all.face(f).shape != all.face(under.face).shape) continue;
+      if (!go_together(all.face(f).shape, all.face(under.face).shape)) continue;
       std::set<int> with = nodes_with(all, nodes, f);
       if (static_cast<int>(with.size()) > largest) continue;
       nodes = std::move(with);
       chosen.insert(f);
     }
-    // A triangle as a quad4 with two nodes in one passes the patch test to 1e-13 where both meshes match, but of points
-    // that had slid by up to half a face 76 of 480 had an ambiguous projection: increments would be cut for ever.
     for (const int f : chosen) {
-      if (all.face(f).shape != all.face(under.face).shape)
-        mesh.source.fail(
-            master.place,
-            "'" + master.name + "' has faces of several shapes (" + segment_name(all.face(f).shape) + ", " +
-                segment_name(all.face(under.face).shape) + ") within the slide of " + label_of(mesh, node) +
-                "; one element has segments of one shape: write a smaller --slide, or mesh "
-                "that surface with one shape of faces");
+      if (!go_together(all.face(f).shape, all.face(under.face).shape))
+        mesh.source.fail(master.place, "'" + master.name + "' has faces of several shapes (" +
+                                           segment_name(all.face(f).shape) + ", " +
+                                           segment_name(all.face(under.face).shape) +
+                                           ") within the slide of " + label_of(mesh, node) +
+                                           "; one element has segments of one shape, or tri3 and quad4: "
+                                           "write a smaller --slide, or take elements of first order there");
       for (const int other : all.around(f))
         if (chosen.count(other) == 0) out.reserve = std::min(out.reserve, tree.distance(under.point, other));
     }
     out.widest = std::max(out.widest, static_cast<int>(nodes.size() + node.nodes.size()));
     Patch patch = numbered(all, {chosen.begin(), chosen.end()}, under.face, request.turn);
+    set_shape(all, patch);
     patch.slave = i;
     patch.face = under.face;
     out.list.push_back(std::move(patch));

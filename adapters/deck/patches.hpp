@@ -21,6 +21,7 @@ struct Patch {
   std::vector<int> nodes; ///< master nodes of the element, indices into Mesh::nodes
   std::vector<int> faces; ///< of the master, in the order of `topology`
   Topology topology;
+  Shape shape = Shape::none; ///< of its segments; a triangle among quadrilaterals has its last node twice
 };
 
 struct PatchRequest {
@@ -45,7 +46,7 @@ struct Patches {
 };
 
 /// @throws Error with the numbers where the faces within the slide of a node have more than `largest` nodes,
-///         or are not of one shape
+///         or cannot be segments of one shape
 Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const Side& master,
                    const PatchRequest& request);
 

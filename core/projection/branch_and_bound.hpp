@@ -145,8 +145,8 @@ ENTS_INLINE double largest_change(const Surface<B, H, Ball>& s, const Vec<double
 }
 
 // Search of the triangle that a quad4 with the collapsed edge e is, whose nodes are e, e + 2 and e + 3, and
-// natural coordinates of the quad4. False: heights are given in natural coordinates, or in surface
-// coordinates that differ in the two nodes: then they are not those of a triangle.
+// natural coordinates of the quad4. False: heights that are not the same everywhere are given in natural
+// coordinates, or in surface coordinates that differ in the two nodes: then they are not those of a triangle.
 template <bool H>
 ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
                                     int budget, int e, Search& result, double (&xi)[2], int& evaluations) {
@@ -156,12 +156,13 @@ ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, c
   for (int i = 0; i < 3; ++i) triangle.y[i] = g.y[nodes[i]];
   triangle.surface_coordinates = nullptr, triangle.height = g.height,
   triangle.smallest_area2 = g.smallest_area2;
-  if constexpr (H) {
-    const double* s = g.surface_coordinates;
-    if (!s || s[2 * e] != s[2 * ((e + 1) % 4)] || s[2 * e + 1] != s[2 * ((e + 1) % 4) + 1]) return false;
-    for (int i = 0; i < 6; ++i) coordinates[i] = s[2 * nodes[i / 2] + i % 2];
-    triangle.surface_coordinates = coordinates;
-  }
+  if constexpr (H)
+    if (g.height->kind != HeightKind::constant) {
+      const double* s = g.surface_coordinates;
+      if (!s || s[2 * e] != s[2 * ((e + 1) % 4)] || s[2 * e + 1] != s[2 * ((e + 1) % 4) + 1]) return false;
+      for (int i = 0; i < 6; ++i) coordinates[i] = s[2 * nodes[i / 2] + i % 2];
+      triangle.surface_coordinates = coordinates;
+    }
   Projection<Tri3, H> p;
   result = search<Tri3, H>(triangle, t, plan, p, limit, budget);
   evaluations = p.evaluations;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patches and moved nodes of ents-deck; shells and beams.
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "deck_text.hpp"
 #include "facet_tree.hpp"
+
+#include <ents.h>
 
 namespace ents_deck::deck_patches_test {
 namespace {
@@ -98,6 +101,199 @@ TEST(DeckPatches, HaveAllFacesWithinTheSlide) {
       }
     }
   }
+}
+
+// ---- triangles among quadrilaterals ----
+
+/// n x n cells of side 1/n and height 1: bricks and, in every second one, two wedges.
+string bricks_and_wedges(int first, double low, int n, const string& set) {
+  std::ostringstream nodes, bricks, wedges;
+  nodes.precision(17);
+  const auto number = [&](int i, int j, int k) { return first + i + (n + 1) * (j + (n + 1) * k); };
+  for (int k = 0; k <= 1; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        nodes << number(i, j, k) << ", " << double(i) / n << ", " << double(j) / n << ", " << low + k << "\n";
+  int e = first;
+  const auto prism = [&](std::ostream& out, std::initializer_list<std::pair<int, int>> corners) {
+    out << e++;
+    for (int k = 0; k <= 1; ++k)
+      for (const auto& [i, j] : corners) out << ", " << number(i, j, k);
+    out << "\n";
+  };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      if ((i + j) % 2 == 0) {
+        prism(bricks, {{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}});
+      } else {
+        prism(wedges, {{i, j}, {i + 1, j}, {i + 1, j + 1}});
+        prism(wedges, {{i, j}, {i + 1, j + 1}, {i, j + 1}});
+      }
+    }
+  return "*NODE, NSET=N" + set + "\n" + nodes.str() + "*ELEMENT, TYPE=C3D8, ELSET=" + set + "\n" +
+         bricks.str() + "*ELEMENT, TYPE=C3D6, ELSET=" + set + "\n" + wedges.str();
+}
+
+string mixed_deck() {
+  return bricks_and_wedges(1, 0, 4, "LOW") + bricks_and_wedges(101, 1, 4, "HIGH") +
+         "*SURFACE, NAME=SLAVE\nHIGH, S1\n*SURFACE, NAME=MASTER\nLOW, S2\n" + material + law +
+         pair_of_surfaces + "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nNHIGH, 3, 3, -0.01\n*END STEP\n";
+}
+
+/// The library's element of one of a job's.
+struct OneElement {
+  ents_model* model = nullptr;
+  std::vector<double> master;
+  std::size_t dofs = 0, state_size = 0;
+  const ContactElement& element;
+
+  OneElement(const Job& job, const ContactElement& of) : element(of) {
+    const string text = job.models.at(static_cast<std::size_t>(of.model)).text.dump();
+    ents_report report{};
+    report.struct_size = sizeof report;
+    EXPECT_EQ(ents_model_create(text.c_str(), -1, nullptr, nullptr, 0, &model, &report), ENTS_OK)
+        << report.message;
+    ents_layout layout{};
+    layout.struct_size = sizeof layout;
+    EXPECT_EQ(ents_model_layout(model, &layout, &report), ENTS_OK) << report.message;
+    dofs = static_cast<std::size_t>(layout.dofs), state_size = static_cast<std::size_t>(layout.state_size);
+    for (const int node : of.masters) {
+      const Point& x = job.mesh.nodes[static_cast<std::size_t>(node)].x;
+      master.insert(master.end(), x.begin(), x.end());
+    }
+  }
+  ~OneElement() { ents_model_destroy(&model, nullptr); }
+  OneElement(const OneElement&) = delete;
+
+  /// `state`: of the begin, then of the end
+  int evaluate(const Point& slave, const std::vector<double>& at, std::vector<double>& state,
+               std::vector<double>& residual) const {
+    std::vector<double> end(state.size());
+    ents_input in{};
+    in.struct_size = sizeof in;
+    in.slave = slave.data(), in.master = at.data(), in.area = &element.slave.area;
+    ents_output out{};
+    out.struct_size = sizeof out;
+    out.wanted = ENTS_RESIDUAL;
+    out.residual = residual.data();
+    if (!state.empty()) {
+      in.state_begin = state.data();
+      out.wanted |= ENTS_STATE;
+      out.state_end = end.data();
+    }
+    ents_report report{};
+    report.struct_size = sizeof report;
+    const int status = ents_evaluate(model, 0, 1, &in, &out, &report);
+    if (status == ENTS_OK) state = end;
+    return status;
+  }
+};
+
+/// Residuals of all elements with the slave lower by `depth`, summed up at the nodes of the deck, [nodes].
+std::vector<Point> forces(const Job& job, double depth) {
+  std::vector<Point> sum(job.mesh.nodes.size());
+  for (const ContactElement& element : job.elements) {
+    const OneElement one(job, element);
+    Point slave = element.slave.x;
+    slave[2] -= depth;
+    std::vector<double> none, residual(one.dofs);
+    EXPECT_EQ(one.evaluate(slave, one.master, none, residual), ENTS_OK);
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < element.slave.nodes.size(); ++i)
+        sum[static_cast<std::size_t>(element.slave.nodes[i])][k] += element.slave.weights[i] * residual[k];
+      for (std::size_t i = 0; i < element.masters.size(); ++i)
+        sum[static_cast<std::size_t>(element.masters[i])][k] += residual[3 + 3 * i + k];
+    }
+  }
+  return sum;
+}
+
+// A body of bricks and wedges on another one with the same mesh, pressed by the same depth everywhere: every
+// node of both has the force of a uniform pressure, whether its elements have one kind of faces or both.
+TEST(DeckPatches, OfTrianglesAndQuadrilateralsPassThePatchTest) {
+  constexpr double depth = 0.05, stiffness = 1e6, cell = 1.0 / 16;
+  for (const double slide : {0.0, 0.3})
+    for (const int points : {0, 1, 2, 3}) {
+      Options options;
+      options.slide = slide;
+      options.points = points;
+      options.program = Program::abaqus;
+      const Job job = converted(mixed_deck(), options);
+      std::set<string> segments;
+      for (const Model& model : job.models) segments.insert(model.text.at("segment").get<string>());
+      EXPECT_TRUE(segments.count("quad4"));
+      const double pressure = stiffness * (depth + job.contacts.at(0).rise);
+      std::vector<double> share(job.mesh.nodes.size());
+      for (const Side* side : {&job.contacts.at(0).slave, &job.contacts.at(0).master})
+        for (const Face& face : side->faces)
+          for (const int node : face.nodes)
+            share[static_cast<std::size_t>(node)] +=
+                (side == &job.contacts.at(0).slave ? -1 : 1) * (face.nodes.size() == 3 ? cell / 6 : cell / 4);
+      const std::vector<Point> found = forces(job, depth);
+      double worst = 0;
+      for (std::size_t i = 0; i < share.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          worst = std::max(worst, std::abs(found[i][k] / pressure - (k == 2 ? share[i] : 0)) / cell);
+      // positions of 1 and forces of a depth of 0.05: twenty roundings and a few
+      EXPECT_LT(worst, 1e-13) << "slide " << slide << ", points " << points;
+    }
+}
+
+// Of such elements every point has its pressure wherever it has slid to within its patch, on a plane master and on one
+// whose nodes have moved at random: no projection is lost, none doubtful.
+TEST(DeckPatches, OfTrianglesAndQuadrilateralsLoseNoPointThatSlides) {
+  constexpr double depth = 0.02, stiffness = 1e6, farthest = 0.125;
+  Options options;
+  options.slide = 0.3;
+  options.points = 2;
+  options.program = Program::abaqus;
+  const Job job = converted(mixed_deck(), options);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int moved = 0, lost = 0;
+  double worst = 0;
+  for (const double warp : {0.0, 0.002})
+    for (const ContactElement& element : job.elements) {
+      const OneElement one(job, element);
+      std::vector<double> master = one.master;
+      for (double& x : master) x += warp * any(random);
+      std::vector<double> state(one.state_size);
+      EXPECT_EQ(
+          ents_state_init(one.model, 1, state.data(), static_cast<std::int64_t>(one.state_size), nullptr),
+          ENTS_OK);
+      Point slave = element.slave.x;
+      slave[2] -= depth;
+      for (int step = 0; step < 4; ++step) {
+        std::vector<double> residual(one.dofs);
+        const int status = one.evaluate(slave, master, state, residual);
+        ++moved;
+        if (status != ENTS_OK) ++lost;
+        if (warp == 0 && status == ENTS_OK) {
+          const double pressure = stiffness * (depth + job.contacts.at(0).rise);
+          worst = std::max(worst, std::abs(residual[2] / (-pressure * element.slave.area) - 1));
+        }
+        for (std::size_t k = 0; k < 2; ++k)
+          slave[k] = std::clamp(element.slave.x[k] + farthest * any(random), 0.0, 1.0);
+      }
+    }
+  EXPECT_GT(moved, 400);
+  EXPECT_EQ(lost, 0) << "of " << moved;
+  EXPECT_LT(worst, 1e-12);
+}
+
+// Where segments of both kinds are in one element a height needs coordinates that both have.
+TEST(DeckPatches, OfTrianglesAndQuadrilateralsNeedCoordinatesForAHeight) {
+  write("job/wave.json",
+        R"({"height": {"type": "sine", "amplitude": 0.001, "wave_vector": [6.283, 0], "phase": 0}})");
+  Options options;
+  options.slide = 0.3;
+  options.program = Program::abaqus;
+  options.model = "job/wave.json";
+  const string error = error_of([&] { converted(mixed_deck(), options); });
+  EXPECT_NE(error.find("'MASTER' has triangles and quadrilaterals in one element"), string::npos) << error;
+  EXPECT_NE(error.find("--coordinates"), string::npos) << error;
+  options.coordinates = "xy";
+  EXPECT_GT(converted(mixed_deck(), options).elements.size(), 0u);
 }
 
 // ---- moved nodes ----
