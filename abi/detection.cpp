@@ -134,7 +134,7 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
                           !io->slave     ? "slave"
                           : !io->segment ? "segment"
                                          : "xi");
-  slave_begin = io->slave_begin, positions_begin = io->positions_begin;
+  slave_begin = io->slave_begin, positions_begin = io->positions_begin, slave_normal = io->slave_normal;
   return ENTS_OK;
 }
 
@@ -172,6 +172,11 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
     Detection found;
     found.segment = io->segment[i];
     if (io->slave_node) found.own_node = io->slave_node[i];
+    found.slave_normal = slave_normal ? slave_normal + i * plan.dimension : nullptr;
+    if (found.slave_normal && first_non_finite(found.slave_normal, plan.dimension) >= 0)
+      return report_message(report, ENTS_NON_FINITE, i,
+                            "detection.slave_normal of node %lld is NaN or infinite",
+                            static_cast<long long>(i));
     if (found.own_node < -1 || found.own_node >= mesh.nodes)
       return report_message(report, ENTS_BAD_VALUE, i,
                             "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld",
@@ -232,9 +237,9 @@ std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count,
                             "positions_begin of node %lld of the mesh is NaN or infinite",
                             static_cast<long long>(k / d));
   Crossing crossing;
-  if (const Status status =
-          find_crossing(plan, mesh, tree, {slave_begin, io->slave, positions_begin, io->slave_node}, first,
-                        count, io->reach, crossing);
+  if (const Status status = find_crossing(
+          plan, mesh, tree, {slave_begin, io->slave, positions_begin, io->slave_node, slave_normal}, first,
+          count, io->reach, crossing);
       status != Status::ok)
     return report_status(report, static_cast<std::int32_t>(status), -1,
                          "on the way from slave_begin and positions_begin to the end of the increment");

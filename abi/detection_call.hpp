@@ -23,6 +23,7 @@ struct DetectionCall {
   std::int64_t state_begin_stride = 0;
   // Where slaves and nodes were at the begin of the increment, or null: ways are not looked at.
   const double *slave_begin = nullptr, *positions_begin = nullptr;
+  const double* slave_normal = nullptr;
   // A slave behind an edge that had no segment ends the call, too.
   bool needs_all = false;
 

@@ -27,7 +27,7 @@ module ents
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 8
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 9
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -164,7 +164,7 @@ module ents
   end type ents_master_mesh
 
   type, bind(c) :: ents_detection
-    integer(c_int32_t) :: struct_size = 24 + 9*pointer_bytes
+    integer(c_int32_t) :: struct_size = 24 + 10*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, count)
     real(c_double) :: reach = 0
@@ -177,6 +177,7 @@ module ents
     integer(c_int64_t) :: permitted = 0
     type(c_ptr) :: slave_begin = c_null_ptr ! (d, count)
     type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
+    type(c_ptr) :: slave_normal = c_null_ptr ! (d, count)
   end type ents_detection
 
   type, bind(c) :: ents_input

@@ -93,7 +93,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 8
+#define ENTS_CONTRACT_MINOR 9
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -352,6 +352,8 @@ typedef struct ents_detection {
                                         not looked at. Since contract 1.8 */
   const double *slave_begin;         /* [count][d] positions at the begin of the increment, [L], or null: ways are not looked at. Since contract 1.8 */
   const double *positions_begin;     /* [nodes][d] of the mesh at the begin of the increment, [L]; null: the mesh does not move. Since contract 1.8 */
+  const double *slave_normal;        /* [count][d] of the slave's own surface, out of its body, of any length, or null. Segments that look the same way
+                                        are left out (below); zeros: none are, for this slave. Since contract 1.9 */
 } ents_detection;
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
@@ -366,6 +368,9 @@ typedef struct ents_detection {
  * it was on. In all other cases all segments are searched (ENTS_FLAG_SEARCHED). The answer is then proved, by bounds, to be the best one;
  * ENTS_FLAG_AMBIGUOUS is set if a second one is equally good (the segment with the smaller number is returned), or if the proof
  * takes more than a bounded number of steps.
+ * Segments that look away. With `slave_normal`, a segment whose normal (rho without its height, at its middle) makes an angle of less than
+ * 93 degrees with that of the slave is left out of the search: at the corner of a body whose whole boundary is the master, the slave above
+ * one side is never taken by the next one. A slave that is followed keeps its segment.
  * Edges (normal projection). A slave node beyond the edges of all segments has no projection, unless it lies within the model's
  * "border" of one. Where a point of an edge is closer to the slave node than every projection, the normals of the segments that meet
  * there decide. Behind a concave edge (a kink of a plain mesh) the slave node has penetrated, but projects on neither segment: segment is

@@ -47,7 +47,7 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
   NearestBorder nearest{{}, -1};
   // Self-contact: the closest border is the slave's own node.
   const bool by_border = plan.projection == ProjectionKind::normal && found.own_node < 0 &&
-                         nearest_border(plan, mesh, tree, slave, anywhere, nearest);
+                         nearest_border(plan, mesh, tree, slave, found.slave_normal, anywhere, nearest);
   Detection far = found;
   far.segment = -1;
   if (detect(plan, mesh, tree, slave, by_border ? nearest.at.distance : anywhere, far) != Status::ok)
@@ -55,7 +55,7 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
   if (far.segment >= 0) return far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
   if (!by_border) return Lost::beside;
   double crack = 0.0;
-  switch (side_of_border(plan, mesh, tree, slave, nearest, crack)) {
+  switch (side_of_border(plan, mesh, tree, slave, found.slave_normal, nearest, crack)) {
   case BorderSide::ahead:
     return Lost::no;
   case BorderSide::behind:

@@ -96,7 +96,7 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
   NearestBorder nearest{{}, -1};
   nearest.at.distance = found;
   const bool flat = !plan.height && plan.nodes == plan.dimension; // its projection is its closest point
-  if (candidates.count <= Candidates::most || out.own_node >= 0) {
+  if (candidates.count <= Candidates::most || out.own_node >= 0 || out.slave_normal) {
     for (int i = 0; i < std::min(candidates.count, Candidates::most); ++i) {
       if (!(candidates.at_least[i] < nearest.at.distance) || (flat && candidates.segment[i] == out.segment))
         continue;
@@ -107,11 +107,11 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
         nearest.segment = candidates.segment[i];
     }
   } else {
-    nearest_border(plan, mesh, tree, slave, found, nearest);
+    nearest_border(plan, mesh, tree, slave, out.slave_normal, found, nearest);
   }
   if (nearest.segment < 0) return;
   double crack;
-  const BorderSide side = side_of_border(plan, mesh, tree, slave, nearest, crack);
+  const BorderSide side = side_of_border(plan, mesh, tree, slave, out.slave_normal, nearest, crack);
   if (out.segment < 0) {
     out.behind_edge = side == BorderSide::behind;
     return;
@@ -179,6 +179,19 @@ Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, Se
   if (out.surface_coordinates)
     for (std::int64_t i = 0; i < coordinates; ++i) size += std::fabs(out.surface_coordinates[i]);
   return size < infinity ? Status::ok : Status::non_finite;
+}
+
+bool looks_away(const Plan& plan, const SegmentNodes& nodes, const double* slave_normal) {
+  if (!slave_normal) return false;
+  constexpr double facing = -0.05;
+  double size2 = 0.0, along = 0.0, normal[3];
+  for (int k = 0; k < plan.dimension; ++k) size2 += slave_normal[k] * slave_normal[k];
+  if (!(size2 > 0.0)) return false;
+  const double middle[2] = {plan.simplex ? 1.0 / 3.0 : 0.0, plan.simplex ? 1.0 / 3.0 : 0.0};
+  const SurfacePoint to = {nullptr, nullptr, nullptr, nullptr, normal, nullptr, nullptr};
+  if (plan.surface(plan, nodes.positions, nodes.surface_coordinates, middle, to) != Status::ok) return false;
+  for (int k = 0; k < plan.dimension; ++k) along += normal[k] * slave_normal[k];
+  return along > facing * std::sqrt(size2);
 }
 
 std::int64_t tree_size(const Plan& plan, std::int64_t segments) {
@@ -362,7 +375,9 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
     double box[6];
     plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
     const double least = least_rank(plan, slave, ray, box);
-    if (!(least <= limit()) || is_own(plan, mesh, out.own_node, segment)) return Status::ok;
+    if (!(least <= limit()) || is_own(plan, mesh, out.own_node, segment) ||
+        looks_away(plan, nodes, out.slave_normal))
+      return Status::ok;
     candidates.add(segment, least);
     // a rank counts what lies beyond the edge, too; the reach does not
     double farthest = reach;
@@ -395,7 +410,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
     // What is farther than the border does not matter to a slave between two segments, and is looked for
     // last.
     NearestBorder border;
-    if (out.segment < 0 && normal && nearest_border(plan, mesh, tree, slave, reach, border))
+    if (out.segment < 0 && normal && nearest_border(plan, mesh, tree, slave, out.slave_normal, reach, border))
       reach = border.at.distance;
     doubts = 0;
     budget = thorough;

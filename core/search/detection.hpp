@@ -28,6 +28,10 @@ struct SegmentNodes {
 // ok; bad_value: a node that does not exist; non_finite.
 Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, SegmentNodes& out);
 
+// Does a segment look the way in which the slave's own surface looks, or beside it? Where their normals make an
+// angle of more than 93 degrees it does not; without a normal (null, or zeros) never.
+bool looks_away(const Plan& plan, const SegmentNodes& nodes, const double* slave_normal);
+
 // Doubles that the tree of a surface takes; 0 if there are too many segments.
 std::int64_t tree_size(const Plan& plan, std::int64_t segments);
 bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree);
@@ -43,6 +47,8 @@ Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 struct Detection {
   std::int64_t own_node =
       -1; // in: the node of the mesh that the slave is; segments with this node are not looked at. -1: none
+  const double* slave_normal =
+      nullptr;          // in: [d] out of the slave's body; segments that look the same way are left out
   std::int64_t segment; // -1: nothing within reach
   std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;

@@ -94,6 +94,7 @@ struct Walk {
     Detection found;
     found.segment = -1;
     found.own_node = way.own_node ? way.own_node[slave] : -1;
+    found.slave_normal = way.slave_normal ? way.slave_normal + slave * d : nullptr;
     const Status status = detect(plan, there, boxes, place, reach, found);
     behind = status == Status::ok && (found.behind_edge || (found.segment >= 0 && found.at.gap <= 0.0));
     return status;

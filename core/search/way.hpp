@@ -13,6 +13,7 @@ struct Increment {
   const double* slave;           // [count][d]
   const double* positions_begin; // [nodes][d]; null: the mesh does not move
   const std::int64_t* own_node;  // [count] as of Detection, or null
+  const double* slave_normal;    // [count][d] as of Detection, or null
 };
 
 struct Crossing {

@@ -283,5 +283,59 @@ TEST(BehindEdge, SlavesOnTheOuterBorderAreFoundFarFromTheOrigin) {
   }
 }
 
+// All of the boundary of a square or a cube is the master. Slaves of a body above it that lie below its top, near or
+// beyond the corner, are on the top, although a side may be closer; without their normals some are not.
+TEST(LooksAway, ASideNeverTakesTheSlavesOfTheTop) {
+  for (const char* name : {"line2", "quad4"}) {
+    const Basis& basis = basis_named(name);
+    MeshSurface cube;
+    cube.basis = &basis;
+    if (basis.dimension == 2) { // outwards is to the left
+      cube.positions = {-1, 1, 1, 1, 1, -1, -1, -1};
+      cube.connectivity = {0, 1, 1, 2, 2, 3, 3, 0};
+    } else {
+      for (int k = 0; k < 8; ++k)
+        for (const int axis : {1, 2, 4}) cube.positions.push_back((k & axis) != 0 ? 1 : -1);
+      cube.connectivity = {4, 5, 7, 6, 0, 2, 3, 1, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    }
+    const auto d = static_cast<std::size_t>(basis.dimension);
+    Random random(5);
+    std::int64_t taken = 0, on_top = 0, count = 0;
+    for (int turn = 0; turn < samples(50); ++turn) {
+      const double angle = random.uniform(-3.0, 3.0), c = std::cos(angle), s = std::sin(angle);
+      const auto turned = [&](std::vector<double> x) { // first and last direction
+        for (std::size_t i = 0; i < x.size(); i += d) {
+          const double a = x[i], b = x[i + d - 1];
+          x[i] = c * a - s * b, x[i + d - 1] = s * a + c * b;
+        }
+        return x;
+      };
+      MeshSurface mesh = cube;
+      mesh.positions = turned(cube.positions);
+      std::vector<double> slaves, normals, depth;
+      for (int i = 0; i < 100; ++i) {
+        for (std::size_t k = 0; k + 1 < d; ++k)
+          slaves.push_back((random.uniform(0.0, 1.0) < 0.5 ? -1 : 1) * random.uniform(0.8, 1.09)),
+              normals.push_back(random.uniform(-0.06, 0.06));
+        depth.push_back(random.uniform(0.0, 0.3));
+        slaves.push_back(1.0 - depth.back()), normals.push_back(-2.0);
+      }
+      slaves = turned(slaves), normals = turned(normals);
+      const Model model(nlohmann::json{{"segment", name}, {"border", 0.1}}.dump());
+      Detector detector(model, mesh);
+      Detector::Found with, without;
+      detector.detect(slaves, 1.0, with, normals);
+      detector.detect(slaves, 1.0, without);
+      for (std::size_t i = 0; i < depth.size(); ++i) {
+        ++count;
+        on_top += with.segment[i] == 0 && std::fabs(with.gap[i] + depth[i]) < 1e-12;
+        taken += without.segment[i] > 0;
+      }
+    }
+    EXPECT_EQ(on_top, count) << name;
+    EXPECT_GT(taken, count / 10) << name;
+  }
+}
+
 } // namespace
 } // namespace mechanics::behind_edge_test

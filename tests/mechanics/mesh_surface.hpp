@@ -108,8 +108,9 @@ public:
     std::vector<double> xi, gap;
     std::vector<std::int32_t> flags;
   };
-  // slave [count][d]; `found` holds the projections of before (or is empty)
-  void detect(const std::vector<double>& slave, double reach, Found& found) {
+  // slave [count][d]; `found` holds the projections of before (or is empty); normals [count][d] or none
+  void detect(const std::vector<double>& slave, double reach, Found& found,
+              const std::vector<double>& normals = {}) {
     const std::size_t count = slave.size() / static_cast<std::size_t>(model_.dimension());
     found.segment.resize(count, -1);
     found.xi.resize(count * static_cast<std::size_t>(model_.parameters()));
@@ -117,6 +118,7 @@ public:
     ents_detection io{};
     io.struct_size = sizeof io;
     io.slave = slave.data(), io.reach = reach;
+    if (!normals.empty()) io.slave_normal = normals.data();
     io.segment = found.segment.data(), io.xi = found.xi.data(), io.gap = found.gap.data();
     io.flags = found.flags.data(), io.other = found.other.data();
     io.permitted = ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE; // the tests look at the flags

@@ -215,11 +215,11 @@ class Model(Varying):
 
     def iterate(self, slave: Any, tree: Tree, reach: float, segment: Any = None, xi: Any = None, want: Union[str, list] = "", *,
                 system: Optional[System] = None, positions_begin: Any = None, slave_begin: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
-                slave_values: Any = None, permitted: int = 0) -> dict[str, Any]:
+                slave_values: Any = None, slave_normal: Any = None, permitted: int = 0) -> dict[str, Any]:
         """Contact of one Newton iteration in one call: `tree.detect`, states moved to the segments that were found, and `assemble` into
         `system` (None: results only).
 
-        slave, reach, segment, xi, permitted    as of Tree.detect: segment [n] (-1: open) and xi [n][d-1] of the last projection
+        slave, reach, segment, xi, slave_normal, permitted   as of Tree.detect: segment [n] (-1: open) and xi [n][d-1] of the last projection
         positions_begin                         [nodes][d] of the tree at the begin of the increment: needed with friction, if the master deforms
         slave_begin                             [n][d] slaves there: what was not within reach then has friction from the touch on, too
         want, area, state ...                   as of evaluate; state is that of the begin of the increment
@@ -241,7 +241,8 @@ class Model(Varying):
         found = {"segment": np.full(n, -1, np.int64) if segment is None else _array("segment", segment, (n,), np.int64).copy(),
                  "xi": np.zeros((n, d - 1)) if xi is None else _array("xi", xi, (n, d - 1)).copy(),
                  "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
-        detection = _new(Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted),
+        normal = None if slave_normal is None else _array("slave_normal", slave_normal, (n, d))
+        detection = _new(Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted), slave_normal=_address(normal),
                          **{name: array.ctypes.data for name, array in found.items()})
         report = self._call("iterate", tree.mesh, tree._tree, len(tree._tree), 0, n, detection, block, block_out,
                             None if system is None else system._struct(self, tree, n), positive=None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Optional
 
 import numpy as np
 
@@ -32,10 +33,10 @@ class SidePairs:
                 self.joined = np.isin(slave.nodes, of_master)
             used = np.union1d(used, of_master)
         self._bodies = len(used) < len(positions)  # nodes beside those of the surfaces
-        self._judged, self._sign = False, 1.0
+        self.judged, self._sign = False, 1.0
         pair = reversed_pair(slave.groups)
         if pair is not None:
-            self._judged, self._sign = True, 0.0
+            self.judged, self._sign = True, 0.0
             warnings.warn(f"slave: the neighbours {pair[0]} and {pair[1]} are not oriented alike. Their forces are right; master facets that look the same way "
                           "as the slave are not recognised", UserWarning, stacklevel=4)
 
@@ -46,9 +47,9 @@ class SidePairs:
     def judge(self, tree: Tree, segment: np.ndarray) -> None:
         """Once: do all slave points that find a segment look the same way as that? Then a side is listed in the wrong order."""
         found = np.flatnonzero(segment >= 0)
-        if self._judged or not len(found):
+        if self.judged or not len(found):
             return
-        self._judged = True
+        self.judged = True
         if not (self._cosines(found, tree.positions, segment[found]) > 0.1).all():
             return
         text = ("slave and master facets look the same way: one of the sides is listed in the wrong order. Normals point out of the bodies, at each other "
@@ -59,27 +60,13 @@ class SidePairs:
         self._sign = -1.0
         warnings.warn(f"{text}. The master is taken as it is, the slave's order has no effect here", UserWarning, stacklevel=4)
 
-    def turned_away(self, tree: Tree, points: np.ndarray, segment: np.ndarray) -> np.ndarray:
-        """Those of `points` whose segments do not face them."""
-        if not len(points) or self._sign == 0.0:
-            return points[:0]
-        return points[self._cosines(points, tree.positions, segment[points]) > FACING]
+    def normals(self) -> Optional[np.ndarray]:
+        """[points][d] out of the slave's body, for the search; None where they mean nothing, or before the first `judge`."""
+        return self._sign * self._slave.normals(self.now, np.arange(len(self._slave.areas))) if self.judged and self._sign else None
 
     def faces(self, tree: Tree, points: np.ndarray, segment: np.ndarray) -> np.ndarray:
         """[points] bool: do these slave points and segments look at each other?"""
         return self._cosines(points, tree.positions, segment) < FACING
-
-    def facing(self, point: np.ndarray, tree: Tree, number: int, reach: float) -> tuple[int, np.ndarray]:
-        """Segment and xi of a slave point among the segments that face it; -1: none within reach."""
-        boxes = tree.positions[tree.connectivity]
-        near = np.flatnonzero(((boxes.min(axis=1) <= point + reach) & (boxes.max(axis=1) >= point - reach)).all(axis=1))
-        near = near[self._cosines(np.full(len(near), number), tree.positions, near) <= FACING]
-        if not len(near):
-            return -1, np.zeros(len(point) - 1)
-        few = Tree(tree.model, tree.connectivity[near], tree.positions, None if tree.surface_coordinates is None else tree.surface_coordinates[near])
-        found = few.detect(point[None], reach)
-        segment = int(found["segment"][0])
-        return int(near[segment]) if segment >= 0 else -1, found["xi"][0]
 
 
 def warn_of_deep(tree: Tree, pairs: SidePairs, points: np.ndarray, lost: np.ndarray, reach: float) -> None:

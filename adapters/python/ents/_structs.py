@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 8
+CONTRACT_MINOR = 9
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 ENDS_QUASI_CUBIC = 2
@@ -189,6 +189,7 @@ class Detection(ctypes.Structure):
         ("permitted", ctypes.c_int64),
         ("slave_begin", ctypes.c_void_p),
         ("positions_begin", ctypes.c_void_p),
+        ("slave_normal", ctypes.c_void_p),
     ]
 
 

@@ -59,19 +59,23 @@ class Tree:
             self.model._call("tree_build", self.mesh, self._tree, len(self._tree))
             raise
 
-    def detect(self, slave: Any, reach: float, segment: Any = None, xi: Any = None, permitted: int = 0) -> dict[str, np.ndarray]:
+    def detect(self, slave: Any, reach: float, segment: Any = None, xi: Any = None, permitted: int = 0,
+               slave_normal: Any = None) -> dict[str, np.ndarray]:
         """Which segment is each slave [n][d] projected on, with |gap| <= reach? segment [n], xi [n][d-1]: the answers of before, which
         are kept where they still hold. Returns new arrays: segment (-1: none), xi, gap, flags (Flag), other (an equally good one, or -1).
         A slave that had a segment, finds none and has not risen from the surface raises CutStep, unless `permitted` has its flag (Flag.LEFT,
-        Flag.BEHIND_EDGE): look at `flags` then. Give segment -1 for slaves that were open."""
+        Flag.BEHIND_EDGE): look at `flags` then. Give segment -1 for slaves that were open. slave_normal [n][d], out of the slave's body:
+        segments that look the same way are left out."""
         lay = self.model.layout
         slave = _array("slave", slave, (None, lay.dimension))
         n = len(slave)
+        normal = None if slave_normal is None else _array("slave_normal", slave_normal, slave.shape)
         out = {"segment": np.full(n, -1, np.int64) if segment is None else _array("segment", segment, (n,), np.int64).copy(),
                "xi": np.zeros((n, lay.dimension - 1)) if xi is None else _array("xi", xi, (n, lay.dimension - 1)).copy(),
                "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
         self.model._call("detect", self.mesh, self._tree, len(self._tree), 0, n, _new(
-            Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted), **{name: array.ctypes.data for name, array in out.items()}))
+            Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted), slave_normal=_address(normal),
+            **{name: array.ctypes.data for name, array in out.items()}))
         return out
 
     def state_transfer(self, state: Any, old: Any, new: Any, positions: Any = None) -> tuple[int, np.ndarray]:

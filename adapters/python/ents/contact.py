@@ -174,11 +174,10 @@ class Contact(ContactResults):
         self.tree.move(self._tree_begin)
         self._pairs.now = self._positions
         points = self._slave.at(self._positions)
-        found, _, _ = self._add(points, self._elements, self._hint, self._xi, False)
+        self._judge(points)
+        found, _, _ = self._add(points, False)
         segment, bad = found["segment"], found["status"] > 0
         warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
-        self._pairs.judge(self.tree, segment)
-        bad[self._pairs.turned_away(self.tree, np.flatnonzero(segment >= 0), segment)] = True  # on facets that do not face them
         closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
         kept = bad[:, None] | (not self.model.layout.friction)
         state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
@@ -210,29 +209,24 @@ class Contact(ContactResults):
                 raise
             raise CutStep(error.status, f"the master at this u: {error}", error.element) from None
 
+    def _judge(self, points: np.ndarray) -> None:
+        """Until slave points have found a segment: do both sides look at each other?"""
+        if not self._pairs.judged:
+            self._pairs.judge(self.tree, np.where(self._elements, self.tree.detect(points, self.reach, permitted=LOST)["segment"], -1))
+
     def _search_and_add(self, points: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
         """Result [points], residual and tangent. Facets that do not face the slave are no candidates."""
-        hint, xi, active = self._hint, self._xi, self._elements
-        for attempt in range(3):
-            result, residual, matrix = self._add(points, active, hint, xi, tangent)
-            self._refuse_lost(points, result)
-            if (result["status"] > 0).any():
-                k = int(np.flatnonzero(result["status"])[0])
-                raise CutStep(Status(result["status"][k]), result["message"], k, result["step_factor"])
-            fresh = np.flatnonzero((result["flags"] & Flag.CONTACT != 0) & (result["segment"] != self._hint))
-            self._pairs.judge(self.tree, result["segment"])
-            away = self._pairs.turned_away(self.tree, fresh, result["segment"])
-            if not len(away):
-                return result, residual, matrix
-            hint, xi, active = result["segment"].copy(), result["xi"].copy(), active.copy()
-            for k in away:
-                hint[k], xi[k] = self._pairs.facing(points[k], self.tree, k, self.reach)
-                active[k] = hint[k] >= 0 and attempt == 0
+        self._judge(points)
+        result, residual, matrix = self._add(points, tangent)
+        self._refuse_lost(points, result)
+        if (result["status"] > 0).any():
+            k = int(np.flatnonzero(result["status"])[0])
+            raise CutStep(Status(result["status"][k]), result["message"], k, result["step_factor"])
         return result, residual, matrix
 
-    def _add(self, points: np.ndarray, active: np.ndarray, hint: np.ndarray, xi: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
+    def _add(self, points: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
         """The library's search and assembly of the active points; the others are open."""
-        numbers = np.flatnonzero(active)
+        numbers = np.flatnonzero(self._elements)
         if self._assembly is None or not np.array_equal(self._assembly[0], numbers):
             slave, of_nodes = self._slave.matrix[numbers], None if self._slave.nodes is None else self._slave.nodes[numbers]
             dofs, rows = self._master.equations(self._dofs, self.rows)
@@ -240,10 +234,10 @@ class Contact(ContactResults):
                                            None if self.rigid else self._master.matrix, self._master.smoothed, self._master.beside())
         of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
         found, residual, matrix = self._assembly[1].add(
-            tangent, slave=of(points), reach=self.reach, segment=of(hint), xi=of(xi), want="state_end gap pressure flags" + (
+            tangent, slave=of(points), reach=self.reach, segment=of(self._hint), xi=of(self._xi), want="state_end gap pressure flags" + (
                 " traction" if self.model.layout.friction else ""), positions_begin=self._tree_begin,
             slave_begin=None if self._points_begin is None else of(self._points_begin), area=of(self.areas),
-            state=of(self._state_begin), slave_values=of(self._slave_values), permitted=LOST)
+            state=of(self._state_begin), slave_values=of(self._slave_values), slave_normal=of(self._pairs.normals()), permitted=LOST)
         residual, matrix = self._master.condensed(residual, matrix)
         if len(numbers) == len(points):
             return found, residual, matrix
