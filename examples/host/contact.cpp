@@ -62,7 +62,8 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
   refuse_self_contact(spec);
   // Without the height both sides of a sheet are equally far from every slave.
-  if (!has_two_sides(spec) && master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
+  has_two_sides_ = has_two_sides(spec);
+  if (!has_two_sides_ && master_.base) base_detector_ = std::make_unique<Detector>(*master_.base);
   // Detection takes a rigid segment without a normal for one that no slave projects on; those of bodies have
   // elements behind them.
   std::vector<double> nodes(m_ * d_);
@@ -216,15 +217,18 @@ Lost Contact::find_lost_since_begin(const ents_master_mesh& where) const {
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (at_.segment[k] < 0 && begin_at_.segment[k] >= 0 && accepted_.pressure[k] != 0) gone.push_back(k);
   if (gone.empty()) return {};
-  std::vector<double> slaves;
+  std::vector<double> slaves, normals;
   Projections at;
   for (const std::size_t k : gone) {
-    slaves.insert(slaves.end(), slave_positions_.data() + k * d_, slave_positions_.data() + (k + 1) * d_);
+    const auto add = [&](const std::vector<double>& from, std::vector<double>& to) {
+      if (!from.empty()) to.insert(to.end(), from.data() + k * d_, from.data() + (k + 1) * d_);
+    };
+    add(slave_positions_, slaves), add(slave_normals_, normals);
     at.segment.push_back(begin_at_.segment[k]);
     at.xi.insert(at.xi.end(), begin_at_.xi.data() + k * parameters_,
                  begin_at_.xi.data() + (k + 1) * parameters_);
   }
-  Lost lost = detector_.find(where, slaves, at);
+  Lost lost = detector_.find(where, slaves, normals, at);
   if (lost.slave >= 0) lost.slave = static_cast<std::int64_t>(gone[static_cast<std::size_t>(lost.slave)]);
   return lost;
 }
@@ -233,6 +237,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   const std::vector<std::int64_t> before = at_.segment;
   report.status = ENTS_OK;
   place(at);
+  slave_normals_ = slave_normals(at);
   const ents_master_mesh where = mesh();
   const bool moved = !master_.rigid || !detector_.is_placed() || surface_changed_;
   surface_changed_ = false;
@@ -246,7 +251,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
     // are equally close. The one straight ahead of the node is near its projection on the segment without the
     // height.
     Projections straight = at_;
-    base_detector_->find(where, slave_positions_, straight);
+    base_detector_->find(where, slave_positions_, slave_normals_, straight);
     // A body may have turned on by several segments: a closed node is straight ahead of another one now.
     const bool may_jump = master_.body_node >= 0;
     for (std::size_t k = 0; k < points_.size(); ++k)
@@ -256,7 +261,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
         std::copy_n(straight.xi.data() + k * parameters_, parameters_, at_.xi.data() + k * parameters_);
       }
   }
-  Lost lost = detector_.find(where, slave_positions_, at_);
+  Lost lost = detector_.find(where, slave_positions_, slave_normals_, at_);
   if (lost.slave < 0) lost = find_lost_since_begin(where);
   lost_.clear();
   lost_behind_edge_ = lost.behind_edge;

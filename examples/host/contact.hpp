@@ -47,7 +47,7 @@ struct ContactFields {
       moment; ///< [3], 2D [1] about the reference point of a rigid body that turns; else empty
 };
 
-/// Slave points that are made anew where an increment begins: see cut_points.hpp.
+/// The slave's faces, and how its points are made anew where an increment begins: see cut_points.hpp.
 struct CutSpec {
   std::vector<Face> faces;
   SlaveGeometry geometry;
@@ -219,6 +219,9 @@ private:
   void see_from_master(const Configuration& at, std::vector<double>& positions);
   /// Positions of the slave points, of a rigid master that moves in its frame
   std::vector<double> slave_points(const Configuration& at);
+  /// Out of the slave's body in these points, [points][d] of any length, as the master sees them; empty: a sheet
+  /// between bodies has slaves on both sides
+  std::vector<double> slave_normals(const Configuration& at);
   /// The model with the parameters of a configuration, and what has been slid since the begin of the
   /// increment.
   void bind(const Configuration& at);
@@ -289,10 +292,10 @@ private:
   /// have lost it.
   Lost find_lost_since_begin(const ents_master_mesh& where) const;
   std::string lost_;
-  bool lost_behind_edge_ = false;
+  bool lost_behind_edge_ = false, has_two_sides_ = false;
   std::vector<char> closed_; ///< [slaves] by the last `assemble`
   int status_changes_ = 0, switches_ = 0, moves_ = 0;
-  std::vector<double> slave_positions_, master_positions_, multiplier_values_;
+  std::vector<double> slave_positions_, slave_normals_, master_positions_, multiplier_values_;
   std::vector<double> master_begin_, slave_begin_; ///< positions at the begin of the increment
   std::vector<double> state_in_, state_out_;
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact: slave points that are cut anew where an increment begins, and stay within it.
+// Contact: the slave's faces. Which way they look, and slave points that are cut anew where an increment begins, and
+// stay within it.
+#include <Eigen/Dense>
+
 #include "contact.hpp"
 
 namespace host {
@@ -20,6 +23,35 @@ SegmentCorners Contact::segment_corners() const {
     const SurfaceSample sample = sample_surface(*master_.model, nodes, coordinates, corners);
     result.points.insert(result.points.end(), sample.point.begin(), sample.point.end());
     result.normals.insert(result.normals.end(), sample.normal.begin(), sample.normal.end());
+  }
+  return result;
+}
+
+std::vector<double> Contact::slave_normals(const Configuration& at) {
+  if (has_two_sides_) return {}; // a sheet has slaves on both
+  std::vector<double> positions = mesh_->coordinates, result;
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += at.displacement[i];
+  see_from_master(at, positions);
+  const auto owner = [&](int node) { return static_cast<std::size_t>(dofs_->representative(node)); };
+  std::vector<Eigen::Vector3d> of_nodes(positions.size() / d_, Eigen::Vector3d::Zero());
+  for (const Face& face : cut_.faces) {
+    const auto way = [&](std::size_t from, std::size_t to) {
+      Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+      for (std::size_t i = 0; i < d_; ++i)
+        vector[static_cast<int>(i)] = positions[static_cast<std::size_t>(face.nodes[to]) * d_ + i] -
+                                      positions[static_cast<std::size_t>(face.nodes[from]) * d_ + i];
+      return vector;
+    };
+    const Eigen::Vector3d area = d_ == 2           ? Eigen::Vector3d::UnitZ().cross(way(0, 1))
+                                 : face.count == 3 ? way(0, 1).cross(way(0, 2))
+                                                   : way(0, 2).cross(way(1, 3));
+    for (int a = 0; a < face.count; ++a) of_nodes[owner(face.nodes[static_cast<std::size_t>(a)])] += area;
+  }
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for (std::size_t a = k * points_.nodes_per_point; a < (k + 1) * points_.nodes_per_point; ++a)
+      normal += points_.weights[a] * of_nodes[owner(points_.nodes[a])];
+    result.insert(result.end(), normal.data(), normal.data() + d_);
   }
   return result;
 }

@@ -45,12 +45,14 @@ void Detector::move(const ents_master_mesh& mesh) {
   if (status != ENTS_OK) throw JobError("contact search: " + describe(library, status, report));
 }
 
-Lost Detector::find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const {
+Lost Detector::find(const ents_master_mesh& mesh, const std::vector<double>& slaves,
+                    const std::vector<double>& normals, Projections& at) const {
   const EntsLibrary& library = model_->library();
   const auto d = static_cast<std::size_t>(model_->layout().dimension);
   std::vector<std::int32_t> flags(at.segment.size());
   auto detection = ents_struct<ents_detection>();
   detection.slave = slaves.data();
+  if (!normals.empty()) detection.slave_normal = normals.data();
   detection.reach = reach_of(mesh, slaves, d);
   detection.segment = at.segment.data();
   detection.xi = at.xi.data();

@@ -33,12 +33,14 @@ public:
   void move(const ents_master_mesh& mesh);
 
   /// @param slaves  [slaves][d] positions
+  /// @param normals [slaves][d] out of their body, or empty: segments that look the same way are left out
   /// @param at      in: the projections of before, which are followed; segment -1: all segments are searched.
   ///                out: the present ones
   /// @return the first slave that is lost: behind an edge, or one that had a segment and is beside all of
   ///         them
   /// @throws JobError with the library's message
-  Lost find(const ents_master_mesh& mesh, const std::vector<double>& slaves, Projections& at) const;
+  Lost find(const ents_master_mesh& mesh, const std::vector<double>& slaves,
+            const std::vector<double>& normals, Projections& at) const;
 
 private:
   const EntsModel* model_;

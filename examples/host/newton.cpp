@@ -57,7 +57,9 @@ void Simulation::find_contact(Configuration& at) {
   for (const double gap : fields.gap)
     if (!std::isnan(gap)) smallest = std::min(smallest, gap), sum += gap, ++count;
   if (count == 0)
-    throw JobError("no slave node has a projection on the master: is it in the way of the motion?");
+    throw JobError(
+        "no slave node has a projection on the master: is it in the way of the motion, and does its "
+        "normal (order of its nodes) point to the slave surface?");
   // Touch with a little more than the first node; the iteration finds the rest.
   const double spread = sum / static_cast<double>(count) - smallest;
   const double overlap = std::max(0.01 * spread, 1e-6 * std::abs(smallest));

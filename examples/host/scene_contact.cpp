@@ -4,9 +4,14 @@
 #include <cmath>
 
 #include "scene_keys.hpp"
+#include "smoothing.hpp"
 
 namespace host {
 namespace {
+
+/// Natural coordinates by which plain faces reach beyond their edges where the model says nothing, as common codes
+/// extend master faces. A rigid segment is a whole body, whose edges are meant; smoothed ones meet without kinks.
+constexpr double default_border = 0.1;
 
 /// Rows of `dimension` numbers, one per node.
 std::vector<double> read_nodes(const JsonValue& value, int dimension) {
@@ -142,6 +147,10 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   contact.model["master"] = contact.rigid.empty() && !contact.body ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
     model.fail("\"master\" contradicts the scene's master; leave it out here");
+  const Json segment = find_json(contact.model, "/segment");
+  if (!contact.master.empty() && !contact.model.contains("border") && segment.is_string() &&
+      !is_smoothed(segment.get<std::string>()))
+    contact.model["border"] = default_border;
   if (contact.gap_only) {
     const char* of = find_json(contact.model, "/height").is_null() ? "a model with a \"height\""
                      : contact.cut > 0                             ? "no \"sampling\": \"cut\""

@@ -311,12 +311,10 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
                                scene_->contact->equal_areas};
   const ContactSpec& contact = *of_master.contact;
   SlavePoints points;
-  CutSpec cut;
-  if (contact.cut > 0)
-    cut = {slaves, geometry, contact.cut};
-  else if (contact.sampling > 0)
+  CutSpec cut{slaves, geometry, contact.cut};
+  if (contact.sampling > 0)
     points = sampling_points(*library, mesh_, slaves, contact.sampling, geometry, contact.slave_where);
-  else
+  else if (contact.cut == 0)
     points = slave_nodes(mesh_, *dofs_, slaves, geometry);
   contact_ = std::make_unique<Contact>(std::move(master), contact, mesh_, *dofs_, std::move(points),
                                        std::move(cut), geometry.axisymmetric ? 0 : geometry.thickness);

@@ -82,10 +82,6 @@ private:
 
 } // namespace
 
-bool is_smoothed(const std::string& segment) {
-  return segment.starts_with("catmull_rom") || segment.starts_with("bspline") || segment == "bezier15";
-}
-
 SmoothedSurface smoothed_surface(const EntsLibrary& library, const std::string& segment, const Mesh& mesh,
                                  const std::vector<Face>& faces, const ContactSpec& contact) {
   const std::string& where = contact.master_where;

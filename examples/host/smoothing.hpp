@@ -15,7 +15,9 @@ namespace host {
 
 /// Is it a basis over several faces: catmull_rom4, bspline4 on lines, catmull_rom16, bspline16 on
 /// quadrilaterals, bezier15 on triangles?
-bool is_smoothed(const std::string& segment);
+inline bool is_smoothed(const std::string& segment) {
+  return segment.starts_with("catmull_rom") || segment.starts_with("bspline") || segment == "bezier15";
+}
 
 struct SmoothedSurface {
   std::vector<std::int64_t> connectivity; ///< [faces][m] nodes of the mesh; with a net its points
