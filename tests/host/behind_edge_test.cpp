@@ -157,5 +157,78 @@ TEST(BehindEdge, AnIterationThatStallsInAKinkNamesTheCure) {
   EXPECT_GE(stalled, 3);
 }
 
+/// Two blocks of the same width, one on the other, squeezed by 2 % between planes on which they slide; all sides of the
+/// lower one, from a deck, or its top alone are the master.
+Json flush(int slave_faces, const std::string& deck, const std::string& master) {
+  const double height = 1;
+  return {{"dimension", 2},
+          {"formulation", "plane_strain"},
+          {"materials", {{"m", {{"law", "linear_elastic"}, {"young", 1000}, {"poisson", 0.3}}}}},
+          {"parts",
+           {{{"name", "lower"}, {"material", "m"}, {"deck", deck}},
+            {{"name", "upper"},
+             {"material", "m"},
+             {"element", "quad4"},
+             {"x", axis(0, 1, slave_faces)},
+             {"y", axis(height, 2 * height, 4)}}}},
+          {"supports",
+           {{{"nodes", "lower.BOTTOM"}, {"y", 0}},
+            {{"nodes", "lower.CORNER"}, {"x", 0}},
+            {{"nodes", "upper.x_min"}, {"x", 0}},
+            {{"nodes", "upper.y_max"}, {"y", -0.04}}}},
+          {"contact",
+           {{"slave", "upper.y_min"},
+            {"master", {{"faces", "lower." + master}}},
+            {"model",
+             {{"segment", "line2"}, {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}}}}}}},
+          {"steps", {{"control", "load_factor"}, {"values", {1}}}}};
+}
+
+void write_block(const std::filesystem::path& file, int cells) {
+  std::ofstream deck(file);
+  deck.precision(17);
+  std::string bottom, top, left, right;
+  deck << "*NODE\n";
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= cells; ++i)
+      deck << 1 + i + (cells + 1) * j << ", " << double(i) / cells << ", " << 0.25 * j << "\n";
+  deck << "*ELEMENT, TYPE=CPE4, ELSET=ALL\n";
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const int e = 1 + i + cells * j, a = 1 + i + (cells + 1) * j, b = a + cells + 1;
+      deck << e << ", " << a << ", " << a + 1 << ", " << b + 1 << ", " << b << "\n";
+      if (j == 0) bottom += std::to_string(e) + ", S1\n";
+      if (j == 3) top += std::to_string(e) + ", S3\n";
+      if (i == 0) left += std::to_string(e) + ", S4\n";
+      if (i == cells - 1) right += std::to_string(e) + ", S2\n";
+    }
+  deck << "*NSET, NSET=CORNER\n1\n*NSET, NSET=BOTTOM\n";
+  for (int i = 0; i <= cells; ++i) deck << 1 + i << "\n";
+  deck << "*SURFACE, NAME=TOP, TYPE=ELEMENT\n"
+       << top << "*SURFACE, NAME=SKIN, TYPE=ELEMENT\n"
+       << bottom << right << top << left;
+}
+
+// Nodes at the ends stay on their faces, and no side takes them: both masters carry the uniform pressure of a bar.
+TEST(FlushBlocks, ConvergeWithTheTopOrAllSidesAsMaster) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("ents_flush_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (const auto& [slave, lower] : {std::pair{9, 7}, {7, 9}, {5, 6}, {8, 8}}) {
+    write_block(folder / "lower.inp", lower);
+    for (const char* master : {"TOP", "SKIN"}) {
+      const Scene scene = read_scene_text(flush(slave, "lower.inp", master).dump(), folder / "scene.json");
+      Simulation simulation(scene, &test::library());
+      const std::vector<StepRecord> records = solve(simulation, {});
+      ASSERT_EQ(records.size(), 1u);
+      const double force = 1000 / (1 - 0.09) * 0.02; // plane strain, free to spread
+      EXPECT_NEAR(-records[0].contact_force[1], force, 0.01 * force)
+          << slave << " on " << lower << ", " << master;
+      EXPECT_LE(records[0].iterations(), 6) << slave << " on " << lower << ", " << master;
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
 } // namespace
 } // namespace host::behind_edge_test
