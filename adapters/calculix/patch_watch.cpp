@@ -32,7 +32,7 @@ using std::string;
 constexpr const char* input_file = "ents_patches.json";
 constexpr const char* output_file = "ents_slide.txt";
 constexpr double border =
-    0.05; ///< of a face: elements carry contact as far beyond their patch (ents-deck's "border")
+    0.05; ///< of a face: elements carry contact at least as far beyond their patch ("border" 0.1 of -1 .. 1)
 constexpr double margin = 1.1; ///< of the slide that is proposed: bodies deform
 
 struct WatchedPoint {
