@@ -23,7 +23,7 @@ import traceback
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-GROUPS = ["surfaces", "friction", "geometry", "programs", "bodies"]
+GROUPS = ["surfaces", "friction", "geometry", "programs", "bodies", "benchmarks"]
 sys.dont_write_bytecode = True
 
 
