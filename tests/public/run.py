@@ -23,7 +23,7 @@ import traceback
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]
-GROUPS = ["surfaces", "friction", "geometry", "programs", "bodies", "benchmarks"]
+GROUPS = ["surfaces", "friction", "geometry", "programs", "bodies", "benchmarks", "decks"]
 sys.dont_write_bytecode = True
 
 
@@ -31,7 +31,8 @@ class Programs:
     """Where programs and scratch files are."""
 
     def __init__(self, build, folder):
-        self.host, self.deck, self.folder = build / "bin/ents-host", build / "bin/ents-deck", pathlib.Path(folder)
+        self.host, self.deck, self.ccx = build / "bin/ents-host", build / "bin/ents-deck", build / "calculix/ccx_ents"
+        self.folder = pathlib.Path(folder)
 
 
 def command_line():
@@ -62,23 +63,30 @@ def load(build):
 
 def run(row, programs):
     """(checks of a row, CPU seconds); an exception is a check that fails."""
-    from rows import Checks
+    from rows import Checks, NotHere
     checks, before = Checks(programs), os.times()
     try:
         row.function(checks)
+    except NotHere as error:
+        checks.found.clear()
+        checks.missing = str(error)
     except (Exception, SystemExit) as error:  # noqa: BLE001: the other rows run all the same
         place = traceback.extract_tb(error.__traceback__)[-1]
         checks.true(f"{pathlib.Path(place.filename).name}:{place.lineno}", "no error", f"{type(error).__name__}: {error}".replace("\n", " "), False)
     after = os.times()
-    return checks.found, sum(after[:4]) - sum(before[:4])
+    return checks, sum(after[:4]) - sum(before[:4])
 
 
-def show(row, found, seconds):
+def show(row, checks, seconds):
+    found = checks.found
+    if checks.missing:
+        print(f"not run  {row.name}: {checks.missing}", flush=True)
+        return True
     good = all(check[-1] for check in found)
     print(f"{'right' if good else 'WRONG'}  {row.name}: {row.cells[0]} ({row.cells[1]})  {seconds:.1f} s", flush=True)
     for quantity, right, ours, error, tolerance, ok in found:
         mark, bound = "  " if ok else "->", "" if error is None else f"{error:.1e} of {tolerance:.1e}"
-        print(f"   {mark} {quantity:46.46} {right:>28.28}  {ours if error is None and not ok else ours[:60]:28} {bound}")
+        print(f"   {mark} {quantity:46.46} {right:>28.28}  {ours if error is None and not ok else ours[:80]:28} {bound}")
     return good
 
 
@@ -124,10 +132,11 @@ def main():
     folder, missed, lines, total = tempfile.mkdtemp(prefix="ents-public-"), [], {}, 0.0
     try:
         for row in chosen:
-            found, seconds = run(row, Programs(given.build.resolve(), pathlib.Path(folder) / row.name))
+            checks, seconds = run(row, Programs(given.build.resolve(), pathlib.Path(folder) / row.name))
             total += seconds
-            lines[row.name] = f"| `{row.name}` | {' | '.join(row.cells)} | {summary(found)} |"
-            if not show(row, found, seconds):
+            if not checks.missing:
+                lines[row.name] = f"| `{row.name}` | {' | '.join(row.cells)} | {summary(checks.found)} |"
+            if not show(row, checks, seconds):
                 missed.append(row.name)
     finally:
         shutil.rmtree(folder)
