@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Benchmarks with friction, curved bodies and edges: NAFEMS' cylinder and punch, half cylinders, loops of partial slip."""
+"""Benchmarks with friction, curved bodies and edges: NAFEMS' cylinder and punch, half cylinders, loops of partial slip, quadratic patches, a hub's edge."""
 import math
 
 import ents
@@ -7,7 +7,7 @@ import numpy as np
 import scipy.sparse as sparse
 
 from bodies import ellipse, graded, reach_force
-from fem import Body, Problem, dofs
+from fem import Body, Problem, block, dofs
 from rows import target
 
 NEWTON = 1e-9  # of the forces: four digits below the smallest tolerance of this file
@@ -233,3 +233,53 @@ def loop_of_partial_slip(check):
         mean = (first + halves.pull(-s * load)) / 2
         # Cells of a / 14; what slips at s = 0.5 is a border of 0.29 a, 4 of them: (1 / 4)^2 / 4.
         check.near(f"s = {s}: energy / {energy}", 1, 2 * s * load * weights @ (between - mean) / (load**2 * energy / (math.pi * young / 2 / 0.91)), 0.02)
+
+
+@target("patch_quadratic", case="patch with elements of second order: 3 faces under 2 (3 under 5) in a row", source="El-Abbasi, Bathe 2001; Code_Aster SSNP121",
+        right="pressure uniform to 1 / 2n with n points along a face, displacement of the interface to its square; faces that match: exactly")
+def patch_quadratic(check):
+    """A penalty k is a spring in the row: pressure 1e5 / (1 + E / 2k). A stiffer one makes the pressures of the points scatter more."""
+    young, stiffness, right = 2e6, 2e8, 1 / (1 + 2e6 / 2 / 2e8)
+    for element, segment, below, above, points in (("quad8", "line3", 3, 3, 16), ("quad8", "line3", 3, 2, 16), ("quad8", "line3", 3, 5, 16),
+                                                   ("hex20", "quad8", 2, 2, 7), ("hex20", "quad8", 3, 2, 12)):
+        d = 2 if element == "quad8" else 3
+        low = block(element, [below] * (d - 1) + [2], [0] * d, [1] * d)
+        high = block(element, [above] * (d - 1) + [2], [0] * (d - 1) + [1], [1] * (d - 1) + [2])
+        n, both = len(low.positions), low.joined(high)
+        model = {"segment": segment, "border": 0.1, "contact": {"normal": {"type": "penalty", "stiffness": stiffness}, "offset": -1e-9}}
+        contact = ents.Contact(model, both.positions, low.faces(d - 1, 1), [[node + n for node in face] for face in high.faces(d - 1, 1)], sampling=points)
+        sides = np.unique(np.concatenate([dofs(both.where(axis, 0), d, axis) for axis in range(d - 1)]))
+        held = np.r_[sides, dofs(low.where(d - 1, 0), d, d - 1), dofs(high.where(d - 1, 2) + n, d, d - 1)]
+        values = np.zeros(len(held))
+        values[-len(high.where(d - 1, 2)):] = -0.1
+        problem = Problem(sparse.block_diag([low.stiffness(young, 0), high.stiffness(young, 0)], "csr"), held, contact)
+        problem.u.reshape(-1, d)[:, d - 1] = -0.05 * both.positions[:, d - 1]
+        problem.solve(values=values, tolerance=NEWTON)
+        # A point stands for 1 / n of a face: where an edge of the master lies between two points, half of that goes to the wrong side of it. The body
+        # spreads what one side has too much over the face. Faces that match: the rounding of the gap, 2^-52, times k over 1e5, and Newton's 1e-9.
+        bound = 1 / (2 * points) if below != above else 1e-7
+        name = f"{element}, {below} under {above}"
+        check.near(f"{name}: pressure / 1e5", right, contact.pressure / 1e5, bound)
+        check.near(f"{name}: displacement / -0.05", right, problem.u.reshape(-1, d)[low.where(d - 1, 1), d - 1] / -0.05, bound**2 if below != above else bound)
+
+
+@target("press_fit_edge", case="the edge of a hub (length 20, diameters 40 and 60) on a longer hollow shaft, radial interference 0.0025, E = 210e3",
+        source="p ~ r^-0.2255 at a sharp edge on a half-plane, without friction", right="the peak grows by 1.169 per halving of the mesh, to 0.5 %")
+def press_fit_edge(check):
+    peaks = []
+    for fine in (0.05, 0.025):
+        hub_y = 10 - away(10, fine)[::-1]  # half of the hub; cells of `fine` at its edge
+        shaft = mapped(20 - away(10, fine)[::-1], np.r_[hub_y, 10 + away(30, fine)[1:]], lambda x: x)
+        hub = mapped(20 + away(10, fine), hub_y, lambda x: x)
+        n, both = len(shaft.positions), shaft.joined(hub)
+        # The penalty grows as the cells shrink: the same mesh and law in all but its size.
+        law = {"normal": {"type": "penalty", "stiffness": 10 * 210e3 / fine}, "offset": -0.0025}
+        slave, master = hub.left + n, shaft.right[::-1]
+        contact = ents.Contact({"segment": "line2", "border": 0.1, "contact": law}, both.positions, np.column_stack([slave[:-1], slave[1:]]),
+                               np.column_stack([master[:-1], master[1:]]), thickness=0.0, reach=1.0)
+        stiffness = sparse.block_diag([shaft.stiffness(210e3, 0.3, True), hub.stiffness(210e3, 0.3, True)], "csr")
+        problem = Problem(stiffness, dofs(np.r_[shaft.base, hub.base + n], 2, 1), contact)
+        problem.solve(tolerance=1e-7)
+        peaks.append(contact.pressure.max())
+    # Next terms of the edge's series: (0.05 / 10)^0.8 of 0.17, 0.3 %.
+    check.near("peak of the finer mesh / peak", 2**0.2255, peaks[1] / peaks[0], 5e-3)

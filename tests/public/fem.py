@@ -9,6 +9,8 @@ from scipy.sparse.linalg import spsolve
 
 GAUSS = {2: ([-1 / 3**0.5, 1 / 3**0.5], [1.0, 1.0]), 3: ([-0.6**0.5, 0.0, 0.6**0.5], [5 / 9, 8 / 9, 5 / 9])}
 QUAD = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
+QUAD_FACES = [(1, 0), (2, 1), (3, 2), (0, 3)]
+QUAD_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0)]
 HEX = [[*corner, z] for z in (-1, 1) for corner in QUAD]
 HEX_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
 HEX_FACES = [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
@@ -55,16 +57,17 @@ def _box(d, order):
     return list(itertools.product(points, repeat=d)), [np.prod(w) for w in itertools.product(weights, repeat=d)]
 
 
-def _serendipity():
-    """Monomials of hex20: superlinear degree at most 2."""
-    return [p for p in itertools.product(range(3), repeat=3) if sum(q for q in p if q > 1) <= 2]
+def _serendipity(d):
+    """Monomials of quad8, hex20: superlinear degree at most 2."""
+    return [p for p in itertools.product(range(3), repeat=d) if sum(q for q in p if q > 1) <= 2]
 
 
 A, B = 0.58541019662496845, 0.13819660112501051  # four points, exact for degree 2
 ELEMENTS = {
-    "quad4": Element(QUAD, list(itertools.product(range(2), repeat=2)), *_box(2, 2), [(1, 0), (2, 1), (3, 2), (0, 3)]),
+    "quad4": Element(QUAD, list(itertools.product(range(2), repeat=2)), *_box(2, 2), QUAD_FACES),
+    "quad8": Element(_middles(QUAD, QUAD_EDGES), _serendipity(2), *_box(2, 3), [(*face, 4 + k) for k, face in enumerate(QUAD_FACES)]),
     "hex8": Element(HEX, list(itertools.product(range(2), repeat=3)), *_box(3, 2), HEX_FACES),
-    "hex20": Element(_middles(HEX, HEX_EDGES), _serendipity(), *_box(3, 3), _with_middles(HEX_FACES, HEX_EDGES, 8)),
+    "hex20": Element(_middles(HEX, HEX_EDGES), _serendipity(3), *_box(3, 3), _with_middles(HEX_FACES, HEX_EDGES, 8)),
     "tet10": Element(_middles(TET, TET_EDGES), [p for p in itertools.product(range(3), repeat=3) if sum(p) <= 2],
                      [[B, B, B], [A, B, B], [B, A, B], [B, B, A]], [1 / 24] * 4, _with_middles(TET_FACES, TET_EDGES, 4)),
 }
@@ -137,8 +140,8 @@ def block(element, counts, low, high, moved=None):
     cells = np.stack([corner([(s + 1) // 2 for s in node]) for node in unit], 1)
     if moved is not None:
         x = moved(x)
-    if element == "hex20":
-        return Body(element, *_add_middles(x, cells, HEX_EDGES))
+    if element in ("quad8", "hex20"):
+        return Body(element, *_add_middles(x, cells, HEX_EDGES if d == 3 else QUAD_EDGES))
     if element == "tet10":  # Kuhn's six tetrahedra along the diagonal 0 - 6
         paths = [(0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6)]
         return Body(element, *_add_middles(x, np.vstack([cells[:, path] for path in paths]), TET_EDGES))

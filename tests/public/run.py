@@ -129,12 +129,14 @@ def main():
     if given.list:
         print("\n".join(f"{row.group:10} {row.name}" for row in chosen))
         return
-    folder, missed, lines, total = tempfile.mkdtemp(prefix="ents-public-"), [], {}, 0.0
+    folder, missed, absent, lines, total = tempfile.mkdtemp(prefix="ents-public-"), [], [], {}, 0.0
     try:
         for row in chosen:
             checks, seconds = run(row, Programs(given.build.resolve(), pathlib.Path(folder) / row.name))
             total += seconds
-            if not checks.missing:
+            if checks.missing:
+                absent.append(row.name)
+            else:
                 lines[row.name] = f"| `{row.name}` | {' | '.join(row.cells)} | {summary(checks.found)} |"
             if not show(row, checks, seconds):
                 missed.append(row.name)
@@ -144,7 +146,8 @@ def main():
         page = (HERE / "README.md").read_text().splitlines()
         name_of = lambda line: line.split("`")[1] if line.startswith("| `") else None
         (HERE / "README.md").write_text("\n".join(lines.get(name_of(line), line) for line in page) + "\n")
-    print(f"{len(chosen)} rows, {len(chosen) - len(missed)} right{', wrong: ' + ', '.join(missed) if missed else ''}; {total:.0f} s of CPU time")
+    print(f"{len(chosen)} rows, {len(chosen) - len(missed) - len(absent)} right{', wrong: ' + ', '.join(missed) if missed else ''}"
+          f"{', not run: ' + ', '.join(absent) if absent else ''}; {total:.0f} s of CPU time")
     sys.exit(bool(missed))
 
 
