@@ -43,6 +43,10 @@ def nafems_punch_deck(check):
     loads = ["*DLOAD", *[f"{cells + cell + 1}, P{face}, 100." for cell, face in ccx.faces_of(high, high.top)]]
     for friction, published in ((None, 0.1329), (0.1, 0.1308)):
         text = ccx.deck(low, high, (ALUMINIUM, STEEL), low.top[low.positions[low.top, 0] < 60], near, 10 * 70e3, on_base(low, high), [static(loads, 2)],
-                        friction, axisymmetric=True, watched=[low.top[0]])
+                        friction, axisymmetric=True, watched=low.top[[0, 12]])
         ours, own = ccx.both(check, f"mu_{friction or 0}", text)
         check.near(f"mu = {friction or 0}: displacement / {published}", 1, -ours[low.top[0]][1] / published, 0.01, -own[low.top[0]][1] / published)
+        # ccx's own contact loses the node on the axis, where faces of the wedge have two nodes in one place. The two differ by where their points lie
+        # in faces on edges of the other mesh, a few of the 35 that carry.
+        aside = low.top[12]
+        check.near(f"mu = {friction or 0}: ents-deck / ccx's own at r = {low.positions[aside, 0]:.0f}", 1, ours[aside][1] / own[aside][1], 1e-3)
