@@ -35,7 +35,10 @@ ENTS_INLINE AcrossEdge across_edge(int e) { return {e % 2 == 0, e == 1 || e == 2
 // Is xi as close to a corner as coordinates come?
 template <class B, bool H>
 ENTS_INLINE bool is_in_collapsed_corner(const Geometry<B>& g, const double (&xi)[B::dim - 1]) {
-  const int e = collapsed_edge(g);
+  bool on_edge = false; // of any quad4: most projections are not
+  for (const double x : xi)
+    on_edge = on_edge || absolute(absolute(x) - 1.0) <= 2.0 * next_to_collapsed_edge<H>;
+  const int e = on_edge ? collapsed_edge(g) : -1;
   if (e < 0) return false;
   const AcrossEdge across = across_edge(e);
   return absolute(xi[across.direction] - across.value) <= (1.0 + 1e-6) * next_to_collapsed_edge<H>;
