@@ -8,8 +8,6 @@ import numpy as np
 
 from rows import NotHere
 
-ELEMENTS = {(4, False): "CPE4", (4, True): "CAX4", (8, False): "CPE8", (8, True): "CAX8"}
-
 
 def faces_of(body, nodes):
     """(cell, face number from 1) of the cells' faces whose corners all are in `nodes`."""
@@ -17,14 +15,15 @@ def faces_of(body, nodes):
     return [(cell, face + 1) for cell in range(len(body.cells)) for face in range(4) if inside[cell, face] and inside[cell, (face + 1) % 4]]
 
 
-def deck(low, high, materials, slave, master, stiffness, held, steps, friction=None, axisymmetric=False, watched=(), nlgeom=True):
-    """Text of a deck: the lower body's nodes first. slave: nodes of the lower body, master: of the upper one (counted there). held: [(nodes, axis)] of both
+def deck(low, high, materials, slave, master, stiffness, held, steps, friction=None, axisymmetric=False, plane_stress=False, watched=()):
+    """Text of a deck (ccx reads 20 characters of a number): the lower body's nodes first. slave: nodes of the lower body, master: of the upper one (counted there). held: [(nodes, axis)] of both
     together; steps: lists of lines that each belong to one *STEP; watched: nodes whose U is printed."""
+    kind = "CAX" if axisymmetric else "CPS" if plane_stress else "CPE"
     n, lines = len(low.positions), ["*NODE, NSET=ALL"]
-    lines += [f"{k + 1}, {x!r}, {y!r}" for k, (x, y) in enumerate(np.vstack([low.positions, high.positions]).tolist())]
+    lines += [f"{k + 1}, {x:.13g}, {y:.13g}" for k, (x, y) in enumerate(np.vstack([low.positions, high.positions]).tolist())]
     sets = [(low, "LOW", 0, 0, slave, "SLAVE"), (high, "HIGH", n, len(low.cells), master, "MASTER")]
     for body, name, nodes, cells, *_ in sets:
-        lines.append(f"*ELEMENT, TYPE={ELEMENTS[body.cells.shape[1], axisymmetric]}, ELSET={name}")
+        lines.append(f"*ELEMENT, TYPE={kind}{body.cells.shape[1]}, ELSET={name}")
         lines += [", ".join(map(str, [cells + k + 1, *(cell + nodes + 1).tolist()])) for k, cell in enumerate(body.cells)]
     for body, name, _, cells, on, surface in sets:
         lines += [f"*SURFACE, NAME={surface}", *[f"{cells + cell + 1}, S{face}" for cell, face in faces_of(body, on)]]
@@ -37,7 +36,7 @@ def deck(low, high, materials, slave, master, stiffness, held, steps, friction=N
     lines += [f"{node + 1}, {axis + 1}, {axis + 1}" for nodes, axis in held for node in nodes]
     lines += ["*NSET, NSET=WATCHED", *[f"{node + 1}," for node in watched]]
     for step in steps:
-        lines += [f"*STEP{', NLGEOM' if nlgeom else ''}, INC=1000", *step, "*NODE PRINT, NSET=WATCHED", "U", "*END STEP"]
+        lines += ["*STEP, NLGEOM, INC=1000", *step, "*NODE PRINT, NSET=WATCHED", "U", "*END STEP"]
     return "\n".join([*lines, ""])
 
 

@@ -4,6 +4,8 @@ import numpy as np
 
 import ccx
 from benchmarks import cylinder_on_block, punch_on_foundation
+from bodies import annulus
+from fem import block
 from rows import target
 
 STEEL, ALUMINIUM = (210e3, 0.3), (70e3, 0.3)
@@ -47,6 +49,62 @@ def nafems_punch_deck(check):
         ours, own = ccx.both(check, f"mu_{friction or 0}", text)
         check.near(f"mu = {friction or 0}: displacement / {published}", 1, -ours[low.top[0]][1] / published, 0.01, -own[low.top[0]][1] / published)
         # ccx's own contact loses the node on the axis, where faces of the wedge have two nodes in one place. The two differ by where their points lie
-        # in faces on edges of the other mesh, a few of the 35 that carry.
+        # in faces on edges of the other mesh, a few of those that carry.
         aside = low.top[12]
         check.near(f"mu = {friction or 0}: ents-deck / ccx's own at r = {low.positions[aside, 0]:.0f}", 1, ours[aside][1] / own[aside][1], 1e-3)
+
+
+def rings(check, name, radii, interference, material, outside, increments):
+    """Displacements of the outer nodes of the inner ring, outwards: (ents-deck, ccx's own contact), CPS4."""
+    inner, outer = annulus(radii[0], radii[1], 8, 48), annulus(radii[1] - interference, radii[2], 6, 48)
+    n, cells = len(inner.positions), len(inner.cells)
+    both = inner.joined(outer)
+    # Along x and y the rings are held sideways.
+    held = [(np.flatnonzero(np.abs(both.positions[:, 1 - axis]) > np.abs(both.positions[:, axis]) * 1e9), axis) for axis in (0, 1)]
+    loads = [] if outside == 0 else ["*DLOAD", *[f"{cells + cell + 1}, P{face}, {outside!r}" for cell, face in ccx.faces_of(outer, outer.outside)]]
+    stiffness = 1000 * material[0] / (radii[1] - radii[0])
+    text = ccx.deck(inner, outer, (material, material), inner.outside, outer.inside, stiffness, held, [static(loads, increments)], watched=inner.outside,
+                    plane_stress=True)
+    outwards = inner.positions[inner.outside] / radii[1]
+    return [np.einsum("ij,ij->i", [u[node] for node in inner.outside], outwards) for u in ccx.both(check, name, text)]
+
+
+def shrinks(radii, young, poisson, pressure):
+    """Lame: the outer radius of a ring under pressure outside."""
+    a, b = radii[0] ** 2, radii[1] ** 2
+    return -pressure * radii[1] / young * ((b + a) / (b - a) - poisson)
+
+
+@target("lame_rings_deck", case="lame_rings as a deck of CPS4", source="Code_Aster SSNP152", right="pressure between them 925925.9 to 0.5 %, by the inner ring's displacement")
+def lame_rings_deck(check):
+    radii = (0.2, 0.6, 1.0)
+    ours, own = rings(check, "rings", radii, 0.0, (1e9, 0.2), 1e6, 1)
+    # 1 / 8 of a ring's width in a cell: 1 / 64 of the bending part, which is less than a fifth of it there; strains of 0.1 %.
+    right = shrinks(radii, 1e9, 0.2, 925925.9)
+    check.near("displacement / Lame's", 1, ours / right, 5e-3, own.mean() / right)
+
+
+@target("press_fit_deck", case="press_fit as a deck of CPS4", source="Lame", right="pressure 6.1523 to 0.5 %, by the inner ring's displacement")
+def press_fit_deck(check):
+    radii = (10.0, 20.0, 30.0)
+    ours, own = rings(check, "fit", radii, 0.0025, (210e3, 0.3), 0, 1)
+    right = shrinks(radii, 210e3, 0.3, 6.1523)
+    check.near("displacement / Lame's", 1, ours / right, 5e-3, own.mean() / right)
+
+
+@target("patch_deck", case="patch as decks of CPE4 and CPE8, finite strain: 3 faces under 3, 2 and 5", source="El-Abbasi, Bathe 2001; Code_Aster SSNP121",
+        right="displacement of the interface -0.05: to 1e-6 where faces match, else to 0.5 % (stresses, on the page of ents-deck: 0.3 %)")
+def patch_deck(check):
+    for element in ("quad4", "quad8"):
+        for above in (3, 2, 5):
+            low, high = block(element, [3, 2], [0, 0], [1, 1]), block(element, [above, 2], [0, 1], [1, 2])
+            n, both = len(low.positions), low.joined(high)
+            high.positions[:, 1] -= 1e-9
+            interface = low.where(1, 1)
+            held = [(both.where(0, 0), 0), (low.where(1, 0), 1)]
+            drive = ["*BOUNDARY", *[f"{node + n + 1}, 2, 2, -0.1" for node in high.where(1, 2 - 1e-9)]]
+            text = ccx.deck(low, high, [(2e6, 0.0)] * 2, interface, high.where(1, 1 - 1e-9), 2e12, held, [static(drive, 1)], watched=interface)
+            ours, own = ccx.both(check, f"{element}_{above}", text)
+            # The penalty gives way by 1e5 / 2e12.
+            check.near(f"{element}, 3 under {above}: displacement / -0.05", 1, [ours[node][1] / -0.05 for node in interface],
+                       2e-6 if above == 3 else 5e-3, np.mean([own[node][1] for node in interface]) / -0.05)
