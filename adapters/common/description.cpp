@@ -165,7 +165,7 @@ std::string check_sizes(const Element& e, const Arguments& arguments) {
   if (e.history_size < layout.state_size)
     return model.file + " needs " + std::to_string(layout.state_size) +
            " history variables, the element has " + std::to_string(e.history_size) + ". Write " +
-           e.host->history + std::to_string(layout.state_size);
+           e.host->history + std::to_string(layout.state_size + e.host->own_history);
   return "";
 }
 

@@ -34,6 +34,14 @@ void say(Result& result, const Element& e, const std::string& text) {
     std::snprintf(result.message, sizeof result.message, "ents: %s", text.c_str());
 }
 
+/// The library's words for a batch of one element, without the number that it has there.
+std::string of_one(std::string text) {
+  for (const char* number : {"element 0: ", " of element 0"})
+    if (const std::size_t at = text.find(number); at != std::string::npos)
+      text.erase(at, std::char_traits<char>::length(number));
+  return text;
+}
+
 Result fail(const Element& e, const std::string& text) {
   Result result;
   result.outcome = Outcome::failed;
@@ -298,7 +306,7 @@ Result evaluate(const Element& e) {
   if (status != ENTS_OK) {
     result.outcome = status > 0 ? Outcome::cut : Outcome::failed;
     result.step_factor = status > 0 ? report.step_factor : 1;
-    say(result, e, model.file + ": " + report.message);
+    say(result, e, model.file + ": " + of_one(report.message));
     return result;
   }
   result.contact = (flags & ENTS_FLAG_CONTACT) != 0;

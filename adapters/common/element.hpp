@@ -48,6 +48,7 @@ struct Host {
   bool multipliers = true;      ///< its elements can carry them as unknowns
   bool displacements = true;    ///< it passes them; else present positions alone
   bool rotations = false;       ///< its nodes can have rotations as degrees of freedom
+  int own_history = 0;          ///< variables that it keeps before those of the model
   int options = common_options; ///< those that mean something there
   const char* numbers = "";     ///< what to know of the elements' numbers where one is not in the table
 };

@@ -30,6 +30,7 @@ int ops_getnodecrd_(int* node, int* count, double* data);
 int ops_getnodedisp_(int* node, int* count, double* data);
 int ops_getnodeincrdisp_(int* node, int* count, double* data); // trial minus committed
 int ops_error_(char* text, int length);
+__attribute__((weak)) int ops_getndf_(); // of the last model command; the oldest releases lack it
 
 } // extern "C"
 
@@ -53,11 +54,13 @@ int tell(const char* text) {
 }
 
 /// Degrees of freedom of a node: frames in the plane have 3, shells and frames in space 6, u-p elements one
-/// more than displacements. The displacements come first. OpenSees tells no number, but refuses any other.
+/// more than displacements. The displacements come first. OpenSees tells no node's number, but refuses any other
+/// one and prints "crd size mismatch" each time: the first guess is that of the script's model command.
 /// @return 0: no number fits
 int dofs_of(int node, int dimension) {
-  for (const int count : {dimension, dimension == 2 ? 3 : 6, 4, 3, 5, 6, 7}) {
-    if (count < dimension) continue;
+  const int usual = ops_getndf_ ? ops_getndf_() : dimension;
+  for (const int count : {usual, dimension, dimension == 2 ? 3 : 6, 4, 3, 5, 6, 7}) {
+    if (count < dimension || count > largest_node_dofs) continue;
     std::array<double, largest_node_dofs> values;
     int asked = count;
     if (ops_getnodedisp_(&node, &asked, values.data()) == 0) return count;

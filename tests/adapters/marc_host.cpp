@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MSC Marc, emulated: total displacements in dispt, state variables and their increments, one request a call.
+// MSC Marc, emulated: state variables and their increments, one request a call. What dispt and r are no public manual
+// tells: marc_host has total displacements at the end of the increment and internal forces; marc_user_code_host has
+// what three public USELEM files have (zia-javanbakht/AFE, uselem01.f: disp + dispt is the total, r is minus the
+// internal force).
 #include "guarded.hpp"
 #include "histories.hpp"
 #include "other_hosts.hpp"
@@ -16,7 +19,8 @@ namespace {
 
 class MarcHost : public HostWithHistory {
 public:
-  explicit MarcHost(const Elements& elements) : HostWithHistory(elements, 2) {}
+  MarcHost(const Elements& elements, bool as_user_code)
+      : HostWithHistory(elements, 2), as_user_code_(as_user_code) {}
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     int number = element + 1, nnode = static_cast<int>(nodes(element).size()), d = elements_.dimension,
@@ -25,6 +29,7 @@ public:
     Guarded xk(n * n), xm(n * n), f(n), r(n), dt(at(size_));
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
                         increment = gather_change(element, displacement), t = committed(element);
+    for (std::size_t i = 0; as_user_code_ && i < u.size(); ++i) u[i] -= increment[i];
     double geom[8] = {static_cast<double>(elements_.model),
                       area(element),
                       static_cast<double>(elements_.options),
@@ -52,14 +57,23 @@ public:
     for (int i = 0; i < elements_.state_size; ++i) trial(element)[at(i)] = t[at(i)] + dt[at(i)];
     call(1), call(3), call(5);
     f.check_written("f", 0, n), xm.check_written("xm", 0, n * n);
+    for (double& force : answer.residual)
+      if (as_user_code_) force = -force;
     return answer;
   }
+
+private:
+  bool as_user_code_;
 };
 
 } // namespace
 
 std::unique_ptr<EmulatedHost> marc_host(const Elements& elements) {
-  return std::make_unique<MarcHost>(elements);
+  return std::make_unique<MarcHost>(elements, false);
+}
+
+std::unique_ptr<EmulatedHost> marc_user_code_host(const Elements& elements) {
+  return std::make_unique<MarcHost>(elements, true);
 }
 
 } // namespace adapters

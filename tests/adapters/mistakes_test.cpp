@@ -77,7 +77,7 @@ constexpr Words words[] = {
     {"opensees_frame", "with nodes: 5", nullptr, "element entsContact, property 2"},
     {"feap", "nodes of the elements: 5", nullptr, "MATErial, user 7, entry 2"},
     {"ansys", "USRELEM, NNODES=5", "USRELEM, NSAVEVARS=", "real constant R, entry 2"},
-    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 59},
+    {"marc", "nodes of the element: 5", "STATE VARS, number: ", "EGEOM2", 63},
     {"lsdyna", nullptr, "*SECTION_SOLID, NHSV=", "*SECTION_SOLID, entry 2"}, // always a solid of eight nodes
 };
 

@@ -31,12 +31,17 @@ thread_local struct Domain {
   int dimension = 0;
   int extra = 0; ///< degrees of freedom of node n beside its displacements: extra + n modulo 3; 0: none
   std::string error;
+  int mismatches = 0; ///< lines in OpenSees's output: wrong guesses for nodes as its model command makes them
 
   int dofs(int node) const { return dimension + (extra ? extra - 1 + node % 3 : 0); }
+  int usual() const { return dofs(2); } ///< of the model command
 } domain;
 
 int nodal(const std::vector<double>& values, const int* node, const int* count, double* data, int wanted) {
-  if (*count != wanted) return -1;
+  if (*count != wanted) {
+    domain.mismatches += wanted == domain.usual();
+    return -1;
+  }
   for (int i = 0; i < *count; ++i)
     data[i] = i < domain.dimension ? values[at((*node - 1) * domain.dimension + i)]
                                    : 1e30; // a rotation, a pressure
@@ -48,7 +53,7 @@ public:
   OpenSeesHost(const Elements& elements, int extra)
       : EmulatedHost(elements), extra_(extra), zero_(elements.reference.size()) {
     domain.reference = &elements_.reference, domain.displacement = &zero_;
-    domain.dimension = elements.dimension, domain.extra = extra;
+    domain.dimension = elements.dimension, domain.extra = extra, domain.mismatches = 0;
     for (int k = 0; k < static_cast<int>(elements.nodes.size()); ++k) {
       const auto& list = nodes(k);
       domain.integers = {100 + k, elements.model, static_cast<int>(list.size())};
@@ -60,6 +65,7 @@ public:
       for (const int node : list) dofs += domain.dofs(node + 1);
       if (objects_.back()->nDOF != dofs) throw std::runtime_error("nDOF");
     }
+    if (domain.mismatches > 0) throw std::runtime_error("OPS_GetNodeDisp - crd size mismatch");
   }
   ~OpenSeesHost() override {
     for (auto& e : objects_) delete[] e->node, delete[] e->param, delete[] e->cState, delete[] e->tState;
@@ -171,6 +177,7 @@ int ops_getnodedisp_(int* node, int* count, double* data) {
 int ops_getnodeincrdisp_(int* node, int* count, double* data) {
   return adapters::nodal(*domain.change, node, count, data, domain.dofs(*node));
 }
+int ops_getndf_() { return domain.usual(); }
 int ops_error_(char* text, int length) {
   domain.error.assign(text, static_cast<std::size_t>(length));
   return 0;

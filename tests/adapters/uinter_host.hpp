@@ -18,6 +18,7 @@ void uinter_(Real stress, Real ddsddr, Real dviscous, Real dstructural, Real flu
              Real drot, Real area, Real chrlngth, Whole node, Whole ndir, Whole nstatv, Whole npred,
              Whole nprops, Whole mcrd, Whole kstep, Whole kinc, Whole kit, Whole linper, Whole lopenclose,
              Whole lstate, Whole lsdi, Whole lprint, std::size_t, std::size_t, std::size_t);
+using Uinter47 = decltype(uinter_);
 using Uinter44 = void(Real stress, Real ddsddr, Real flux, Real ddfddt, Real ddsddt, Real ddfddr, Real statev,
                       Real sed, Real sfd, Real spd, Real svd, Real scd, Real pnewdt, Real rdisp, Real drdisp,
                       Real temp, Real dtemp, Real predef, Real dpred, Real time, Real dtime, Text ciname,
@@ -39,7 +40,7 @@ struct UinterCall {
     std::memcpy(alocaldir, directions == 2 ? plane : space, sizeof alocaldir);
   }
 
-  int ndir, node = 17, linper = 0, lopenclose = -1, nprops = 2;
+  int ndir, mcrd = ndir, nstatv = 20, node = 17, linper = 0, lopenclose = -1, nprops = 2;
   Guarded stress{3}, ddsddr{9}, dviscous{9}, dstructural{9}, flux{2}, ddfddt{4}, ddsddt{6}, ddfddr{6},
       statev{20}, sed{1};
   double pnewdt = 1e36, rdisp[3] = {}, coords[3] = {}, alocaldir[9], props[3] = {61, 2, 0};
@@ -53,9 +54,9 @@ struct UinterCall {
     }
   }
 
-  void operator()(Uinter44* old = nullptr) {
+  void operator()(Uinter44* old = nullptr, Uinter47* now = uinter_) {
     double still[12] = {}, time[2] = {1, 1}, one = 1;
-    int nstatv = 20, npred = 0, mcrd = ndir, step = 1, lstate = -1, lsdi = 0, lprint = 0;
+    int npred = 0, step = 1, lstate = -1, lsdi = 0, lprint = 0;
     char name[81] = "ENTS                                                                            ";
     if (old)
       old(stress.data(), ddsddr.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(),
@@ -64,11 +65,11 @@ struct UinterCall {
           &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi, &lprint,
           80, 80, 80);
     else
-      uinter_(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(),
-              ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still, still, still, &pnewdt,
-              rdisp, still, still, still, still, still, time, &one, &one, name, name, name, props, coords,
-              alocaldir, still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step,
-              &step, &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
+      now(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(),
+          ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp,
+          still, still, still, still, still, time, &one, &one, name, name, name, props, coords, alocaldir,
+          still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper,
+          &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
     for (const Guarded* array :
          {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &dviscous, &dstructural})
       array->check_guards("an array");

@@ -175,6 +175,37 @@ TEST_F(Uinter, OpensAndCloses) {
   }
 }
 
+TEST_F(Uinter, AMessageNamesOnePoint) {
+  Call deep(3);
+  deep.props[0] = 62, deep.rdisp[0] = 10;
+  deep.place(0.15, -0.35);
+  deep();
+  EXPECT_LT(deep.pnewdt, 1);
+  const auto messages = abaqus_messages();
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].text.find("element 17"), std::string::npos) << messages[0].text;
+  EXPECT_EQ(messages[0].text.find("element 0"), std::string::npos) << messages[0].text;
+}
+
+TEST_F(Uinter, TheOtherArgumentListIsNoticedBeforeAnythingIsWritten) {
+  void* library = dlopen(ENTS_UINTER_44_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  ASSERT_NE(library, nullptr) << dlerror();
+  for (const int d : {2, 3}) {
+    Call now(d), old(d);
+    now.props[0] = old.props[0] = d == 2 ? 63 : 62;
+    now.nprops = old.nprops = d; // with the wrong list NPROPS stands where NDIR is looked for
+    EXPECT_THROW(now(nullptr, reinterpret_cast<Uinter47*>(dlsym(library, "uinter_"))), HostStopped);
+    EXPECT_THROW(old(reinterpret_cast<Uinter44*>(dlsym(RTLD_DEFAULT, "uinter_"))), HostStopped);
+    const auto messages = abaqus_messages();
+    ASSERT_EQ(messages.size(), 2u);
+    EXPECT_NE(messages[0].text.find("libents_abaqus.so"), std::string::npos) << messages[0].text;
+    EXPECT_NE(messages[1].text.find("libents_abaqus_uinter44.so"), std::string::npos) << messages[1].text;
+    for (const Call* c : {&now, &old})
+      for (const Guarded* array : {&c->stress, &c->ddsddr, &c->dviscous, &c->dstructural, &c->flux})
+        array->check_untouched("an array", 0, 2);
+  }
+}
+
 TEST_F(Uinter, MistakesStopTheJobWithAdvice) {
   const auto message = [](Call& c) {
     EXPECT_THROW(c(), HostStopped);
@@ -184,6 +215,18 @@ TEST_F(Uinter, MistakesStopTheJobWithAdvice) {
   Call linear(2);
   linear.linper = 1;
   EXPECT_NE(message(linear).find("perturbation"), std::string::npos);
+  Call directions(2);
+  directions.ndir = 4;
+  EXPECT_NE(message(directions).find("NDIR = 4"), std::string::npos);
+  Call coordinates(3);
+  coordinates.mcrd = 2;
+  EXPECT_NE(message(coordinates).find("MCRD = 2"), std::string::npos);
+  Call history(3); // 9 of the model and 3 of the point
+  history.props[0] = 62, history.rdisp[0] = 0.02;
+  for (const int few : {0, 2, 11}) {
+    history.nstatv = few;
+    EXPECT_NE(message(history).find("DEPVAR=12"), std::string::npos) << few;
+  }
   Call file(2);
   file.props[0] = 60;
   EXPECT_NE(message(file).find("ents_60.json"), std::string::npos);

@@ -3,6 +3,7 @@
 // texture lies on the master surface along its slip directions, which suits flat and gently curved masters.
 // ENTS_UINTER_44: the 44 arguments of releases before 2017.
 #include <algorithm>
+#include <string>
 
 #include "../../common/point.hpp"
 #include "../abaqus.hpp"
@@ -11,14 +12,43 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr Host host{.nodes = "a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
-                    .history = "*SURFACE INTERACTION, DEPVAR= 3 and ",
-                    .properties = "*SURFACE INTERACTION, property ",
-                    .directory = abaqus::job_directory,
-                    .multipliers = false};
-constexpr double no_master = -1e35; // Abaqus: -1e36
 /// STATEV: 1 if the start is known, the start, then the model's state.
 constexpr int start_size = 3;
+constexpr Host host{.nodes = "a model with \"segment\": \"quad4\" (2D: \"line2\"), which has nodes: ",
+                    .history = "*SURFACE INTERACTION, USER, DEPVAR=",
+                    .properties = "*SURFACE INTERACTION, property ",
+                    .directory = abaqus::job_directory,
+                    .multipliers = false,
+                    .own_history = start_size};
+constexpr double no_master = -1e35; // Abaqus: -1e36
+/// Of DEPVAR and PROPERTIES; with the other argument list other things are read in their places.
+constexpr int largest_count = 1 << 20;
+
+#if defined(ENTS_UINTER_44)
+constexpr char argument_list[] = "this library has the 44 arguments of UINTER of old releases, take "
+                                 "libents_abaqus.so, which has the 47 of the manuals";
+#else
+constexpr char argument_list[] = "this library has the 47 arguments of UINTER of the manuals, an old release "
+                                 "with 44 takes libents_abaqus_uinter44.so";
+#endif
+
+/// Before anything is written: are these the arguments that this library takes them for?
+/// @return "" or what is wrong
+std::string wrong_call(int directions, int coordinates, int state_variables, int properties) {
+  const auto number = [](const char* name, int value) {
+    return std::string(name) + " = " + std::to_string(value);
+  };
+  std::string wrong;
+  if (directions != 2 && directions != 3)
+    wrong = number("NDIR", directions) + ", not 2 or 3";
+  else if (coordinates != directions)
+    wrong = number("MCRD", coordinates) + " where " + number("NDIR", directions);
+  else if (properties < 0 || properties > largest_count)
+    wrong = number("NPROPS", properties);
+  else if (state_variables < 0 || state_variables > largest_count)
+    wrong = number("NSTATV", state_variables);
+  return wrong.empty() ? wrong : "ents: UINTER is called with " + wrong + ": " + argument_list;
+}
 
 } // namespace
 
@@ -38,6 +68,11 @@ ENTS_ENTRY(uinter, UINTER,
             double*, double*, int* node, int* ndir, int* nstatv, int*, int* nprops, int* mcrd, int*, int*,
             int*, int* linper, int* lopenclose, int*, int*, int*, std::size_t, std::size_t, std::size_t)) {
   const int d = *ndir;
+  if (const std::string wrong = wrong_call(d, *mcrd, *nstatv, *nprops); !wrong.empty()) {
+    abaqus::tell(abaqus::Severity::error, wrong.c_str());
+    abaqus::stop();
+    return;
+  }
   std::fill(stress, stress + d, 0.0);
   std::fill(ddsddr, ddsddr + d * d, 0.0);
   std::fill(flux, flux + 2, 0.0);
@@ -58,11 +93,9 @@ ENTS_ENTRY(uinter, UINTER,
   p.change = drdisp;
   p.properties = {props};
   p.property_count = *nprops;
-  if (*linper == 1 || *nstatv < start_size) {
+  if (*linper == 1) {
     abaqus::tell(abaqus::Severity::error,
-                 *linper == 1
-                     ? "ents: UINTER has no linear perturbation steps, Abaqus does not tell the base state"
-                     : "ents: write *SURFACE INTERACTION, USER, DEPVAR=16 or more");
+                 "ents: UINTER has no linear perturbation steps, Abaqus does not tell the base state");
     abaqus::stop();
     return;
   }
@@ -71,12 +104,15 @@ ENTS_ENTRY(uinter, UINTER,
     if (*lopenclose >= 0) *lopenclose = 0;
     return;
   }
-  double start[2] = {statev[1], statev[2]};
-  if (statev[0] != 1) // where the point was before it slipped, along the slip directions
+  double start[2] = {};
+  if (*nstatv >= start_size && statev[0] == 1) {
+    std::copy(statev + 1, statev + start_size, start);
+  } else { // where the point was before it slipped, along the slip directions
     for (int a = 0; a + 1 < d; ++a) {
       start[a] = -rdisp[1 + a];
       for (int i = 0; i < std::min(*mcrd, 3); ++i) start[a] += coords[i] * alocaldir[i + 3 * (1 + a)];
     }
+  }
   p.start = start;
   p.history = {statev + start_size};
   p.history_size = *nstatv - start_size;

@@ -15,13 +15,14 @@ namespace {
 
 using namespace ents_adapter;
 
-constexpr int property_count = 3; // geom has no length
+constexpr int property_count = 3;                                 // geom has no length
+constexpr int option_negative_residual = option_negative_tangent; // the host's own option 4
 constexpr Host host{.nodes = "nodes of the element: ",
                     .history = "STATE VARS, number: ",
                     .properties = "GEOMETRY, EGEOM",
                     .directory = [] { return std::string(); },
                     .spare_nodes = true,
-                    .options = common_options | option_old_displacement};
+                    .options = common_options | option_old_displacement | option_negative_residual};
 
 enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // iflag
 
@@ -29,6 +30,15 @@ enum Request { loads = 1, stiffness = 2, mass = 3, forces = 4, output = 5 }; // 
   int code = 2;
   if (quit_) quit_(&code);
   std::exit(code);
+}
+
+/// An element without a history whose nodes are where they began, and have moved in this increment: `dispt` is that
+/// of the increment's begin.
+bool lacks_increment(const double* dispt, const double* disp, std::ptrdiff_t dofs, const double* history,
+                     int size) {
+  const auto zero = [](double x) { return x == 0; };
+  return std::all_of(dispt, dispt + dofs, zero) && !std::all_of(disp, disp + dofs, zero) &&
+         std::all_of(history, history + size, zero);
 }
 
 } // namespace
@@ -69,7 +79,17 @@ uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double
   e.properties = {geom};
   e.property_count = property_count;
   const int option = options(e.properties, e.property_count);
-  if (option > 0 && (option & option_old_displacement)) e.increment = {disp, 1, *ndeg};
+  const bool old = option > 0 && (option & option_old_displacement);
+  if (!old && lacks_increment(dispt, disp, dofs, t, state)) {
+    std::printf(" *** ents, element %d: dispt is zero where disp is not, so it is the displacement at the "
+                "begin of the "
+                "increment: add 2 to EGEOM3\n",
+                *m);
+    std::fflush(stdout);
+    stop();
+  }
+  if (old) e.increment = {disp, 1, *ndeg};
+  if (option > 0 && (option & option_negative_residual)) e.sign = -1;
   e.history = {t};
   e.history_size = state;
   e.residual = {r, 1, *ndeg};
