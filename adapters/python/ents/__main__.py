@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: python3 -m ents [doctor]
        python3 -m ents generate EXPRESSION ...     a height function in C; see generate --help
+       python3 -m ents hosts MODEL.json            nodes and history variables of a model in each host; see hosts --help
 
 Prints version, file and instruction set of the library, names missing packages, and compares a contact element with its known results.
 
@@ -40,6 +41,9 @@ def main():
     if sys.argv[1:2] == ["generate"]:
         from ents import _generate
         return _generate.main(sys.argv[2:])
+    if sys.argv[1:2] == ["hosts"]:
+        from ents import _hosts
+        return _hosts.main(sys.argv[2:])
     if sys.argv[1:] in (["-h"], ["--help"]):
         print(__doc__)
         return 0
