@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-deck: the command line, and what it says.
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -130,9 +131,13 @@ bool report(const Job& job, const Options& options) {
   const bool friction =
       std::any_of(job.models.begin(), job.models.end(), [](const Model& m) { return !m.symmetric; });
   const auto first = static_cast<long long>(first_free_element(job));
-  std::printf("elements  %lld .. %lld, %s%s\n", first,
+  int nodes = 0, states = 0;
+  for (const Model& m : job.models)
+    nodes = std::max(nodes, m.nodes()), states = std::max(states, m.state_size);
+  std::printf("elements  %lld .. %lld, %s, at most %d nodes and %d history variables%s\n", first,
               first + static_cast<long long>(job.elements.size()) - 1,
-              counted(job.models.size(), "model").c_str(), friction ? ", unsymmetric stiffness" : "");
+              counted(job.models.size(), "model").c_str(), nodes, states,
+              friction ? ", unsymmetric stiffness" : "");
   return admissible;
 }
 
