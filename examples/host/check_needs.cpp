@@ -43,6 +43,8 @@ std::string describe_needs(const ents_layout& layout, bool law) {
                   "choose one for\n";
   text.append("kernels: ").append(layout.instruction_set);
   text.append(one_by_one ? ", elements one after the other\n" : ", several elements at once\n");
+  text.append("element: ").append(std::to_string(layout.nodes)).append(" master nodes, ");
+  text.append(std::to_string(layout.state_size)).append(" history variables in a host's deck\n");
   return text;
 }
 

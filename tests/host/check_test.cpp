@@ -208,6 +208,10 @@ TEST_F(Check, SaysWhatTheSceneNeeds) {
                                  : "kernels: " + set + ", several"),
               std::string::npos)
         << text.text;
+    EXPECT_NE(text.text.find("element: " + std::to_string(model.layout().nodes) + " master nodes, " +
+                             std::to_string(model.layout().state_size) + " history variables"),
+              std::string::npos)
+        << text.text;
     const Json json = result(file, "", text.exit_code);
     EXPECT_EQ(json.at("instruction_set").get<std::string>(), set);
     std::vector<std::string> by_bit[2]; // not needed, needed
