@@ -383,7 +383,7 @@ typedef struct ents_detection {
  * slaves are then written, and the call returns ENTS_NO_PROJECTION for the first of them, unless `permitted` has the flag. Set
  * segment = -1 for open slaves before the call: they may leave the surface as they like. The call does not look for lost contact if the
  * caller's ents_detection ends before `permitted`.
- * The way. With `slave_begin`, a slave that moves by more than `reach` relative to the mesh (less its mean motion) and is in front of the
+ * The way. With `slave_begin`, a slave that moves by more than `reach` / 2 relative to the mesh (less its mean motion) and is in front of the
  * surface at the begin and at the end is looked for on its straight way, at places reach / 2 apart: if it is behind the surface there, it
  * has passed through, and the call returns ENTS_NO_PROJECTION, with report.step_factor so that the increment ends there. It does so, too, if
  * the way near the surface is longer than 32 reach. A part of the body that is thinner than reach / 2 may be missed. Each such call reads the

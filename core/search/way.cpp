@@ -149,7 +149,7 @@ Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tre
   Walk walk(plan, mesh, way, reach);
   for (std::int64_t k = first; k < first + count; ++k) {
     const double moved = distance(way.slave + k * d, way.slave_begin + k * d, motion.mean, d) + motion.rest;
-    if (!(moved > reach) ||
+    if (!(moved > 0.5 * reach) ||
         !may_meet(plan, mesh, tree, way.slave_begin + k * d, way.slave + k * d, motion, reach))
       continue;
     bool behind = false;

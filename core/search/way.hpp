@@ -24,8 +24,8 @@ struct Crossing {
 };
 
 // Of slaves first .. first + count - 1 those that are in front of the surface at the end. A slave
-// that moves by no more than `reach` relative to the master is always in sight of the search; the others are
-// looked for at places `reach` / 2 apart on their straight way, in the mesh as it is there.
+// that moves by no more than `reach` / 2 relative to the master passes through thinner parts of the body alone; the
+// others are looked for at places `reach` / 2 apart on their straight way, in the mesh as it is there.
 // Allocates (std::bad_alloc) if there are such slaves. ok, or what detect() and refit_tree() say.
 Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tree, const Increment& way,
                      std::int64_t first, std::int64_t count, double reach, Crossing& out);
