@@ -69,6 +69,17 @@ struct Counts {
 // `at(t)`: a number at the part t of the increment.
 double at(double begin, double end, double t) { return begin + t * (end - begin); }
 
+// How far a slave moves relative to the mesh at most, as ents_detect has it.
+double largest_motion(const std::vector<double>& begin, const std::vector<double>& end, const double (&x)[2],
+                      const double (&y)[2]) {
+  double mean[2] = {}, rest = 0.0;
+  for (std::size_t i = 0; i < begin.size(); ++i)
+    mean[i % 2] += 2.0 * (end[i] - begin[i]) / static_cast<double>(begin.size());
+  for (std::size_t i = 0; i < begin.size(); i += 2)
+    rest = std::max(rest, std::hypot(end[i] - begin[i] - mean[0], end[i + 1] - begin[i + 1] - mean[1]));
+  return std::hypot(y[0] - x[0] - mean[0], y[1] - x[1] - mean[1]) + rest;
+}
+
 void try_way(const Ring& ring, Random& random, Counts& all) {
   const double reach = random.uniform(0.1, 0.3), turn = random.uniform(-0.3, 0.3);
   std::vector<double> begin = ring.mesh.positions, end = begin;
@@ -85,7 +96,7 @@ void try_way(const Ring& ring, Random& random, Counts& all) {
   // The reference: the longest part of the way that is inside, and does it end?
   constexpr int places = 160;
   double longest = 0.0, now = 0.0;
-  const double step = (length + std::fabs(turn) * (far + length)) / places;
+  const double step = largest_motion(begin, end, x, y) / places;
   for (int k = 1; k <= places; ++k) {
     const double t = static_cast<double>(k) / places;
     std::vector<double> nodes(begin.size());
