@@ -2,6 +2,8 @@
 // The contact patch test (Taylor and Papadopoulos 1991): a uniform pressure between blocks whose meshes do
 // not match. Forces in slave nodes cannot transmit it to another mesh's nodes; points inside the faces can,
 // the better the more there are.
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -122,7 +124,7 @@ TEST(PatchTest, MatchingMeshesAreExact) {
 
 /// A deck of 4 x 4 x 2 cells of a block 1 x 1 x 0.5: bricks, and in every other row along x two wedges in each
 /// cell.
-std::filesystem::path bricks_and_wedges(const std::string& name, double low) {
+std::filesystem::path bricks_and_wedges(const std::filesystem::path& file, double low) {
   constexpr int n = 4, layers = 2;
   std::ostringstream nodes, bricks, wedges;
   nodes.precision(17);
@@ -159,7 +161,6 @@ std::filesystem::path bricks_and_wedges(const std::string& name, double low) {
                  << ", " << number(i, j + 1, z);
         bricks << "\n";
       }
-  const std::filesystem::path file = std::filesystem::absolute(name + ".inp");
   std::ofstream out(file);
   out << "*NODE\n"
       << nodes.str() << "*ELEMENT, TYPE=C3D8\n"
@@ -172,8 +173,11 @@ std::filesystem::path bricks_and_wedges(const std::string& name, double low) {
 // Bodies whose common face has triangles and quadrilaterals: with one mesh on both sides nodes, points and
 // pieces are exact.
 TEST(PatchTest, SurfacesOfTrianglesAndQuadrilateralsPass) {
-  const std::filesystem::path upper = bricks_and_wedges("mixed_upper", -1e-6),
-                              lower = bricks_and_wedges("mixed_lower", -0.5);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("ents_mixed_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path upper = bricks_and_wedges(folder / "upper.inp", -1e-6),
+                              lower = bricks_and_wedges(folder / "lower.inp", -0.5);
   for (const Json& sampling : {Json(0), Json(1), Json(2), Json("cut")}) {
     Scene scene = test::shipped_scene("patch_test", [&](Json& json) {
       json.erase("variants"), json.erase("formulation");
@@ -200,6 +204,7 @@ TEST(PatchTest, SurfacesOfTrianglesAndQuadrilateralsPass) {
     // the residual, 1e-12 of the forces, over the smallest share of a node in them, some hundredths
     EXPECT_LT(std::max(p.largest - 1, 1 - p.smallest), 1e-10) << sampling;
   }
+  std::filesystem::remove_all(folder);
 }
 
 // Round an axis the forces are integrals of shape function times radius, of degree 2. Two points of Gauss and

@@ -75,21 +75,22 @@ def shrinks(radii, young, poisson, pressure):
     return -pressure * radii[1] / young * ((b + a) / (b - a) - poisson)
 
 
+def compare_rings(check, name, radii, overlap, material, outside, pressure):
+    """Displacement of the inner ring over Lame's under this pressure between the rings."""
+    ours, own = rings(check, name, radii, overlap, material, outside, 1)
+    right = shrinks(radii, *material, pressure)
+    check.near("displacement / Lame's", 1, ours / right, 5e-3, own.mean() / right)
+
+
 @target("lame_rings_deck", case="lame_rings as a deck of CPS4", source="Code_Aster SSNP152", right="pressure between them 925925.9 to 0.5 %, by the inner ring's displacement")
 def lame_rings_deck(check):
-    radii = (0.2, 0.6, 1.0)
-    ours, own = rings(check, "rings", radii, 0.0, (1e9, 0.2), 1e6, 1)
     # 1 / 8 of a ring's width in a cell: 1 / 64 of the bending part, which is less than a fifth of it there; strains of 0.1 %.
-    right = shrinks(radii, 1e9, 0.2, 925925.9)
-    check.near("displacement / Lame's", 1, ours / right, 5e-3, own.mean() / right)
+    compare_rings(check, "rings", (0.2, 0.6, 1.0), 0.0, (1e9, 0.2), 1e6, 925925.9)
 
 
 @target("press_fit_deck", case="press_fit as a deck of CPS4", source="Lame", right="pressure 6.1523 to 0.5 %, by the inner ring's displacement")
 def press_fit_deck(check):
-    radii = (10.0, 20.0, 30.0)
-    ours, own = rings(check, "fit", radii, 0.0025, (210e3, 0.3), 0, 1)
-    right = shrinks(radii, 210e3, 0.3, 6.1523)
-    check.near("displacement / Lame's", 1, ours / right, 5e-3, own.mean() / right)
+    compare_rings(check, "fit", (10.0, 20.0, 30.0), 0.0025, (210e3, 0.3), 0, 6.1523)
 
 
 @target("patch_deck", case="patch as decks of CPE4 and CPE8, finite strain: 3 faces under 3, 2 and 5", source="El-Abbasi, Bathe 2001; Code_Aster SSNP121",
