@@ -91,6 +91,39 @@ TEST_F(Scenes, ForcesDifferByStiffnessTimesRoundings) {
   EXPECT_LE(force[1], 1e-3 * roundings_of_forces);
 }
 
+// Two guided cubes that touch at the start, pressed and sheared until friction, which sticks, carries 0.1972
+// (CalculiX with its own penalty contact on the same mesh and laws). An adapter
+// that takes the first increment's touch for one without friction has next to nothing in one increment, and
+// a half in two.
+TEST_F(Scenes, FrictionBeginsAtTheTouchInEveryAdapter) {
+  auto scene = nlohmann::json::parse(R"({"dimension": 3,
+  "materials": {"cube": {"law": "linear_elastic", "young": 1000, "poisson": 0}},
+  "parts": [
+    {"name": "upper", "material": "cube", "element": "hex8", "x": {"from": 0, "pieces": [{"to": 1, "divisions": 1}]},
+      "y": {"from": 0, "pieces": [{"to": 1, "divisions": 1}]}, "z": {"from": 1, "pieces": [{"to": 2, "divisions": 1}]}},
+    {"name": "lower", "material": "cube", "element": "hex8", "x": {"from": 0, "pieces": [{"to": 1, "divisions": 1}]},
+      "y": {"from": 0, "pieces": [{"to": 1, "divisions": 1}]}, "z": {"from": 0, "pieces": [{"to": 1, "divisions": 1}]}}],
+  "supports": [{"nodes": "upper.y_min", "y": 0}, {"nodes": "upper.y_max", "y": 0}, {"nodes": "lower.y_min", "y": 0},
+    {"nodes": "lower.y_max", "y": 0}, {"nodes": "lower.z_min", "x": 0, "z": 0}, {"nodes": "upper.z_max", "x": 0.002, "z": -0.01}],
+  "contact": {"slave": "upper.z_min", "master": {"faces": "lower.z_max"},
+    "model": {"segment": "quad4", "contact": {"normal": {"type": "penalty", "stiffness": 2000},
+      "friction": {"type": "coulomb", "coefficient": 0.9, "stiffness": 500}}}},
+  "steps": {"control": "load_factor"}})");
+  std::vector<std::string> adapters = scene_adapters();
+  adapters.insert(adapters.end(), {"plain", "direct"});
+  for (const int increments : {1, 2, 10, 50}) {
+    scene["steps"]["values"] = {{{"to", 1}, {"count", increments}}};
+    const std::string file = (folder_ / "first_touch.json").string();
+    std::ofstream(file) << scene;
+    for (const std::string& adapter : adapters) {
+      SCOPED_TRACE(adapter + ", " + std::to_string(increments));
+      const SceneResult result = run_scene(file, adapter);
+      ASSERT_EQ(result.refusal, "");
+      EXPECT_NEAR(result.steps.back()["contact_force"][0].get<double>(), 0.1972, 0.01 * 0.1972);
+    }
+  }
+}
+
 // Hosts with symmetric matrices: Newton's iteration is slower and ends in the same place. Its last error is
 // not the square of the one before but a part of it: that of the forces is the scenes' tolerance, 1e-10, over
 // the part that is still missing, a tenth or more.
