@@ -170,6 +170,13 @@ template <int W> struct Lanes {
   using Numbers = typename VectorOf<W>::Numbers;
   Numbers v;
   Lanes() = default;
+  // (Written: structs of lanes are then copied register by register. GCC would take 16 bytes at a time, and
+  // who reads a register of them would wait for the stores.)
+  ENTS_INLINE Lanes(const Lanes& x) : v(x.v) {}
+  ENTS_INLINE Lanes& operator=(const Lanes& x) {
+    v = x.v;
+    return *this;
+  }
   ENTS_INLINE Lanes(double x) : v(VectorOf<W>::all(x)) {}
   ENTS_INLINE Lanes(Numbers x, int) : v(x) {}
 

@@ -57,7 +57,7 @@ template <> struct Register<1> { using type = double; };
 
 template <class R> ENTS_INLINE R load(const void* from) {
   R r;
-  std::memcpy(&r, from, sizeof r);
+  std::memcpy(static_cast<void*>(&r), from, sizeof r);
   return r;
 }
 template <class R> ENTS_INLINE void store(double* to, const R& r) { std::memcpy(to, &r, sizeof r); }
