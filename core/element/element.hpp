@@ -8,19 +8,19 @@
 
 namespace ents::ENTS_ISA {
 
-template <int N> ENTS_INLINE bool all_finite(const double* v) {
+ENTS_INLINE bool all_finite(const double* v, int count) {
   double zero = 0.0;
-  for (int i = 0; i < N; ++i) zero += 0.0 * v[i];
+  for (int i = 0; i < count; ++i) zero += 0.0 * v[i];
   return zero == 0.0;
 }
 
 template <class B> ENTS_INLINE bool inputs_finite(const Plan& plan, const ElementInput& in) {
   constexpr int D = B::dim, T = D - 1;
-  for (int i = 0; i < plan.multipliers; ++i)
-    if (!all_finite<1>(in.multiplier + i)) return false;
-  return all_finite<D>(in.slave) && all_finite<D * B::nodes>(in.master) &&
-         (!in.surface_coordinates || all_finite<T * B::nodes>(in.surface_coordinates)) &&
-         (!in.start || all_finite<T>(in.start)) && (!in.area || all_finite<1>(in.area));
+  const int nodes = node_count(basis_of<B>(plan.basis));
+  return all_finite(in.multiplier, plan.multipliers) && all_finite(in.slave, D) &&
+         all_finite(in.master, D * nodes) &&
+         (!in.surface_coordinates || all_finite(in.surface_coordinates, T * nodes)) &&
+         (!in.start || all_finite(in.start, T)) && (!in.area || all_finite(in.area, 1));
 }
 
 ENTS_INLINE Status status_of(Found found) {
@@ -45,7 +45,7 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     return status;
   if (in.state_begin && !is_state(plan.state, in.state_begin)) return Status::bad_state;
 
-  Geometry<B> g;
+  Geometry<B> g(basis_of<B>(plan.basis));
   g.set(in.slave, in.master);
   g.surface_coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;
@@ -66,10 +66,10 @@ Status evaluate_element(const Plan& plan, const ElementInput& in, const ElementO
     found = project(g, t, p);
     // The iteration leaves the segment along an edge without length; the search knows the triangle.
     if ((found == Found::yes || found == Found::escaped) && collapsed_edge(g) >= 0 &&
-        (is_in_collapsed_corner<B, H>(g, p.xi) || !on_segment<B>(p.xi, plan.border))) {
+        (is_in_collapsed_corner<B, H>(g, p.xi) || !on_segment(g.basis, p.xi, plan.border))) {
       Projection<B, H> on_triangle;
       const Search s = search<B, H>(g, t, plan, on_triangle);
-      if (s.found == Found::yes && on_segment<B>(on_triangle.xi, plan.border)) {
+      if (s.found == Found::yes && on_segment(g.basis, on_triangle.xi, plan.border)) {
         on_triangle.evaluations += p.evaluations;
         p = on_triangle, found = s.found;
         at.searched = true, at.ambiguous = s.ambiguous;

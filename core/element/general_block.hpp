@@ -115,7 +115,8 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
     if (block.rest && !write_rest(plan, block, p)) return 0;
 
   const int n = node_dofs(plan);
-  if (contact && (block.wanted & (want::residual | want::tangent))) B::template shape<2>(p.xi, p.projector.N);
+  if (contact && (block.wanted & (want::residual | want::tangent)))
+    p.nodes.basis.template shape<2>(p.xi, p.projector.N);
   if (block.wanted & want::residual) {
     S r[N];
     if (contact) at.residual(plan, r);

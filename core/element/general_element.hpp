@@ -61,7 +61,7 @@ template <class B, bool H> struct GeneralElement {
     pair.evaluate_at_solution();
     auto measured = at.measure(plan);
     if (pair.is_regular(measured, !shadow)) { // then the bits are those of a block
-      B::template shape<2>(pair.xi, pair.projector.N);
+      pair.nodes.basis.template shape<2>(pair.xi, pair.projector.N);
     } else {
       if (!pair.arrive_by_nodes(geometry(), shadow || found.escaped ? nullptr : found.f2))
         return Status::degenerate_segment;
@@ -87,7 +87,7 @@ template <class B, bool H> struct GeneralElement {
       if (!at.safe) return Status::grazing_ray; // a ray from behind would push the slave further in
       const double deepest = plan.penetration_limit > 0.0
                                  ? plan.penetration_limit
-                                 : (B::simplex ? 1.0 : 2.0) * square_root(measured.size2);
+                                 : (is_simplex(pair.nodes.basis) ? 1.0 : 2.0) * square_root(measured.size2);
       if (-at.gap > deepest) return Status::deep_penetration;
     }
     if (at.friction.active && !(determinant(pair.projector.metric) > 0.0)) {
@@ -104,7 +104,7 @@ template <class B, bool H> struct GeneralElement {
 
   // Gradients and Hessians of an element of a block, which is at its projection.
   Status evaluate_variations() {
-    B::template shape<2>(at.pair.xi, at.pair.projector.N);
+    at.pair.nodes.basis.template shape<2>(at.pair.xi, at.pair.projector.N);
     at.measure(plan);
     at.law = {0.0, 0.0, 0.0, false};
     at.pair.contact = false;
@@ -116,7 +116,7 @@ private:
   // Has friction a force here?
   bool rubs() const { return at.friction.active && plan.law.has_friction_force(); }
   Geometry<B> geometry() const {
-    Geometry<B> g;
+    Geometry<B> g(at.pair.nodes.basis);
     g.set(in.slave, in.master);
     g.surface_coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
     g.height = plan.height;
@@ -194,7 +194,8 @@ private:
     const bool has_residual = at.pair.contact && wants(want::residual);
     if (has_residual) {
       at.residual(plan, residual);
-      if (!(sum_of_absolutes(residual) < largest_result)) return Status::out_of_range;
+      if (!(sum_of_absolutes(residual, dofs_of<false>(at.pair.nodes.basis)) < largest_result))
+        return Status::out_of_range;
     }
     int matrices = 0;
     if (const Status s =
@@ -272,7 +273,7 @@ template <int D> ENTS_INLINE bool set_ray(const Plan& plan, const double* slave,
 template <class B, bool H, class Use>
 ENTS_INLINE Status at_projection(const Plan& plan, const ElementInput& in, const double* found, Use&& use) {
   constexpr int D = B::dim, T = D - 1;
-  PairNodes<B, double> nodes;
+  PairNodes<B, double> nodes(basis_of<B>(plan.basis));
   set_nodes<H>(plan, in.slave, in.master,
                in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
   double xi[T];

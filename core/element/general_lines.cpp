@@ -3,7 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_GENERAL_KERNELS(Line2)
-ENTS_GENERAL_KERNELS(Line3)
-ENTS_GENERAL_KERNELS(CatmullRom4)
-ENTS_GENERAL_KERNELS(BSpline4)
 } // namespace ents::ENTS_ISA

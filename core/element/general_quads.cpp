@@ -3,6 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_GENERAL_KERNELS(Quad4)
-ENTS_GENERAL_KERNELS(Quad8)
-ENTS_GENERAL_KERNELS(Quad9)
 } // namespace ents::ENTS_ISA

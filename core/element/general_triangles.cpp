@@ -3,5 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_GENERAL_KERNELS(Tri3)
-ENTS_GENERAL_KERNELS(Tri6)
 } // namespace ents::ENTS_ISA

@@ -11,15 +11,17 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B>
-constexpr KernelSet kernels_of = {{evaluate_element<B, false>, evaluate_element<B, true>},
-                                  {finish_element<B, false>, finish_element<B, true>},
-                                  {evaluate_rest<B, false>, evaluate_rest<B, true>},
-                                  {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>},
-                                  {transfer_state<B, false>, transfer_state<B, true>},
-                                  {project_on_segment<B, false>, project_on_segment<B, true>},
-                                  {closest_border_point<B, false>, closest_border_point<B, true>},
-                                  {segment_box<B, false>, segment_box<B, true>},
-                                  hull_spread<B>};
+template <class B> const KernelSet& kernels_of() {
+  static constexpr KernelSet kernels = {{evaluate_element<B, false>, evaluate_element<B, true>},
+                                        {finish_element<B, false>, finish_element<B, true>},
+                                        {evaluate_rest<B, false>, evaluate_rest<B, true>},
+                                        {evaluate_surface_point<B, false>, evaluate_surface_point<B, true>},
+                                        {transfer_state<B, false>, transfer_state<B, true>},
+                                        {project_on_segment<B, false>, project_on_segment<B, true>},
+                                        {closest_border_point<B, false>, closest_border_point<B, true>},
+                                        {segment_box<B, false>, segment_box<B, true>},
+                                        hull_spread<B>};
+  return kernels;
+}
 
 } // namespace ents::ENTS_ISA

@@ -2,7 +2,5 @@
 #include "core/element/kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet quad4_kernels = kernels_of<Quad4>;
-const KernelSet quad8_kernels = kernels_of<Quad8>;
-const KernelSet quad9_kernels = kernels_of<Quad9>;
+template const KernelSet& kernels_of<Quad4>();
 } // namespace ents::ENTS_ISA

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled kernels of each basis. kernel_*.cpp instantiate them, basis by basis: together they take long
-// to compile.
+// The compiled kernels of each basis. kernel_*.cpp instantiate them: together they take long to compile.
 #pragma once
 
 #include "core/model/plan.hpp"
@@ -16,13 +15,11 @@ struct KernelSet {
   ProjectKernel project[2];
   BorderKernel border_point[2];
   BoxKernel box[2];
-  double (*hull_spread)(double border);
+  double (*hull_spread)(Basis which, double border);
 };
 
 namespace portable {
-#define ENTS_BASIS(name, ...) extern const KernelSet name##_kernels;
-ENTS_BASES(ENTS_BASIS)
-#undef ENTS_BASIS
-} // namespace portable
+template <class B> const KernelSet& kernels_of(); // B: KernelBasis
+}
 
 } // namespace ents

@@ -2,6 +2,5 @@
 #include "core/element/kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet tri3_kernels = kernels_of<Tri3>;
-const KernelSet tri6_kernels = kernels_of<Tri6>;
+template const KernelSet& kernels_of<Tri3>();
 } // namespace ents::ENTS_ISA

@@ -47,14 +47,14 @@ template <class B, bool H, class S> struct MultiplierEquations {
   template <class Sum> ENTS_INLINE double bound(const Sum& sum) const {
     const auto& f = at.friction;
     if (!f.active || !plan.law.has_friction_force())
-      return at.pair.area * (sum_of_absolutes(sum.dg) + 1.0 / plan.law.stiffness);
+      return at.pair.area * (sum.size_of(sum.dg) + 1.0 / plan.law.stiffness);
     const double rate = 1.0 / plan.law.friction_stiffness;
     double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
     if (f.slip) by_multiplier += at.pair.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);
     by_multiplier += at.pair.area * sum_of_absolutes(f.by_force);
     for (int a = 0; a < T; ++a) {
-      bound += rate * sum_of_absolutes(sum.P[a]);
-      nodes += sum_of_absolutes(sum.dxi[a]);
+      bound += rate * sum.size_of(sum.P[a]);
+      nodes += sum.size_of(sum.dxi[a]);
     }
     return bound + by_multiplier * (nodes + rate);
   }

@@ -28,10 +28,11 @@ template <bool H, class B>
 ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* master,
                            const double* coordinates, PairNodes<B, double>& nodes) {
   constexpr int D = B::dim;
-  for (int i = 0; i < B::nodes; ++i) nodes.y[i] = vec_at<D>(master + std::int64_t{D} * i) - vec_at<D>(slave);
+  const int count = node_count(nodes.basis);
+  for (int i = 0; i < count; ++i) nodes.y[i] = vec_at<D>(master + std::int64_t{D} * i) - vec_at<D>(slave);
   nodes.has_coordinates = H && coordinates;
   if (nodes.has_coordinates)
-    for (int i = 0; i < (D - 1) * B::nodes; ++i) nodes.coordinates[i] = coordinates[i];
+    for (int i = 0; i < (D - 1) * count; ++i) nodes.coordinates[i] = coordinates[i];
   nodes.height = plan.height;
 }
 
@@ -40,7 +41,8 @@ ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* 
 template <class B, bool H>
 ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
   if constexpr (!H)
-    if (block.surface_coordinates && !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * B::nodes))
+    if (block.surface_coordinates &&
+        !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * node_count(basis_of<B>(plan.basis))))
       return nullptr;
   const double* start = element_at(block.start, block.start_stride, e);
   if (start && !is_finite(start, B::dim - 1)) return nullptr;
@@ -63,7 +65,8 @@ template <class B, bool H, bool F> struct PairOne {
   SlipBegin<double, T> begin{}; // friction
   bool known;
 
-  ENTS_INLINE PairOne(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  ENTS_INLINE PairOne(const Plan& plan, const PairBlock& block, std::int64_t e)
+      : nodes(basis_of<B>(plan.basis)) {
     const double* start = start_of<B, H>(plan, block, e);
     known = start != nullptr;
     if (!known) return;
@@ -99,7 +102,10 @@ template <class B, bool H, bool F, int W> struct PairLanes {
   SlipBegin<S, T> begin; // friction
   std::uint32_t known;   // bit k: element e + k has a start
 
-  ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e)
+      : nodes(basis_of<B>(plan.basis)) {
+    const B& basis = nodes.basis;
+    const int count = node_count(basis);
     prefetch_inputs(plan, block, e + 2 * W);
     const double* from[W];
     const auto rows = [&](const double* data, std::int64_t stride) ENTS_LAMBDA_INLINE {
@@ -109,13 +115,13 @@ template <class B, bool H, bool F, int W> struct PairLanes {
     rows(block.slave, block.slave_stride);
     read_lanes<W>(from, x);
     rows(block.master, block.master_stride);
-    read_lanes<W>(from, y);
-    for (int i = 0; i < B::nodes; ++i)
+    read_nodes<D>(basis, from, y);
+    for (int i = 0; i < count; ++i)
       for (int c = 0; c < D; ++c) nodes.y[i][c] = y[D * i + c] - x[c];
     nodes.has_coordinates = H && coordinates_of(plan, block, e);
     if (nodes.has_coordinates) {
       for (int k = 0; k < W; ++k) from[k] = coordinates_of(plan, block, e + k);
-      read_lanes<W>(from, nodes.coordinates);
+      read_nodes<T>(basis, from, nodes.coordinates);
     }
     nodes.height = plan.height;
     area = block.area ? read_lanes<W>(block.area + e * block.area_stride, block.area_stride) : S(1.0);
@@ -123,7 +129,7 @@ template <class B, bool H, bool F, int W> struct PairLanes {
     if constexpr (!H)
       if (block.surface_coordinates)
         for (int k = 0; k < W; ++k)
-          if (!is_finite(coordinates_of(plan, block, e + k), T * B::nodes)) known &= ~(1u << k);
+          if (!is_finite(coordinates_of(plan, block, e + k), T * count)) known &= ~(1u << k);
     if (block.start) {
       if constexpr (T == 1) {
         xi[0] = read_lanes<W>(block.start + e * block.start_stride, block.start_stride);
@@ -180,13 +186,14 @@ private:
   }
   // Of a later element, or of none: inputs of long calls come from memory, and the hardware prefetch of the
   // processor stops at each page (4 KiB).
-  static ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) {
+  ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) const {
+    const int count = node_count(nodes.basis);
     const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
       if (data) prefetch<W>(data + e * stride, stride, size);
     };
     soon(block.slave, block.slave_stride, D);
-    soon(block.master, block.master_stride, D * B::nodes);
-    soon(block.surface_coordinates, block.surface_coordinates_stride, T * B::nodes);
+    soon(block.master, block.master_stride, D * count);
+    soon(block.surface_coordinates, block.surface_coordinates_stride, T * count);
     soon(block.start, block.start_stride, T);
     soon(block.area, block.area_stride, 1);
     soon(block.state_begin, block.state_begin_stride, plan.state.size);

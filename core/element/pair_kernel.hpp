@@ -51,7 +51,7 @@ ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, 
 // Shape functions come as late as here, with as many derivatives as are asked for.
 template <bool F, bool Rigid, class B, bool H, class S>
 ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
-  if constexpr (!Rigid) B::template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
+  if constexpr (!Rigid) p.nodes.basis.template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
   if constexpr (F)
     friction_residual<Rigid>(p, f, (p.area * p.per_gap) * p.gap_vector, out);
   else
@@ -60,7 +60,7 @@ ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&
 template <bool F, bool Rigid, class B, bool H, class S>
 ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const PairFriction<B, H, S>& f,
                          TangentOf<F, Rigid, B, H, S>& out) {
-  if constexpr (!Rigid) B::template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
+  if constexpr (!Rigid) p.nodes.basis.template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
   if constexpr (F)
     out.evaluate(plan, p, f);
   else
@@ -104,7 +104,7 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
     double of_dofs[N];
     residual<F, Rigid>(p, f, of_dofs);
     double* r = block.residual + e * block.residual_stride;
-    for (int i = 0; i < N; ++i) r[i] = of_dofs[i];
+    for (int i = 0; i < dofs_of<Rigid>(p.nodes.basis); ++i) r[i] = of_dofs[i];
   }
   if (block.wanted & want::tangent) {
     TangentOf<F, Rigid, B, H, double> t;
@@ -166,12 +166,13 @@ template <class B, bool H, int W>
 ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) {
   constexpr int D = B::dim, T = D - 1;
   using S = Twice<Lanes<W>>;
-  PairNodes<B, S> nodes;
-  for (int i = 0; i < B::nodes; ++i)
+  PairNodes<B, S> nodes(a.nodes.basis);
+  const int count = node_count(nodes.basis);
+  for (int i = 0; i < count; ++i)
     for (int c = 0; c < D; ++c) nodes.y[i][c] = {a.nodes.y[i][c], b.nodes.y[i][c]};
   nodes.has_coordinates = a.nodes.has_coordinates;
   if (nodes.has_coordinates)
-    for (int i = 0; i < T * B::nodes; ++i)
+    for (int i = 0; i < T * count; ++i)
       nodes.coordinates[i] = {a.nodes.coordinates[i], b.nodes.coordinates[i]};
   nodes.height = a.nodes.height;
   S xi[T];
@@ -201,7 +202,8 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
     residual<F, Rigid>(p, f, r);
     double* out[W];
     places(block.residual, block.residual_stride, out);
-    write_lanes<N>(out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+    write_lanes<N>(
+        out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; }, dofs_of<Rigid>(p.nodes.basis));
   }
   if (block.wanted & want::tangent) {
     TangentOf<F, Rigid, B, H, S> t;
@@ -213,7 +215,7 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
       TangentOf<F, Rigid, B, H, double> one[W];
       t.scatter_lanes(one);
       for (int k = 0; k < W; ++k) {
-        interleave_copy(block.last, N * N);
+        interleave_copy(block.last, std::int64_t{plan.dofs} * plan.dofs);
         if (contact >> k & 1) write_tangent<B::dim>(one[k], out[k], block.leading);
       }
     } else if constexpr (N <= 12)

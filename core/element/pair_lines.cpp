@@ -3,7 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_PAIR_KERNELS(Line2)
-ENTS_PAIR_KERNELS(Line3)
-ENTS_PAIR_KERNELS(CatmullRom4)
-ENTS_PAIR_KERNELS(BSpline4)
 } // namespace ents::ENTS_ISA

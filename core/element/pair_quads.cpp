@@ -3,6 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_PAIR_KERNELS(Quad4)
-ENTS_PAIR_KERNELS(Quad8)
-ENTS_PAIR_KERNELS(Quad9)
 } // namespace ents::ENTS_ISA

@@ -2,7 +2,7 @@
 // The table of the compiled kernels of an instruction set.
 #include "core/element/pair_kernels.hpp"
 #include "core/numbers/streaming.hpp"
-#include "core/surface/basis.hpp" // types of the bases
+#include "core/surface/counted_basis.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -17,10 +17,12 @@ void expression_jets(const ExternalHeight&, std::int32_t, std::int32_t, const do
 static constexpr const PairKernelsOfBasis* of_basis = nullptr;
 static constexpr const char* instruction_set = "none";
 #else
-#define ENTS_BASIS(name, type, ...)                                                                          \
-  {{{evaluate_pairs<type, false, false>, evaluate_pairs<type, false, true>},                                 \
-    {evaluate_pairs<type, true, false>, evaluate_pairs<type, true, true>}},                                  \
-   {evaluate_general<type, false>, evaluate_general<type, true>}},
+template <class B>
+static constexpr PairKernelsOfBasis kernels_of = {
+    {{evaluate_pairs<B, false, false>, evaluate_pairs<B, false, true>},
+     {evaluate_pairs<B, true, false>, evaluate_pairs<B, true, true>}},
+    {evaluate_general<B, false>, evaluate_general<B, true>}};
+#define ENTS_BASIS(name, type, ...) kernels_of<KernelBasis<type>>,
 static constexpr PairKernelsOfBasis of_basis[] = {ENTS_BASES(ENTS_BASIS)};
 #undef ENTS_BASIS
 #define ENTS_TEXT_OF(name) #name

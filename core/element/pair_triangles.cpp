@@ -3,5 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_PAIR_KERNELS(Tri3)
-ENTS_PAIR_KERNELS(Tri6)
 } // namespace ents::ENTS_ISA

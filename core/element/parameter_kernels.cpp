@@ -4,7 +4,7 @@
 
 #include "core/element/parameter_rates.hpp"
 #include "core/search/transfer.hpp"
-#include "core/surface/basis.hpp"
+#include "core/surface/counted_basis.hpp"
 
 namespace ents {
 
@@ -16,11 +16,12 @@ template <class B>
 Status coordinates_of_segment(const Plan& plan, const double* master, const double* surface_coordinates,
                               const double* xi, double* s, double& area_per_s) {
   constexpr int T = B::dim - 1;
+  const B basis = basis_of<B>(plan.basis);
   const double* c = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   double at[T], value[T], gradient[T][T];
   for (int a = 0; a < T; ++a) at[a] = xi[a];
   if (c) {
-    coordinates_at<B>(c, at, value, gradient);
+    coordinates_at(basis, c, at, value, gradient);
   } else {
     for (int t = 0; t < T; ++t) {
       value[t] = at[t];
@@ -29,7 +30,7 @@ Status coordinates_of_segment(const Plan& plan, const double* master, const doub
   }
   double det = gradient[0][0];
   if constexpr (T == 2) det = gradient[0][0] * gradient[1][1] - gradient[0][1] * gradient[1][0];
-  Geometry<B> g;
+  Geometry<B> g(basis);
   g.set(master, master);
   g.surface_coordinates = c;
   g.height = nullptr;
@@ -40,7 +41,8 @@ Status coordinates_of_segment(const Plan& plan, const double* master, const doub
   return Status::ok;
 }
 
-#define ENTS_BASIS(name, type, ...) {evaluate_parameter_rates<type>, coordinates_of_segment<type>},
+#define ENTS_BASIS(name, type, ...)                                                                          \
+  {evaluate_parameter_rates<KernelBasis<type>>, coordinates_of_segment<KernelBasis<type>>},
 constexpr ParameterKernels kernels[] = {ENTS_BASES(ENTS_BASIS)};
 #undef ENTS_BASIS
 

@@ -38,12 +38,13 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
                                 std::int32_t parameter, ParameterRates& out) {
   using S = Dual<double>;
   constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>;
-  PairNodes<B, S> nodes;
-  for (int i = 0; i < B::nodes; ++i)
+  PairNodes<B, S> nodes(basis_of<B>(plan.basis));
+  const int count = node_count(nodes.basis);
+  for (int i = 0; i < count; ++i)
     for (int c = 0; c < D; ++c) nodes.y[i][c] = S(in.master[D * i + c] - in.slave[c]);
   const double* coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
   nodes.has_coordinates = coordinates != nullptr;
-  for (int i = 0; coordinates && i < T * B::nodes; ++i) nodes.coordinates[i] = S(coordinates[i]);
+  for (int i = 0; coordinates && i < T * count; ++i) nodes.coordinates[i] = S(coordinates[i]);
   HeightNode none{};
   nodes.height = plan.height ? plan.height : &none;
   nodes.parameter = parameter;
@@ -94,7 +95,7 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   double size = absolute(out.gap) + absolute(out.energy);
   if (pair.contact && out.residual) {
     S residual[N];
-    B::template shape<2>(pair.xi, pair.projector.N);
+    nodes.basis.template shape<2>(pair.xi, pair.projector.N);
     at.residual(plan, residual);
     for (int i = 0; i < n; ++i) {
       out.residual[i] = residual[i].d;

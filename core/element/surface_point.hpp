@@ -22,10 +22,11 @@ template <class B, bool H>
 Status evaluate_surface_point(const Plan& plan, const double* master, const double* surface_coordinates,
                               const double* xi, const SurfacePoint& out) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  if (!all_finite<D * B::nodes>(master) || !all_finite<T>(xi) ||
-      (surface_coordinates && !all_finite<T * B::nodes>(surface_coordinates)))
+  Geometry<B> g(basis_of<B>(plan.basis));
+  const int nodes = node_count(g.basis);
+  if (!all_finite(master, D * nodes) || !all_finite(xi, T) ||
+      (surface_coordinates && !all_finite(surface_coordinates, T * nodes)))
     return Status::non_finite;
-  Geometry<B> g;
   g.set(master, master); // seen from the first node
   g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;

@@ -129,7 +129,7 @@ template <class B, bool H, class S> struct ContactPoint {
     for (int a = 0; a < T && friction_too; ++a) add_scaled(push, friction.force[a], onto[a]);
     Form<B, S> f;
     form_of_p<B, H>(pair.projector.s, push, f);
-    expand_to_dofs<B, false, parts_of_p<H>>(f, pair.projector.N, out);
+    expand_to_dofs<false, parts_of_p<H>>(pair.nodes.basis, f, pair.projector.N, out);
     if (ray) {
       const V turn = variation_of_ray(push, *ray);
       for (int i = 0; i < D; ++i) out[i] = out[i] - gap * turn[i];

@@ -166,7 +166,7 @@ ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction
     if constexpr (T == 2) raised = raised + inverse[symmetric_index(1, b)] * friction.force[1];
     add_form<parts_of_f<B, H>>(force, raised, f[b]);
   }
-  expand_to_dofs<B, Rigid, parts_of_f<B, H>>(force, p.N, out);
+  expand_to_dofs<Rigid, parts_of_f<B, H>>(p.nodes.basis, force, p.N, out);
 }
 
 } // namespace ents::ENTS_ISA

@@ -27,10 +27,9 @@ enum : std::int32_t {
 // Segments whose normal is constant: is_flat, by name.
 constexpr bool is_flat_basis(Basis basis) { return basis == Basis::line2 || basis == Basis::tri3; }
 namespace ENTS_ISA {
-static_assert(is_flat<Line2> && is_flat<Tri3>);
-static_assert(!is_flat<Line3> && !is_flat<CatmullRom4> && !is_flat<BSpline4> && !is_flat<Tri6> &&
-              !is_flat<Quad4> && !is_flat<Quad8> && !is_flat<Quad9> && !is_flat<CatmullRom16> &&
-              !is_flat<BSpline16> && !is_flat<Bezier15>);
+#define ENTS_BASIS(name, type, ...) static_assert(is_flat<type> == is_flat_basis(Basis::name));
+ENTS_BASES(ENTS_BASIS)
+#undef ENTS_BASIS
 } // namespace ENTS_ISA
 
 // Does such a model have the faster kernel (pair_kernel.hpp)?

@@ -7,13 +7,14 @@
 #include "core/law/flattening.hpp"
 #include "core/model/fingerprint.hpp"
 #include "core/model/needs.hpp"
+#include "core/surface/counted_basis.hpp"
 
 namespace ents {
 
 namespace {
 
-#define ENTS_BASIS(name, ...) &portable::name##_kernels,
-constexpr const KernelSet* kernels_of[] = {ENTS_BASES(ENTS_BASIS)}; // [basis]
+#define ENTS_BASIS(name, type, ...) portable::kernels_of<portable::KernelBasis<portable::type>>,
+constexpr const KernelSet& (*kernels_of[])() = {ENTS_BASES(ENTS_BASIS)}; // [basis]
 #undef ENTS_BASIS
 
 } // namespace
@@ -91,7 +92,7 @@ namespace {
 
 Plan make(const Model& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);
-  const KernelSet& kernels = *kernels_of[static_cast<std::int32_t>(model.basis)];
+  const KernelSet& kernels = kernels_of[static_cast<std::int32_t>(model.basis)]();
   Plan plan{};
   plan.element = kernels.element[enriched];
   plan.finish = kernels.finish[enriched];
@@ -119,7 +120,8 @@ Plan make(const Model& model, bool enriched) {
   plan.law.table_points = static_cast<std::int32_t>(model.law_table.size());
   plan.penetration_limit = model.penetration_limit;
   plan.border = model.border;
-  plan.hull_spread = kernels.hull_spread(model.border);
+  plan.hull_spread = kernels.hull_spread(model.basis, model.border);
+  plan.basis = model.basis;
   plan.dimension = basis.parameters + 1;
   plan.nodes = basis.nodes;
   plan.parameters = basis.parameters;

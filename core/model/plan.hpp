@@ -180,6 +180,7 @@ struct Plan {
   const Plan* base;         // the same segments without their height; this plan itself if it has none
   const HeightNode* height; // null: plain
   std::int32_t height_nodes;
+  Basis basis;
   const double* surface_coordinates; // the model's own, or null
   double feature_length[2];          // of the height, in s
   double height_bound;               // |h| <= height_bound

@@ -28,19 +28,21 @@ ENTS_INLINE void divide_by_powers(const V* p, const S& x, V (&d)[Most + 1]) {
   });
 }
 
+// Derivatives of order m by xi_1 and n by xi_2, m + n <= Order, over m! n!
+template <class S, int Order> struct SurfaceDerivatives { Vec<S, 3> of[Order + 1][Order + 1]; };
+
 // sum c_kj xi_1^j xi_2^k: j and k <= Degree, of a triangle their sum
 template <int Degree, bool Triangle, class S> struct SurfacePolynomial {
   using V = Vec<S, 3>;
-  V c[Degree + 1][Degree + 1];
 
   // Of the order by one coordinate: the highest by the other; -1: none
   static constexpr int highest(int other) { return other > Degree ? -1 : Triangle ? Degree - other : Degree; }
   // Is the derivative of order m by xi_1 and n by xi_2 not identically zero?
   static constexpr bool has(int m, int n) { return n <= highest(m); }
 
-  // Derivatives of order m by xi_1 and n by xi_2, m + n <= Order, over m! n!
-  template <int Order> struct Derivatives { V of[Order + 1][Order + 1]; };
-  template <int Order> ENTS_INLINE void differentiate(const S (&xi)[2], Derivatives<Order>& d) const {
+  template <int Order, int Width>
+  static ENTS_INLINE void differentiate(const V (&c)[Width][Width], const S (&xi)[2],
+                                        SurfaceDerivatives<S, Order>& d) {
     V at[Order + 1][Degree + 1]; // at xi_1, [by xi_1]: factors of the powers of xi_2
     unroll<Degree + 1>([&](auto k) ENTS_LAMBDA_INLINE {
       constexpr int most = highest(k) < Order ? highest(k) : Order;

@@ -17,6 +17,13 @@
 #define ENTS_ISA portable
 #endif
 
+// What never comes here
+#if defined(_MSC_VER) && !defined(__clang__)
+#define ENTS_UNREACHABLE __assume(0)
+#else
+#define ENTS_UNREACHABLE __builtin_unreachable()
+#endif
+
 // Before a loop that stays one, however few its turns
 #if defined(__clang__)
 #define ENTS_ROLLED _Pragma("clang loop unroll(disable)")

@@ -70,6 +70,23 @@ ENTS_INLINE Ball exponential(Ball x) {
   return {y, exponential(lesser(x.v + x.r, 300.0)) - y};
 }
 
+// u . e for a fixed vector u
+template <int D> ENTS_INLINE Ball dot(const Vec<double, D>& u, const Vec<Ball, D>& e) {
+  Ball s = u[0] * e[0];
+  for (int k = 1; k < D; ++k) s = s + u[k] * e[k];
+  return s;
+}
+
+// Smallest length in a box of vectors.
+template <int D> ENTS_INLINE double least_length(const Vec<Ball, D>& d) {
+  double low2 = 0.0;
+  for (int k = 0; k < D; ++k) {
+    const double low = greater(absolute(d[k].v) - d[k].r, 0.0);
+    low2 += low * low;
+  }
+  return square_root(low2);
+}
+
 // The mean value theorem: x departs from its centre by no more than sum_a |x_,a| w_a. `derivative(a)` is x_,a
 // or null if that is identically zero.
 template <int T, int D, class F>
@@ -84,12 +101,12 @@ ENTS_INLINE void narrow_by(Vec<Ball, D>& x, const Ball (&xi)[T], F&& derivative)
 // Of rho_,ab, rho_,a and rho, from the higher derivatives: evaluate_surface calls it before it computes with
 // them.
 template <int Order, class B, class Surface>
-ENTS_INLINE void narrow(const Ball (&xi)[B::dim - 1], Surface& s) {
+ENTS_INLINE void narrow([[maybe_unused]] const B& basis, const Ball (&xi)[B::dim - 1], Surface& s) {
   constexpr int T = B::dim - 1;
   if constexpr (Order > 2)
     for (int k = 0; k < symmetric_size<T>; ++k)
       if (B::second[k])
-        narrow_by(s.a2[k], xi, [&](int c) { return B::third[k + c] ? &s.a3[k + c] : nullptr; });
+        narrow_by(s.a2[k], xi, [&](int c) { return has_third(basis, k + c) ? &s.a3[k + c] : nullptr; });
   if constexpr (Order > 1)
     for (int a = 0; a < T; ++a)
       narrow_by(s.a[a], xi, [&](int b) {

@@ -11,9 +11,11 @@ namespace ents::ENTS_ISA {
 struct Edge {
   double middle[2], along[2];
 };
-template <class B> inline constexpr int edge_count = B::dim == 2 ? 2 : B::simplex ? 3 : 4;
-template <class B> ENTS_INLINE Edge edge_of_segment(int e) {
-  if constexpr (B::simplex) {
+template <class B> ENTS_INLINE constexpr int edge_count(const B& basis) {
+  return B::dim == 2 ? 2 : is_simplex(basis) ? 3 : 4;
+}
+template <class B> ENTS_INLINE Edge edge_of_segment(const B& basis, int e) {
+  if (is_simplex(basis)) {
     if (e == 2) return {{0.5, 0.5}, {-0.5, 0.5}};
     return e == 0 ? Edge{{0.5, 0.0}, {0.5, 0.0}} : Edge{{0.0, 0.5}, {0.0, 0.5}};
   }
@@ -53,7 +55,7 @@ template <class B, bool H> struct ClosestOnBorder {
     Shape<Ball, T, B::nodes> N;
     Surface<B, H, Ball> s;
     const bool normal = evaluate_surface<1>(g, xi, N, s);
-    if (!normal && H) { // the height is anywhere within its bound
+    if (!normal && H) {               // the height is anywhere within its bound
       constexpr double narrow = 1e-3; // without a surface at its centre: an edge that is crushed has none
       const double at = distance(centre);
       consider(e, centre, at);
@@ -79,8 +81,8 @@ template <class B, bool H> struct ClosestOnBorder {
     } else {
       double xi[T] = {edge.middle[0]};
       Shape<double, T, B::nodes> N;
-      B::template shape<0>(xi, N);
-      const Vec<double, D> end = combine(N.n, g.y);
+      g.basis.template shape<0>(xi, N);
+      const Vec<double, D> end = combine(N.n, g);
       return square_root(dot(end, end));
     }
   }
@@ -97,10 +99,10 @@ template <class B, bool H> struct ClosestOnBorder {
       for (int k = 0; k < T; ++k)
         from[k] = edge.middle[k] - edge.along[k], to[k] = edge.middle[k] + edge.along[k];
       Shape<double, T, B::nodes> N;
-      B::template shape<0>(from, N);
-      a = combine(N.n, g.y);
-      B::template shape<0>(to, N);
-      ab = combine(N.n, g.y) - a;
+      g.basis.template shape<0>(from, N);
+      a = combine(N.n, g);
+      g.basis.template shape<0>(to, N);
+      ab = combine(N.n, g) - a;
     }
     const double length2 = dot(ab, ab);
     const double t = length2 > 0.0 ? clamp(-dot(a, ab) / length2, 0.0, 1.0) : 0.0;
@@ -117,12 +119,12 @@ template <class B, bool H> struct ClosestOnBorder {
       double xi[T];
       for (int a = 0; a < T; ++a) xi[a] = edge.middle[a] + edge.along[a] * (i - 1);
       Shape<double, T, B::nodes> N;
-      B::template shape<2>(xi, N);
+      g.basis.template shape<2>(xi, N);
       bend[i] = Vec<double, D>::zero();
       unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
         constexpr int a = k / 2, b = (k + 1) / 2;
         if constexpr (B::second[k])
-          add_scaled(bend[i], (a == b ? 1.0 : 2.0) * edge.along[a] * edge.along[b], combine(N.d2[k], g.y));
+          add_scaled(bend[i], (a == b ? 1.0 : 2.0) * edge.along[a] * edge.along[b], combine(N.d2[k], g));
       });
     }
     const Vec<double, D> inner = 2.0 * bend[1] - 0.5 * (bend[0] + bend[2]);
@@ -163,12 +165,12 @@ template <class B, bool H>
 bool closest_border_point(const Plan& plan, const double* from, const double* master,
                           const double* surface_coordinates, double limit, BorderPoint& out) {
   constexpr int T = B::dim - 1;
-  Geometry<B> g;
+  Geometry<B> g(basis_of<B>(plan.basis));
   g.set(from, master);
   g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;
   ClosestOnBorder<B, H> closest{g, plan.height_bound, limit};
-  for (int e = 0; e < edge_count<B>; ++e) {
+  for (int e = 0; e < edge_count(g.basis); ++e) {
     if constexpr (T == 1) {
       closest.edge = {{2.0 * e - 1.0, 0.0}, {0.0, 0.0}};
       const double base = closest.distance_to_end(e);
@@ -177,7 +179,7 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
       else if (base - plan.height_bound < closest.limit)
         closest.consider(e, 0.0, closest.distance(0.0));
     } else {
-      closest.edge = edge_of_segment<B>(e);
+      closest.edge = edge_of_segment(g.basis, e);
       double w, chord = closest.distance_to_chord(e, w);
       if constexpr (straight_edges<B> && !H) {
         closest.consider(e, w, chord);
@@ -195,7 +197,7 @@ bool closest_border_point(const Plan& plan, const double* from, const double* ma
   out.distance = closest.limit;
   out.corner = T == 2 && absolute(closest.best_w) > at_end;
   Edge edge = {{2.0 * e - 1.0, 0.0}, {0.0, 0.0}};
-  if constexpr (T == 2) edge = edge_of_segment<B>(e);
+  if constexpr (T == 2) edge = edge_of_segment(g.basis, e);
   const double w = !out.corner ? closest.best_w : closest.best_w < 0.0 ? -1.0 : 1.0;
   for (int a = 0; a < 2; ++a) out.xi[a] = edge.middle[a] + edge.along[a] * w;
   return true;

@@ -57,9 +57,9 @@ template <class B, bool H> struct Candidates {
       return false;
     }
     if (t.kind == ProjectionKind::normal && !is_minimum(p.f2, p.metric)) return false;
-    const bool now_inside = on_segment<B>(p.xi, plan.border);
+    const bool now_inside = on_segment(g.basis, p.xi, plan.border);
     double r = rank(t, p);
-    if (now_inside) r += beyond_segment<B>(p.xi) * square_root(dot(p.s.a[0], p.s.a[0]));
+    if (now_inside) r += beyond_segment(g.basis, p.xi) * square_root(dot(p.s.a[0], p.s.a[0]));
     tie = tie_size * square_root(dot(p.s.a[0], p.s.a[0]));
     if (r > wanted) return true;
     if (result.found != Found::yes || (now_inside && !inside) ||
@@ -97,7 +97,7 @@ template <class B, bool H> struct Candidates {
       size2 = greater(size2, length2);
     }
     const double most = 10.0 * next_to_collapsed_edge<H>;
-    if (!(off2 < most * most * size2) || !on_segment<B>(p.xi, plan.border)) return false;
+    if (!(off2 < most * most * size2) || !on_segment(g.basis, p.xi, plan.border)) return false;
     const double r = rank(t, p);
     tie = tie_size * square_root(size2);
     if (r > wanted) return true;
@@ -111,23 +111,6 @@ template <class B, bool H> struct Candidates {
   // Nothing with a rank above this matters.
   double limit() const { return inside ? lesser(best_rank + tie, wanted) : wanted; }
 };
-
-// u . e_a over the box, for a fixed vector u
-template <int D> ENTS_INLINE Ball dot(const Vec<double, D>& u, const Vec<Ball, D>& e) {
-  Ball s = u[0] * e[0];
-  for (int k = 1; k < D; ++k) s = s + u[k] * e[k];
-  return s;
-}
-
-// Smallest length in a box of vectors.
-template <int D> ENTS_INLINE double least_length(const Vec<Ball, D>& d) {
-  double low2 = 0.0;
-  for (int k = 0; k < D; ++k) {
-    const double low = greater(absolute(d[k].v) - d[k].r, 0.0);
-    low2 += low * low;
-  }
-  return square_root(low2);
-}
 
 // Largest change of u . rho_e between the centre and any point of the box, to first and to second order.
 template <class B, bool H>
@@ -151,7 +134,7 @@ template <bool H>
 ENTS_NOINLINE bool search_collapsed(const Geometry<Quad4>& g, const Target& t, const Plan& plan, double limit,
                                     int budget, int e, Search& result, double (&xi)[2], int& evaluations) {
   const int nodes[3] = {e, (e + 2) % 4, (e + 3) % 4};
-  Geometry<Tri3> triangle;
+  Geometry<Tri3> triangle{Tri3()};
   double coordinates[6];
   for (int i = 0; i < 3; ++i) triangle.y[i] = g.y[nodes[i]];
   triangle.surface_coordinates = nullptr, triangle.height = g.height,
@@ -320,11 +303,12 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
   Candidates<B, H> all{g, t, best, plan, limit};
   Projection<B, H> p;
   Box<T> box;
-  domain_centre<B>(box.c);
+  domain_centre(g.basis, box.c);
   if constexpr (H) { // the point of the plain segment is a good start on the enriched one
     Projection<B, false> plain;
     for (int a = 0; a < T; ++a) plain.xi[a] = box.c[a];
-    if (project(g, t, plain) == Found::yes && on_segment<B>(plain.xi, plan.border)) all.attempt(plain.xi, p);
+    if (project(g, t, plain) == Found::yes && on_segment(g.basis, plain.xi, plan.border))
+      all.attempt(plain.xi, p);
     all.evaluations += plain.evaluations;
   }
   const int collapsed = collapsed_edge(g);
@@ -345,9 +329,10 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
       }
     }
   const double rim = plan.border; // as on_segment()
+  const bool simplex = is_simplex(g.basis);
   for (int a = 0; a < T; ++a) {
-    box.c[a] = B::simplex ? 0.5 : 0.0;
-    box.w[a] = (B::simplex ? 0.5 : 1.0) + rim;
+    box.c[a] = simplex ? 0.5 : 0.0;
+    box.w[a] = (simplex ? 0.5 : 1.0) + rim;
   }
   // Most plain neighbours of the segment that has the projection are excluded as a whole.
   if (int half; !H && !is_flat<B> && collapsed < 0 && limit < no_limit) {
@@ -358,7 +343,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     }
   }
   double centre[T];
-  domain_centre<B>(centre);
+  domain_centre(g.basis, centre);
   if (!all.inside) all.attempt(centre, p);
   if (!is_flat<B> || H) {
     if (collapsed >= 0) { // short of the collapsed edge, where there is no normal
@@ -374,7 +359,7 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     bool certain = true;
     while (count > 0) {
       box = waiting[--count];
-      if (B::simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
+      if (simplex && box.c[0] - box.w[0] + box.c[T - 1] - box.w[T - 1] > 1.0 + rim) continue;
       if (all.evaluations > budget) {
         certain = false;
         break;

@@ -206,8 +206,9 @@ template <class B, bool H, class S> struct Pair {
     }
     at.size2 = dot(p.s.a[0], p.s.a[0]);
     if constexpr (T == 2) at.size2 = at.size2 + dot(p.s.a[1], p.s.a[1]);
-    if constexpr (B::simplex) {
-      outside = either(either(xi[0] < -plan.border, xi[1] < -plan.border), xi[0] + xi[1] - 1.0 > plan.border);
+    if (is_simplex(nodes.basis)) {
+      outside = either(either(xi[0] < -plan.border, xi[T - 1] < -plan.border),
+                       xi[0] + xi[T - 1] - 1.0 > plan.border);
     } else {
       outside = absolute(xi[0]) - 1.0 > plan.border;
       if constexpr (T == 2) outside = either(outside, absolute(xi[1]) - 1.0 > plan.border);
@@ -219,6 +220,7 @@ template <class B, bool H, class S> struct Pair {
   // closest point, too?
   ENTS_INLINE Truth<S> is_regular(const Measured& at, bool closest = true) const {
     const auto& p = projector;
+    const int count = node_count(nodes.basis);
     Truth<S> regular = has_area();
     if constexpr (H) {
       regular = both(regular, at.area2_e > degenerate_size * at.area2);
@@ -228,12 +230,12 @@ template <class B, bool H, class S> struct Pair {
       regular = both(regular, heights < safe_magnitude);
       if (nodes.has_coordinates) {
         S far = absolute(nodes.coordinates[0]);
-        for (int i = 1; i < T * B::nodes; ++i) far = far + absolute(nodes.coordinates[i]);
+        for (int i = 1; i < T * count; ++i) far = far + absolute(nodes.coordinates[i]);
         regular = both(regular, far < safe_magnitude);
       }
     }
     S reach2 = dot(nodes.y[0], nodes.y[0]);
-    for (int i = 1; i < B::nodes; ++i) reach2 = reach2 + dot(nodes.y[i], nodes.y[i]);
+    for (int i = 1; i < count; ++i) reach2 = reach2 + dot(nodes.y[i], nodes.y[i]);
     // degenerate segments: the margins of Geometry::smallest_area2, and more. On a plane xi comes from normal
     // equations, whose error grows with the square of the ratio of the sides: up to 100
     constexpr double flattest = is_flat<B> && T == 2 ? 1e-4 : 1e-20;
@@ -247,7 +249,7 @@ template <class B, bool H, class S> struct Pair {
   // Is it so deep that the careful kernel has to decide whether that is too deep? across: g |m|
   ENTS_INLINE Truth<S> is_deep(const Plan& plan, const Measured& at, const S& across) const {
     const S deep2 = plan.penetration_limit > 0.0 ? S(plan.penetration_limit * plan.penetration_limit)
-                                                 : (B::simplex ? 1.0 : 4.0) * at.size2;
+                                                 : (is_simplex(nodes.basis) ? 1.0 : 4.0) * at.size2;
     return across * across >= 0.99 * deep2 * at.area2_e;
   }
 

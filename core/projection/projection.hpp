@@ -209,10 +209,11 @@ ENTS_NOINLINE Found project(const Geometry<B>& g, const Target& t, Projection<B,
 }
 
 // Natural coordinates by which xi lies beyond the edges of the segment; 0 on it.
-template <class B> ENTS_INLINE double beyond_segment(const double (&xi)[B::dim - 1]) {
+template <class B> ENTS_INLINE double beyond_segment(const B& basis, const double (&xi)[B::dim - 1]) {
   double most = 0.0;
-  if constexpr (B::simplex) {
-    for (const double x : {-xi[0], -xi[1], xi[0] + xi[1] - 1.0}) most = x > most ? x : most;
+  if (is_simplex(basis)) {
+    const double last = xi[B::dim - 2];
+    for (const double x : {-xi[0], -last, xi[0] + last - 1.0}) most = x > most ? x : most;
   } else {
     const double x = max_norm(xi) - 1.0;
     most = x > 0.0 ? x : 0.0;
@@ -221,8 +222,9 @@ template <class B> ENTS_INLINE double beyond_segment(const double (&xi)[B::dim -
 }
 
 // Is xi on the segment? The border keeps a node on a common edge from falling between two segments.
-template <class B> ENTS_INLINE bool on_segment(const double (&xi)[B::dim - 1], double border) {
-  return beyond_segment<B>(xi) <= border;
+template <class B>
+ENTS_INLINE bool on_segment(const B& basis, const double (&xi)[B::dim - 1], double border) {
+  return beyond_segment(basis, xi) <= border;
 }
 
 } // namespace ents::ENTS_ISA

@@ -35,6 +35,6 @@ template <class B, bool H>
 void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low,
                  double* high);
 // The half-sizes of a segment with its border over those of the box of its nodes: at most max sum_i |N_i|.
-template <class B> double hull_spread(double border);
+template <class B> double hull_spread(Basis which, double border);
 
 } // namespace ents::ENTS_ISA

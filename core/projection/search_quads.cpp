@@ -3,6 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_SEARCH(Quad4)
-ENTS_SEARCH(Quad8)
-ENTS_SEARCH(Quad9)
 } // namespace ents::ENTS_ISA

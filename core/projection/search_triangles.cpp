@@ -3,5 +3,4 @@
 
 namespace ents::ENTS_ISA {
 ENTS_SEARCH(Tri3)
-ENTS_SEARCH(Tri6)
 } // namespace ents::ENTS_ISA

@@ -13,7 +13,7 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
                         SegmentProjection& out) {
   constexpr int D = B::dim, T = D - 1;
   out.ambiguous = false;
-  Geometry<B> g;
+  Geometry<B> g(basis_of<B>(plan.basis));
   g.set(slave, master);
   g.surface_coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   g.height = plan.height;
@@ -29,9 +29,9 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
     out.ambiguous = s.ambiguous;
     if (s.found != Found::yes) return false;
   }
-  if (!on_segment<B>(p.xi, plan.border)) return false;
+  if (!on_segment(g.basis, p.xi, plan.border)) return false;
   const double size = square_root(dot(p.s.a[0], p.s.a[0]));
-  out.beyond = beyond_segment<B>(p.xi) * size;
+  out.beyond = beyond_segment(g.basis, p.xi) * size;
   out.rank = rank(t, p) + out.beyond;
   out.tie = tie_size * size;
   if (is_in_collapsed_corner<B, H>(g, p.xi)) // beside that corner: another segment's may be exact
@@ -53,21 +53,22 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
 
 // The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes:
 // with c the centre of that box, rho - c = sum_i N_i (x_i - c).
-template <class B> double hull_spread(double border) {
+template <class B> double hull_spread(Basis which, double border) {
   constexpr int T = B::dim - 1, parts = T == 1 ? 64 : 16;
-  const double low = B::simplex ? -border : -1.0 - border, high = 1.0 + border;
+  const B basis = basis_of<B>(which);
+  const double low = is_simplex(basis) ? -border : -1.0 - border, high = 1.0 + border;
   const double half = 0.5 * (high - low) / parts;
   double most = 1.0;
   for (int j = 0; j < (T == 1 ? 1 : parts); ++j)
     for (int i = 0; i < parts; ++i) {
       const double centre[2] = {low + (2 * i + 1) * half, low + (2 * j + 1) * half};
-      if (B::simplex && centre[0] + centre[1] - 2.0 * half > high) continue;
+      if (is_simplex(basis) && centre[0] + centre[1] - 2.0 * half > high) continue;
       Ball xi[T];
       for (int a = 0; a < T; ++a) xi[a] = {centre[a], half};
       Shape<Ball, T, B::nodes> N;
-      B::template shape<0>(xi, N);
+      basis.template shape<0>(xi, N);
       double sum = 0.0;
-      for (const Ball& n : N.n) sum += magnitude(n);
+      for (int n = 0; n < node_count(basis); ++n) sum += magnitude(N.n[n]);
       most = greater(most, sum);
     }
   return most;
@@ -76,14 +77,16 @@ template <class B> double hull_spread(double border) {
 // Largest |h| on the segment and its border.
 template <class B> ENTS_NOINLINE double height_range(const Plan& plan, const double* surface_coordinates) {
   constexpr int T = B::dim - 1;
+  const B basis = basis_of<B>(plan.basis);
+  const int nodes = node_count(basis);
   Ball s[T], xi[T];
-  for (Ball& x : xi) x = B::simplex ? Ball(0.5, 0.5 + plan.border) : Ball(0.0, 1.0 + plan.border);
+  for (Ball& x : xi) x = is_simplex(basis) ? Ball(0.5, 0.5 + plan.border) : Ball(0.0, 1.0 + plan.border);
   const double* c = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   for (int a = 0; a < T; ++a) {
     s[a] = xi[a];
     if (!c) continue;
     double least = c[a], most = c[a];
-    for (int i = 1; i < B::nodes; ++i) {
+    for (int i = 1; i < nodes; ++i) {
       least = lesser(least, c[T * i + a]);
       most = greater(most, c[T * i + a]);
     }
@@ -96,10 +99,11 @@ template <class B, bool H>
 void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low,
                  double* high) {
   constexpr int D = B::dim;
+  const int nodes = node_count(basis_of<B>(plan.basis));
   double centre[D], half[D], size = 0.0;
   for (int k = 0; k < D; ++k) {
     double least = master[k], most = master[k];
-    for (int i = 1; i < B::nodes; ++i) {
+    for (int i = 1; i < nodes; ++i) {
       least = lesser(least, master[D * i + k]);
       most = greater(most, master[D * i + k]);
     }
@@ -134,6 +138,6 @@ void segment_box(const Plan& plan, const double* master, const double* surface_c
                                               double, BorderPoint&);                                         \
   template void segment_box<B, false>(const Plan&, const double*, const double*, double*, double*);          \
   template void segment_box<B, true>(const Plan&, const double*, const double*, double*, double*);           \
-  template double hull_spread<B>(double);
+  template double hull_spread<B>(Basis, double);
 
 } // namespace ents::ENTS_ISA

@@ -10,15 +10,16 @@ namespace ents::ENTS_ISA {
 
 // s(xi) of a segment and its gradient [t][a]
 template <class B>
-ENTS_INLINE void coordinates_at(const double* c, const double (&xi)[B::dim - 1], double (&s)[B::dim - 1],
-                                double (&s1)[B::dim - 1][B::dim - 1]) {
+ENTS_INLINE void coordinates_at(const B& basis, const double* c, const double (&xi)[B::dim - 1],
+                                double (&s)[B::dim - 1], double (&s1)[B::dim - 1][B::dim - 1]) {
   constexpr int T = B::dim - 1;
   Shape<double, T, B::nodes> N;
-  B::template shape<1>(xi, N);
+  basis.template shape<1>(xi, N);
+  const int nodes = node_count(basis);
   for (int t = 0; t < T; ++t) {
     s[t] = 0.0;
     for (int a = 0; a < T; ++a) s1[t][a] = 0.0;
-    for (int i = 0; i < B::nodes; ++i) {
+    for (int i = 0; i < nodes; ++i) {
       s[t] += N.n[i] * c[T * i + t];
       for (int a = 0; a < T; ++a) s1[t][a] += N.d1[a][i] * c[T * i + t];
     }
@@ -27,13 +28,13 @@ ENTS_INLINE void coordinates_at(const double* c, const double (&xi)[B::dim - 1],
 
 // xi with s(xi) = wanted, by Newton's method from the middle; exact after one step for affine s.
 template <class B>
-ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::dim - 1],
+ENTS_INLINE bool locate_coordinates(const B& basis, const double* c, const double (&wanted)[B::dim - 1],
                                     double (&xi)[B::dim - 1]) {
   constexpr int T = B::dim - 1;
-  domain_centre<B>(xi);
+  domain_centre(basis, xi);
   for (int iteration = 0; iteration < max_evaluations; ++iteration) {
     double s[T], s1[T][T], step[T];
-    coordinates_at<B>(c, xi, s, s1);
+    coordinates_at(basis, c, xi, s, s1);
     for (int t = 0; t < T; ++t) s[t] = wanted[t] - s[t];
     if constexpr (T == 1) {
       if (s1[0][0] == 0.0) return false;
@@ -56,14 +57,15 @@ ENTS_INLINE bool locate_coordinates(const double* c, const double (&wanted)[B::d
 // zero, then what they are where both segments have a node in the same place: across the seam of a closed
 // surface a full turn, say.
 template <class B, class F>
-ENTS_INLINE bool try_seams(const double* old_master, const double* old_c, const double* new_master,
-                           const double* new_c, F&& f) {
+ENTS_INLINE bool try_seams(const B& basis, const double* old_master, const double* old_c,
+                           const double* new_master, const double* new_c, F&& f) {
   constexpr int D = B::dim, T = D - 1, most = 4;
   double tried[most][T] = {};
   if (f(tried[0])) return true;
+  const int nodes = node_count(basis);
   int count = 1;
-  for (int i = 0; i < B::nodes; ++i)
-    for (int j = 0; j < B::nodes; ++j) {
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j) {
       double apart_by = 0.0, far = 0.0;
       for (int k = 0; k < D; ++k) {
         apart_by += absolute(old_master[D * i + k] - new_master[D * j + k]);
@@ -108,7 +110,7 @@ ENTS_INLINE bool is_there(const Geometry<B>& g, const Surface<B, H, double>& old
   for (int a = 0; a < B::dim - 1; ++a) {
     const double before = square_root(dot(old.a[a], old.a[a])), now = square_root(dot(p.s.a[a], p.s.a[a]));
     size = before + now > size ? before + now : size;
-    const double length = beyond_segment<B>(old_xi) * before + beyond_segment<B>(xi) * now;
+    const double length = beyond_segment(g.basis, old_xi) * before + beyond_segment(g.basis, xi) * now;
     beyond = length > beyond ? length : beyond;
   }
   // farther beyond than two segments nobody knows what it goes on as
@@ -124,7 +126,7 @@ ENTS_INLINE bool closest_place(const Plan& plan, const Geometry<B>& g, Projectio
   t.kind = ProjectionKind::normal;
   const bool found = search<B, H>(g, t, plan, p).found == Found::yes;
   Projection<B, false> base;
-  domain_centre<B>(base.xi);
+  domain_centre(g.basis, base.xi);
   if (project(g, t, base) != Found::yes) return found;
   Projection<B, H> near;
   for (int a = 0; a < B::dim - 1; ++a) near.xi[a] = base.xi[a];
@@ -139,9 +141,11 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
                       double* moved) {
   constexpr int D = B::dim, T = D - 1;
   const StateLayout& layout = plan.state;
-  if (!all_finite<D * B::nodes>(old_master) || !all_finite<D * B::nodes>(new_master) ||
-      (old_coordinates && !all_finite<T * B::nodes>(old_coordinates)) ||
-      (new_coordinates && !all_finite<T * B::nodes>(new_coordinates)))
+  const B basis = basis_of<B>(plan.basis);
+  const int nodes = node_count(basis);
+  if (!all_finite(old_master, D * nodes) || !all_finite(new_master, D * nodes) ||
+      (old_coordinates && !all_finite(old_coordinates, T * nodes)) ||
+      (new_coordinates && !all_finite(new_coordinates, T * nodes)))
     return Status::non_finite;
   if (!is_state(layout, state)) return Status::bad_state;
   double end[largest_state];
@@ -160,7 +164,7 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     }
     const double* old_xi = state + points[which];
     double xi[T];
-    Geometry<B> g;
+    Geometry<B> g(basis);
     g.set(old_master, old_master);
     g.surface_coordinates = old_coordinates ? old_coordinates : plan.surface_coordinates;
     g.height = plan.height;
@@ -172,31 +176,32 @@ Status transfer_state(const Plan& plan, const double* old_master, const double* 
     g.surface_coordinates = new_coordinates ? new_coordinates : plan.surface_coordinates;
     bool located = old_coordinates && new_coordinates;
     if (located) {
-      coordinates_at<B>(old_coordinates, from.xi, s, s1);
+      coordinates_at(basis, old_coordinates, from.xi, s, s1);
       // Of several places the one that is least beyond the border; the first one where that is hardly so.
       double least = 0.0;
       located = false;
-      try_seams<B>(old_master, old_coordinates, new_master, new_coordinates, [&](const double(&ahead)[T]) {
+      const auto try_at = [&](const double(&ahead)[T]) {
         double wanted[T], there[T];
         for (int t = 0; t < T; ++t) wanted[t] = s[t] + ahead[t];
-        if (!locate_coordinates<B>(new_coordinates, wanted, there) ||
+        if (!locate_coordinates(basis, new_coordinates, wanted, there) ||
             !is_there<B, H>(g, from.s, from.xi, there, to))
           return false;
-        const double beyond = beyond_segment<B>(there);
+        const double beyond = beyond_segment(basis, there);
         if (!located || beyond < least) {
           for (int a = 0; a < T; ++a) xi[a] = there[a];
           least = beyond;
         }
         located = true;
         return least < 2.0;
-      });
+      };
+      try_seams(basis, old_master, old_coordinates, new_master, new_coordinates, try_at);
     }
     if (!located) {
       const bool found = closest_place(plan, g, to);
       if (!found && which > 0) return Status::no_projection;
       // Where the next projection starts is no history: a slave that went far may start from the middle.
       if (!found) {
-        domain_centre<B>(to.xi);
+        domain_centre(basis, to.xi);
         if (!touches) end[StateLayout::history_at] = static_cast<double>(History::none);
       }
       for (int a = 0; a < T; ++a) xi[a] = to.xi[a];

@@ -6,8 +6,10 @@
 //   B::dim, B::nodes      d and the number m of master nodes; T = d - 1 convective coordinates
 //   B::second[k]          is the second derivative 11 | 11, 12, 22 not identically zero?
 //   B::third[k]           the same for the third derivatives 111 | 111, 112, 122, 222
+//   B::degree             of its polynomials: per direction or, of a triangle, in all
 //   B::simplex            domain xi >= 0, sum xi <= 1 instead of -1 .. 1 per direction
-//   B::shape<Order>(xi, Shape&)   N and its derivatives up to Order (at most 3)
+//   B::shape<Order>(xi, s)   N and its derivatives up to Order (at most 3), to a Shape of so many nodes or
+//                            more
 // What is not computed (order, identically zero) must not be read.
 #pragma once
 
@@ -46,7 +48,7 @@ struct Quadratic1D { // ends, then middle
     f[2][1] = S(1.0);
     f[2][2] = S(-2.0);
   }
-  template <class S, class V> static ENTS_INLINE void powers(const V (&v)[count], V (&p)[3]) {
+  template <class S, class V> static ENTS_INLINE void powers(const V* v, V* p) {
     p[0] = v[2];
     p[1] = S(0.5) * (v[1] - v[0]);
     p[2] = S(0.5) * (v[1] + v[0]) - v[2];
@@ -75,7 +77,7 @@ template <class Coefficients> struct Cubic1D {
     for (int l = 0; l < k; ++l) sum *= 0.5;
     return Coefficients::scale * sum;
   }
-  template <class S, class V> static ENTS_INLINE void powers(const V (&v)[count], V (&p)[4]) {
+  template <class S, class V> static ENTS_INLINE void powers(const V* v, V* p) {
     unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
       p[k] = S(power(0, k)) * v[0];
       unroll<3>([&](auto i) ENTS_LAMBDA_INLINE {
@@ -98,11 +100,11 @@ using CatmullRom1D = Cubic1D<CatmullRomCoefficients>;
 using BSpline1D = Cubic1D<BSplineCoefficients>;
 
 template <class F> struct LineBasis {
-  static constexpr int dim = 2, nodes = F::count;
+  static constexpr int dim = 2, nodes = F::count, degree = F::degree;
   static constexpr bool simplex = false;
   static constexpr bool second[1] = {F::degree >= 2};
   static constexpr bool third[1] = {F::degree >= 3};
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[1], Shape<S, 1, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[1], Out& s) {
     S f[4][nodes];
     F::template eval<Order>(xi[0], f);
     for (int i = 0; i < nodes; ++i) {
@@ -116,11 +118,11 @@ template <class F> struct LineBasis {
 
 // N_i(xi) = F_(Numbering::i[i])(xi_1) F_(Numbering::j[i])(xi_2)
 template <class F, class Numbering> struct TensorBasis {
-  static constexpr int dim = 3, nodes = F::count * F::count;
+  static constexpr int dim = 3, nodes = F::count * F::count, degree = F::degree;
   static constexpr bool simplex = false;
   static constexpr bool second[3] = {F::degree >= 2, true, F::degree >= 2};
   static constexpr bool third[4] = {F::degree >= 3, F::degree >= 2, F::degree >= 2, F::degree >= 3};
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[2], Out& s) {
     S f[4][F::count], g[4][F::count];
     F::template eval<Order>(xi[0], f);
     F::template eval<Order>(xi[1], g);
@@ -167,14 +169,14 @@ using BSpline16 = TensorBasis<BSpline1D, RowByRow>;
 
 // Serendipity quad8 = quad9 whose centre node is -1/4 of the corners + 1/2 of the mid-sides.
 struct Quad8 {
-  static constexpr int dim = 3, nodes = 8;
+  static constexpr int dim = 3, nodes = 8, degree = 2;
   static constexpr bool simplex = false;
   static constexpr bool second[3] = {true, true, true};
   static constexpr bool third[4] = {false, true, true, false};
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[2], Out& s) {
     Shape<S, 2, 9> q;
     Quad9::shape<Order>(xi, q);
-    const auto condense = [](const S(&from)[9], S(&to)[8]) ENTS_LAMBDA_INLINE {
+    const auto condense = [](const S(&from)[9], auto& to) ENTS_LAMBDA_INLINE {
       for (int k = 0; k < 8; ++k) to[k] = from[k] + (k < 4 ? -0.25 : 0.5) * from[8];
     };
     condense(q.n, s.n);
@@ -188,11 +190,11 @@ struct Quad8 {
 };
 
 struct Tri3 {
-  static constexpr int dim = 3, nodes = 3;
+  static constexpr int dim = 3, nodes = 3, degree = 1;
   static constexpr bool simplex = true;
   static constexpr bool second[3] = {false, false, false};
   static constexpr bool third[4] = {false, false, false, false};
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[2], Out& s) {
     s.n[0] = 1.0 - xi[0] - xi[1];
     s.n[1] = xi[0];
     s.n[2] = xi[1];
@@ -205,11 +207,11 @@ struct Tri3 {
 };
 
 struct Tri6 { // corners, mid-sides 12 23 31
-  static constexpr int dim = 3, nodes = 6;
+  static constexpr int dim = 3, nodes = 6, degree = 2;
   static constexpr bool simplex = true;
   static constexpr bool second[3] = {true, true, true};
   static constexpr bool third[4] = {false, false, false, false};
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[2], Out& s) {
     const S x = xi[0], y = xi[1], z = 1.0 - x - y;
     s.n[0] = z * (2.0 * z - 1.0);
     s.n[1] = x * (2.0 * x - 1.0);
@@ -235,7 +237,7 @@ struct Tri6 { // corners, mid-sides 12 23 31
 // Corners, then the three on each edge 12 23 31 in its direction, then the inner ones, each next to its
 // corner. It has every regular patch of Loop's subdivision surface.
 struct Bezier15 {
-  static constexpr int dim = 3, nodes = 15;
+  static constexpr int dim = 3, nodes = 15, degree = 4;
   static constexpr bool simplex = true;
   static constexpr bool second[3] = {true, true, true};
   static constexpr bool third[4] = {true, true, true, true};
@@ -245,7 +247,7 @@ struct Bezier15 {
 
   // Derivatives of Bernstein polynomials are differences of those of lower degree: by x, lower j less lower
   // i.
-  template <int Order, class S> static ENTS_INLINE void shape(const S (&xi)[2], Shape<S, 2, nodes>& s) {
+  template <int Order, class S, class Out> static ENTS_INLINE void shape(const S (&xi)[2], Out& s) {
     const S of[3] = {1.0 - xi[0] - xi[1], xi[0], xi[1]};
     S p[3][5];
     for (int v = 0; v < 3; ++v) {
@@ -279,10 +281,6 @@ struct Bezier15 {
     }
   }
 };
-
-template <class B> ENTS_INLINE void domain_centre(double (&xi)[B::dim - 1]) {
-  for (double& x : xi) x = B::simplex ? 1.0 / 3.0 : 0.0;
-}
 
 // Does the basis bend at all? Flat segments (line2, tri3) have a constant normal.
 template <class B>

@@ -6,6 +6,7 @@
 //   quad4                     bilinear; a_1 x a_2 is linear in xi
 //   line3, tri6, quad8, quad9 quadratic in each direction (tri6: in all)
 //   smoothed                  cubic in each direction; Bezier triangles: of degree four
+// All but quad4 are counted (counted_basis.hpp): the contraction and the derivatives are chosen by a switch.
 #pragma once
 
 #include "core/height/height_rate.hpp"
@@ -18,12 +19,15 @@ namespace ents::ENTS_ISA {
 // Positions are relative to the slave node.
 template <class B, class S> struct PairNodes {
   static constexpr int T = B::dim - 1;
+  [[no_unique_address]] B basis;
   Vec<S, B::dim> y[B::nodes];
   S coordinates[(B::dim - 1) * B::nodes];
   bool has_coordinates;     // else s = xi
   const HeightNode* height; // enriched
   // Of dual numbers, whose derivatives are those by a parameter: 1 + its index (parameter_rates.hpp)
   std::int32_t parameter = 0;
+
+  ENTS_INLINE explicit PairNodes(const B& of) : basis(of) {}
 
   // `sine` moves there
   template <int Order>
@@ -36,7 +40,7 @@ template <class B, class S> struct PairNodes {
         return move_height<is_flat<B>>(sine, *height, s);
     };
     if (has_coordinates) {
-      evaluate_height_by_xi<B, Order>(height_at, coordinates, xi, N, h);
+      evaluate_height_by_xi<Order>(basis, height_at, coordinates, xi, N, h);
     } else { // number by number: as a whole it would go through memory
       const HeightJet<T, S> jet = height_at(xi);
       h.h = jet.h;
@@ -54,10 +58,10 @@ template <class B, class S> struct PairNodes {
     Dual<S> moving[T];
     for (int a = 0; a < T; ++a) moving[a] = Dual<S>(xi[a], direction[a]);
     Shape<Dual<S>, T, B::nodes> N;
-    B::template shape<2>(moving, N);
+    basis.template shape<2>(moving, N);
     const auto height_at = [&](const Dual<S>(&s)[T])
                                ENTS_LAMBDA_INLINE { return ents::ENTS_ISA::evaluate_height(*height, s); };
-    evaluate_height_by_xi<B, 2>(height_at, coordinates, moving, N, h);
+    evaluate_height_by_xi<2>(basis, height_at, coordinates, moving, N, h);
   }
 };
 
@@ -68,7 +72,8 @@ template <class S, int D> struct AreaVector { Vec<S, D> m, m1[D - 1], m2[symmetr
 template <class B, class S> struct BentArea {
   static constexpr int D = B::dim, T = D - 1;
   static constexpr bool linear_area = false; // m_,ab = 0?
-  template <bool H> static ENTS_INLINE void area_vector(const Surface<B, H, S>& s, AreaVector<S, D>& v) {
+  template <bool H>
+  static ENTS_INLINE void area_vector(const B& basis, const Surface<B, H, S>& s, AreaVector<S, D>& v) {
     v.m = normal_of_tangents(s.a);
     if constexpr (T == 1) {
       v.m1[0] = normal_of_tangents(s.a2);
@@ -81,16 +86,17 @@ template <class B, class S> struct BentArea {
       v.m2[1] = cross(s.a2[0], s.a2[2]);
       v.m2[2] = S(2.0) * cross(s.a2[1], s.a2[2]);
       unroll<3>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k]) v.m2[k] = v.m2[k] + cross(s.a3[k], s.a[1]);
-        if constexpr (B::third[k + 1]) v.m2[k] = v.m2[k] + cross(s.a[0], s.a3[k + 1]);
+        if (has_third(basis, k)) v.m2[k] = v.m2[k] + cross(s.a3[k], s.a[1]);
+        if (has_third(basis, k + 1)) v.m2[k] = v.m2[k] + cross(s.a[0], s.a3[k + 1]);
       });
     }
   }
 };
 
 // c_kj of nodes y[j][i]: of the i-th function of xi_1 and the j-th of xi_2
-template <class F, class S, int N, int M>
-ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M]) {
+template <class F, class S, int W>
+ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[F::count][F::count], Vec<S, 3> (&c)[W][W]) {
+  constexpr int N = F::count, M = F::degree + 1;
   Vec<S, 3> along[N][M];
   for (int j = 0; j < N; ++j) F::template powers<S>(y[j], along[j]);
   for (int i = 0; i < M; ++i) {
@@ -101,113 +107,37 @@ ENTS_INLINE void tensor_powers(const Vec<S, 3> (&y)[N][N], Vec<S, 3> (&c)[M][M])
   }
 }
 
-// rho - x_s and its derivatives. Every basis has
-//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the
-//                     height needs it
-//   thirds            rho_,abc
-//   third_rates       how they change along y, y^d rho_,abcd
-template <class B, class S> struct Rho;
+// Powers of a basis: the factors c of the powers of natural coordinates, of nodes y.
+template <class B> struct PowersOf;
 
-template <class F, class S>
-requires(F::degree > 1) struct Rho<LineBasis<F>, S> : BentArea<LineBasis<F>, S> {
-  using B = LineBasis<F>;
-  using V = Vec<S, 2>;
-  V c[F::degree + 1];
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { F::template powers<S>(nodes.y, c); }
-
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
-                            Surface<B, H, S>& s) const {
-    if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
-    V d[4];
-    divide_by_powers<F::degree, 3>(c, xi[0], d);
-    s.d = -d[0];
-    s.a[0] = d[1];
-    s.a2[0] = d[2] + d[2];
-    if constexpr (Order > 2) s.a3[0] = F::degree > 2 ? S(6.0) * d[3] : V::zero();
-  }
-  ENTS_INLINE void thirds(const S (&)[1], V (&a3)[1]) const { a3[0] = S(6.0) * c[3]; }
-  ENTS_INLINE void third_rates(const S (&)[1], const S (&)[1], V (&rate)[1]) const { rate[0] = V::zero(); }
-};
-
-template <class B, int Degree, class S> struct RhoInSpace : BentArea<B, S> {
-  using V = Vec<S, 3>;
-  using Powers = SurfacePolynomial<Degree, B::simplex, S>;
-  Powers p;
-
-  template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
-                            Surface<B, H, S>& s) const {
-    if (H && nodes.has_coordinates) B::template shape<2>(xi, N);
-    typename Powers::template Derivatives<Order> d;
-    p.differentiate(xi, d);
-    s.d = -d.of[0][0];
-    s.a[0] = d.of[1][0];
-    s.a[1] = d.of[0][1];
-    s.a2[0] = d.of[2][0] + d.of[2][0];
-    s.a2[1] = d.of[1][1];
-    s.a2[2] = d.of[0][2] + d.of[0][2];
-    if constexpr (Order > 2) set_thirds(d, s.a3);
-  }
-  ENTS_INLINE void thirds(const S (&xi)[2], V (&a3)[4]) const {
-    typename Powers::template Derivatives<3> d;
-    p.differentiate(xi, d);
-    set_thirds(d, a3);
-  }
-  ENTS_INLINE void third_rates(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
-    typename Powers::template Derivatives<4> d;
-    p.differentiate(xi, d);
-    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3],
-                         S(24.0) * d.of[0][4]};
-    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
-      constexpr bool by_1 = Powers::has(4 - k.value, k), by_2 = Powers::has(3 - k.value, k + 1);
-      rate[k] = by_1 ? y[0] * fourth[k] : by_2 ? y[1] * fourth[k + 1] : V::zero();
-      if constexpr (by_1 && by_2) add_scaled(rate[k], y[1], fourth[k + 1]);
-    });
-  }
-
-private:
-  template <class D> static ENTS_INLINE void set_thirds(const D& d, V (&a3)[4]) {
-    constexpr double factor[4] = {6.0, 2.0, 2.0, 6.0};
-    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Powers::has(3 - k.value, k))
-        a3[k] = S(factor[k]) * d.of[3 - k][k];
-      else
-        a3[k] = V::zero();
-    });
+template <class F> struct PowersOf<LineBasis<F>> {
+  template <class S> static ENTS_INLINE void set(const Vec<S, 2>* y, Vec<S, 2>* c) {
+    F::template powers<S>(y, c);
   }
 };
-
-template <class F, class Numbering, class S>
-requires(F::degree > 1) struct Rho<TensorBasis<F, Numbering>, S>
-    : RhoInSpace<TensorBasis<F, Numbering>, F::degree, S> {
-  using B = TensorBasis<F, Numbering>;
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) {
+template <class F, class Numbering> struct PowersOf<TensorBasis<F, Numbering>> {
+  template <class S, int W> static ENTS_INLINE void set(const Vec<S, 3>* nodes, Vec<S, 3> (&c)[W][W]) {
     Vec<S, 3> y[F::count][F::count];
-    for (int k = 0; k < B::nodes; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes.y[k];
-    tensor_powers<F, S>(y, this->p.c);
+    for (int k = 0; k < F::count * F::count; ++k) y[Numbering::j[k]][Numbering::i[k]] = nodes[k];
+    tensor_powers<F>(y, c);
   }
 };
-
 // a quad9 whose centre node follows from the others
-template <class S> struct Rho<Quad8, S> : RhoInSpace<Quad8, 2, S> {
-  ENTS_INLINE explicit Rho(const PairNodes<Quad8, S>& nodes) {
+template <> struct PowersOf<Quad8> {
+  template <class S, int W> static ENTS_INLINE void set(const Vec<S, 3>* nodes, Vec<S, 3> (&c)[W][W]) {
     using N = CornersMidsidesCentre;
-    Vec<S, 3> y[3][3], corners = nodes.y[0], sides = nodes.y[4];
-    for (int k = 0; k < 8; ++k) y[N::j[k]][N::i[k]] = nodes.y[k];
+    Vec<S, 3> y[3][3], corners = nodes[0], sides = nodes[4];
+    for (int k = 0; k < 8; ++k) y[N::j[k]][N::i[k]] = nodes[k];
     for (int k = 1; k < 4; ++k) {
-      corners = corners + nodes.y[k];
-      sides = sides + nodes.y[k + 4];
+      corners = corners + nodes[k];
+      sides = sides + nodes[k + 4];
     }
     y[2][2] = S(0.5) * sides - S(0.25) * corners;
-    tensor_powers<Quadratic1D, S>(y, this->p.c);
+    tensor_powers<Quadratic1D>(y, c);
   }
 };
-
-template <class S> struct Rho<Tri6, S> : RhoInSpace<Tri6, 2, S> {
-  ENTS_INLINE explicit Rho(const PairNodes<Tri6, S>& nodes) {
-    const auto& y = nodes.y;
-    auto& c = this->p.c;
+template <> struct PowersOf<Tri6> {
+  template <class S, int W> static ENTS_INLINE void set(const Vec<S, 3>* y, Vec<S, 3> (&c)[W][W]) {
     const S two(2.0), four(4.0);
     c[0][0] = y[0];
     c[0][1] = four * (y[3] - y[0]) - (y[1] - y[0]);
@@ -217,13 +147,11 @@ template <class S> struct Rho<Tri6, S> : RhoInSpace<Tri6, 2, S> {
     c[1][1] = four * ((y[0] - y[3]) + (y[4] - y[5]));
   }
 };
-
 // With differences D_1, D_2 of neighbouring points along xi_1, xi_2: c_kj = 4! / (j! k! (4 - j - k)!) D_1^j
 // D_2^k b
-template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
-  ENTS_INLINE explicit Rho(const PairNodes<Bezier15, S>& nodes) {
-    auto& c = this->p.c;
-    for (int n = 0; n < Bezier15::nodes; ++n) c[Bezier15::power[n][2]][Bezier15::power[n][1]] = nodes.y[n];
+template <> struct PowersOf<Bezier15> {
+  template <class S, int W> static ENTS_INLINE void set(const Vec<S, 3>* y, Vec<S, 3> (&c)[W][W]) {
+    for (int n = 0; n < Bezier15::nodes; ++n) c[Bezier15::power[n][2]][Bezier15::power[n][1]] = y[n];
     for (int order = 1; order <= 4; ++order)
       for (int k = 0; k <= 4 - order; ++k)
         for (int j = 4 - k; j >= order; --j) c[k][j] = c[k][j] - c[k][j - 1];
@@ -234,6 +162,111 @@ template <class S> struct Rho<Bezier15, S> : RhoInSpace<Bezier15, 4, S> {
     for (int k = 0; k <= 4; ++k)
       for (int j = k == 0; j <= 4 - k; ++j)
         c[k][j] = S(24.0 / (factorial[j] * factorial[k] * factorial[4 - j - k])) * c[k][j];
+  }
+};
+
+// rho - x_s and its derivatives. Every basis has
+//   evaluate<Order>   s.d = x_s - rho, tangents, curvatures; Order 3: third derivatives, too; N where the
+//                     height needs it
+//   thirds            rho_,abc
+//   third_rates       how they change along y, y^d rho_,abcd
+template <class B, class S> struct Rho;
+
+template <class S> struct Rho<CountedBasis<2>, S> : BentArea<CountedBasis<2>, S> {
+  using B = CountedBasis<2>;
+  using V = Vec<S, 2>;
+  V c[4];
+  bool cubic; // else quadratic
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) : cubic(nodes.basis.degree == 3) {
+    c[3] = V::zero();
+    with_basis<2>(nodes.basis.which, [&](auto basis) ENTS_LAMBDA_INLINE {
+      PowersOf<decltype(basis)>::template set<S>(nodes.y, c);
+    });
+  }
+
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
+    if (H && nodes.has_coordinates) nodes.basis.template shape<2>(xi, N);
+    V d[4];
+    if (cubic)
+      divide_by_powers<3, 3>(c, xi[0], d);
+    else
+      divide_by_powers<2, 3>(c, xi[0], d);
+    s.d = -d[0];
+    s.a[0] = d[1];
+    s.a2[0] = d[2] + d[2];
+    if constexpr (Order > 2) s.a3[0] = cubic ? S(6.0) * d[3] : V::zero();
+  }
+  ENTS_INLINE void thirds(const B&, const S (&)[1], V (&a3)[1]) const { a3[0] = S(6.0) * c[3]; }
+  ENTS_INLINE void third_rates(const B&, const S (&)[1], const S (&)[1], V (&rate)[1]) const {
+    rate[0] = V::zero();
+  }
+};
+
+template <class S> struct Rho<CountedBasis<3>, S> : BentArea<CountedBasis<3>, S> {
+  using B = CountedBasis<3>;
+  using V = Vec<S, 3>;
+  V c[5][5];
+  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { set(nodes); }
+
+  template <int Order, bool H>
+  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
+                            Surface<B, H, S>& s) const {
+    if (H && nodes.has_coordinates) nodes.basis.template shape<2>(xi, N);
+    SurfaceDerivatives<S, Order> d;
+    differentiate(nodes.basis, xi, d);
+    s.d = -d.of[0][0];
+    s.a[0] = d.of[1][0];
+    s.a[1] = d.of[0][1];
+    s.a2[0] = d.of[2][0] + d.of[2][0];
+    s.a2[1] = d.of[1][1];
+    s.a2[2] = d.of[0][2] + d.of[0][2];
+    if constexpr (Order > 2) set_thirds(nodes.basis, d, s.a3);
+  }
+  ENTS_INLINE void thirds(const B& basis, const S (&xi)[2], V (&a3)[4]) const {
+    SurfaceDerivatives<S, 3> d;
+    differentiate(basis, xi, d);
+    set_thirds(basis, d, a3);
+  }
+  ENTS_INLINE void third_rates(const B& basis, const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
+    with_basis<3>(basis.which, [&](auto type) ENTS_LAMBDA_INLINE {
+      third_rates_of<SurfacePolynomial<decltype(type)::degree, decltype(type)::simplex, S>>(xi, y, rate);
+    });
+  }
+
+private:
+  ENTS_NOINLINE void set(const PairNodes<B, S>& nodes) {
+    with_basis<3>(nodes.basis.which, [&](auto basis) ENTS_LAMBDA_INLINE {
+      PowersOf<decltype(basis)>::template set<S>(nodes.y, c);
+    });
+  }
+  template <int Order>
+  ENTS_INLINE void differentiate(const B& basis, const S (&xi)[2], SurfaceDerivatives<S, Order>& d) const {
+    with_basis<3>(basis.which, [&](auto type) ENTS_LAMBDA_INLINE {
+      derivatives_of<SurfacePolynomial<decltype(type)::degree, decltype(type)::simplex, S>>(xi, d);
+    });
+  }
+  // Out of line: bases of the same degree have the same code.
+  template <class Powers, int Order>
+  ENTS_NOINLINE void derivatives_of(const S (&xi)[2], SurfaceDerivatives<S, Order>& d) const {
+    Powers::differentiate(c, xi, d);
+  }
+  template <class Powers>
+  ENTS_NOINLINE void third_rates_of(const S (&xi)[2], const S (&y)[2], V (&rate)[4]) const {
+    SurfaceDerivatives<S, 4> d;
+    Powers::differentiate(c, xi, d);
+    const V fourth[5] = {S(24.0) * d.of[4][0], S(6.0) * d.of[3][1], S(4.0) * d.of[2][2], S(6.0) * d.of[1][3],
+                         S(24.0) * d.of[0][4]};
+    unroll<4>([&](auto k) ENTS_LAMBDA_INLINE {
+      constexpr bool by_1 = Powers::has(4 - k.value, k), by_2 = Powers::has(3 - k.value, k + 1);
+      rate[k] = by_1 ? y[0] * fourth[k] : by_2 ? y[1] * fourth[k + 1] : V::zero();
+      if constexpr (by_1 && by_2) add_scaled(rate[k], y[1], fourth[k + 1]);
+    });
+  }
+  static ENTS_INLINE void set_thirds(const B& basis, const SurfaceDerivatives<S, 3>& d, V (&a3)[4]) {
+    constexpr double factor[4] = {6.0, 2.0, 2.0, 6.0};
+    for (int k = 0; k < 4; ++k) a3[k] = has_third(basis, k) ? S(factor[k]) * d.of[3 - k][k] : V::zero();
   }
 };
 
@@ -264,7 +297,8 @@ template <class S> struct Rho<Quad4, S> {
     s.a2[0] = s.a2[2] = Vec<S, 3>::zero();
     s.a2[1] = c12;
   }
-  template <bool H> ENTS_INLINE void area_vector(const Surface<Quad4, H, S>& s, AreaVector<S, 3>& v) const {
+  template <bool H>
+  ENTS_INLINE void area_vector(const Quad4&, const Surface<Quad4, H, S>& s, AreaVector<S, 3>& v) const {
     v.m = cross(s.a[0], s.a[1]);
     v.m1[0] = cross(c1, c12); // + xi_2 c12 x c12
     v.m1[1] = cross(c12, c2);

@@ -43,7 +43,7 @@ template <class B, bool H, class S> struct PairProjector {
     rho.template evaluate<H ? 3 : 2>(nodes, xi, N, s);
     if constexpr (H) {
       AreaVector<S, D> v;
-      rho.area_vector(s, v);
+      rho.area_vector(nodes.basis, s, v);
       nodes.template evaluate_height<2>(xi, N, sine, s.height);
       const S area2 = dot(v.m, v.m);
       s.area = square_root(area2);
@@ -160,7 +160,7 @@ requires(is_flat<B>) struct PairProjector<B, H, S> {
       lowered[a] = base[symmetric_index(a, 0)] * off[0];
       if constexpr (T == 2) lowered[a] = lowered[a] + base[symmetric_index(a, 1)] * off[1];
     }
-    if (nodes.has_coordinates) B::template shape<2>(xi, N);
+    if (nodes.has_coordinates) nodes.basis.template shape<2>(xi, N);
     nodes.template evaluate_height<2>(xi, N, sine, s.height);
     const auto& h = s.height;
     const S above = zeta - h.h;

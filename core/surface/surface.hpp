@@ -9,7 +9,7 @@
 #pragma once
 
 #include "core/height/height.hpp"
-#include "core/surface/basis.hpp"
+#include "core/surface/counted_basis.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -22,16 +22,19 @@ inline constexpr double degenerate_distance = 2e-15; // relative to its distance
 // is then computed from differences, whatever the distance to the host's origin.
 template <class B> struct Geometry {
   static constexpr int D = B::dim, T = D - 1;
+  [[no_unique_address]] B basis;
   Vec<double, D> y[B::nodes];        // x_i - x_s
   const double* surface_coordinates; // [nodes][T] or null: s = xi
   const HeightNode* height;          // null: plain segment
   double smallest_area2;             // of the tangents, squared: below it there is no normal
 
+  ENTS_INLINE explicit Geometry(const B& of) : basis(of) {}
   ENTS_INLINE void set(const double* slave, const double* master) {
-    for (int i = 0; i < B::nodes; ++i)
+    const int nodes = node_count(basis);
+    for (int i = 0; i < nodes; ++i)
       for (int k = 0; k < D; ++k) y[i][k] = master[D * i + k] - slave[k];
     double size2 = 0.0; // three nodes say how large a segment is
-    for (int i = 1; i < (B::nodes < 3 ? B::nodes : 3); ++i) {
+    for (int i = 1; i < (nodes < 3 ? nodes : 3); ++i) {
       const Vec<double, D> r = y[i] - y[0];
       size2 += dot(r, r);
     }
@@ -63,11 +66,12 @@ template <class B, bool H, class S> struct Surface {
 };
 
 // h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
-template <class B, int Order, class Height, class S, class C>
-ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, const S (&xi)[B::dim - 1],
-                                       const Shape<S, B::dim - 1, B::nodes>& N,
+template <int Order, class B, class Height, class S, class C>
+ENTS_INLINE void evaluate_height_by_xi(const B& basis, Height&& height, const C* coordinates,
+                                       const S (&xi)[B::dim - 1], const Shape<S, B::dim - 1, B::nodes>& N,
                                        HeightJet<B::dim - 1, S>& out) {
   constexpr int T = B::dim - 1, K = symmetric_size<T>;
+  const int nodes = node_count(basis);
   if (!coordinates) {
     out = height(xi);
     return;
@@ -77,21 +81,21 @@ ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, co
   C relative[is_range<S> ? T * B::nodes : 1];
   if constexpr (is_range<S>) { // sum N_i = 1: of differences, or the ranges of N_i would grow with the
                                // distance from s = 0
-    for (int i = 0; i < T * B::nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
+    for (int i = 0; i < T * nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
     c = relative;
   }
   for (int t = 0; t < T; ++t) {
     s[t] = N.n[0] * c[t];
-    for (int i = 1; i < B::nodes; ++i) s[t] = s[t] + N.n[i] * c[T * i + t];
+    for (int i = 1; i < nodes; ++i) s[t] = s[t] + N.n[i] * c[T * i + t];
     for (int a = 0; a < T; ++a) {
       s1[a][t] = N.d1[a][0] * c[t];
-      for (int i = 1; i < B::nodes; ++i) s1[a][t] = s1[a][t] + N.d1[a][i] * c[T * i + t];
+      for (int i = 1; i < nodes; ++i) s1[a][t] = s1[a][t] + N.d1[a][i] * c[T * i + t];
     }
     if constexpr (Order > 1)
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
         if constexpr (B::second[k]) {
           s2[k][t] = N.d2[k][0] * c[t];
-          for (int i = 1; i < B::nodes; ++i) s2[k][t] = s2[k][t] + N.d2[k][i] * c[T * i + t];
+          for (int i = 1; i < nodes; ++i) s2[k][t] = s2[k][t] + N.d2[k][i] * c[T * i + t];
         }
       });
   }
@@ -115,13 +119,14 @@ ENTS_INLINE void evaluate_height_by_xi(Height&& height, const C* coordinates, co
     });
 }
 
-// sum_i w_i y_i
-template <class S, int D, int M>
-ENTS_INLINE Vec<S, D> combine(const S (&w)[M], const Vec<double, D> (&y)[M]) {
+// sum_i w_i y_i of the nodes
+template <class B, class S> ENTS_INLINE Vec<S, B::dim> combine(const S (&w)[B::nodes], const Geometry<B>& g) {
+  constexpr int D = B::dim;
+  const int nodes = node_count(g.basis);
   Vec<S, D> v;
   for (int k = 0; k < D; ++k) {
-    v[k] = w[0] * y[0][k];
-    for (int i = 1; i < M; ++i) v[k] = v[k] + w[i] * y[i][k];
+    v[k] = w[0] * g.y[0][k];
+    for (int i = 1; i < nodes; ++i) v[k] = v[k] + w[i] * g.y[i][k];
   }
   return v;
 }
@@ -135,18 +140,19 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
   // the curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc
   constexpr bool bent = H && !is_flat<B>;
   constexpr int basis_order = bent || is_range<S> ? Order + 1 : Order;
-  B::template shape<basis_order>(xi, N);
-  s.d = -combine(N.n, g.y);
-  for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g.y);
+  g.basis.template shape<basis_order>(xi, N);
+  s.d = -combine(N.n, g);
+  for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g);
   if constexpr (basis_order > 1)
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) s.a2[k] = combine(N.d2[k], g.y);
+      if constexpr (B::second[k]) s.a2[k] = combine(N.d2[k], g);
     });
   if constexpr (basis_order > 2)
     unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::third[k]) s.a3[k] = combine(N.d3[k], g.y);
+      if constexpr (B::third[k])
+        if (has_third(g.basis, k)) s.a3[k] = combine(N.d3[k], g);
     });
-  if constexpr (is_range<S>) narrow<basis_order, B>(xi, s);
+  if constexpr (is_range<S>) narrow<basis_order>(g.basis, xi, s);
 
   const Vec<S, D> m = normal_of_tangents(s.a);
   const S area2 = dot(m, m);
@@ -178,7 +184,7 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
     const auto height_at = [&](const S(&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
-    evaluate_height_by_xi<B, Order>(height_at, g.surface_coordinates, xi, N, s.height);
+    evaluate_height_by_xi<Order>(g.basis, height_at, g.surface_coordinates, xi, N, s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
     if constexpr (bent) {
@@ -208,7 +214,8 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
             S t = S(0.0);
             if constexpr (B::second[symmetric_index(b, c)]) t = t + dot(s.n1[a], s.a2[symmetric_index(b, c)]);
             if constexpr (B::second[symmetric_index(a, c)]) t = t + dot(s.n1[b], s.a2[symmetric_index(a, c)]);
-            if constexpr (B::third[a + b + c]) t = t + dot(s.n, s.a3[a + b + c]);
+            if constexpr (B::third[a + b + c])
+              if (has_third(g.basis, a + b + c)) t = t + dot(s.n, s.a3[a + b + c]);
             add_scaled(n2, -t, s.dual[c]);
           });
           add_scaled(s.e2[k], h.h, n2);

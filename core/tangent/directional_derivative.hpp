@@ -9,15 +9,9 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B> constexpr bool has_third_derivatives() {
-  for (const bool third : B::third)
-    if (third) return true;
-  return false;
-}
-
 template <class B, bool H, class S> struct DirectionalDerivative {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  static constexpr bool bend_changes = has_third_derivatives<B>(); // y^c rho_,abc
+  static constexpr bool bend_changes = any_third<B>(); // y^c rho_,abc, where has_thirds()
   using U = Dual<S>;
   using V = Vec<S, D>;
 
@@ -62,14 +56,13 @@ private:
   }
   // y^c rho_,abc
   template <int I> ENTS_INLINE V along_third(const V (&third)[T == 1 ? 1 : 4]) const {
-    if constexpr (T == 1)
+    if constexpr (T == 1) {
       return y[0] * third[0];
-    else if constexpr (!B::third[I])
-      return y[1] * third[I + 1];
-    else if constexpr (!B::third[I + 1])
-      return y[0] * third[I];
-    else
+    } else {
+      if (!has_third(p.nodes.basis, I)) return y[1] * third[I + 1];
+      if (!has_third(p.nodes.basis, I + 1)) return y[0] * third[I];
       return y[0] * third[I] + y[1] * third[I + 1];
+    }
   }
   static ENTS_INLINE S rate_of_product(const V& a, const V& a1, const V& b, const V& b1) {
     return dot(a1, b) + dot(a, b1);
@@ -84,7 +77,9 @@ private:
   ENTS_INLINE void move_plain(const S (&xi)[T]) {
     const V d1 = -along(p.s.a);
     V third[T == 1 ? 1 : 4];
-    if constexpr (bend_changes) p.rho.thirds(xi, third);
+    const bool changes = has_thirds(p.nodes.basis);
+    if constexpr (bend_changes)
+      if (changes) p.rho.thirds(p.nodes.basis, xi, third);
     V e1[T];
     set_dual(s.d, p.s.d, d1);
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
@@ -95,7 +90,8 @@ private:
       constexpr int a = k / 2, b = (k + 1) / 2;
       f2[k] = rate_of_product(p.s.a[a], e1[a], p.s.a[b], e1[b]);
       if constexpr (B::second[k]) f2[k] = f2[k] - dot(d1, p.s.a2[k]);
-      if constexpr (bend_changes && B::second[k]) f2[k] = f2[k] - dot(p.s.d, along_third<k.value>(third));
+      if constexpr (bend_changes && B::second[k])
+        if (changes) f2[k] = f2[k] - dot(p.s.d, along_third<k.value>(third));
     });
   }
 
@@ -123,25 +119,27 @@ private:
     if constexpr (Rho<B, S>::linear_area) {
       for (int k = 0; k < K; ++k) set_constant(s.a2[k], p.s.a2[k]);
       AreaVector<S, D> at;
-      p.rho.area_vector(p.s, at);
+      p.rho.area_vector(p.nodes.basis, p.s, at);
       set_dual(v.m, at.m, along(at.m1));
       for (int a = 0; a < T; ++a) set_constant(v.m1[a], at.m1[a]);
     } else {
       V rate[T == 1 ? 1 : 4]; // y^d rho_,abcd
-      if constexpr (bend_changes) p.rho.third_rates(xi, y, rate);
+      const B& basis = p.nodes.basis;
+      const bool changes = has_thirds(basis);
+      if (changes) p.rho.third_rates(basis, xi, y, rate);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (bend_changes && B::second[k])
+        if (changes)
           set_dual(s.a2[k], p.s.a2[k], along_third<k.value>(p.s.a3));
         else
           set_constant(s.a2[k], p.s.a2[k]);
       });
       unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::third[k])
+        if (has_third(basis, k))
           set_dual(s.a3[k], p.s.a3[k], rate[k]);
         else
           s.a3[k] = Vec<U, D>::zero();
       });
-      Rho<B, U>::area_vector(s, v);
+      Rho<B, U>::area_vector(basis, s, v);
     }
   }
 
@@ -213,7 +211,8 @@ private:
       else
         bend = bend + (h.h1[a].d * d_n1[b] + h.h1[a].v * d_n1_rate[b]) +
                (h.h1[b].d * d_n1[a] + h.h1[b].v * d_n1_rate[a]);
-      if constexpr (bend_changes && B::second[k]) bend = bend + dot(d, derivative_of(s.a2[k]));
+      if constexpr (bend_changes && B::second[k])
+        if (has_thirds(p.nodes.basis)) bend = bend + dot(d, derivative_of(s.a2[k]));
       f2[k] = rate_of_product(at.e[a], e1[a], at.e[b], e1[b]) - (dot(d1, at.e2[k]) + bend);
     });
 

@@ -86,13 +86,18 @@ template <int N> struct DofRow {
   ENTS_INLINE const double& operator[](int dof) const { return column[dof]; }
 };
 
+// Are numbers of dofs kept in rows? Where their number is known at compile time, and one element has
+// registers of its own.
+template <class B, bool Rigid, class S>
+inline constexpr bool has_rows = std::is_same_v<S, double>&& register_width >= 4 && !counts_dofs<B, Rigid>;
+
 // Numbers of the dofs of an element (double), or of one per lane
-template <class S, int N> struct DofNumbers { using type = S[N]; };
-template <int N>
-requires(register_width >= 4) struct DofNumbers<double, N> {
-  using type = DofRow<N>;
+template <class B, bool Rigid, class S> struct DofNumbers { using type = S[dof_count<B, Rigid>]; };
+template <class B, bool Rigid, class S>
+requires(has_rows<B, Rigid, S>) struct DofNumbers<B, Rigid, S> {
+  using type = DofRow<dof_count<B, Rigid>>;
 };
-template <class S, int N> using DofArray = typename DofNumbers<S, N>::type;
+template <class B, bool Rigid, class S> using DofArray = typename DofNumbers<B, Rigid, S>::type;
 
 template <int Piece, int N, class R> ENTS_INLINE void set_piece(double (&out)[N], const R& r) {
   store(out + piece_at(N, width_for(N), Piece), r);
@@ -108,12 +113,13 @@ template <int Piece, int N> ENTS_INLINE auto piece_of(const DofRow<N>& numbers) 
   return numbers.row.template at<Piece>();
 }
 
-// out = f(in ...) of each dof
+// out = f(in ...) of each of `count` dofs
 template <class S, int N, class F, class... In>
-ENTS_INLINE void for_each_dof(S (&out)[N], F&& f, const In&... in) {
-  for (int i = 0; i < N; ++i) out[i] = f(in[i]...);
+ENTS_INLINE void for_each_dof(int count, S (&out)[N], F&& f, const In&... in) {
+  for (int i = 0; i < count; ++i) out[i] = f(in[i]...);
 }
-template <int N, class F, class... In> ENTS_INLINE void for_each_dof(DofRow<N>& out, F&& f, const In&... in) {
+template <int N, class F, class... In>
+ENTS_INLINE void for_each_dof(int, DofRow<N>& out, F&& f, const In&... in) {
   unroll<Pieces<N>::count>([&](auto piece) ENTS_LAMBDA_INLINE {
     set_piece<piece.value>(out, PieceOf<N, piece.value>(f(piece_of<piece.value>(in)...)));
   });
@@ -183,11 +189,12 @@ using PieceOfDofs = DofPiece<B::dim, piece_width(N, width_for(N), Piece), piece_
 #endif
 
 // expand() to numbers of dofs; that of the slave may be left out
-template <class B, bool Rigid, int Parts, bool Slave = true, class S, class Out>
-ENTS_INLINE void expand_to_dofs(const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes>& N, Out& out) {
+template <bool Rigid, int Parts, bool Slave = true, class B, class S, class Out>
+ENTS_INLINE void expand_to_dofs(const B& basis, const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes>& N,
+                                Out& out) {
   constexpr int D = B::dim;
-  if constexpr (!std::is_same_v<S, double> || register_width < 4) {
-    expand<B, Rigid, Parts>(f, N, out);
+  if constexpr (!has_rows<B, Rigid, S>) {
+    expand<Rigid, Parts>(basis, f, N, out);
     if constexpr (!Slave)
       for (int c = 0; c < D; ++c) out[c] = S(0.0);
   } else {
@@ -220,11 +227,13 @@ ENTS_INLINE void expand_to_dofs(const Form<B, S>& f, const Shape<S, B::dim - 1, 
 
 // out = weight of the node times v; 0 at the slave
 template <class B, class S, class Out>
-ENTS_INLINE void expand_to_nodes(const S (&weights)[B::nodes], const Vec<S, B::dim>& v, Out& out) {
+ENTS_INLINE void expand_to_nodes(const B& basis, const S (&weights)[B::nodes], const Vec<S, B::dim>& v,
+                                 Out& out) {
   constexpr int D = B::dim;
-  if constexpr (!std::is_same_v<S, double> || register_width < 4) {
+  if constexpr (!has_rows<B, false, S>) {
+    const int nodes = node_count(basis);
     for (int c = 0; c < D; ++c) out[c] = S(0.0);
-    for (int i = 0; i < B::nodes; ++i)
+    for (int i = 0; i < nodes; ++i)
       for (int c = 0; c < D; ++c) out[D * (i + 1) + c] = weights[i] * v[c];
   } else {
 #if defined(ENTS_HAS_DOF_ROWS)

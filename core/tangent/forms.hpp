@@ -37,17 +37,24 @@ template <class B, class S> struct Form {
 // Which parts of a form are present (known at compile time).
 inline constexpr int on_position = 1, on_tangents = 2, on_curvatures = 4;
 
-// Dofs of an element: the slave alone when the master is rigid.
+// The most dofs of an element: the slave alone when the master is rigid.
 template <class B, bool Rigid> inline constexpr int dof_count = Rigid ? B::dim : B::dim*(B::nodes + 1);
 
+// As many of a basis that is counted
+template <bool Rigid, class B> ENTS_INLINE constexpr int dofs_of(const B& basis) {
+  return Rigid ? B::dim : B::dim * (node_count(basis) + 1);
+}
+template <class B, bool Rigid> inline constexpr bool counts_dofs = is_counted<B> && !Rigid;
+
 // out[dof] = form applied to the unit variation of that dof
-template <class B, bool Rigid, int Parts, class S>
-ENTS_INLINE void expand(const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes>& N,
+template <bool Rigid, int Parts, class B, class S>
+ENTS_INLINE void expand(const B& basis, const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes>& N,
                         S (&out)[dof_count<B, Rigid>]) {
   constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   for (int c = 0; c < D; ++c) out[c] = (Parts & on_position) ? f.x[c] : S(0.0);
   if constexpr (!Rigid) {
-    for (int i = 0; i < B::nodes; ++i) {
+    const int nodes = node_count(basis);
+    for (int i = 0; i < nodes; ++i) {
       Vec<S, D> v = Vec<S, D>::zero();
       if constexpr ((Parts & on_position) != 0) v = -(N.n[i] * f.x);
       if constexpr ((Parts & on_tangents) != 0)

@@ -184,36 +184,37 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
   }
 
   static constexpr bool by_third =
-      H && !Rigid && Derivative::bend_changes; // do forms of second derivatives change?
+      H && !Rigid && Derivative::bend_changes; // may forms of second derivatives change?
   // d2: y^c N_,abc
-  static ENTS_INLINE void set_shape_rates(const S (&xi)[T], const S (&y)[T], Shape<S, T, B::nodes>& of) {
-    B::template shape<3>(xi, of);
+  static ENTS_INLINE void set_shape_rates(const B& basis, const S (&xi)[T], const S (&y)[T],
+                                          Shape<S, T, B::nodes>& of) {
+    basis.template shape<3>(xi, of);
+    const int nodes = node_count(basis);
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k])
-        for (int i = 0; i < B::nodes; ++i) {
-          if constexpr (T == 1)
-            of.d2[k][i] = y[0] * of.d3[0][i];
-          else if constexpr (!B::third[k])
-            of.d2[k][i] = y[1] * of.d3[k + 1][i];
-          else if constexpr (!B::third[k + 1])
-            of.d2[k][i] = y[0] * of.d3[k][i];
-          else
-            of.d2[k][i] = y[0] * of.d3[k][i] + y[1] * of.d3[k + 1][i];
-        }
+      if constexpr (T == 1) {
+        for (int i = 0; i < nodes; ++i) of.d2[k][i] = y[0] * of.d3[0][i];
+      } else if (!has_third(basis, k)) {
+        for (int i = 0; i < nodes; ++i) of.d2[k][i] = y[1] * of.d3[k + 1][i];
+      } else if (!has_third(basis, k + 1)) {
+        for (int i = 0; i < nodes; ++i) of.d2[k][i] = y[0] * of.d3[k][i];
+      } else {
+        for (int i = 0; i < nodes; ++i) of.d2[k][i] = y[0] * of.d3[k][i] + y[1] * of.d3[k + 1][i];
+      }
     });
   }
   // - value of the part on second derivatives, whose expansion changes by third ones
-  static ENTS_INLINE void subtract_third(const Form<B, S>& value, const Shape<S, T, B::nodes>& rates,
-                                         DofArray<S, N>& from) {
-    DofArray<S, N> of;
-    expand_to_dofs<B, Rigid, on_curvatures>(value, rates, of);
+  static ENTS_INLINE void subtract_third(const B& basis, const Form<B, S>& value,
+                                         const Shape<S, T, B::nodes>& rates, DofArray<B, Rigid, S>& from) {
+    DofArray<B, Rigid, S> of;
+    expand_to_dofs<Rigid, on_curvatures>(basis, value, rates, of);
     for_each_dof(
-        from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
+        dofs_of<Rigid>(basis), from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
   }
   // y^b N_,ab
-  static ENTS_INLINE void set_slope_rates(int a, const Shape<S, T, B::nodes>& N, const S (&y)[T],
-                                          S (&change)[B::nodes]) {
-    for (int i = 0; i < B::nodes; ++i)
+  static ENTS_INLINE void set_slope_rates(int a, const B& basis, const Shape<S, T, B::nodes>& N,
+                                          const S (&y)[T], S (&change)[B::nodes]) {
+    const int nodes = node_count(basis);
+    for (int i = 0; i < nodes; ++i)
       if constexpr (T == 1)
         change[i] = y[0] * N.d2[0][i];
       else if constexpr (!B::second[0])
@@ -222,14 +223,15 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
         change[i] = y[0] * N.d2[a][i] + y[1] * N.d2[a + 1][i];
   }
   // The rate of w_a
-  static ENTS_INLINE void expand_turn_rate(int a, const Derivative& derivative, DofArray<S, N>& w1) {
+  static ENTS_INLINE void expand_turn_rate(int a, const Derivative& derivative, DofArray<B, false, S>& w1) {
+    const B& basis = derivative.p.nodes.basis;
     S change[B::nodes];
-    set_slope_rates(a, derivative.p.N, derivative.y, change);
-    DofArray<S, N> now, turned;
-    expand_to_nodes<B>(change, derivative.p.s.n, now);
-    expand_to_nodes<B>(derivative.p.N.d1[a], derivative_of(derivative.s.n), turned);
+    set_slope_rates(a, basis, derivative.p.N, derivative.y, change);
+    DofArray<B, false, S> now, turned;
+    expand_to_nodes(basis, change, derivative.p.s.n, now);
+    expand_to_nodes(basis, derivative.p.N.d1[a], derivative_of(derivative.s.n), turned);
     for_each_dof(
-        w1, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
+        dofs_of<false>(basis), w1, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
   }
 
   static ENTS_INLINE void set_Z(const Form<B, Dual<S>>& moving_z, const Derivative& derivative,

@@ -17,13 +17,14 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
   static constexpr bool one_by_one = !turns;
   static constexpr int products =
       T * (2 + (turns ? 2 : 0) + (bends ? 2 : 0) + (has_rest ? 1 : 0)); // that an entry is the sum of
-  DofArray<S, N> P[T];                                                  // dt_a; Y_a + dt_a if not `symmetric`
-  DofArray<S, N> g;
+  DofArray<B, Rigid, S> P[T];                                           // dt_a; Y_a + dt_a if not `symmetric`
+  DofArray<B, Rigid, S> g;
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
                             const PairFriction<B, H, S>& friction) {
     const auto& p = pair.projector;
+    this->basis = p.nodes.basis;
     const S stiffness = pair.area * pair.per_gap;
     S inverse[K], y[T];
     Forms::set_direction(pair, friction.force, inverse, y);
@@ -79,7 +80,7 @@ private:
           Form<B, S> Pf;
           Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change,
                                             Forms::by_gap(a, plan, pair, friction), gap, Pf);
-          expand_to_dofs<B, Rigid, symmetric ? parts : parts_of_rate>(Pf, pair.projector.N, P[a]);
+          expand_to_dofs<Rigid, symmetric ? parts : parts_of_rate>(this->basis, Pf, pair.projector.N, P[a]);
         });
   }
 };

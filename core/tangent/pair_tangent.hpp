@@ -14,7 +14,7 @@ template <bool Rigid, class B, bool H, class S>
 ENTS_INLINE void pair_residual(const Pair<B, H, S>& pair, S (&out)[dof_count<B, Rigid>]) {
   Form<B, S> f;
   form_of_p<B, H>(pair.projector.s, (pair.area * pair.per_gap) * pair.gap_vector, f);
-  expand_to_dofs<B, Rigid, parts_of_p<H>>(f, pair.projector.N, out);
+  expand_to_dofs<Rigid, parts_of_p<H>>(pair.nodes.basis, f, pair.projector.N, out);
 }
 
 // Of g g^T = A (W'' - W'/g) dg dg^T = (m - 1) A W'/g dg dg^T, where the law is not linear
@@ -26,14 +26,14 @@ ENTS_INLINE void form_of_g(const Plan& plan, const Pair<B, H, S>& pair, Form<B, 
 }
 // False: the law is linear, and g zero.
 template <bool Rigid, class B, bool H, class S>
-ENTS_INLINE bool set_g(const Plan& plan, const Pair<B, H, S>& pair, DofArray<S, dof_count<B, Rigid>>& g) {
+ENTS_INLINE bool set_g(const Plan& plan, const Pair<B, H, S>& pair, DofArray<B, Rigid, S>& g) {
   if (plan.law.twice_exponent > 2) {
     Form<B, S> form;
     form_of_g(plan, pair, form);
-    expand_to_dofs<B, Rigid, parts_of_p<H>>(form, pair.projector.N, g);
+    expand_to_dofs<Rigid, parts_of_p<H>>(pair.nodes.basis, form, pair.projector.N, g);
     return true;
   }
-  for_each_dof(g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
+  for_each_dof(dofs_of<Rigid>(pair.nodes.basis), g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
   return false;
 }
 
@@ -43,18 +43,25 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
   static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
   static constexpr bool symmetric = true, has_rest = false, one_by_one = !turns;
   static constexpr int products = turns ? 3 * T : T; // that an entry is the sum of
-  S weights[1][M];                                   // s
-  DofArray<S, N> v[T];
-  DofArray<S, N> w[turns ? T : 1], z[turns ? T : 1];
-  DofArray<S, N> g; // where the law is not linear
+  static constexpr bool counted = counts_dofs<B, Rigid>;
+  using Array = DofArray<B, Rigid, S>;
+  [[no_unique_address]] B basis;
+  S weights[1][M]; // s
+  Array v[T];
+  Array w[turns ? T : 1], z[turns ? T : 1];
+  Array g; // where the law is not linear
   bool curved_law;
+
+  // The slave, and nodes whose dofs there are
+  ENTS_INLINE constexpr int places() const { return Rigid ? 1 : node_count(basis) + 1; }
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
     const auto& p = pair.projector;
     const S stiffness = pair.area * pair.per_gap, root = square_root(stiffness);
+    basis = pair.nodes.basis;
     weights[0][0] = root;
     if constexpr (!Rigid)
-      for (int i = 0; i < B::nodes; ++i) weights[0][i + 1] = -(root * p.N.n[i]);
+      for (int i = 0; i + 1 < places(); ++i) weights[0][i + 1] = -(root * p.N.n[i]);
 
     // f F^-1 f = sum v v with F = C C^T, v = C^-1 f
     constexpr int parts = parts_of_f<B, H>;
@@ -67,15 +74,15 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
       add_form<parts>(f[1], -(q * p.f2[1]), f[0]);
     }
     set_form<parts>(f[0], root / c11, f[0]);
-    for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(f[a], p.N, v[a]);
+    for (int a = 0; a < T; ++a) expand_to_dofs<Rigid, parts>(basis, f[a], p.N, v[a]);
 
     if constexpr (turns) {
       Form<B, S> zf[T];
       forms_of_z<B>(p.s, zf);
       const Vec<S, D> n = stiffness * p.s.n; // w_a = n . delta a_a
       for (int a = 0; a < T; ++a) {
-        expand_to_dofs<B, Rigid, on_position | on_tangents>(zf[a], p.N, z[a]);
-        expand_to_nodes<B>(p.N.d1[a], n, w[a]);
+        expand_to_dofs<Rigid, on_position | on_tangents>(basis, zf[a], p.N, z[a]);
+        expand_to_nodes(basis, p.N.d1[a], n, w[a]);
       }
     }
     curved_law = set_g<Rigid>(plan, pair, g);

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "core/numbers/streaming.hpp"
-#include "core/tangent/dof_rows.hpp"
+#include "core/tangent/lane_arrays.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -62,20 +62,18 @@ template <int D, int W, int At, int M> ENTS_INLINE auto row_of_weights(const dou
   }
 }
 
-template <int N> ENTS_INLINE const double* column_of(const double (&numbers)[N]) { return numbers; }
-template <int N> ENTS_INLINE const double* column_of(const DofRow<N>& numbers) { return numbers.column; }
-
-// All entries but g g^T, D pieces after D pieces in a loop, so that components of their rows are known: where
-// the pieces of a column are many, unrolled code for each of them takes minutes to compile. The last piece
-// overlaps the one before.
+// All entries but g g^T of a basis that is counted, D pieces after D pieces in a loop, so that components of
+// their rows are known. The last pieces overlap the ones before.
 template <int D, class Tangent>
 ENTS_INLINE void write_pieces(const Tangent& t, double* out, std::int64_t leading) {
-  constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N);
-  constexpr int weights = std::extent_v<decltype(t.weights)>, last = N - N % (D * W);
+  constexpr int weights = std::extent_v<decltype(t.weights)>,
+                most = D * std::extent_v<decltype(t.weights), 1>, W = width_for(most);
+  const int M = t.places(), N = D * M, last = D * W <= most ? N - N % (D * W) : 0;
   using R = typename Register<W>::type;
-  double of_row[weights][N];
+  double of_row[weights][most];
   for (int w = 0; w < weights; ++w)
-    for (int i = 0; i < N; ++i) of_row[w][i] = t.weights[w][i / D];
+    for (int m = 0; m < M; ++m)
+      for (int c = 0; c < D; ++c) of_row[w][D * m + c] = t.weights[w][m];
   for (int n = 0; n < M; ++n) {
     double of_column[weights];
     for (int w = 0; w < weights; ++w) of_column[w] = t.weights[w][n];
@@ -84,32 +82,29 @@ ENTS_INLINE void write_pieces(const Tangent& t, double* out, std::int64_t leadin
       const auto write = [&](int i, int component) ENTS_LAMBDA_INLINE {
         R of_piece[weights];
         for (int w = 0; w < weights; ++w) of_piece[w] = load<R>(of_row[w] + i);
-        const auto row = [i](const auto& numbers)
-                             ENTS_LAMBDA_INLINE { return load<R>(column_of(numbers) + i); };
+        const auto row = [i](const auto& numbers) ENTS_LAMBDA_INLINE { return load<R>(numbers + i); };
         const R k = where_component<D>(product_of_weights(of_piece, of_column), component, c.value);
         store(out + j * leading + i, t.template add_rest<R>(t.template add_products<R>(k, row, j), row, j));
       };
+      if constexpr (D * W <= most) {
+        ENTS_ROLLED
+        for (int at = 0; at < last; at += D * W)
+          unroll<D>([&](auto p) ENTS_LAMBDA_INLINE { write(at + p * W, p * W % D); });
+      }
       ENTS_ROLLED
-      for (int at = 0; at < last; at += D * W)
-        unroll<D>([&](auto p) ENTS_LAMBDA_INLINE { write(at + p * W, p * W % D); });
-      unroll<pieces(N - last, W)>([&](auto p) ENTS_LAMBDA_INLINE {
-        constexpr int at = last + (p + 1) * W <= N ? last + p * W : N - W;
-        write(at, at % D);
-      });
+      for (int at = last; at < N; at += W) {
+        const int i = at + W <= N ? at : N - W;
+        write(i, i % D);
+      }
     });
   }
 }
-
-// Rows of one element, one piece each: where they are few
-template <int N>
-inline constexpr bool unrolls_pieces = N <= 15 || (width_for(N) >= 4 && N <= 30) ||
-                                       (width_for(N) >= 8 && N <= 56);
 
 template <int D, class Tangent>
 ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leading) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M, W = width_for(N), P = pieces(N, W);
   constexpr int weights = std::extent_v<decltype(t.weights)>;
-  if constexpr (!unrolls_pieces<N>) {
+  if constexpr (Tangent::counted) {
     write_pieces<D>(t, out, leading);
   } else {
     Pieces<N> of_row[weights];
@@ -144,145 +139,62 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* out, std::int64_t leadi
       });
     }
   }
+  const int count = D * t.places();
   if (t.curved_law) // g g^T
-    for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) out[j * leading + i] += t.g[i] * t.g[j];
+    for (int j = 0; j < count; ++j)
+      for (int i = 0; i < count; ++i) out[j * leading + i] += t.g[i] * t.g[j];
 }
 
 #if defined(ENTS_HAS_LANES)
 
-// Where entry (i, j) of a symmetric matrix is kept: lower triangle, column by column.
-template <int N> constexpr int kept_at(int i, int j) {
+// Where entry (i, j) of a symmetric matrix of n columns is kept: lower triangle, column by column.
+constexpr int kept_at(int n, int i, int j) {
   const int low = i < j ? i : j, high = i < j ? j : i;
-  return low * (2 * N - low + 1) / 2 + (high - low);
+  return low * (2 * n - low + 1) / 2 + (high - low);
 }
 template <int N> struct KeptAt {
   std::int16_t of[N * N];
   constexpr KeptAt() : of() {
     for (int j = 0; j < N; ++j)
-      for (int i = 0; i < N; ++i) of[j * N + i] = static_cast<std::int16_t>(kept_at<N>(i, j));
+      for (int i = 0; i < N; ++i) of[j * N + i] = static_cast<std::int16_t>(kept_at(N, i, j));
   }
 };
 template <int N> inline constexpr KeptAt<N> kept_table{};
 
-// Entries 0 .. Count - 1 of all lanes, entry(i) each (a reference: it lies in memory), to to[lane][0 .. Count
-// - 1].
-template <int Count, int W, class Entry> ENTS_INLINE void write_lanes(double* const (&to)[W], Entry&& entry) {
-  typename VectorOf<W>::Numbers r[W];
-  if constexpr (Count < W) {
-    for (int i = 0; i < W; ++i) r[i] = entry(i < Count ? i : Count - 1).v;
-    transpose<W, W / 2>(r);
-    for (int k = 0; k < W; ++k) std::memcpy(to[k], &r[k], sizeof(double) * Count);
-  } else {
-    for (int at = 0; at < Count; at += W) {
-      const int first = at + W <= Count ? at : Count - W;
-      if constexpr (std::is_reference_v<decltype(entry(0))>) {
-        read_transposed<W>(
-            [&](int i) ENTS_LAMBDA_INLINE { return reinterpret_cast<const double*>(&entry(first + i)); }, r);
-      } else {
-        for (int i = 0; i < W; ++i) r[i] = entry(first + i).v;
-        transpose<W, W / 2>(r);
-      }
-      for (int k = 0; k < W; ++k) std::memcpy(to[k] + first, &r[k], sizeof r[k]);
-    }
-  }
-}
-
-// number(k) of each lane k, without memory: a register read after writing its numbers one by one would stall.
-template <int W, class Number, int... k>
-ENTS_INLINE Lanes<W> each_lane(Number&& number, std::integer_sequence<int, k...>) {
-  return Lanes<W>(typename VectorOf<W>::Numbers{number(k)...}, 0);
-}
-template <int W, class Number> ENTS_INLINE Lanes<W> each_lane(Number&& number) {
-  return each_lane<W>(number, std::make_integer_sequence<int, W>());
-}
-
-// Numbers 0 .. Count - 1 of each lane's array.
-template <int W, int Count>
-ENTS_INLINE void read_lanes(const double* const (&from)[W], Lanes<W> (&out)[Count]) {
-  constexpr int half = W / 2;
-  const auto piece = [&](auto first, auto width, auto read) ENTS_LAMBDA_INLINE {
-    typename VectorOf<W>::Numbers r[width.value];
-    read_transposed<W, width.value, read.value>(
-        [&](int k) ENTS_LAMBDA_INLINE { return from[k] + first.value; }, r);
-    for (int i = 0; i < read; ++i) out[first.value + i].v = r[i];
-  };
-  if constexpr (Count == 1 || W < 4) {
-    for (int i = 0; i < Count; ++i)
-      out[i] = each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k][i]; });
-  } else if constexpr (W == 8 && Count == 2) {
-    typename VectorOf<W>::Numbers r[2];
-    for (int i = 0; i < 2; ++i) r[i] = VectorOf<W>::pairs(from[i], from[i + 2], from[i + 4], from[i + 6]);
-    transpose<W, 1>(r);
-    for (int i = 0; i < 2; ++i) out[i].v = r[i];
-  } else if constexpr (Count <= half) {
-    piece(Index<0>{}, Index<half>{}, Index<Count>{});
-  } else if constexpr (Count < W) {
-    piece(Index<0>{}, Index<half>{}, Index<half>{});
-    piece(Index<Count - half>{}, Index<half>{}, Index<half>{});
-  } else {
-    unroll<pieces(Count, W)>([&](auto at) ENTS_LAMBDA_INLINE {
-      constexpr int width = piece_width(Count, W, at.value);
-      piece(Index<piece_at(Count, W, at.value)>{}, Index<width>{}, Index<width>{});
-    });
-  }
-}
-// A number of each of W elements, `stride` apart
-template <int W> ENTS_INLINE Lanes<W> read_lanes(const double* from, std::int64_t stride) {
-  if (stride == 1) return load<Lanes<W>>(from);
-  if (stride == 0) return Lanes<W>(*from);
-  return each_lane<W>([&](int k) ENTS_LAMBDA_INLINE { return from[k * stride]; });
-}
-
-// Each lane's numbers to an element of its own: to(lane)
-template <int W, int N, class To> ENTS_INLINE void scatter(const Lanes<W> (&numbers)[N], To&& to) {
-  static_assert(width_for(N) == W);
-  unroll<pieces(N, W)>([&](auto piece) ENTS_LAMBDA_INLINE {
-    constexpr int p = piece.value, first = piece_at(N, W, p);
-    if constexpr (piece_width(N, W, p) == W) {
-      typename VectorOf<W>::Numbers r[W];
-      for (int i = 0; i < W; ++i) r[i] = numbers[first + i].v;
-      transpose<W, W / 2>(r);
-      for (int k = 0; k < W; ++k) set_piece<p>(to(k), Lanes<W>(r[k], 0));
-    } else { // four numbers of eight lanes: two of their squares
-      unroll<2>([&](auto part) ENTS_LAMBDA_INLINE {
-        typename VectorOf<W / 2>::Numbers r[W / 2];
-        for (int i = 0; i < W / 2; ++i)
-          r[i] = load<typename VectorOf<W / 2>::Numbers>(
-              reinterpret_cast<const double*>(&numbers[first + i]) + part * (W / 2));
-        transpose<W / 2, W / 4>(r);
-        for (int k = 0; k < W / 2; ++k) set_piece<p>(to(part * (W / 2) + k), Lanes<W / 2>(r[k], 0));
-      });
-    }
-  });
-}
-
-// The same of a tangent: its weights, g and the arrays that pick(tangent) names, one of each natural
-// coordinate
+// Each lane's tangent to one of its own: its weights, g and the arrays that pick(tangent) names, one of each
+// natural coordinate
 template <class Tangent, class One, int W, class... Pick>
 ENTS_INLINE void scatter_tangent(const Tangent& t, One (&one)[W], Pick... pick) {
   constexpr int M = std::extent_v<decltype(t.weights), 1>;
   for (std::size_t r = 0; r < std::extent_v<decltype(t.weights)>; ++r) {
     double* of_lane[W];
     for (int k = 0; k < W; ++k) of_lane[k] = one[k].weights[r];
-    write_lanes<M>(of_lane, [&](int i) ENTS_LAMBDA_INLINE { return t.weights[r][i]; });
+    write_lanes<M>(
+        of_lane, [&](int i) ENTS_LAMBDA_INLINE { return t.weights[r][i]; }, t.places());
   }
+  const auto numbers = [&](const auto& array, auto to) ENTS_LAMBDA_INLINE {
+    if constexpr (Tangent::counted)
+      scatter_counted(Tangent::D * t.places(), array, to);
+    else
+      scatter(array, to);
+  };
   const auto each = [&](auto of) ENTS_LAMBDA_INLINE {
     for (int a = 0; a < Tangent::T; ++a)
-      scatter(
+      numbers(
           of(t)[a], [&](int k) ENTS_LAMBDA_INLINE -> auto& { return of(one[k])[a]; });
   };
   (each(pick), ...);
   if (t.curved_law)
-    scatter(
+    numbers(
         t.g, [&](int k) ENTS_LAMBDA_INLINE -> auto& { return one[k].g; });
-  for (int k = 0; k < W; ++k) one[k].curved_law = t.curved_law;
+  for (int k = 0; k < W; ++k) one[k].basis = t.basis, one[k].curved_law = t.curved_law;
 }
 
-// Where column j begins. Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that is.
-template <int N, int W>
-ENTS_INLINE void column_places(double* const (&out)[W], int j, std::int64_t leading, std::uint32_t used,
-                               double* (&column)[W]) {
+// Where column j of N begins. Lanes whose bit is not set write to out[lane][0 .. N * N - 1], wherever that
+// is.
+template <int W>
+ENTS_INLINE void column_places(double* const (&out)[W], int N, int j, std::int64_t leading,
+                               std::uint32_t used, double* (&column)[W]) {
   for (int k = 0; k < W; ++k) column[k] = out[k] + j * (used >> k & 1 ? leading : N);
 }
 // All columns; entry(N j + i), a reference
@@ -295,7 +207,7 @@ ENTS_INLINE void write_columns(double* const (&out)[W], std::int64_t leading, st
   }
   for (int j = 0; j < N; ++j) {
     double* column[W];
-    column_places<N>(out, j, leading, used, column);
+    column_places(out, N, j, leading, used, column);
     write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE -> const Lanes<W>& { return entry(N * j + i); });
   }
 }
@@ -304,12 +216,13 @@ ENTS_INLINE void write_columns(double* const (&out)[W], std::int64_t leading, st
 template <int D, class Tangent, int W>
 ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading,
                                std::uint32_t used, DeferredCopy* last) {
-  constexpr int M = std::extent_v<decltype(t.weights), 1>, N = D * M,
+  constexpr int most = D * std::extent_v<decltype(t.weights), 1>,
                 weights = std::extent_v<decltype(t.weights)>;
+  const int M = t.places(), N = D * M;
   using S = Lanes<W>;
-  constexpr bool few = N < W; // columns: then all at once
+  constexpr bool few = most < W; // columns: then all at once
   if constexpr (few) interleave_copy(last, W * N * N);
-  S kept[Tangent::symmetric ? N * (N + 1) / 2 : N * N];
+  S kept[Tangent::symmetric ? most * (most + 1) / 2 : most * most];
   S* entry = kept;
   for (int n = 0; n < M; ++n)
     unroll<D>([&](auto c) ENTS_LAMBDA_INLINE {
@@ -340,26 +253,36 @@ ENTS_INLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::i
     for (int j = 0; j < N; ++j)
       for (int i = Tangent::symmetric ? j : 0; i < N; ++i, ++entry) *entry = *entry + t.g[i] * t.g[j];
   }
-  const auto entry_at = [&](int i) ENTS_LAMBDA_INLINE -> const S& {
-    if constexpr (Tangent::symmetric)
-      return kept[kept_table<N>.of[i]];
+  int column_at[Tangent::counted && Tangent::symmetric ? most : 1]; // kept_at(N, i, j) is this plus i, i >= j
+  if constexpr (Tangent::counted && Tangent::symmetric)
+    for (int j = 0; j < N; ++j) column_at[j] = kept_at(N, j, j) - j;
+  const auto entry_at = [&](int i, int j) ENTS_LAMBDA_INLINE -> const S& {
+    if constexpr (!Tangent::symmetric)
+      return kept[N * j + i];
+    else if constexpr (Tangent::counted)
+      return i < j ? kept[column_at[i] + j] : kept[column_at[j] + i];
     else
-      return kept[i];
+      return kept[kept_table<most>.of[N * j + i]];
   };
-  if constexpr (!Tangent::has_rest) {
-    write_columns<N>(out, leading, used, entry_at);
+  if constexpr (!Tangent::has_rest && !Tangent::counted) {
+    write_columns<most>(out, leading, used,
+                        [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entry_at(i, 0); });
   } else {
     for (int j = 0; j < N; ++j) {
       double* column[W];
-      column_places<N>(out, j, leading, used, column);
+      column_places(out, N, j, leading, used, column);
       const auto at_row = [&](int i) ENTS_LAMBDA_INLINE {
         return t.template add_rest<S>(
-            entry_at(N * j + i), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
+            entry_at(i, j), [i](const auto& array) ENTS_LAMBDA_INLINE { return array[i]; }, j);
       };
-      if (t.curved_law)
-        write_lanes<N>(column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; });
+      if constexpr (!Tangent::has_rest)
+        write_lanes<most>(
+            column, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entry_at(i, j); }, N);
+      else if (t.curved_law)
+        write_lanes<most>(
+            column, [&](int i) ENTS_LAMBDA_INLINE { return at_row(i) + t.g[i] * t.g[j]; }, N);
       else
-        write_lanes<N>(column, at_row);
+        write_lanes<most>(column, at_row, N);
     }
   }
 }

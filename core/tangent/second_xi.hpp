@@ -15,9 +15,15 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
   static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
   static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
-  S weights[2][M]; // s, r
-  DofArray<S, N> x[T], Y[T];
-  DofArray<S, N> w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
+  static constexpr bool counted = counts_dofs<B, Rigid>;
+  using Array = DofArray<B, Rigid, S>;
+  [[no_unique_address]] B basis; // whoever evaluates sets it
+  S weights[2][M];               // s, r
+  Array x[T], Y[T];
+  Array w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
+
+  // The slave, and nodes whose dofs there are
+  ENTS_INLINE constexpr int places() const { return Rigid ? 1 : node_count(basis) + 1; }
 
   // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
   ENTS_INLINE void set_weights(const S& stiffness, const Derivative& derivative) {
@@ -25,7 +31,7 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
     weights[0][0] = S(1.0);
     weights[1][0] = half;
     if constexpr (!Rigid)
-      for (int i = 0; i < B::nodes; ++i) {
+      for (int i = 0; i + 1 < places(); ++i) {
         S change = derivative.y[0] * derivative.p.N.d1[0][i];
         if constexpr (T == 2) change = change + derivative.y[1] * derivative.p.N.d1[1][i];
         weights[0][i + 1] = -derivative.p.N.n[i];
@@ -42,15 +48,17 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
     forms_of_f(derivative.s, f);
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
-    for (int a = 0; a < T; ++a) expand_to_dofs<B, Rigid, parts>(xf[a], p.N, x[a]);
+    for (int a = 0; a < T; ++a) expand_to_dofs<Rigid, parts>(basis, xf[a], p.N, x[a]);
     Shape<S, T, B::nodes> shape_rates;
-    if constexpr (Forms::by_third) Forms::set_shape_rates(pair.xi, derivative.y, shape_rates);
+    if constexpr (Forms::by_third)
+      if (has_thirds(basis)) Forms::set_shape_rates(basis, pair.xi, derivative.y, shape_rates);
     for (int a = 0; a < T; ++a) {
       Form<B, S> rate, Yf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
       beside(a, rate, xf, Yf);
-      expand_to_dofs<B, Rigid, parts_of_rate>(Yf, p.N, Y[a]);
-      if constexpr (Forms::by_third) Forms::subtract_third(value[a], shape_rates, Y[a]);
+      expand_to_dofs<Rigid, parts_of_rate>(basis, Yf, p.N, Y[a]);
+      if constexpr (Forms::by_third)
+        if (has_thirds(basis)) Forms::subtract_third(basis, value[a], shape_rates, Y[a]);
     }
   }
 
@@ -64,10 +72,10 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
       Form<B, S> zf, Zf;
       Forms::set_Z(moving_z[a], derivative, stiffness, zf, Zf);
       beside(a, Zf);
-      expand_to_dofs<B, Rigid, Forms::parts_of_z_rate>(Zf, p.N, Z[a]);
-      expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
+      expand_to_dofs<Rigid, Forms::parts_of_z_rate>(basis, Zf, p.N, Z[a]);
+      expand_to_nodes(basis, p.N.d1[a], p.s.n, w[a]);
       if constexpr (bends) {
-        expand_to_dofs<B, Rigid, Forms::parts_of_z>(zf, p.N, z[a]);
+        expand_to_dofs<Rigid, Forms::parts_of_z>(basis, zf, p.N, z[a]);
         Forms::expand_turn_rate(a, derivative, w1[a]);
       }
     });

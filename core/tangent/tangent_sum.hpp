@@ -25,12 +25,12 @@ inline constexpr double largest_ingredient = 1e60;
 // A bound of results that leaves room for a few terms more.
 inline constexpr double largest_result = 1e300;
 
-template <int N> ENTS_INLINE double sum_of_absolutes(const double (&v)[N]) {
+template <int N> ENTS_INLINE double sum_of_absolutes(const double (&v)[N], int count = N) {
   double s = 0.0;
-  for (int i = 0; i < N; ++i) s += absolute(v[i]);
+  for (int i = 0; i < count; ++i) s += absolute(v[i]);
   return s;
 }
-template <int N> ENTS_INLINE double sum_of_absolutes(const DofRow<N>& v) {
+template <int N> ENTS_INLINE double sum_of_absolutes(const DofRow<N>& v, int) {
   return sum_of_absolutes(v.column);
 }
 
@@ -70,7 +70,8 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   static constexpr bool friction = Friction, symmetric = true, has_rest = Friction; // as write_tangent() asks
   static constexpr int products = 1 + 5 * T;
   using V = Vec<S, D>;
-  using Array = DofArray<S, N>;
+  using Base::basis, Base::places;
+  using typename Base::Array;
   S by_gap, by_q;
   // by_gap dg dg^T, x_a Y_a^T + Y_a x_a^T, w_a Z_a^T + .., by_q q_a q_a^T; of friction w1_a z_a^T + ..; the
   // rest dg dW^T, dxi_a P_a^T
@@ -82,8 +83,9 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   // Shape functions and two derivatives of them are there.
   ENTS_NOINLINE void evaluate(const Plan& plan, const ContactPoint<B, H, S>& at, const Weights<S, T>& sum) {
     const bool shadow = at.ray != nullptr, second_xi = Friction && sum.second_xi;
+    basis = at.pair.nodes.basis;
     for (auto& row : weights)
-      for (S& weight : row) weight = S(0.0);
+      for (int m = 0; m < places(); ++m) row[m] = S(0.0);
     by_gap = sum.by_gap;
     has_gap = sum.stiff;
     has_xi = sum.second_gap || second_xi;
@@ -107,6 +109,7 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   // dg and dxi alone
   ENTS_NOINLINE void evaluate_first(const ContactPoint<B, H, S>& at) {
     Form<B, S> xf[T];
+    basis = at.pair.nodes.basis;
     set_gap(at);
     forms_of_xi(at, xf);
     for (int a = 0; a < T; ++a) expand_xi(at, xf[a], dxi[a]);
@@ -119,22 +122,24 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
     return at.covector(sum.second_gap ? sum.push : S(0.0), force);
   }
 
+  // The sum of the absolute numbers of dofs
+  ENTS_INLINE double size_of(const Array& numbers) const { return sum_of_absolutes(numbers, dofs()); }
+
   // No entry, and no partial sum of one, is larger.
   ENTS_INLINE double bound() const {
-    double b = (has_gap ? (1.0 + absolute(by_gap)) * sum_of_absolutes(dg) * sum_of_absolutes(dg) : 0.0) +
-               2.0 * sum_of_absolutes(weights[0]) * sum_of_absolutes(weights[1]);
-    const auto add = [&b](const auto& u, const auto& v) {
-      for (int a = 0; a < T; ++a) b += 2.0 * sum_of_absolutes(u[a]) * sum_of_absolutes(v[a]);
+    double b = (has_gap ? (1.0 + absolute(by_gap)) * size_of(dg) * size_of(dg) : 0.0) +
+               2.0 * sum_of_absolutes(weights[0], places()) * sum_of_absolutes(weights[1], places());
+    const auto add = [&](const auto& u, const auto& v) {
+      for (int a = 0; a < T; ++a) b += 2.0 * size_of(u[a]) * size_of(v[a]);
     };
     if (has_xi) {
       add(x, Y);
       if constexpr (turns) add(w, Z);
     }
-    for (int a = 0; a < T && has_q; ++a)
-      b += (1.0 + absolute(by_q)) * sum_of_absolutes(q[a]) * sum_of_absolutes(q[a]);
+    for (int a = 0; a < T && has_q; ++a) b += (1.0 + absolute(by_q)) * size_of(q[a]) * size_of(q[a]);
     if constexpr (bends)
       if (has_second_xi) add(w1, z);
-    if (has_dW) b += sum_of_absolutes(dg) * sum_of_absolutes(dW);
+    if (has_dW) b += size_of(dg) * size_of(dW);
     if (has_force) add(dxi, P);
     return b;
   }
@@ -175,18 +180,19 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   }
 
 private:
+  ENTS_INLINE constexpr int dofs() const { return D * places(); }
   template <int Parts>
   static ENTS_INLINE void expand(const ContactPoint<B, H, S>& at, const Form<B, S>& f, Array& out) {
-    expand_to_dofs<B, false, Parts>(f, at.pair.projector.N, out);
+    expand_to_dofs<false, Parts>(at.pair.nodes.basis, f, at.pair.projector.N, out);
   }
   // + factor times the ray's own turn, of a covector's form
   static ENTS_INLINE void add_turn(const ContactPoint<B, H, S>& at, const V& c, Array& out) {
     add_to_slave(out, -(at.gap * variation_of_ray(c, *at.ray)));
   }
   // out += factor v
-  static ENTS_INLINE void add(Array& out, const S& factor, const Array& v) {
+  ENTS_INLINE void add(Array& out, const S& factor, const Array& v) const {
     for_each_dof(
-        out, [&](auto a, auto b) ENTS_LAMBDA_INLINE { return a + decltype(a)(factor) * b; }, out, v);
+        dofs(), out, [&](auto a, auto b) ENTS_LAMBDA_INLINE { return a + decltype(a)(factor) * b; }, out, v);
   }
 
   ENTS_INLINE void set_gap(const ContactPoint<B, H, S>& at) {
@@ -232,7 +238,7 @@ private:
   ENTS_NOINLINE void set_slid(const ContactPoint<B, H, S>& at, const S& by_slid) {
     S by_xi[T];
     at.slid_by_xi(by_xi);
-    for_each_dof(dW, []() ENTS_LAMBDA_INLINE { return S(0.0); });
+    for_each_dof(dofs(), dW, []() ENTS_LAMBDA_INLINE { return S(0.0); });
     for (int c = 0; c < T; ++c) add(dW, by_slid * by_xi[c], dxi[c]);
     unroll<T>([&](auto b) ENTS_LAMBDA_INLINE {
       Form<B, S> f;
@@ -291,7 +297,7 @@ private:
         for (auto& v : Zf.a) v = V::zero();
         add_z(a, Zf);
         expand<on_tangents>(at, Zf, Z[a]);
-        expand_to_nodes<B>(p.N.d1[a], p.s.n, w[a]);
+        expand_to_nodes(basis, p.N.d1[a], p.s.n, w[a]);
       });
   }
 

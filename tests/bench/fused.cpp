@@ -26,13 +26,15 @@ std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block,
       const PairLanes<B, H, F, W> in(plan, block, e);
       S r[N];
       for (int c = 0; c < D; ++c) r[c] = in.area;
-      for (int a = 0; a < T; ++a) r[a] = F ? in.xi[a] - in.anchor[a] : in.xi[a];
-      if constexpr (F) r[D - 1] = r[D - 1] + in.history;
-      for (int i = 0; i < B::nodes; ++i)
+      const int nodes = node_count(in.nodes.basis);
+      for (int a = 0; a < T; ++a) r[a] = F ? in.xi[a] - in.begin.from[a] : in.xi[a];
+      if constexpr (F) r[D - 1] = r[D - 1] + in.begin.known;
+      for (int i = 0; i < nodes; ++i)
         for (int c = 0; c < D; ++c) r[D * (i + 1) + c] = in.nodes.y[i][c];
       double* out[W];
       for (int k = 0; k < W; ++k) out[k] = block.residual + (e + k) * block.residual_stride;
-      write_lanes<N>(out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; });
+      write_lanes<N>(
+          out, [&](int i) ENTS_LAMBDA_INLINE { return r[i]; }, D * (nodes + 1));
       done |= std::uint64_t{in.known} << at;
     }
 #endif
@@ -50,7 +52,7 @@ ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool fri
   if (basis == "line2") return moving_kernel_of<Line2>(enriched, friction);
   if (basis == "tri3") return moving_kernel_of<Tri3>(enriched, friction);
   if (basis == "quad4") return moving_kernel_of<Quad4>(enriched, friction);
-  return moving_kernel_of<Quad9>(enriched, friction);
+  return moving_kernel_of<CountedBasis<3>>(enriched, friction);
 }
 template <class B> ents::PairKernel fused_kernel_of(bool enriched, bool friction) {
   using namespace ents::fused;

@@ -11,14 +11,14 @@ namespace {
 using namespace ents::counted;
 
 template <class B, bool H> PairNodes<B, Counted> bent_segment(const ents::HeightNode& height) {
-  PairNodes<B, Counted> nodes;
+  PairNodes<B, Counted> nodes(basis_of<B>(ents::Basis::quad9)); // the one that is counted here
   nodes.has_coordinates = false;
   nodes.height = H ? &height : nullptr;
   // natural coordinates of the nodes as a least-squares fit would find them do not matter here
   const double corner[9][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}, {0, 0}};
   const double triangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-  for (int i = 0; i < B::nodes; ++i) {
-    const double* at = B::simplex ? triangle[i] : corner[i];
+  for (int i = 0; i < node_count(nodes.basis); ++i) {
+    const double* at = is_simplex(nodes.basis) ? triangle[i] : corner[i];
     if constexpr (B::dim == 2) {
       nodes.y[i][0] = (i == 0 ? -1.0 : 1.0) - 0.1;
       nodes.y[i][1] = 0.05 + 0.02 * i;
@@ -59,10 +59,11 @@ void count_tangent(const ents::Plan& plan, const Pieces&... pieces) {
       expand_columns(
           tangent, c, [] {}, [](int, int, const auto&) {});
   } else {
-    for (int j = 0; j < Tangent::N; ++j) {
-      for (int i = Tangent::symmetric ? j : 0; i < Tangent::N; ++i) count_entry(tangent, i, j, false);
+    const int dofs = Tangent::D * tangent.places();
+    for (int j = 0; j < dofs; ++j) {
+      for (int i = Tangent::symmetric ? j : 0; i < dofs; ++i) count_entry(tangent, i, j, false);
       if constexpr (Tangent::has_rest)
-        for (int i = 0; i < Tangent::N; ++i) count_entry(tangent, i, j, true);
+        for (int i = 0; i < dofs; ++i) count_entry(tangent, i, j, true);
     }
   }
 }
@@ -83,7 +84,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   const PairNodes<B, Counted> nodes = bent_segment<B, H>(node);
   Counted start[T];
   SlipBegin<Counted, T> begin{};
-  for (Counted& x : start) x = B::simplex ? 0.2 : 0.1;
+  for (Counted& x : start) x = is_simplex(nodes.basis) ? 0.2 : 0.1;
   Pair<B, H, Counted> at(nodes, start);
   at.project();
   for (int a = 0; a < T; ++a) {
@@ -124,7 +125,7 @@ double operations_of(const std::string& basis, bool enriched, bool tangent, bool
   if (basis == "line2") return count<Line2>(enriched, tangent, friction);
   if (basis == "tri3") return count<Tri3>(enriched, tangent, friction);
   if (basis == "quad4") return count<Quad4>(enriched, tangent, friction);
-  if (basis == "quad9") return count<Quad9>(enriched, tangent, friction);
+  if (basis == "quad9") return count<CountedBasis<3>>(enriched, tangent, friction);
   return std::nan("");
 }
 

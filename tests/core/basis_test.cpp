@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/surface/basis.hpp"
+#include "core/surface/pair_rho.hpp"
 #include "worst.hpp"
 
 namespace basis_test {
@@ -227,6 +227,82 @@ TYPED_TEST(BasisTest, LowerOrdersAreTheSameNumbers) {
         if (TypeParam::second[k]) {
           EXPECT_EQ(s2.d2[k][i], s3.d2[k][i]);
         }
+    }
+  }
+}
+
+template <class B> ents::Basis name_of() {
+#define ENTS_BASIS(name, type, ...)                                                                          \
+  if (std::is_same_v<B, type>) return ents::Basis::name;
+  ENTS_BASES(ENTS_BASIS)
+#undef ENTS_BASIS
+  return ents::Basis::line2;
+}
+
+// The kernels know all but three bases as one type, whose nodes are counted: the same numbers.
+TYPED_TEST(BasisTest, IsTheSameWhereItIsCounted) {
+  using B = TypeParam;
+  if constexpr (compiled_alone<B>) {
+    EXPECT_TRUE((std::is_same_v<KernelBasis<B>, B>));
+  } else {
+    using C = CountedBasis<B::dim>;
+    EXPECT_TRUE((std::is_same_v<KernelBasis<B>, C>));
+    const C counted = basis_of<C>(name_of<B>());
+    EXPECT_EQ(node_count(counted), B::nodes);
+    EXPECT_EQ(is_simplex(counted), B::simplex);
+    EXPECT_EQ(has_thirds(counted), any_third<B>());
+    for (int k = 0; k < (this->T == 1 ? 1 : 4); ++k) EXPECT_EQ(has_third(counted, k), B::third[k]) << k;
+    for (const auto& at : this->points()) {
+      double xi[TestFixture::T];
+      for (int a = 0; a < this->T; ++a) xi[a] = at[static_cast<std::size_t>(a)];
+      const auto own = this->template shape<3>(at);
+      Shape<double, TestFixture::T, C::nodes> s{};
+      counted.template shape<3>(xi, s);
+      for (int i = 0; i < B::nodes; ++i) {
+        EXPECT_EQ(s.n[i], own.n[i]);
+        for (int a = 0; a < this->T; ++a) EXPECT_EQ(s.d1[a][i], own.d1[a][i]);
+        for (int k = 0; k < this->K; ++k) EXPECT_EQ(s.d2[k][i], own.d2[k][i]);
+        for (int k = 0; k < (this->T == 1 ? 1 : 4); ++k) EXPECT_EQ(s.d3[k][i], own.d3[k][i]);
+      }
+    }
+  }
+}
+
+// rho as a polynomial is the sum over the nodes.
+TYPED_TEST(BasisTest, IsAPolynomialOfItsNodes) {
+  using B = TypeParam;
+  using C = KernelBasis<B>;
+  if constexpr (!is_flat<B>) {
+    PairNodes<C, double> nodes(basis_of<C>(name_of<B>()));
+    nodes.has_coordinates = false;
+    for (int i = 0; i < B::nodes; ++i)
+      for (int c = 0; c < B::dim; ++c) nodes.y[i][c] = std::sin(1.0 + 7.0 * i + 3.0 * c);
+    const Rho<C, double> rho(nodes);
+    const double tolerance = 100.0 * TestFixture::rounded;
+    for (const auto& at : this->points()) {
+      double xi[TestFixture::T];
+      for (int a = 0; a < this->T; ++a) xi[a] = at[static_cast<std::size_t>(a)];
+      Shape<double, TestFixture::T, C::nodes> unused;
+      Surface<C, true, double> s;
+      rho.template evaluate<3>(nodes, xi, unused, s);
+      const auto own = this->template shape<3>(at);
+      const auto sum = [&](const double(&n)[B::nodes], int c) {
+        double of = 0.0;
+        for (int i = 0; i < B::nodes; ++i) of += n[i] * nodes.y[i][c];
+        return of;
+      };
+      for (int c = 0; c < B::dim; ++c) {
+        EXPECT_NEAR(-s.d[c], sum(own.n, c), tolerance);
+        for (int a = 0; a < this->T; ++a) EXPECT_NEAR(s.a[a][c], sum(own.d1[a], c), tolerance);
+        for (int k = 0; k < this->K; ++k)
+          if (B::second[k]) {
+            EXPECT_NEAR(s.a2[k][c], sum(own.d2[k], c), tolerance);
+          }
+        for (int k = 0; k < (this->T == 1 ? 1 : 4); ++k)
+          if (B::third[k]) {
+            EXPECT_NEAR(s.a3[k][c], sum(own.d3[k], c), tolerance);
+          }
+      }
     }
   }
 }

@@ -2,6 +2,5 @@
 #include "core/projection/segment_projection.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_SEARCH(CatmullRom16)
-ENTS_SEARCH(BSpline16)
+ENTS_SEARCH(CountedBasis<2>)
 } // namespace ents::ENTS_ISA

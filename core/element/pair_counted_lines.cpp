@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/element/kernel.hpp"
+#include "core/element/pair_kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet bezier15_kernels = kernels_of<Bezier15>;
+ENTS_PAIR_KERNELS(CountedBasis<2>)
 } // namespace ents::ENTS_ISA

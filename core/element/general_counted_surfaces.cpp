@@ -2,7 +2,5 @@
 #include "core/element/general_block.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_GENERAL_KERNELS(CatmullRom16)
-ENTS_GENERAL_KERNELS(BSpline16)
-ENTS_GENERAL_KERNELS(Bezier15)
+ENTS_GENERAL_KERNELS(CountedBasis<3>)
 } // namespace ents::ENTS_ISA

@@ -2,6 +2,5 @@
 #include "core/element/kernel.hpp"
 
 namespace ents::ENTS_ISA {
-const KernelSet catmull_rom16_kernels = kernels_of<CatmullRom16>;
-const KernelSet bspline16_kernels = kernels_of<BSpline16>;
+template const KernelSet& kernels_of<CountedBasis<3>>();
 } // namespace ents::ENTS_ISA

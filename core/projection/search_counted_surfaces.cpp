@@ -2,5 +2,5 @@
 #include "core/projection/segment_projection.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_SEARCH(Bezier15)
+ENTS_SEARCH(CountedBasis<3>)
 } // namespace ents::ENTS_ISA

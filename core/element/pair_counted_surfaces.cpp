@@ -2,7 +2,5 @@
 #include "core/element/pair_kernel.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_PAIR_KERNELS(CatmullRom16)
-ENTS_PAIR_KERNELS(BSpline16)
-ENTS_PAIR_KERNELS(Bezier15)
+ENTS_PAIR_KERNELS(CountedBasis<3>)
 } // namespace ents::ENTS_ISA

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/element/kernel.hpp"
+
+namespace ents::ENTS_ISA {
+template const KernelSet& kernels_of<CountedBasis<2>>();
+} // namespace ents::ENTS_ISA
