@@ -8,6 +8,7 @@
 #include "abi/field_call.hpp"
 #include "abi/guard.hpp"
 #include "abi/model_error.hpp"
+#include "core/height/height_value.hpp"
 
 namespace ents {
 
@@ -216,7 +217,7 @@ int32_t ents_field_init(const ents_model* model, const char* name, const double*
       if (std::fabs(samples[k]) > ents::largest_field_sample)
         return ents::report_message(report, ENTS_BAD_VALUE, k, "samples[%lld] is %g; heights are at most %g",
                                     static_cast<long long>(k), samples[k], ents::largest_field_sample);
-    ents::set_field(model->model, index, samples, {block, static_cast<std::size_t>(layout.size)});
+    ents::set_field(model->model.height, index, samples, {block, static_cast<std::size_t>(layout.size)});
     return ents::report_ok(report);
   });
 }

@@ -9,6 +9,7 @@
 
 #include "abi/undefined_height.hpp"
 #include "core/law/open_multiplier.hpp"
+#include "core/model/slave_values.hpp"
 
 namespace ents {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "abi/handle.hpp"
-#include "core/height/height_binding.hpp"
+#include "core/height/field.hpp"
 
 namespace ents {
 

@@ -7,7 +7,7 @@
 
 #include "abi/entry_point.hpp"
 #include "abi/patch.hpp"
-#include "core/height/height_binding.hpp"
+#include "core/model/binding.hpp"
 #include "core/model/plan.hpp"
 
 namespace ents {

@@ -14,8 +14,8 @@
 #include "abi/map_json.hpp"
 #include "abi/model_error.hpp"
 #include "abi/spectral_json.hpp"
-#include "core/height/height_binding.hpp"
 #include "core/height/thread.hpp"
+#include "core/model/binding.hpp"
 
 namespace ents {
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/model/fingerprint.hpp"
+#include "core/numbers/fingerprint.hpp"
 
 namespace ents {
 

@@ -9,7 +9,7 @@
 #include "abi/field_call.hpp"
 #include "abi/guard.hpp"
 #include "abi/model_json.hpp"
-#include "core/element/pair_kernels.hpp"
+#include "core/element/make_plan.hpp"
 #include "core/model/needs.hpp"
 
 namespace ents {

@@ -13,9 +13,9 @@
 #include "abi/json_text.hpp"
 #include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
-#include "core/height/height_binding.hpp"
-#include "core/law/flattening.hpp"
+#include "core/element/flattening.hpp"
 #include "core/law/law_table.hpp"
+#include "core/model/binding.hpp"
 
 namespace ents {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "abi/element_block.hpp"
-#include "core/element/pair_kernels.hpp"
+#include "core/element/make_plan.hpp"
 #include "core/numbers/streaming.hpp"
 
 namespace ents {

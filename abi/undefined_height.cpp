@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/height/height_binding.hpp"
+#include "core/height/height_value.hpp"
 #include "core/projection/search.hpp"
 
 namespace ents {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/element/make_plan.hpp"
+
 namespace ents {
 
 namespace {

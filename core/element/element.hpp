@@ -3,6 +3,7 @@
 // for. What follows from the projection is done by finish_element().
 #pragma once
 
+#include "core/model/slave_values.hpp"
 #include "core/projection/collapsed_corner.hpp"
 #include "core/projection/search.hpp"
 

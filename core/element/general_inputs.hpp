@@ -3,7 +3,8 @@
 #pragma once
 
 #include "core/element/pair_inputs.hpp"
-#include "core/law/contact_point.hpp"
+#include "core/model/slave_values.hpp"
+#include "core/tangent/contact_point.hpp"
 
 namespace ents::ENTS_ISA {
 

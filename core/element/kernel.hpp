@@ -6,8 +6,8 @@
 #include "core/element/general_element.hpp"
 #include "core/element/kernel_table.hpp"
 #include "core/element/surface_point.hpp"
+#include "core/element/transfer.hpp"
 #include "core/projection/search.hpp"
-#include "core/search/transfer.hpp"
 
 namespace ents::ENTS_ISA {
 

@@ -2,7 +2,7 @@
 // Residual and tangent of multipliers that are unknowns, beside those of the nodes.
 #pragma once
 
-#include "core/law/contact_point.hpp"
+#include "core/tangent/contact_point.hpp"
 #include "core/tangent/tangent_sum.hpp"
 
 namespace ents::ENTS_ISA {

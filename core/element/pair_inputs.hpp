@@ -8,6 +8,18 @@
 
 namespace ents::ENTS_ISA {
 
+// From the state's numbers: those at `anchor_at`, and of an open element its projection.
+template <int T> ENTS_INLINE SlipBegin<double, T> slip_begin(const double* state, std::int32_t anchor_at) {
+  SlipBegin<double, T> begin{};
+  const double history = state[StateLayout::history_at];
+  if (history < 1.0) return begin;
+  const bool open = history == 1.0;
+  begin.known = 1.0;
+  begin.clearance = open && state[anchor_at] > 0.0 ? state[anchor_at] : 0.0;
+  for (int a = 0; a < T; ++a) begin.from[a] = state[(open ? StateLayout::xi_at : anchor_at) + a];
+  return begin;
+}
+
 template <class T> ENTS_INLINE T* element_at(T* data, std::int64_t stride, std::int64_t e) {
   return data ? data + stride * e : nullptr;
 }

@@ -39,18 +39,21 @@ template <class B, bool H, class S> ENTS_NOINLINE Truth<S> height_has_thirds(con
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
 ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p,
-                              PairFriction<B, H, S>& f, const SlipBegin<S, B::dim - 1>* begin) {
+                              Friction<S, B::dim - 1>& f, const SlipBegin<S, B::dim - 1>* begin) {
   p.evaluate_at_solution();
   p.evaluate_law(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
-  if constexpr (F)
-    f.evaluate(plan.law, p, *begin, slip_share(begin->clearance, -p.gap), -(p.area * p.per_gap * p.gap));
+  if constexpr (F) {
+    f.evaluate(plan.law, p.place(), *begin, slip_share(begin->clearance, -p.gap),
+               -(p.area * p.per_gap * p.gap));
+    p.ordinary = both(p.ordinary, f.ordinary);
+  }
   if constexpr (F && H)
     if ((wanted & want::tangent) != 0 && has_functions(plan))
       p.ordinary = both(p.ordinary, height_has_thirds(p));
 }
 // Shape functions come as late as here, with as many derivatives as are asked for.
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&out)[dof_count<B, Rigid>]) {
+ENTS_INLINE void residual(Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f, S (&out)[dof_count<B, Rigid>]) {
   if constexpr (!Rigid) p.nodes.basis.template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
   if constexpr (F)
     friction_residual<Rigid>(p, f, (p.area * p.per_gap) * p.gap_vector, out);
@@ -58,7 +61,7 @@ ENTS_INLINE void residual(Pair<B, H, S>& p, const PairFriction<B, H, S>& f, S (&
     pair_residual<Rigid>(p, out);
 }
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const PairFriction<B, H, S>& f,
+ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f,
                          TangentOf<F, Rigid, B, H, S>& out) {
   if constexpr (!Rigid) p.nodes.basis.template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
   if constexpr (F)
@@ -98,7 +101,7 @@ ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
 // Residual and tangent of an element in contact.
 template <bool F, bool Rigid, class B, bool H>
 ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, double>& p,
-                              const PairFriction<B, H, double>& f, std::int64_t e) {
+                              const Friction<double, B::dim - 1>& f, std::int64_t e) {
   constexpr int N = dof_count<B, Rigid>;
   if (block.wanted & want::residual) {
     double of_dofs[N];
@@ -143,7 +146,7 @@ ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int6
   const PairOne<B, H, F> in(plan, block, e);
   if (!in.known) return false;
   Pair<B, H, double> p(in.nodes, in.xi);
-  PairFriction<B, H, double> f;
+  Friction<double, B::dim - 1> f;
   p.area = in.area;
   if (block.wanted & forces_only && p.has_area() && p.is_clearly_open(plan)) {
     write_open(block, e);
@@ -190,7 +193,8 @@ ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) 
 // Residuals and tangents of the elements e + k whose bit is set in `contact`.
 template <bool F, bool Rigid, class B, bool H, int W>
 ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p,
-                              const PairFriction<B, H, Lanes<W>>& f, std::int64_t e, std::uint32_t contact) {
+                              const Friction<Lanes<W>, B::dim - 1>& f, std::int64_t e,
+                              std::uint32_t contact) {
   constexpr int N = dof_count<B, Rigid>;
   using S = Lanes<W>;
   double nowhere[N * N];
@@ -233,7 +237,7 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
                                            std::uint32_t far, std::int64_t e) {
   constexpr int D = B::dim;
   using S = Lanes<W>;
-  PairFriction<B, H, S> f;
+  Friction<S, B::dim - 1> f;
   evaluate_law<F>(plan, block.wanted, p, f, &in.begin);
   const std::uint32_t done = in.known & (bits_of(p.ordinary) | far);
   if (!done) return 0;

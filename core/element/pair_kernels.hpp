@@ -21,7 +21,6 @@ struct PairKernels {
   const char* instruction_set;
   const PairKernelsOfBasis* of_basis;                                      // [basis]; null: one by one
   void (*stream_copy)(const double* from, std::int64_t count, double* to); // streaming.hpp
-  ExternalHeight::Jets expression_jets;                                    // see expression.hpp
 };
 namespace portable {
 extern const PairKernels pair_kernels;
@@ -36,11 +35,5 @@ namespace avx512 {
 extern const PairKernels pair_kernels;
 }
 #endif
-
-// Sets those for blocks of elements of a model; null: evaluate_element() takes them one by one.
-void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan);
-
-// Those of the best instruction set of this processor.
-const PairKernels& best_pair_kernels();
 
 } // namespace ents

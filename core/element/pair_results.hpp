@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/element/pair_inputs.hpp"
-#include "core/law/contact_point.hpp"
+#include "core/tangent/contact_point.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -25,7 +25,7 @@ template <class B, bool F, class S> struct SmallResults {
   bool escaped = false; // the projection left the segment for good
 
   // An ordinary element
-  template <bool H> ENTS_INLINE SmallResults(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f) {
+  template <bool H> ENTS_INLINE SmallResults(const Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
     set(p, f);
     normal_gap = gap = p.gap;
     force = p.per_gap * p.gap;
@@ -81,7 +81,7 @@ template <class B, bool F, class S> struct SmallResults {
   }
 
 private:
-  template <bool H> ENTS_INLINE void set(const Pair<B, H, S>& p, const PairFriction<B, H, S>& f) {
+  template <bool H> ENTS_INLINE void set(const Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE { xi[a] = p.xi[a], tangents[a] = p.projector.s.e[a]; });
     area = p.area, evaluations = p.evaluations;
     d = p.projector.s.d;

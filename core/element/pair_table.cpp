@@ -10,8 +10,6 @@ template <class B, bool H, bool F> // pair_*.cpp
 std::uint64_t evaluate_pairs(const Plan&, const PairBlock&, std::int32_t count);
 template <class B, bool H> // general_*.cpp
 std::uint64_t evaluate_general(const Plan&, const PairBlock&, std::int32_t count);
-void expression_jets(const ExternalHeight&, std::int32_t, std::int32_t, const double*,
-                     double*); // expression.hpp
 
 #if defined(ENTS_NO_BLOCKS) // evaluate_element() takes all elements
 static constexpr const PairKernelsOfBasis* of_basis = nullptr;
@@ -30,6 +28,6 @@ static constexpr PairKernelsOfBasis of_basis[] = {ENTS_BASES(ENTS_BASIS)};
 static constexpr const char* instruction_set = ENTS_TEXT(ENTS_ISA);
 #endif
 
-extern const PairKernels pair_kernels = {instruction_set, of_basis, stream_copy, expression_jets};
+extern const PairKernels pair_kernels = {instruction_set, of_basis, stream_copy};
 
 } // namespace ents::ENTS_ISA

@@ -3,7 +3,7 @@
 #include "core/element/parameter_kernels.hpp"
 
 #include "core/element/parameter_rates.hpp"
-#include "core/search/transfer.hpp"
+#include "core/element/transfer.hpp"
 #include "core/surface/counted_basis.hpp"
 
 namespace ents {

@@ -5,13 +5,25 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
-#include "core/element/pair_kernels.hpp"
 #include "core/height/expression_steps.hpp"
-#include "core/model/fingerprint.hpp"
+#include "core/numbers/fingerprint.hpp"
+#include "core/numbers/instruction_set.hpp"
 
 namespace ents {
+
+#ifdef ENTS_HAS_AVX2
+namespace avx2 {
+std::remove_pointer_t<ExternalHeight::Jets> expression_jets;
+}
+#endif
+#ifdef ENTS_HAS_AVX512
+namespace avx512 {
+std::remove_pointer_t<ExternalHeight::Jets> expression_jets;
+}
+#endif
 
 namespace {
 
@@ -302,6 +314,25 @@ bool ExpressionBuilder::compile(int result, std::vector<double>& values, Express
   return true;
 }
 
+namespace {
+
+ExternalHeight::Jets best_expression_jets() {
+  switch (best_instruction_set()) {
+#ifdef ENTS_HAS_AVX512
+  case InstructionSet::avx512:
+    return avx512::expression_jets;
+#endif
+#ifdef ENTS_HAS_AVX2
+  case InstructionSet::avx2:
+    return avx2::expression_jets;
+#endif
+  default:
+    return portable::expression_jets;
+  }
+}
+
+} // namespace
+
 bool ExpressionBuilder::finish(int result, const double (&feature_length)[2], Height& height,
                                TooLong& too_long) {
   auto expression = std::make_shared<Expression>();
@@ -323,7 +354,7 @@ bool ExpressionBuilder::finish(int result, const double (&feature_length)[2], He
                             static_cast<int>(step.a), static_cast<int>(step.b), static_cast<int>(step.n)})
       print.add(field);
   source.stamp = print.number();
-  source.jets = best_pair_kernels().expression_jets;
+  source.jets = best_expression_jets();
   source.ranges = expression_ranges;
   source.rates = parameters_.empty() ? nullptr : expression_rates;
   source.parameters = static_cast<std::int32_t>(parameters_.size());

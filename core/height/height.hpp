@@ -48,7 +48,7 @@ struct HeightNode {
   HeightKind kind;
   std::int32_t child_count; // sum, product, shift
   std::int32_t first_child; // distance in nodes from this node to its first child; children are contiguous
-  // Numbers that a named parameter gives (height_binding.hpp): 1 + its index, 0 for a number of the model's
+  // Numbers that a named parameter gives (binding.hpp): 1 + its index, 0 for a number of the model's
   // own.
   //   formulas: the numbers of the table that are `named`; shift: by; map: 1 + the index of its field;
   //   external: its parameters

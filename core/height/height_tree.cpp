@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/height/height_binding.hpp"
 #include "core/height/height_map.hpp"
-#include "core/model/fingerprint.hpp"
+#include "core/height/height_value.hpp"
+#include "core/numbers/fingerprint.hpp"
 
 namespace ents {
 

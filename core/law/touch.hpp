@@ -8,7 +8,6 @@
 #pragma once
 
 #include "core/law/normal_law.hpp"
-#include "core/model/plan.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -55,18 +54,6 @@ template <class S> ENTS_INLINE S touching_gap(const ContactLaw& law, const S& of
   if (law.normal == NormalKind::table && law.table_points > 0)
     return law.table[law.table_points - 1].gap * of_table;
   return S(0.0);
-}
-
-// From the state's numbers: those at `anchor_at`, and of an open element its projection.
-template <int T> ENTS_INLINE SlipBegin<double, T> slip_begin(const double* state, std::int32_t anchor_at) {
-  SlipBegin<double, T> begin{};
-  const double history = state[StateLayout::history_at];
-  if (history < 1.0) return begin;
-  const bool open = history == 1.0;
-  begin.known = 1.0;
-  begin.clearance = open && state[anchor_at] > 0.0 ? state[anchor_at] : 0.0;
-  for (int a = 0; a < T; ++a) begin.from[a] = state[(open ? StateLayout::xi_at : anchor_at) + a];
-  return begin;
 }
 
 } // namespace ents::ENTS_ISA

@@ -24,7 +24,7 @@ enum class TangentKind : std::int32_t {
   first_variation // d2g/du2 = 0
 };
 
-// A number that the caller gives by name (height_binding.hpp).
+// A number that the caller gives by name (binding.hpp).
 struct NamedParameter {
   std::string name;
   double value; // where the caller gives none

@@ -7,81 +7,15 @@
 #include "core/height/height.hpp"
 #include "core/model/model.hpp"
 #include "core/model/results.hpp"
+#include "core/model/state.hpp"
+#include "core/model/status.hpp"
 
 namespace ents {
-
-// Outcome of an evaluation; the values are those of the C ABI.
-enum class Status : std::int32_t {
-  ok = 0,
-  no_projection = 1,
-  singular_projection = 2,
-  ambiguous_projection = 3,
-  degenerate_segment = 4,
-  grazing_ray = 5,
-  deep_penetration = 6,
-  out_of_range = 7,
-  non_finite = -4,
-  bad_value = -7,
-  bad_state = -12,
-};
-
-namespace flag {
-enum : std::int32_t {
-  contact = 1,
-  outside = 2,
-  far_side = 4,
-  searched = 8,
-  stick = 16,
-  slip = 32,
-  shear_limit = 64,
-  changed = 128,
-  no_begin = 2048
-};
-}
 
 struct SurfacePoint {
   double *point, *normal, *height, *base_point, *base_normal; // each or null
   double *curvature, *base_curvature; // largest |kappa| of rho_e and of rho; each or null
 };
-
-// State block of an element: where its parts are; -1: not part of it.
-enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 }; // stick: also without friction
-// Is the element what it was? One without a history is open.
-constexpr bool same_status(double before, double now) {
-  return before == now || (before <= 1.0 && now <= 1.0);
-}
-struct StateLayout {
-  static constexpr std::int32_t version = 3;
-  static constexpr std::int32_t tag_at = 0, history_at = 1;
-  static constexpr std::int32_t age_at = 2; // increments since the last change of status
-  static constexpr std::int32_t xi_at = 3;  // [T]
-  std::int32_t anchor_at;                   // [T], friction; of an open element see clearance_at
-  std::int32_t slip_at;                     // accumulated slip [L], friction
-  std::int32_t multiplier_at;               // [1] or, with friction, [1 + T]: augmented Lagrangian
-  std::int32_t wear_at;      // [worn_slave, worn_master, pressure, anchor [T]], see below; wear
-  std::int32_t clearance_at; // of an open element: how far from contact it was [L], in place of an anchor
-  std::int32_t size;
-  double tag; // "ents", version, basis and kinds of law in one exactly representable number
-  // From wear_at on: depth that the slave surface has lost [L]; depth that the master surface has lost here
-  // and that no field has yet [L]; pressure [F/L^2] and projection at the end of the increment before
-  static constexpr std::int32_t worn_slave = 0, worn_master = 1, worn_pressure = 2, worn_anchor = 3;
-};
-StateLayout make_state_layout(const Model& model);
-// A block of this layout, with finite numbers and a known history?
-inline bool is_state(const StateLayout& layout, const double* state) {
-  double zero = 0.0;
-  for (int i = 0; i < layout.size; ++i) zero += 0.0 * state[i];
-  const double history = state[StateLayout::history_at];
-  return zero == 0.0 && state[StateLayout::tag_at] == layout.tag &&
-         (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
-}
-
-// The numbers that an open element without a segment keeps of the state `before` (or null): the worn depths.
-inline void keep_worn_depths(const StateLayout& layout, const double* before, double* state) {
-  if (layout.wear_at < 0 || !before) return;
-  for (const std::int32_t i : {StateLayout::worn_slave, StateLayout::worn_master})
-    state[layout.wear_at + i] = before[layout.wear_at + i];
-}
 
 // The best projection of a slave on a segment.
 struct SegmentProjection {
@@ -110,7 +44,6 @@ struct FoundProjection {
   bool ambiguous; // a second point is as good
   bool escaped;   // the iteration left the segment for good; xi: where
 };
-inline constexpr int largest_state = 24;
 
 struct Plan;
 using ElementKernel = Status (*)(const Plan&, const ElementInput&, const ElementOutput&);
@@ -198,26 +131,5 @@ struct Plan {
   std::int32_t dofs;        // with multipliers
   StateLayout state;
 };
-
-namespace ENTS_ISA {
-// Numbers that a slave node has of its own; null: none
-ENTS_INLINE Status check_slave_values(const ContactLaw& law, const double* values) {
-  if (!values) return Status::ok;
-  double zero = 0.0;
-  for (int i = 0; i < law.slave_values(); ++i) zero += 0.0 * values[i];
-  if (!(zero == 0.0)) return Status::non_finite;
-  constexpr double smallest_scale = 1e-30, largest_scale = 1e30;
-  if (law.normal == NormalKind::table &&
-      !(values[slave_value::scale] >= smallest_scale && values[slave_value::scale] <= largest_scale))
-    return Status::bad_value;
-  return values[slave_value::wear] >= 0.0 && values[slave_value::sliding] >= 0.0 ? Status::ok
-                                                                                 : Status::bad_value;
-}
-} // namespace ENTS_ISA
-
-// The plan of a model; the model must outlive it. `base` is null.
-Plan make_plan(const Model& model);
-// The same, whatever the model's height, without one.
-Plan make_base_plan(const Model& model);
 
 } // namespace ents

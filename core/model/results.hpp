@@ -77,12 +77,7 @@ struct ElementOutput {
   std::int64_t tangent_leading_dimension;
 };
 
-// `count` numbers to be copied past the caches, some now, some later
-struct DeferredCopy {
-  const double* from;
-  std::int64_t count;
-  double* to;
-};
+struct DeferredCopy; // streaming.hpp
 
 // Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in
 // numbers; arrays that are not wanted or not given are null.

@@ -53,6 +53,9 @@
 
 namespace ents::ENTS_ISA {
 
+// Lengths, heights and stiffnesses below this, and lengths above its inverse, keep every product in range.
+inline constexpr double safe_magnitude = 1e30;
+
 // First-order dual number: v + eps d, eps^2 = 0.
 template <class S> struct Dual {
   S v;

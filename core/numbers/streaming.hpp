@@ -6,13 +6,22 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/model/plan.hpp"
+#include "core/numbers/scalar.hpp"
 
 #if defined(__AVX__)
 #include <immintrin.h>
 #elif defined(__SSE2__) || defined(_M_X64)
 #include <emmintrin.h>
 #endif
+
+namespace ents {
+// `count` numbers to be copied past the caches, some now, some later
+struct DeferredCopy {
+  const double* from;
+  std::int64_t count;
+  double* to;
+};
+} // namespace ents
 
 namespace ents::ENTS_ISA {
 

@@ -11,7 +11,7 @@
 // W'/g is finite where the pressure vanishes with the gap.
 #pragma once
 
-#include "core/law/normal_law.hpp"
+#include "core/law/friction.hpp"
 #include "core/model/plan.hpp"
 #include "core/projection/projection.hpp"
 #include "core/surface/pair_surface.hpp"
@@ -19,8 +19,6 @@
 namespace ents::ENTS_ISA {
 
 inline constexpr int max_pair_evaluations = 8;
-// Lengths, heights and stiffnesses below this, and lengths above its inverse, keep every product in range.
-inline constexpr double safe_magnitude = 1e30;
 
 template <int K, class S> ENTS_INLINE Truth<S> minimum_of(const S (&f2)[K], const S (&metric)[K]) {
   return both(f2[0] > 1e-8 * metric[0], determinant(f2) > 1e-8 * determinant(metric));
@@ -54,6 +52,8 @@ template <class B, bool H, class S> struct Pair {
     if constexpr (is_flat<B> && H) p.zeta = dot(p.s.n, p.s.d) + p.s.height.h;
     return true;
   }
+
+  FrictionPlace<S, T> place() const { return {xi, projector.metric, area, contact}; }
 
   ENTS_INLINE Truth<S> has_area() const { return both(area >= 0.0, area < safe_magnitude); }
 

@@ -10,7 +10,8 @@
 // a_k and delta a_k' = y^l delta a_kl; only third derivatives of the basis ask for an expansion of their own.
 #pragma once
 
-#include "core/law/pair_friction.hpp"
+#include "core/law/friction.hpp"
+#include "core/projection/pair.hpp"
 #include "core/tangent/directional_derivative.hpp"
 
 namespace ents::ENTS_ISA {
@@ -66,7 +67,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     S by_xi[T][T];
     Vec<S, D> towards[T][T];
 
-    ENTS_INLINE ChangeOfForce(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
+    ENTS_INLINE ChangeOfForce(const Pair<B, H, S>& pair, const Friction<S, B::dim - 1>& friction,
                               bool multipliers) {
       const auto& surface = pair.projector.s;
       const auto& metric = pair.projector.metric;
@@ -147,7 +148,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
 
   // dt_a/dg of the penalty and the power law: by the gap itself, and by the pressure
   static ENTS_INLINE S by_gap(int a, const Plan& plan, const Pair<B, H, S>& pair,
-                              const PairFriction<B, H, S>& friction) {
+                              const Friction<S, B::dim - 1>& friction) {
     const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
     return friction.by_gap[a] - friction.by_force[a] * (exponent * pair.area * pair.per_gap);
   }

@@ -22,7 +22,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
-                            const PairFriction<B, H, S>& friction) {
+                            const Friction<S, B::dim - 1>& friction) {
     const auto& p = pair.projector;
     this->basis = p.nodes.basis;
     const S stiffness = pair.area * pair.per_gap;
@@ -68,7 +68,7 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
 
 private:
   ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
-                                        const PairFriction<B, H, S>& friction, const S (&inverse)[K],
+                                        const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
                                         const Derivative& derivative) {
     const S stiffness = pair.area * pair.per_gap;
     const typename Forms::ChangeOfForce change(pair, friction, false);

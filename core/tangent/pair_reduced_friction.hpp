@@ -29,7 +29,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
   bool curved_law;
 
   ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
-                            const PairFriction<B, H, S>& friction) {
+                            const Friction<S, B::dim - 1>& friction) {
     for (int a = 0; a < T; ++a) xi[a] = pair.xi[a];
     stiffness = pair.area * pair.per_gap;
     S inverse[K];
@@ -152,7 +152,7 @@ private:
   }
 
   ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
-                                        const PairFriction<B, H, S>& friction, const S (&inverse)[K],
+                                        const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
                                         const Derivative& derivative) {
     Form<B, Dual<S>> f[T];
     forms_of_f(derivative.s, f);

@@ -15,7 +15,7 @@
 // D2xi      of the normal projection: second_xi.hpp
 #pragma once
 
-#include "core/law/contact_point.hpp"
+#include "core/tangent/contact_point.hpp"
 #include "core/tangent/second_xi.hpp"
 
 namespace ents::ENTS_ISA {

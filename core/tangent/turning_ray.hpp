@@ -2,7 +2,7 @@
 // What a ray from a point adds to the tangent: it turns when the slave moves.
 #pragma once
 
-#include "core/law/contact_point.hpp"
+#include "core/tangent/contact_point.hpp"
 
 namespace ents::ENTS_ISA {
 

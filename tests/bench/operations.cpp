@@ -96,7 +96,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
 
   Counted::operations = 0;
   Pair<B, H, Counted> pair(nodes, start);
-  PairFriction<B, H, Counted> rub;
+  Friction<Counted, B::dim - 1> rub;
   pair.area = 1.0;
   pair.project();
   pair.evaluate_at_solution();
@@ -104,7 +104,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   if (!pair.ordinary || !pair.contact) return std::nan("");
   Counted residual[N];
   if (friction) {
-    rub.evaluate(plan.law, pair, begin, slip_share(begin.clearance, -pair.gap),
+    rub.evaluate(plan.law, pair.place(), begin, slip_share(begin.clearance, -pair.gap),
                  -(pair.area * pair.per_gap * pair.gap));
     friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
     if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);

@@ -13,7 +13,7 @@
 #include <map>
 
 #include "abi/handle.hpp"
-#include "core/element/pair_kernels.hpp"
+#include "core/element/make_plan.hpp"
 #include "parts_of_calls.hpp"
 #include "samples.hpp"
 #include "worst.hpp"

@@ -35,6 +35,18 @@ forbid "abi does not know hosts or tests" '["<](.*/)?(adapters|examples|tests)/.
 forbid "only abi may see core" '["<](.*/)?core/.*[">]' examples adapters
 forbid "the interface is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters core
 
+# A folder of core includes only those before it. core/README.md has them in this order.
+before=
+for folder in numbers height surface law model projection tangent element search slave smoothing admissibility; do
+  [ -n "$(includes core/$folder)" ] || { echo "no include found below core/$folder" >&2; exit 1; }
+  before="$before${before:+|}$folder"
+  found=$(includes core/$folder | grep -E ':"core/' | grep -vE ":\"core/($before)/" || true)
+  [ -z "$found" ] || { printf '%s\n' "$found" | sed "s|\$|  -- core/$folder comes before it|" >&2; bad=1; }
+done
+for folder in core/*/; do
+  case "|$before|" in *"|$(basename "$folder")|"*) ;; *) echo "$folder is not in the order above" >&2; bad=1 ;; esac
+done
+
 # The reader of decks serves ents-deck and ents-host: it knows neither the library nor a host.
 reader=$(cd adapters/deck && ls source.?pp spelling.cpp element_types.?pp scopes.?pp mesh.?pp)
 for file in $reader; do

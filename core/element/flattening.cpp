@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/law/flattening.hpp"
+#include "core/element/flattening.hpp"
 
 #include <algorithm>
 #include <cmath>

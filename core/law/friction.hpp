@@ -17,13 +17,22 @@
 #pragma once
 
 #include "core/law/touch.hpp"
-#include "core/tangent/pair_tangent.hpp"
+#include "core/numbers/vec.hpp"
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, class S> struct PairFriction {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+// What friction sees of an element's place: T surface coordinates, the metric A_ab there.
+template <class S, int T> struct FrictionPlace {
+  const S (&xi)[T];
+  const S (&metric)[symmetric_size<T>];
+  const S& area;
+  Truth<S> contact;
+};
+
+template <class S, int T> struct Friction {
+  static constexpr int K = symmetric_size<T>;
   Truth<S> active, slip, at_shear_limit;
+  Truth<S> ordinary;    // false: numbers near the edge of their range
   Truth<S> closes;      // was it open at the begin of the increment?
   S share;              // s of touch.hpp
   S moved[T];           // s (xi - xi_0); 0 where there is no friction
@@ -36,20 +45,20 @@ template <class B, bool H, class S> struct PairFriction {
   S by_gap[T], by_force[T]; // dt_a / dg, dt_a / d(p A) at a fixed place
 
   // slipping: the part of the increment; pressure_force: p A; multiplier: lambda_a [F/L], or null
-  ENTS_INLINE void evaluate(const ContactLaw& law, Pair<B, H, S>& pair, const SlipBegin<S, T>& begin,
-                            const SlipShare<S>& slipping, const S& pressure_force,
-                            const S* multiplier = nullptr) {
-    const auto& metric = pair.projector.metric;
-    active = both(pair.contact, begin.known > 0.0);
+  ENTS_INLINE void evaluate(const ContactLaw& law, const FrictionPlace<S, T>& at,
+                            const SlipBegin<S, T>& begin, const SlipShare<S>& slipping,
+                            const S& pressure_force, const S* multiplier = nullptr) {
+    const auto& metric = at.metric;
+    active = both(at.contact, begin.known > 0.0);
     closes = both(active, slipping.touches > 0.5);
     share = slipping.share;
-    scale = law.friction_stiffness * pair.area;
+    scale = law.friction_stiffness * at.area;
     S lowered[T], far = scale / safe_magnitude;
     for (int a = 0; a < T; ++a) {
-      moved[a] = select(active, share * (pair.xi[a] - begin.from[a]), S(0.0));
+      moved[a] = select(active, share * (at.xi[a] - begin.from[a]), S(0.0));
       far = far + 1e-6 * absolute(moved[a]);
     }
-    pair.ordinary = both(pair.ordinary, far < 1.0);
+    ordinary = far < 1.0;
     for (int a = 0; a < T; ++a) {
       stretch[a] = moved[a];
       lowered[a] = metric[symmetric_index(a, 0)] * moved[0];
@@ -69,7 +78,7 @@ template <class B, bool H, class S> struct PairFriction {
     }
     at_shear_limit = limit < limit; // none
     if (law.shear_limit > 0.0) {
-      const S most = law.shear_limit * pair.area;
+      const S most = law.shear_limit * at.area;
       at_shear_limit = most < limit;
       limit = select(at_shear_limit, most, limit);
       by_pressure = select(at_shear_limit, S(0.0), by_pressure);
@@ -86,7 +95,7 @@ template <class B, bool H, class S> struct PairFriction {
       by_gap[a] = S(0.0);
       by_force[a] = select(slip, direction[a] * by_pressure, S(0.0));
     }
-    if (slipping.some) differentiate_share(law, pair, begin, slipping.rate);
+    if (slipping.some) differentiate_share(law, at, begin, slipping.rate);
   }
 
   // No friction.
@@ -94,6 +103,7 @@ template <class B, bool H, class S> struct PairFriction {
     const S zero(0.0);
     active = slip = at_shear_limit = zero < zero;
     closes = active;
+    ordinary = zero <= zero;
     share = S(1.0);
     for (int a = 0; a < T; ++a) {
       moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
@@ -126,14 +136,14 @@ private:
   }
 
   // t_a changes with the part of the increment that is slip; its direction only beside a multiplier.
-  ENTS_INLINE void differentiate_share(const ContactLaw& law, const Pair<B, H, S>& pair,
+  ENTS_INLINE void differentiate_share(const ContactLaw& law, const FrictionPlace<S, T>& at,
                                        const SlipBegin<S, T>& begin, const S& rate) {
-    const auto& metric = pair.projector.metric;
+    const auto& metric = at.metric;
     S lowered[T], along = S(0.0);
     for (int a = 0; a < T; ++a) {
-      lowered[a] = metric[symmetric_index(a, 0)] * (pair.xi[0] - begin.from[0]);
+      lowered[a] = metric[symmetric_index(a, 0)] * (at.xi[0] - begin.from[0]);
       if constexpr (T == 2)
-        lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * (pair.xi[1] - begin.from[1]);
+        lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * (at.xi[1] - begin.from[1]);
     }
     for (int a = 0; a < T; ++a) along = along + raised[a] * lowered[a];
     // The direction of an element that slips follows its multiplier, if it has one beside the trial.
@@ -146,27 +156,5 @@ private:
     }
   }
 };
-
-// R = A W' dg + t_a dxi^a; push: A W' n_e
-template <bool Rigid, class B, bool H, class S>
-ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const PairFriction<B, H, S>& friction,
-                                   const Vec<S, B::dim>& push, S (&out)[dof_count<B, Rigid>]) {
-  constexpr int T = B::dim - 1;
-  const auto& p = pair.projector;
-  Form<B, S> force, f[T];
-  form_of_p<B, H>(p.s, push, force);
-  if constexpr (!H)
-    for (auto& v : force.a) v = Vec<S, B::dim>::zero();
-  for (auto& v : force.a2.of) v = Vec<S, B::dim>::zero();
-  forms_of_f(p.s, f);
-  S inverse[symmetric_size<T>];
-  invert(p.f2, determinant(p.f2), inverse);
-  for (int b = 0; b < T; ++b) {
-    S raised = inverse[symmetric_index(0, b)] * friction.force[0];
-    if constexpr (T == 2) raised = raised + inverse[symmetric_index(1, b)] * friction.force[1];
-    add_form<parts_of_f<B, H>>(force, raised, f[b]);
-  }
-  expand_to_dofs<Rigid, parts_of_f<B, H>>(p.nodes.basis, force, p.N, out);
-}
 
 } // namespace ents::ENTS_ISA

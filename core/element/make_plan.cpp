@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/model/plan.hpp"
+#include "core/element/make_plan.hpp"
 
+#include "core/element/flattening.hpp"
 #include "core/element/kernel_table.hpp"
-#include "core/element/pair_kernels.hpp"
 #include "core/element/parameter_kernels.hpp"
-#include "core/law/flattening.hpp"
-#include "core/model/fingerprint.hpp"
 #include "core/model/needs.hpp"
+#include "core/numbers/fingerprint.hpp"
+#include "core/numbers/instruction_set.hpp"
 #include "core/surface/counted_basis.hpp"
 
 namespace ents {
@@ -32,46 +32,18 @@ void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& pla
 }
 
 const PairKernels& best_pair_kernels() {
-#if defined(ENTS_HAS_AVX2) || defined(ENTS_HAS_AVX512)
-  __builtin_cpu_init();
-#endif
+  switch (best_instruction_set()) {
 #ifdef ENTS_HAS_AVX512
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+  case InstructionSet::avx512:
     return avx512::pair_kernels;
 #endif
 #ifdef ENTS_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) return avx2::pair_kernels;
+  case InstructionSet::avx2:
+    return avx2::pair_kernels;
 #endif
-  return portable::pair_kernels;
-}
-
-StateLayout make_state_layout(const Model& model) {
-  const ContactLaw& law = model.law;
-  const std::int32_t parameters = basis_entry(model.basis).parameters;
-  StateLayout s{-1, -1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
-  if (law.has_friction()) {
-    s.anchor_at = s.size;
-    s.slip_at = s.anchor_at + parameters;
-    s.size = s.slip_at + 1;
+  default:
+    return portable::pair_kernels;
   }
-  if (law.multiplier_in_state()) {
-    s.multiplier_at = s.size;
-    s.size += law.has_friction() ? 1 + parameters : 1;
-  }
-  if (law.wear.on) {
-    s.wear_at = s.size;
-    s.size += StateLayout::worn_anchor + parameters;
-  }
-  s.clearance_at = s.anchor_at >= 0 ? s.anchor_at
-                   : s.wear_at >= 0 ? s.wear_at + StateLayout::worn_anchor
-                                    : -1;
-  constexpr double ents = 1701737587.0; // the four letters
-  const auto basis = static_cast<std::int32_t>(model.basis), normal = static_cast<std::int32_t>(law.normal),
-             friction = static_cast<std::int32_t>(law.friction);
-  s.tag = ents * 65536.0 + (((StateLayout::version * 32 + basis) * 16 + normal) * 4 + friction) +
-          (law.wear.on ? 32768.0 : 0.0);
-  return s;
 }
 
 namespace {
@@ -85,10 +57,6 @@ double make_surface_stamp(const Model& model) {
   for (const double s : model.surface_coordinates) print.add(s);
   return print.number();
 }
-
-} // namespace
-
-namespace {
 
 Plan make(const Model& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);

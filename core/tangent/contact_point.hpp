@@ -7,8 +7,8 @@
 //   p = delta x_s - delta rho_e (- g delta e where the ray turns with the slave)
 #pragma once
 
-#include "core/law/pair_friction.hpp"
 #include "core/law/wear.hpp"
+#include "core/tangent/friction_residual.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -36,7 +36,7 @@ template <class B, bool H, class S> struct ContactPoint {
   V normal, c, onto[T]; // n_e; onto: shadow
   NormalForce<S> law;   // 0 where there is no contact
   Truth<S> safe;        // has the ray a frame, and does it enter the surface from the front?
-  PairFriction<B, H, S> friction;
+  Friction<S, B::dim - 1> friction;
   WearOfIncrement<S, D> wear; // if the law has it
   Truth<S> solved;            // was its pressure found?
 
@@ -92,8 +92,9 @@ template <class B, bool H, class S> struct ContactPoint {
         of.known = select(begin.clearance > 0.0, none, begin.known);
       else if (!worn)
         slipping = slip_share(begin.clearance, -clearance);
-      friction.evaluate(plan.law, pair, of, slipping, -(pair.area * law.force),
+      friction.evaluate(plan.law, pair.place(), of, slipping, -(pair.area * law.force),
                         multiplier ? multiplier + 1 : nullptr);
+      pair.ordinary = both(pair.ordinary, friction.ordinary);
     } else {
       friction.set_none();
     }

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of a model, chosen once.
+#pragma once
+
+#include "core/element/pair_kernels.hpp"
+
+namespace ents {
+
+// The plan of a model; the model must outlive it. `base` is null.
+Plan make_plan(const Model& model);
+// The same, whatever the model's height, without one.
+Plan make_base_plan(const Model& model);
+
+// Sets those for blocks of elements of a model; null: evaluate_element() takes them one by one.
+void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan);
+
+// Those of the best instruction set of this processor.
+const PairKernels& best_pair_kernels();
+
+} // namespace ents
