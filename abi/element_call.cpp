@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "abi/undefined_height.hpp"
-#include "core/law/open_multiplier.hpp"
+#include "core/law/multiplier.hpp"
 #include "core/model/slave_values.hpp"
 
 namespace ents {
@@ -213,7 +213,7 @@ void ElementCall::hold_multipliers(std::int64_t e, double* residual, double* tan
           a == b ? ENTS_ISA::open_multiplier_tangent(plan->law, static_cast<int>(a), area) : 0.0;
   if ((out->wanted & ENTS_ENERGY) != 0)
     *at(out->energy, out->energy_stride, e) =
-        area * ENTS_ISA::open_multiplier_energy(plan->law.stiffness, lambda[0]);
+        area * ENTS_ISA::open_multiplier_energy(plan->law.number[0], lambda[0]);
 }
 
 // As the element kernel, but without `start`, which elements without a segment do not have.
@@ -236,7 +236,7 @@ std::int32_t ElementCall::check_open(std::int64_t e) const {
   double size = 0.0;
   for (int a = 0; a < plan->multipliers; ++a)
     size +=
-        std::fabs(lambda[a]) * (1.0 + 1.0 / (a == 0 ? plan->law.stiffness : plan->law.friction_stiffness));
+        std::fabs(lambda[a]) * (1.0 + 1.0 / (a == 0 ? plan->law.number[0] : plan->law.friction_stiffness));
   return (area ? 1.0 + *area : 1.0) * size < largest ? ENTS_OK : ENTS_OUT_OF_RANGE;
 }
 

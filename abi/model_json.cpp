@@ -14,7 +14,7 @@
 #include "abi/json_tree.hpp"
 #include "abi/text_file.hpp"
 #include "core/element/flattening.hpp"
-#include "core/law/law_table.hpp"
+#include "core/law/laws.hpp"
 #include "core/model/binding.hpp"
 
 namespace ents {
@@ -147,16 +147,25 @@ double read_law_number(const json& object, const std::string& path, const char* 
   return number;
 }
 
-void read_table(const json& normal, const std::string& path, Model& model) {
+// A multiple of 1/2, twice
+std::int32_t read_exponent(const json& normal, const std::string& path, const char* key) {
+  const double exponent = read_double(normal, path, key, Range::positive);
+  if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
+    fail(ENTS_BAD_VALUE, member(path, key),
+         "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
+  return static_cast<std::int32_t>(2.0 * exponent);
+}
+
+void read_table(const json& normal, const std::string& path, const char* gap_key, const char* pressure_key,
+                Model& model) {
   constexpr std::size_t most = 1024;
-  check_keys(normal, path, {"type", "gap", "pressure"}, {});
-  const json& gaps = normal.at("gap");
-  const std::string at_gap = member(path, "gap"), at_pressure = member(path, "pressure");
+  const json& gaps = normal.at(gap_key);
+  const std::string at_gap = member(path, gap_key), at_pressure = member(path, pressure_key);
   check_array(gaps, at_gap, most, "gaps, rising");
   if (gaps.size() < 2) fail(ENTS_BAD_VALUE, at_gap, "has one number; write 2 to 1024 gaps, rising");
   const std::vector<double> gap = read_vector(gaps, at_gap, gaps.size(), Range::any, "");
   const std::vector<double> pressure =
-      read_vector(normal.at("pressure"), at_pressure, gap.size(), Range::any, "one per gap");
+      read_vector(normal.at(pressure_key), at_pressure, gap.size(), Range::any, "one per gap");
   for (std::size_t i = 1; i < gap.size(); ++i) {
     if (!(gap[i] > gap[i - 1]))
       fail(ENTS_BAD_VALUE, item(at_gap, i),
@@ -168,54 +177,38 @@ void read_table(const json& normal, const std::string& path, Model& model) {
   if (pressure.back() != 0.0)
     fail(ENTS_BAD_VALUE, item(at_pressure, gap.size() - 1),
          "is " + shown(pressure.back()) + "; the last pressure is 0: contact begins at the last gap");
-  model.law.normal = NormalKind::table;
   model.law_table = make_law_table(gap, pressure);
   for (const LawTable& point : model.law_table)
     if (!std::isfinite(point.force + point.stiffness + point.energy))
       fail(ENTS_BAD_VALUE, at_gap, "has gaps so close to each other that the stiffness is not finite");
 }
 
+// By what the law's table says.
 void read_normal(const json& normal, const std::string& path, Model& model) {
-  ContactLaw& law = model.law;
-  std::uint8_t& bound_to = model.law_binding.normal;
-  switch (read_type(
-      normal, path,
-      {"penalty", "power", "exponential", "augmented", "augmented_multiplier", "multiplier", "table"})) {
-  case 1: {
-    check_keys(normal, path, {"type", "coefficient", "exponent"}, {});
-    law.normal = NormalKind::power;
-    law.stiffness = read_law_number(normal, path, "coefficient", model, bound_to);
-    const double exponent = read_double(normal, path, "exponent", Range::positive);
-    if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
-      fail(ENTS_BAD_VALUE, member(path, "exponent"),
-           "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
-    law.twice_exponent = static_cast<std::int32_t>(2.0 * exponent);
-    return;
-  }
-  case 2:
-    check_keys(normal, path, {"type", "pressure", "clearance"}, {});
-    law.normal = NormalKind::exponential;
-    law.pressure = read_law_number(normal, path, "pressure", model, bound_to);
-    law.clearance = read_double(normal, path, "clearance", Range::positive);
-    return;
-  case 0:
-    law.normal = NormalKind::penalty;
-    break;
-  case 3:
-    law.normal = NormalKind::augmented;
-    break;
-  case 4:
-    law.normal = NormalKind::augmented_multiplier;
-    break;
-  case 6:
-    read_table(normal, path, model);
-    return;
-  default:
-    law.normal = NormalKind::multiplier;
-    break;
-  }
-  check_keys(normal, path, {"type", "stiffness"}, {});
-  law.stiffness = read_law_number(normal, path, "stiffness", model, bound_to);
+  std::vector<std::string_view> types, keys{"type"};
+  for (const LawEntry& entry : law_entries) types.push_back(entry.type);
+  const LawEntry& entry = law_entries[read_type(normal, path, types)];
+  const std::span numbers(entry.numbers, static_cast<std::size_t>(entry.count));
+  for (const LawNumber& number : numbers) keys.push_back(number.key);
+  check_keys(normal, path, keys, {});
+  set_normal_law(entry, model.law);
+  const char* gap_key = "";
+  double* to = model.law.number;
+  for (const LawNumber& number : numbers) switch (number.kind) {
+    case LawNumber::positive:
+      *to++ = number.named ? read_law_number(normal, path, number.key, model, model.law_binding.normal)
+                           : read_double(normal, path, number.key, Range::positive);
+      break;
+    case LawNumber::exponent:
+      model.law.twice_exponent = read_exponent(normal, path, number.key);
+      break;
+    case LawNumber::rising:
+      gap_key = number.key;
+      break;
+    case LawNumber::falling:
+      read_table(normal, path, gap_key, number.key, model);
+      break;
+    }
 }
 
 void read_friction(const json& friction, const std::string& path, Model& model) {
@@ -256,8 +249,9 @@ void read_wear(const json& wear, const std::string& path, Model& model) {
            "is " + shown(law.slave) +
                "; it is the part of the worn depth that the slave surface loses, 0 .. 1");
   }
-  if (model.law.normal == NormalKind::table)
-    fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"table\"");
+  for (const LawEntry& entry : law_entries)
+    if (entry.kind == model.law.normal && !entry.wears)
+      fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"" + std::string(entry.type) + "\"");
   if (model.law.multiplier_is_dof())
     fail(ENTS_BAD_VALUE, path,
          "needs a normal law whose pressure follows from the gap; write \"penalty\", \"power\", "

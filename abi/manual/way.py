@@ -18,7 +18,7 @@ STAGES = [
     ("height", "h and its derivatives at s(xi)", ["height", "formulas", "spline_height"], "h, h', h''"),
     ("surface", "rho_e = rho + h n, its derivatives, F_,xixi", ["basis", "pair_rho", "pair_surface"], "x_s - rho_e, rho_e,a, F_,xixi"),
     ("projection", "xi by Newton's method, gap and normal", ["pair", "projection", "search"], "xi, g, n_e"),
-    ("law", "normal force, friction, wear", ["normal_law", "friction", "wear"], "W', W'', t_a"),
+    ("law", "normal force, friction, wear", ["laws", "friction", "wear"], "W', W'', t_a"),
     ("tangent", "forms, expanded to vectors of dofs, and their products", ["pair_forms", "pair_tangent", "tangent_sum", "pair_write"], "R_i, K_ij"),
 ]
 ELEMENT = ["pair_inputs", "pair_kernel", "general_block", "pair_results"]

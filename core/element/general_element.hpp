@@ -146,7 +146,7 @@ private:
     size += tangential;
     if (plan.multipliers > 0) { // they come back in the residual, over a stiffness
       size +=
-          area * (1.0 + absolute(at.law_gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.stiffness));
+          area * (1.0 + absolute(at.law_gap) + absolute(in.multiplier[0]) * (1.0 + 1.0 / plan.law.number[0]));
       for (int a = 1; a < plan.multipliers; ++a) tangential += area * absolute(in.multiplier[a]);
       if (plan.multipliers > 1) size += tangential / plan.law.friction_stiffness;
     }

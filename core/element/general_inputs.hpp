@@ -59,7 +59,7 @@ template <class B, bool H, class S> struct GeneralInputs {
       });
     };
     offset = own(slave_value::offset, 0.0);
-    scale = plan.law.normal == NormalKind::table ? own(slave_value::scale, 1.0) : S(1.0);
+    scale = plan.law.has_scale ? own(slave_value::scale, 1.0) : S(1.0);
     has_wear = plan.law.wear.on;
     if (!has_wear) return;
     worn.factor = own(slave_value::wear, 1.0), worn.sliding_factor = own(slave_value::sliding, 1.0);

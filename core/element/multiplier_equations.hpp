@@ -47,7 +47,7 @@ template <class B, bool H, class S> struct MultiplierEquations {
   template <class Sum> ENTS_INLINE double bound(const Sum& sum) const {
     const auto& f = at.friction;
     if (!f.active || !plan.law.has_friction_force())
-      return at.pair.area * (sum.size_of(sum.dg) + 1.0 / plan.law.stiffness);
+      return at.pair.area * (sum.size_of(sum.dg) + 1.0 / plan.law.number[0]);
     const double rate = 1.0 / plan.law.friction_stiffness;
     double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
     if (f.slip) by_multiplier += at.pair.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);

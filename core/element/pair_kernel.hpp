@@ -4,9 +4,9 @@
 
 #include <cstring>
 
-#include "core/element/general_element.hpp"
 #include "core/element/pair_kernels.hpp"
 #include "core/element/pair_results.hpp"
+#include "core/tangent/friction_residual.hpp"
 #include "core/tangent/pair_reduced_friction.hpp"
 
 namespace ents::ENTS_ISA {

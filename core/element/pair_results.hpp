@@ -3,9 +3,10 @@
 #pragma once
 
 #include "core/element/pair_inputs.hpp"
-#include "core/tangent/contact_point.hpp"
 
 namespace ents::ENTS_ISA {
+
+template <class B, bool H, class S> struct ContactPoint; // tangent/contact_point.hpp
 
 // What they are made of: a copy for where they are wanted. Numbers of a lane are read from memory, where
 // nothing else of a Pair need be.

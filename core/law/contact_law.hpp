@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact laws per area: the normal force from a potential W(g) or a multiplier, and the limit of friction.
-//
-//   penalty               W = eps g^2 / 2                             g < 0
-//   power                 p = c (-g)^m                                g < 0, m a multiple of 1/2, >= 1
-//   exponential           p = p0 / (e - 1) u (e^u - 1), u = 1 - g / c0, g < c0 (pressure p0 at g = 0)
-//   augmented             W = (<p>^2 - lambda^2) / (2 eps), p = lambda - eps g; lambda in the state (Uzawa)
-//   augmented_multiplier  the same with lambda as a dof (Alart and Curnier 1991, semi-smooth Newton)
-//   multiplier            lambda as a dof, no augmentation; eps only decides the active set
-//   table                 p(g) through given points (law_table.hpp); of a slave node r p(g / r), r its scale
+// The numbers of a contact law, per area: the normal law (normal_law.hpp), the limit of friction, wear.
 #pragma once
 
 #include <cstdint>
 #include <type_traits>
 
+#include "core/law/normal_kinds.hpp"
 #include "core/numbers/elementary.hpp"
 
 namespace ents {
-
-enum class NormalKind : std::int32_t {
-  none,
-  penalty,
-  power,
-  exponential,
-  augmented,
-  augmented_multiplier,
-  multiplier,
-  table
-};
 
 enum class FrictionKind : std::int32_t {
   none,
@@ -64,7 +46,7 @@ enum : std::int32_t {
 };
 }
 
-// A point of a table, derivatives of W by the gap: law_table.hpp
+// A point of a table, derivatives of W by the gap: table.hpp
 struct LawTable {
   double gap = 0.0;       // [L], rising
   double force = 0.0;     // W' = -p [F/L^2], rising to 0
@@ -74,10 +56,11 @@ struct LawTable {
 
 struct ContactLaw {
   NormalKind normal = NormalKind::none;
-  double stiffness = 0.0;          // eps [F/L^3]; power: c [F/L^(2+m)]
+  // What the law says of itself, see set_normal_law()
+  Multiplier multiplier = Multiplier::none;
+  bool has_slope = false, has_scale = false;
+  double number[2] = {0.0, 0.0};   // of the law's table, in its order; of most laws eps [F/L^3]
   std::int32_t twice_exponent = 2; // 2 m (power)
-  double pressure = 0.0;           // p0 [F/L^2] (exponential)
-  double clearance = 0.0;          // c0 [L] (exponential)
   FrictionKind friction = FrictionKind::none;
   double friction_coefficient = 0.0; // mu
   double friction_stiffness = 0.0;   // eps_t [F/L^3]
@@ -98,19 +81,15 @@ struct ContactLaw {
            (has_friction() && (friction_coefficient != 0.0 || rates.friction != 0.0));
   }
   // Is the force W' = (W'/g) g with a finite W'/g?
-  constexpr bool force_has_slope() const {
-    return (normal == NormalKind::penalty || normal == NormalKind::power) && !wear.on && !has_offset;
-  }
+  constexpr bool force_has_slope() const { return has_slope && !wear.on && !has_offset; }
   // Does it read numbers of the slave node (SlaveValues)?
-  constexpr bool has_slave_values() const { return wear.on || has_offset || normal == NormalKind::table; }
+  constexpr bool has_slave_values() const { return wear.on || has_offset || has_scale; }
   // How many?
   constexpr std::int32_t slave_values() const {
-    return normal == NormalKind::table ? slave_value::scale + 1 : slave_value::scale;
+    return has_scale ? slave_value::scale + 1 : slave_value::scale;
   }
-  constexpr bool multiplier_in_state() const { return normal == NormalKind::augmented; }
-  constexpr bool multiplier_is_dof() const {
-    return normal == NormalKind::augmented_multiplier || normal == NormalKind::multiplier;
-  }
+  constexpr bool multiplier_in_state() const { return multiplier == Multiplier::in_state; }
+  constexpr bool multiplier_is_dof() const { return multiplier == Multiplier::is_dof; }
 };
 
 namespace ENTS_ISA {

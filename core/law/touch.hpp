@@ -7,7 +7,8 @@
 // Multipliers that are dofs leave no depth: an element that touches within an increment has no friction in it.
 #pragma once
 
-#include "core/law/normal_law.hpp"
+#include "core/law/contact_law.hpp"
+#include "core/numbers/lanes.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -46,14 +47,6 @@ template <class S> ENTS_INLINE SlipShare<S> slip_share(const S& clearance, const
     of.share = touching.share, of.rate = touching.rate, of.touches = touching.touches;
   }
   return of;
-}
-
-// The gap [L] from which on there is contact; of_table: a table's scale
-template <class S> ENTS_INLINE S touching_gap(const ContactLaw& law, const S& of_table) {
-  if (law.normal == NormalKind::exponential) return S(law.clearance);
-  if (law.normal == NormalKind::table && law.table_points > 0)
-    return law.table[law.table_points - 1].gap * of_table;
-  return S(0.0);
 }
 
 } // namespace ents::ENTS_ISA

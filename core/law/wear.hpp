@@ -16,6 +16,7 @@
 // All of the slip counts, its elastic part with friction included.
 #pragma once
 
+#include "core/law/laws.hpp"
 #include "core/law/touch.hpp"
 #include "core/numbers/vec.hpp"
 
@@ -69,10 +70,7 @@ ENTS_INLINE S worn_pressure(const ContactLaw& law, const S& known, const S& shar
   const NormalForce<S> start = normal_force(law, known, multiplier);
   const S most = -start.force;
   found = most <= most;
-  const bool linear = law.normal == NormalKind::penalty || law.normal == NormalKind::augmented ||
-                      law.normal == NormalKind::augmented_multiplier ||
-                      (law.normal == NormalKind::power && law.twice_exponent == 2);
-  if (linear) return most / (1.0 + share * start.stiffness);
+  if (is_linear(law)) return most / (1.0 + share * start.stiffness);
   S low = S(0.0), high = most, miss_low = -most;
   const NormalForce<S> end = normal_force(law, known + share * high, multiplier);
   S miss_high = high + end.force;

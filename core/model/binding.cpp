@@ -121,8 +121,7 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
     return value >= least;
   };
   constexpr double smallest = 1e-100; // as Range::positive
-  double& normal = law.normal == NormalKind::exponential ? law.pressure : law.stiffness;
-  if (!number(model.law_binding.normal, normal, smallest) ||
+  if (!number(model.law_binding.normal, law.number[0], smallest) ||
       !number(model.law_binding.friction, law.friction_coefficient, 0.0) ||
       !number(model.law_binding.wear, law.wear.coefficient, 0.0) ||
       !number(model.law_binding.sliding, law.wear.sliding, 0.0) ||

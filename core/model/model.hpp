@@ -32,8 +32,7 @@ struct NamedParameter {
 
 // Numbers of a law that a named parameter gives: 1 + its index; 0: the model's own number
 struct LawBinding {
-  std::uint8_t normal = 0;   // stiffness of the penalty and the augmented laws, coefficient of the power law,
-                             // pressure of the exponential
+  std::uint8_t normal = 0;   // ContactLaw::number[0]
   std::uint8_t friction = 0; // coefficient
   std::uint8_t wear = 0;     // coefficient
   std::uint8_t sliding = 0;  // of wear

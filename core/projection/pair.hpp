@@ -12,6 +12,7 @@
 #pragma once
 
 #include "core/law/friction.hpp"
+#include "core/law/power.hpp"
 #include "core/model/plan.hpp"
 #include "core/projection/projection.hpp"
 #include "core/surface/pair_surface.hpp"

@@ -77,7 +77,7 @@ template <class B, bool H, class S> struct ContactPoint {
     }
     pair.contact = without(law.contact, outside);
     const S held_energy =
-        plan.law.multiplier_is_dof() ? open_multiplier_energy(plan.law.stiffness, multiplier[0]) : none;
+        plan.law.multiplier_is_dof() ? open_multiplier_energy(plan.law.number[0], multiplier[0]) : none;
     law.energy = select(outside, held_energy, law.energy);
     law.force = select(pair.contact, law.force, none);
     law.stiffness = select(pair.contact, law.stiffness, none);

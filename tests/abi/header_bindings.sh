@@ -1,6 +1,6 @@
 #!/bin/sh
 # header_bindings.sh PYTHON SOURCES: ents.f90 and the Python module's _structs.py are what bindings.py writes from ents.h, the schema of
-# models is what schema.py writes from the tables of the heights.
+# models is what schema.py writes from the tables of heights and laws.
 set -eu
 python=$1
 cd "$2/abi"
@@ -16,4 +16,4 @@ compare() { # COMMITTED PROGRAM ARGUMENTS...
 }
 compare ents.f90 bindings.py fortran ents.h ents.f90.in
 compare ../adapters/python/ents/_structs.py bindings.py python ents.h
-compare model.schema.json schema.py ../core/height model.schema.json
+compare model.schema.json schema.py ../core model.schema.json

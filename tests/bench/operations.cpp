@@ -4,6 +4,8 @@
 
 #include "counted.hpp"
 
+#include "core/law/laws.hpp"
+
 namespace bench {
 
 namespace {
@@ -74,8 +76,8 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   ents::HeightNode node{};
   node.kind = ents::HeightKind::sine;
   node.sine = {0.03, {0.5, 0.5}, 0.3};
-  plan.law.normal = ents::NormalKind::penalty;
-  plan.law.stiffness = 1.0;
+  ents::set_normal_law(ents::law_entries[0], plan.law); // penalty
+  plan.law.number[0] = 1.0;
   if (friction) {
     plan.law.friction = ents::FrictionKind::coulomb;
     plan.law.friction_coefficient = 0.3;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/law/law_table.hpp"
+#include "core/law/table.hpp"
 
 #include <algorithm>
 #include <cstddef>
-
-#include "core/law/contact_law.hpp"
 
 namespace ents {
 namespace {
