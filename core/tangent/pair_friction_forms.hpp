@@ -11,8 +11,8 @@
 #pragma once
 
 #include "core/law/friction.hpp"
-#include "core/projection/pair.hpp"
 #include "core/tangent/directional_derivative.hpp"
+#include "core/tangent/pair_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 

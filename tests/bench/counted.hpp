@@ -2,6 +2,8 @@
 #pragma once
 
 #define ENTS_ISA counted
+#include "core/law/laws.hpp"
+#include "core/tangent/friction_residual.hpp"
 #include "core/tangent/pair_reduced_friction.hpp"
 
 namespace ents::counted {

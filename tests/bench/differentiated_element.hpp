@@ -251,8 +251,8 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
   }
 
 private:
-  static const double (&second_derivatives(Pair<B, H, double>& pair))[symmetric_size<T>] {
-    if constexpr (PairProjector<B, H, double>::closed_form)
+  static const double (&second_derivatives(Pair<KernelBasis<B>, H, double>& pair))[symmetric_size<T>] {
+    if constexpr (PairProjector<KernelBasis<B>, H, double>::closed_form)
       return pair.projector.base;
     else
       return pair.projector.f2;

@@ -4,8 +4,6 @@
 
 #include "counted.hpp"
 
-#include "core/law/laws.hpp"
-
 namespace bench {
 
 namespace {
