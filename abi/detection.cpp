@@ -53,6 +53,33 @@ std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, Master
 
 namespace {
 
+// What the caller should do; `slave` is its number.
+std::int32_t explain_lost_contact(Lost lost, std::int64_t slave, std::int64_t before, double reach,
+                                  ents_report* report) noexcept {
+  const long long number = slave, segment = before;
+  if (lost == Lost::behind_edge)
+    return report_message(
+        report, ENTS_NO_PROJECTION, slave,
+        "slave %lld is behind an edge between segments, and no segment is in front of it: take a smaller "
+        "step, give the model a wider \"border\", or smooth the surface (ENTS_FLAG_BEHIND_EDGE in "
+        "detection.permitted: go on without its contact)",
+        number);
+  if (lost == Lost::too_deep)
+    return report_message(
+        report, ENTS_NO_PROJECTION, slave,
+        "slave %lld was on segment %lld and lies deeper than detection.reach (%g) now: take a smaller step, "
+        "or "
+        "give a larger reach (ENTS_FLAG_LEFT in detection.permitted: go on without its contact)",
+        number, segment, reach);
+  return report_message(
+      report, ENTS_NO_PROJECTION, slave,
+      "slave %lld was on segment %lld and lies beside all segments now, not above the surface: take a "
+      "smaller "
+      "step, or let the master reach farther (ENTS_FLAG_LEFT in detection.permitted: go on without its "
+      "contact; segment = -1 for slaves that were open)",
+      number, segment);
+}
+
 std::int32_t check_tree_size(const Plan& plan, const MasterMesh& mesh, const double* tree, std::int64_t size,
                              ents_report* report) noexcept {
   if (!tree) return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'tree' is null");

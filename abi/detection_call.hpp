@@ -2,7 +2,8 @@
 // One call of the caller's slave nodes: arguments checked once, then a detection each.
 #pragma once
 
-#include "abi/lost_contact.hpp"
+#include "abi/mesh.hpp"
+#include "core/search/lost_contact.hpp"
 
 namespace ents {
 

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "abi/mesh.hpp"
-#include "abi/patch.hpp"
+#include "core/element/segment.hpp"
+#include "core/search/patch.hpp"
 
 namespace ents {
 

@@ -320,7 +320,7 @@ std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const
 std::int32_t Equations::add_with_body(std::int64_t e, const double* residual, const double* tangent) const {
   const int d = plan_.dimension, body = body_dofs(d), n = d + body;
   double r[largest_body_element], t[largest_body_element * largest_body_element];
-  add_body(d, *pose_, at(call_.in->slave, call_.in->slave_stride, e), residual,
+  add_body(d, pose_->turn, at(call_.in->slave, call_.in->slave_stride, e), residual,
            system_->values ? tangent : nullptr, r, t);
   const Group of_body{d, body, system_->body_equations, 1.0};
   const auto for_each = [&](auto&& f) {

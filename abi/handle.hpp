@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abi/entry_point.hpp"
-#include "abi/patch.hpp"
+#include "core/search/patch.hpp"
 #include "core/model/binding.hpp"
 #include "core/model/plan.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "abi/model_error.hpp"
-#include "abi/patch.hpp"
+#include "core/search/patch.hpp"
 
 namespace ents {
 

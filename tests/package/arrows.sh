@@ -37,7 +37,7 @@ forbid "the interface is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters c
 
 # A folder of core includes only those before it. core/README.md has them in this order.
 before=
-for folder in numbers height surface law model projection tangent element search slave smoothing admissibility; do
+for folder in numbers body height surface law model projection tangent element search slave smoothing admissibility; do
   [ -n "$(includes core/$folder)" ] || { echo "no include found below core/$folder" >&2; exit 1; }
   before="$before${before:+|}$folder"
   found=$(includes core/$folder | grep -E ':"core/' | grep -vE ":\"core/($before)/" || true)

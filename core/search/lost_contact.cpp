@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "abi/lost_contact.hpp"
+#include "core/search/lost_contact.hpp"
 
 #include <cmath>
 
@@ -67,32 +67,6 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
     break;
   }
   return is_above_texture(plan, mesh, slave, nearest) ? Lost::no : Lost::beside;
-}
-
-std::int32_t explain_lost_contact(Lost lost, std::int64_t slave, std::int64_t before, double reach,
-                                  ents_report* report) noexcept {
-  const long long number = slave, segment = before;
-  if (lost == Lost::behind_edge)
-    return report_message(
-        report, ENTS_NO_PROJECTION, slave,
-        "slave %lld is behind an edge between segments, and no segment is in front of it: take a smaller "
-        "step, give the model a wider \"border\", or smooth the surface (ENTS_FLAG_BEHIND_EDGE in "
-        "detection.permitted: go on without its contact)",
-        number);
-  if (lost == Lost::too_deep)
-    return report_message(
-        report, ENTS_NO_PROJECTION, slave,
-        "slave %lld was on segment %lld and lies deeper than detection.reach (%g) now: take a smaller step, "
-        "or "
-        "give a larger reach (ENTS_FLAG_LEFT in detection.permitted: go on without its contact)",
-        number, segment, reach);
-  return report_message(
-      report, ENTS_NO_PROJECTION, slave,
-      "slave %lld was on segment %lld and lies beside all segments now, not above the surface: take a "
-      "smaller "
-      "step, or let the master reach farther (ENTS_FLAG_LEFT in detection.permitted: go on without its "
-      "contact; segment = -1 for slaves that were open)",
-      number, segment);
 }
 
 } // namespace ents

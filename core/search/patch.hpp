@@ -32,16 +32,12 @@ struct ElementSizes {
 };
 ElementSizes sizes_of(const Plan& plan, const Patch& patch);
 
-// The last number of every state of the ABI, after those of the kernels: 1 + the segment that the slave was
+// The last number of every state that a caller keeps, after those of the kernels: 1 + the segment that the slave was
 // on, 0 where that is unknown.
 inline bool is_segment_number(double number) { return 0.0 * number == 0.0; } // finite
 inline std::int64_t segment_of_state(const Plan& plan, const double* state) {
   return static_cast<std::int64_t>(state[plan.state.size]) - 1;
 }
-
-// An element of one segment: by the block kernel where that knows it, else by the element kernel. What else
-// is wanted never shows in the bits of a result.
-Status evaluate_segment(const Plan& plan, const ElementInput& in, const ElementOutput& out);
 
 // input and output have the sizes of `sizes_of`. Nothing is written unless ok. open: nothing is written, the
 // element is one without a segment.
