@@ -30,8 +30,8 @@ ORDER = [name for name, *_ in STAGES]
 def includes(root):
     """(folder, another folder of which it includes a file)"""
     found = set()
-    for file in [*root.glob("core/*/*.[ch]pp"), *root.glob("abi/*.[ch]pp")]:
-        own = file.parent.name
+    for file in [*root.glob("core/*/*.[ch]pp"), *root.glob("abi/*/*.[ch]pp")]:
+        own = "abi" if file.parts[-3] == "abi" else file.parent.name
         for area, rest in re.findall(r'^ *#include "(core|abi)/([^"]+)"', file.read_text(), re.M):
             other = rest.split("/")[0] if area == "core" else "abi"
             found.add((own, other))
@@ -67,7 +67,7 @@ class Picture:
 
 def draw(root):
     included, p = includes(root), Picture()
-    check(root, "abi", ABI)
+    check(root, "abi/call", ABI)
     check(root, "core/element", ELEMENT)
     for name, _, files, _ in STAGES:
         check(root, f"core/{name}", files)

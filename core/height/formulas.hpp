@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The heights that are formulas of a few numbers. A new one is a file like theirs, its line here, and the
-// model's schema made anew (abi/schema.py).
+// model's schema made anew (abi/bindings/schema.py).
 #pragma once
 
 #include "core/height/constant.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The normal laws by name. A new one is a file beside this one (normal_law.hpp says what it has), its include
-// in laws.hpp and its line at the end of this list; the model's schema is made anew by abi/schema.py.
+// in laws.hpp and its line at the end of this list; the model's schema is made anew by abi/bindings/schema.py.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "abi/expression_text.hpp"
+#include "abi/read/expression_text.hpp"
 #include "sample_count.hpp"
 
 namespace expression_reference_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Heights written as expressions: the built-in heights again, ranges that enclose what they should, equal
 // bits for any number of points a call, and what is said of wrong texts.
-#include "abi/expression_text.hpp"
+#include "abi/read/expression_text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "abi/model_error.hpp"
+#include "abi/read/model_error.hpp"
 #include "core/height/expression_steps.hpp"
 #include "core/projection/ball.hpp"
 

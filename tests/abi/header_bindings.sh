@@ -14,6 +14,6 @@ compare() { # COMMITTED PROGRAM ARGUMENTS...
   diff -u "$committed" "$scratch/written" ||
     { echo "$committed is not what its source says now: in abi, run python3 $* > /tmp/written and copy that to $committed" >&2; exit 1; }
 }
-compare ents.f90 bindings.py fortran ents.h ents.f90.in
-compare ../adapters/python/ents/_structs.py bindings.py python ents.h
-compare model.schema.json schema.py ../core model.schema.json
+compare ents.f90 bindings/bindings.py fortran ents.h bindings/ents.f90.in
+compare ../adapters/python/ents/_structs.py bindings/bindings.py python ents.h
+compare model.schema.json bindings/schema.py ../core model.schema.json

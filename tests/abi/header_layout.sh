@@ -5,7 +5,7 @@
 set -eu
 python=$1 header=$2 c=$3 fortran=$4
 
-facts=$("$python" "$(dirname "$header")/bindings.py" facts "$header")
+facts=$("$python" "$(dirname "$header")/bindings/bindings.py" facts "$header")
 fields=$(printf '%s\n' "$facts" | awk '$1 == "struct" { print $2, $5 }')
 structs=$(printf '%s\n' "$fields" | cut -d' ' -f1 | uniq)
 constants=$(printf '%s\n' "$facts" | awk '$1 == "constant" { print $2 }')

@@ -3,7 +3,7 @@
 # same structs with the same fields and the same functions with the same arguments, passed the same way, as the header.
 set -eu
 python=$1 fortran_compiler=$2 header=$3 module=$4
-facts() { "$python" "$(dirname "$header")/bindings.py" facts "$1" | grep -v ^constant | sort; }
+facts() { "$python" "$(dirname "$header")/bindings/bindings.py" facts "$1" | grep -v ^constant | sort; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

@@ -19,7 +19,7 @@ if(NOT ENTS_PYTHON)
 endif()
 
 # What bindings.py writes from ents.h is what is committed, and what the compilers make of it is the same.
-set(bindings ${PROJECT_SOURCE_DIR}/abi/bindings.py)
+set(bindings ${PROJECT_SOURCE_DIR}/abi/bindings/bindings.py)
 add_test(NAME abi.header.bindings COMMAND sh ${header_tests}/header_bindings.sh ${ENTS_PYTHON} ${PROJECT_SOURCE_DIR})
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/header_layout)
 add_custom_command(OUTPUT ${generated}.c ${generated}.f90

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "abi/model_json.hpp"
+#include "abi/read/model_json.hpp"
 
 namespace ents::testing {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "abi/surface_file.hpp"
+#include "abi/read/surface_file.hpp"
 #include "model_errors.hpp"
 
 namespace model_fuzz_test {

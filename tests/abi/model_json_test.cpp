@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The model reader: every key ends in the right place, maps come from files, values and data.
-#include "abi/model_json.hpp"
+#include "abi/read/model_json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "abi/json_text.hpp"
+#include "abi/read/json_text.hpp"
 #include "core/height/height.hpp"
 #include "model_errors.hpp"
 

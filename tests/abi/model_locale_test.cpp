@@ -6,7 +6,7 @@
 #include <clocale>
 #include <cstdio>
 
-#include "abi/surface_file.hpp"
+#include "abi/read/surface_file.hpp"
 #include "core/height/height.hpp"
 #include "model_errors.hpp"
 

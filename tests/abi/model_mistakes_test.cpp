@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "abi/json_text.hpp"
-#include "abi/model_json.hpp"
+#include "abi/read/json_text.hpp"
+#include "abi/read/model_json.hpp"
 #include "model_errors.hpp"
 
 namespace model_mistakes_test {

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "abi/height_registry.hpp"
+#include "abi/read/height_registry.hpp"
 #include "model_errors.hpp"
 #include "schema_validator.hpp"
 

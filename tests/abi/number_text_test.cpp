@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "abi/number_text.hpp"
+#include "abi/read/number_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Height-map files: what is read, and the file, line and column in the message when it is not.
-#include "abi/surface_file.hpp"
+#include "abi/read/surface_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "abi/model_error.hpp"
-#include "abi/text_file.hpp"
+#include "abi/read/model_error.hpp"
+#include "abi/read/text_file.hpp"
 
 namespace surface_file_test {
 namespace {

@@ -1,7 +1,7 @@
 // The library's kernel of ordinary elements, as ents_evaluate calls it after its checks of the arguments.
 #pragma once
 
-#include "abi/handle.hpp"
+#include "abi/call/handle.hpp"
 #include "cases.hpp"
 
 namespace bench {

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include "abi/guard.hpp"
+#include "abi/call/guard.hpp"
 #include "block_kernel.hpp"
 #include "interleaved.hpp"
 #include "machine.hpp"

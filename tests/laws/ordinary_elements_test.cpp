@@ -12,7 +12,7 @@
 #include <iostream>
 #include <map>
 
-#include "abi/handle.hpp"
+#include "abi/call/handle.hpp"
 #include "core/element/make_plan.hpp"
 #include "parts_of_calls.hpp"
 #include "samples.hpp"

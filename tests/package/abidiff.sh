@@ -12,11 +12,11 @@ trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/old"
 git -C "$root" archive "$1" abi core | tar -x -C "$scratch/old"
 library() { # SOURCES OUT
-  for source in "$1"/abi/*.cpp; do
+  find "$1/abi" -name '*.cpp' | while read -r source; do
     ${CXX:-g++} -std=c++20 -g -O0 -w -fPIC -fvisibility=hidden -fvisibility-inlines-hidden -DENTS_BUILD '-DENTS_LIBRARY_VERSION="0"' \
       -I "$1" -I "$1/abi" -c "$source" -o "$2.$(basename "$source").o"
   done
-  ${CXX:-g++} -shared -o "$2" "$2".*.o -Wl,--unresolved-symbols=ignore-all -Wl,--version-script="$1/abi/exports.map"
+  ${CXX:-g++} -shared -o "$2" "$2".*.o -Wl,--unresolved-symbols=ignore-all -Wl,--version-script="$(find "$1/abi" -name exports.map)"
 }
 library "$scratch/old" "$scratch/old.so"
 library "$root" "$scratch/new.so"

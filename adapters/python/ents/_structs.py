@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constants, structs and functions of ents.h. Written by abi/bindings.py: change ents.h, not this file."""
+"""Constants, structs and functions of ents.h. Written by abi/bindings/bindings.py: change ents.h, not this file."""
 import ctypes
 import enum
 

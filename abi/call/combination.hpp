@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The caller's points that are linear combinations of nodes, and facets: their arguments are checked here.
+#pragma once
+
+#include "abi/call/handle.hpp"
+
+namespace ents {
+
+// Counts and pointers of `caller`; its entries are checked as they are read.
+std::int32_t check_combination(const ents_combination* caller, const char* name, ents_combination& out,
+                               ents_report* report) noexcept;
+std::int32_t check_combined_point(const ents_combination& c, const char* name, std::int64_t point,
+                                  std::int64_t nodes, ents_report* report) noexcept;
+
+// Says why a facet has no area: DEGENERATE_SEGMENT.
+std::int32_t refuse_facet(const BasisEntry& entry, std::int64_t facet, const std::int64_t* connectivity,
+                          const double* positions, double thickness, ents_report* report) noexcept;
+
+} // namespace ents
