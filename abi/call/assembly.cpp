@@ -10,7 +10,7 @@
 #include "abi/call/equations.hpp"
 #include "abi/call/guard.hpp"
 #include "abi/call/moved_state.hpp"
-#include "core/element/pair_kernels.hpp"
+#include "core/element/block_kernels.hpp"
 #include "core/model/needs.hpp"
 
 namespace ents {
@@ -102,12 +102,12 @@ std::uint64_t Assembly::evaluate_block(const ElementCall& call, std::int64_t fir
                                        double* residuals, double* tangents, std::int32_t* flags) const {
   const std::int32_t wanted =
       call.out->wanted | ENTS_FLAGS | ENTS_RESIDUAL | (equations_.wants_tangent() ? ENTS_TANGENT : 0);
-  if (pair_results(*call.model, wanted) != wanted || plan_.multipliers > 0)
+  if (block_results_of(*call.model, wanted) != wanted || plan_.multipliers > 0)
     return 0; // open ones have equations, too
   for (std::int64_t k = 0; k < count; ++k)
     if (!call.state_follows(first + k)) return 0;
   ElementCall::BlockNodes nodes;
-  PairBlock block = pair_block(*call.model, *call.in, *call.out, first);
+  ElementBlock block = element_block_of(*call.model, *call.in, *call.out, first);
   if (!call.gather_block(first, count, nodes, block)) return 0;
   block.start_first = call.start_first;
   block.wanted = wanted | (call.out->wanted == 0 ? forces_only : 0);

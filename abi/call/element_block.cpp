@@ -6,14 +6,14 @@ namespace ents {
 // Does anyone look at the places of other results?
 static bool only_forces(std::int32_t wanted) noexcept { return (wanted & ~want::forces) == 0; }
 
-PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out,
-                     std::int64_t first) noexcept {
-  PairBlock b;
+ElementBlock element_block_of(const ents_model& model, const ents_input& in, const ents_output& out,
+                              std::int64_t first) noexcept {
+  ElementBlock b;
 #define ENTS_COPY(field, size) b.field = in.field, b.field##_stride = in.field##_stride;
   ENTS_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.first = first;
-  b.wanted = pair_results(model, out.wanted);
+  b.wanted = block_results_of(model, out.wanted);
 #define ENTS_COPY(bit, public_name, name, field, type, size)                                                 \
   b.field = out.field, b.field##_stride = out.field##_stride;
   ENTS_FORCE_RESULTS(ENTS_COPY)
@@ -24,7 +24,7 @@ PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_o
   return b;
 }
 
-void begin_at_first(PairBlock& b) noexcept {
+void begin_at_first(ElementBlock& b) noexcept {
   const std::int64_t elements = b.first;
   b.first = 0;
   const auto move = [elements](auto*& data, std::int64_t stride) {
@@ -53,7 +53,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
   if (report && report->struct_size != static_cast<std::int32_t>(sizeof *report)) return false;
   const Plan& plan = model->plan;
   const std::int32_t wanted = out->wanted;
-  if (wanted == 0 || pair_results(*model, wanted) != wanted) return false;
+  if (wanted == 0 || block_results_of(*model, wanted) != wanted) return false;
   if (first < 0 || count < 1 || first > most || count > most) return false;
   if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin))
     return false;
@@ -89,11 +89,11 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
 PlainCall evaluate_plain_call(const ents_model* model, std::int64_t first, std::int64_t count,
                               const ents_input* in, const ents_output* out,
                               const ents_report* report) noexcept {
-  if (count > PairBlock::most || !is_plain_call(model, first, count, in, out, report)) return {};
+  if (count > ElementBlock::most || !is_plain_call(model, first, count, in, out, report)) return {};
   if (in->state_begin)
     for (std::int64_t e = first; e < first + count; ++e)
       if (!is_segment_number(in->state_begin[e * in->state_begin_stride + model->plan.state.size])) return {};
-  const PairBlock block = pair_block(*model, *in, *out, first);
+  const ElementBlock block = element_block_of(*model, *in, *out, first);
   const std::uint64_t done = evaluate_block(model->plan, block, static_cast<std::int32_t>(count));
   for (std::int64_t k = 0; k < count; ++k) {
     if ((done >> k & 1) == 0) continue;

@@ -8,12 +8,12 @@
 namespace ents {
 
 // The arrays of a call from element `first` on.
-PairBlock pair_block(const ents_model& model, const ents_input& in, const ents_output& out,
-                     std::int64_t first) noexcept;
+ElementBlock element_block_of(const ents_model& model, const ents_input& in, const ents_output& out,
+                              std::int64_t first) noexcept;
 
 // The same elements, their arrays made to begin with them: for a caller who puts arrays of his own in the
 // place of some.
-void begin_at_first(PairBlock& block) noexcept;
+void begin_at_first(ElementBlock& block) noexcept;
 
 // A call with nothing to complain of, done without looking at the arguments one by one.
 struct PlainCall {
@@ -25,7 +25,7 @@ PlainCall evaluate_plain_call(const ents_model* model, std::int64_t first, std::
                               const ents_report* report) noexcept;
 
 // Results that the block kernels write, if they know this model and its elements are single segments.
-inline std::int32_t pair_results(const ents_model& model, std::int32_t wanted) noexcept {
+inline std::int32_t block_results_of(const ents_model& model, std::int32_t wanted) noexcept {
   return model.model.patch.empty() ? wanted & model.plan.block_results : 0;
 }
 

@@ -138,7 +138,7 @@ struct ElementCall {
     static constexpr std::int64_t most = 16;
     double positions[most][16 * 3], surface_coordinates[most][16 * 2];
   };
-  bool gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, PairBlock& block) const;
+  bool gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, ElementBlock& block) const;
 
   // Name the entry that a kernel refused, or how deep the slave is.
   std::int32_t explain(std::int32_t status, std::int64_t e, ents_report* report) const;

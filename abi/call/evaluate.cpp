@@ -76,7 +76,7 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
 }
 
 bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes,
-                               PairBlock& block) const {
+                               ElementBlock& block) const {
   const std::int64_t size = std::int64_t{plan->nodes} * plan->parameters;
   bool has_coordinates = false;
   for (std::int64_t k = 0; k < count; ++k) {
@@ -98,7 +98,7 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
 
 std::int32_t ElementCall::evaluate_range(std::int64_t first, std::int64_t count, std::int32_t& result,
                                          ents_report* report) const {
-  const std::int32_t known = pair_results(*model, out->wanted);
+  const std::int32_t known = block_results_of(*model, out->wanted);
   if (known != out->wanted || !StagedResults::pays(*model, *out, known, count))
     return evaluate_blocks(first, count, nullptr, result, report);
   return evaluate_staged(first, count, result, report);
@@ -113,18 +113,18 @@ std::int32_t ElementCall::evaluate_staged(std::int64_t first, std::int64_t count
 std::int32_t ElementCall::evaluate_blocks(std::int64_t first, std::int64_t count, StagedResults* staged,
                                           std::int32_t& result, ents_report* report) const {
   // Where some results are the element kernel's alone it goes element by element.
-  const bool in_blocks = out->wanted != 0 && pair_results(*model, out->wanted) == out->wanted;
+  const bool in_blocks = out->wanted != 0 && block_results_of(*model, out->wanted) == out->wanted;
   const std::int64_t most = in_blocks
-                                ? std::min<std::int64_t>(in->mesh ? BlockNodes::most : PairBlock::most,
+                                ? std::min<std::int64_t>(in->mesh ? BlockNodes::most : ElementBlock::most,
                                                          staged ? StagedResults::block_size(*plan) : count)
                                 : 1;
   BlockNodes nodes;
-  PairBlock block = pair_block(*model, *in, *out, first);
+  ElementBlock block = element_block_of(*model, *in, *out, first);
   block.start_first = start_first;
   for (std::int64_t size; count > 0; first += size, count -= size, block.first += size) {
     size = std::min(count, most);
     std::uint64_t done = 0;
-    PairBlock here = block;
+    ElementBlock here = block;
     bool follow = true;
     for (std::int64_t k = 0; k < size && in->state_begin; ++k) follow = follow && state_follows(first + k);
     if (staged) staged->redirect(here);
@@ -173,7 +173,7 @@ int32_t ents_evaluate(const ents_model* model, int64_t first, int64_t count, con
   return ents::entry_point(report, [&] {
     const ents::FloatingPointGuard guard;
     const ents::PlainCall call = ents::evaluate_plain_call(model, first, count, input, output, report);
-    if (call.plain && call.done == ~std::uint64_t{0} >> (ents::PairBlock::most - count))
+    if (call.plain && call.done == ~std::uint64_t{0} >> (ents::ElementBlock::most - count))
       return ents::report_ok(report);
     return ents::ElementCall::evaluate_call(model, first, count, input, output, call, report);
   });

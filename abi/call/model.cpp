@@ -149,13 +149,13 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.multipliers = model->plan.multipliers;
     out.friction = law.has_friction();
     out.augmentable = law.multiplier_in_state();
-    const bool one_by_one = !model->model.patch.empty() || !model->plan.pairs;
+    const bool one_by_one = !model->model.patch.empty() || !model->plan.block;
     out.needs = ents::needs_of(model->model, model->plan) | (one_by_one ? ents::need::one_by_one : 0);
     out.named_parameters = static_cast<std::int32_t>(model->model.parameters.size());
     out.fields = static_cast<std::int32_t>(model->model.fields.size());
     out.worn = model->plan.state.wear_at;
     out.slave_values = law.slave_values();
-    out.instruction_set = ents::best_pair_kernels().instruction_set;
+    out.instruction_set = ents::best_block_kernels().instruction_set;
     ents::copy_to_caller(out, layout);
     return ents::report_ok(report);
   });

@@ -35,11 +35,11 @@ public:
   // Elements at a time: whole registers, few.
   static std::int64_t block_size(const Plan& plan) noexcept {
     return std::clamp<std::int64_t>(nearest / (std::int64_t{plan.dofs} * plan.dofs) & ~std::int64_t{7}, 8,
-                                    PairBlock::most);
+                                    ElementBlock::most);
   }
 
   // The kernel shall write its next block here, and copy the last one meanwhile.
-  void redirect(PairBlock& block) noexcept {
+  void redirect(ElementBlock& block) noexcept {
     begin_at_first(block);
     block.tangent = tangents_[turn_], block.tangent_stride = entries_;
     if (residuals_too_) block.residual = residuals_, block.residual_stride = dofs_;
@@ -51,7 +51,7 @@ public:
     copy_last();
     double* const tangents = tangents_[turn_];
     double* const residual = residuals_too_ ? at(out_.residual, dofs_, first) : nullptr;
-    if (out_.tangent_stride == entries_ && done == ~std::uint64_t{0} >> (PairBlock::most - size)) {
+    if (out_.tangent_stride == entries_ && done == ~std::uint64_t{0} >> (ElementBlock::most - size)) {
       last_ = {tangents, size * entries_, at(out_.tangent, entries_, first)};
       turn_ = 1 - turn_;
       if (residual) stream_copy_(residuals_, size * dofs_, residual);
@@ -67,7 +67,7 @@ public:
 private:
   // numbers: in the first cache, in all caches, in tangents of a block, in its residuals
   static constexpr std::int64_t nearest = 2304, beyond_caches = std::int64_t{1} << 19, room = 7200,
-                                narrow = 6 * PairBlock::most;
+                                narrow = 6 * ElementBlock::most;
 
   void copy_last() noexcept {
     if (last_.count > 0) stream_copy_(last_.from, last_.count, last_.to);
@@ -79,7 +79,7 @@ private:
   bool residuals_too_;
   int turn_ = 0;
   DeferredCopy last_{};
-  decltype(PairKernels::stream_copy) stream_copy_ = best_pair_kernels().stream_copy;
+  decltype(BlockKernels::stream_copy) stream_copy_ = best_block_kernels().stream_copy;
   alignas(64) double tangents_[2][room], residuals_[narrow];
 };
 

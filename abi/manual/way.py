@@ -16,12 +16,12 @@ import sys
 # Folder, what it makes, files to begin with, what it passes on to the next.
 STAGES = [
     ("height", "h and its derivatives at s(xi)", ["height", "formulas", "spline_height"], "h, h', h''"),
-    ("surface", "rho_e = rho + h n, its derivatives, F_,xixi", ["basis", "pair_rho", "pair_surface"], "x_s - rho_e, rho_e,a, F_,xixi"),
-    ("projection", "xi by Newton's method, gap and normal", ["pair", "projection", "search"], "xi, g, n_e"),
+    ("surface", "rho_e = rho + h n, its derivatives, F_,xixi", ["basis", "rho", "surface_at"], "x_s - rho_e, rho_e,a, F_,xixi"),
+    ("projection", "xi by Newton's method, gap and normal", ["projected_point", "projection", "search"], "xi, g, n_e"),
     ("law", "normal force, friction, wear", ["laws", "friction", "wear"], "W', W'', t_a"),
-    ("tangent", "forms, expanded to vectors of dofs, and their products", ["pair_forms", "pair_tangent", "tangent_sum", "pair_write"], "R_i, K_ij"),
+    ("tangent", "forms, expanded to vectors of dofs, and their products", ["projection_forms", "frictionless_tangent", "tangent_sum", "write_tangent"], "R_i, K_ij"),
 ]
-ELEMENT = ["pair_inputs", "pair_kernel", "general_block", "pair_results"]
+ELEMENT = ["inputs", "fast_block", "general_block", "small_results"]
 ABI = ["evaluate", "element_block", "element_call"]
 TOP, HEIGHT, STEP, LEFT, RIGHT = 130, 64, 98, 330, 700
 ORDER = [name for name, *_ in STAGES]

@@ -2,7 +2,7 @@
 // A block of elements by the kernel of its model.
 #pragma once
 
-#include "core/element/pair_kernels.hpp"
+#include "core/element/block_kernels.hpp"
 #include "core/model/needs.hpp"
 #include "core/tangent/symmetrised.hpp"
 
@@ -10,17 +10,18 @@ namespace ents {
 
 // With a coefficient of friction of 0 the kernel with friction checks the states and writes stick and slip;
 // then the kernel without friction writes the rest, which so has the bits of a model without friction.
-inline std::uint64_t evaluate_without_friction(const Plan& plan, const PairBlock& block, std::int32_t count) {
+inline std::uint64_t evaluate_without_friction(const Plan& plan, const ElementBlock& block,
+                                               std::int32_t count) {
   constexpr std::int32_t of_history = want::state | want::flags | want::age | want::slip;
-  PairBlock history = block, forces = block;
+  ElementBlock history = block, forces = block;
   history.wanted &= of_history | forces_only, forces.wanted &= ~of_history;
   forces.rest = nullptr;
-  std::uint64_t done = plan.pairs(plan, history, count);
-  const std::uint64_t all = count == PairBlock::most ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-  if (done == all) return plan.pairs_without_friction(plan, forces, count);
+  std::uint64_t done = plan.block(plan, history, count);
+  const std::uint64_t all = count == ElementBlock::most ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+  if (done == all) return plan.block_without_friction(plan, forces, count);
   for (std::int32_t k = 0; k < count; ++k) {
     forces.first = block.first + k;
-    if ((done >> k & 1) != 0 && plan.pairs_without_friction(plan, forces, 1) == 0)
+    if ((done >> k & 1) != 0 && plan.block_without_friction(plan, forces, 1) == 0)
       done &= ~(std::uint64_t{1} << k);
   }
   return done;
@@ -28,10 +29,10 @@ inline std::uint64_t evaluate_without_friction(const Plan& plan, const PairBlock
 
 // Elements block.first .. + count - 1. Bit k: element first + k is written; the others are left to the
 // element kernel. The fast kernel does not know of symmetrised tangents, the others do.
-inline std::uint64_t evaluate_block(const Plan& plan, const PairBlock& block, std::int32_t count) {
-  if (plan.pairs_without_friction && !plan.law.has_friction_force())
+inline std::uint64_t evaluate_block(const Plan& plan, const ElementBlock& block, std::int32_t count) {
+  if (plan.block_without_friction && !plan.law.has_friction_force())
     return evaluate_without_friction(plan, block, count);
-  const std::uint64_t done = plan.pairs(plan, block, count);
+  const std::uint64_t done = plan.block(plan, block, count);
   if (plan.law.symmetrised && plan.law.has_friction() && (block.wanted & want::tangent) != 0 &&
       has_fast_kernel(plan.law, plan.projection, plan.tangent))
     for (std::int32_t k = 0; k < count; ++k)

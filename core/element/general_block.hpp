@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blocks of elements of any law and tangent under normal projection (those of penalty and power law with the
-// consistent tangent have a faster kernel: pair_kernel.hpp), one element or one per lane. An element that
+// consistent tangent have a faster kernel: fast_block.hpp), one element or one per lane. An element that
 // needs care is left to evaluate_element().
 #pragma once
 
+#include "core/element/fast_block.hpp"
 #include "core/element/general_element.hpp"
-#include "core/element/pair_kernel.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -17,7 +17,8 @@ template <class S, int D> ENTS_INLINE Vec<double, D> vector_of_lane(const Vec<S,
 // The rays of shadow projections of elements from `first` on; false where there is none: the slave is at the
 // emitter, or far from it.
 template <int D, class S>
-ENTS_INLINE Truth<S> set_rays(const Plan& plan, const PairBlock& block, std::int64_t first, Ray<S, D>& ray) {
+ENTS_INLINE Truth<S> set_rays(const Plan& plan, const ElementBlock& block, std::int64_t first,
+                              Ray<S, D>& ray) {
   for (int c = 0; c < D; ++c) ray.e[c] = S(plan.ray[c]);
   ray.inverse_distance = S(0.0);
   if (plan.projection != ProjectionKind::shadow_point) return ray.inverse_distance <= 0.0;
@@ -41,8 +42,9 @@ template <class S> inline constexpr bool without_friction = width_of<S> > 1;
 // The tangents of elements in contact, whose bits are set, and what belongs to them: the turn of a ray,
 // multipliers, symmetry.
 template <bool Friction, class B, bool H, class S>
-ENTS_NOINLINE void write_tangents(const Plan& plan, const PairBlock& block, const ContactPoint<B, H, S>& at,
-                                  const S* multiplier, std::uint32_t contact, std::int64_t first) {
+ENTS_NOINLINE void write_tangents(const Plan& plan, const ElementBlock& block,
+                                  const ContactPoint<B, H, S>& at, const S* multiplier, std::uint32_t contact,
+                                  std::int64_t first) {
   constexpr int D = B::dim, N = dof_count<B, false>, W = width_of<S>;
   TangentSum<B, H, S, Friction> sum;
   const auto weights = weights_of_tangent(plan, at);
@@ -82,8 +84,9 @@ ENTS_NOINLINE void write_tangents(const Plan& plan, const PairBlock& block, cons
 // Law, friction and what is asked for, of projected elements from `first` on; bit k: element first + k needed
 // no care and is written.
 template <class B, bool H, class S>
-ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& block, std::uint32_t known,
-                                          Pair<B, H, S>& p, const Ray<S, B::dim>* ray, std::int64_t first) {
+ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const ElementBlock& block, std::uint32_t known,
+                                          ProjectedPoint<B, H, S>& p, const Ray<S, B::dim>* ray,
+                                          std::int64_t first) {
   constexpr int N = dof_count<B, false>, W = width_of<S>;
   const GeneralInputs<B, H, S> in(plan, block, first);
   p.evaluate_at_solution();
@@ -152,10 +155,10 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const PairBlock& blo
 }
 
 template <class B, bool H>
-ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  const PairOne<B, H, false> in(plan, block, e);
+ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const ElementBlock& block, std::int64_t e) {
+  const OneInput<B, H, false> in(plan, block, e);
   if (!in.known || !has_sound_values(plan, block, e)) return false;
-  Pair<B, H, double> p(in.nodes, in.xi);
+  ProjectedPoint<B, H, double> p(in.nodes, in.xi);
   p.area = in.area;
   Ray<double, B::dim> ray;
   if (plan.projection == ProjectionKind::normal) {
@@ -169,21 +172,21 @@ ENTS_NOINLINE bool evaluate_general_one(const Plan& plan, const PairBlock& block
 
 // Bit k: element first + k was ordinary and is written.
 template <class B, bool H>
-std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::int32_t count) {
+std::uint64_t evaluate_general(const Plan& plan, const ElementBlock& block, std::int32_t count) {
   std::uint64_t done = 0;
   std::int32_t k = 0;
 #if defined(ENTS_HAS_LANES)
   if constexpr (constexpr int W = block_width<B>; W > 1)
     for (; k + W <= count; k += W) {
       const std::int64_t e = block.first + k;
-      const PairLanes<B, H, false, W> in(plan, block, e);
+      const LaneInputs<B, H, false, W> in(plan, block, e);
       std::uint32_t known = in.known;
       for (int i = 0; i < W && (block.state_begin || block.slave_values); ++i)
         if ((block.state_begin &&
              !is_finite(block.state_begin + (e + i) * block.state_begin_stride, plan.state.size)) ||
             !has_sound_values(plan, block, e + i))
           known &= ~(1u << i);
-      Pair<B, H, Lanes<W>> p(in.nodes, in.xi);
+      ProjectedPoint<B, H, Lanes<W>> p(in.nodes, in.xi);
       p.area = in.area;
       Ray<Lanes<W>, B::dim> ray;
       const bool shadow = plan.projection != ProjectionKind::normal;
@@ -201,9 +204,9 @@ std::uint64_t evaluate_general(const Plan& plan, const PairBlock& block, std::in
   return done;
 }
 
-// Those of a basis, instantiated; pair_table.cpp lists them.
+// Those of a basis, instantiated; block_table.cpp lists them.
 #define ENTS_GENERAL_KERNELS(B)                                                                              \
-  template std::uint64_t evaluate_general<B, false>(const Plan&, const PairBlock&, std::int32_t);            \
-  template std::uint64_t evaluate_general<B, true>(const Plan&, const PairBlock&, std::int32_t);
+  template std::uint64_t evaluate_general<B, false>(const Plan&, const ElementBlock&, std::int32_t);         \
+  template std::uint64_t evaluate_general<B, true>(const Plan&, const ElementBlock&, std::int32_t);
 
 } // namespace ents::ENTS_ISA

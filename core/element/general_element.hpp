@@ -5,7 +5,7 @@
 
 #include "core/element/general_inputs.hpp"
 #include "core/element/multiplier_equations.hpp"
-#include "core/element/pair_results.hpp"
+#include "core/element/small_results.hpp"
 #include "core/projection/projection.hpp"
 #include "core/projection/target.hpp"
 #include "core/tangent/symmetrised.hpp"
@@ -24,11 +24,11 @@ template <class B, bool H, class S>
 ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const ContactPoint<B, H, S>& at) {
   Weights<S, B::dim - 1> sum;
   const bool friction = plan.law.has_friction_force();
-  sum.by_gap = at.pair.area * at.law.stiffness;
+  sum.by_gap = at.point.area * at.law.stiffness;
   sum.stiff = true;
-  sum.by_slid = plan.law.wear.on ? at.pair.area * at.wear.by_slid : S(0.0);
+  sum.by_slid = plan.law.wear.on ? at.point.area * at.wear.by_slid : S(0.0);
   sum.wears = plan.law.wear.on;
-  sum.push = at.pair.area * at.law.force;
+  sum.push = at.point.area * at.law.force;
   for (int a = 0; a < B::dim - 1; ++a) sum.force[a] = friction ? at.friction.force[a] : S(0.0);
   sum.second_gap = plan.tangent != TangentKind::first_variation;
   sum.small_gap = plan.tangent == TangentKind::small_gap;
@@ -55,59 +55,59 @@ template <class B, bool H> struct GeneralElement {
   bool wants(std::int32_t bits) const { return (out.wanted & bits) != 0; }
 
   Status evaluate() {
-    auto& pair = at.pair;
+    auto& point = at.point;
     const bool shadow = at.ray != nullptr;
-    pair.area = in.area ? *in.area : 1.0;
-    pair.evaluate_at_solution();
+    point.area = in.area ? *in.area : 1.0;
+    point.evaluate_at_solution();
     auto measured = at.measure(plan);
-    if (pair.is_regular(measured, !shadow)) { // then the bits are those of a block
-      pair.nodes.basis.template shape<2>(pair.xi, pair.projector.N);
+    if (point.is_regular(measured, !shadow)) { // then the bits are those of a block
+      point.nodes.basis.template shape<2>(point.xi, point.projector.N);
     } else {
-      if (!pair.arrive_by_nodes(geometry(), shadow || found.escaped ? nullptr : found.f2))
+      if (!point.arrive_by_nodes(geometry(), shadow || found.escaped ? nullptr : found.f2))
         return Status::degenerate_segment;
       measured = at.measure(plan, true);
     }
     if (!(measured.area2_e > degenerate_size * degenerate_size * measured.area2))
       return Status::degenerate_segment;
     if (shadow && !(ray_enters())) return Status::grazing_ray;
-    if (!(absolute(at.gap) < largest_ingredient) || !(max_norm(pair.xi) < 1e15)) return Status::out_of_range;
-    pair.outside = pair.outside || found.escaped;
-    const bool far_side = !shadow && !minimum_of(pair.projector.f2, pair.projector.metric);
+    if (!(absolute(at.gap) < largest_ingredient) || !(max_norm(point.xi) < 1e15)) return Status::out_of_range;
+    point.outside = point.outside || found.escaped;
+    const bool far_side = !shadow && !minimum_of(point.projector.f2, point.projector.metric);
     if (far_side) more_flags |= flag::far_side;
     if (found.searched) more_flags |= flag::searched;
 
-    const PairBlock block = block_of(in, out, nullptr, 0);
+    const ElementBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<B, H, double> begin(plan, block, 0);
     at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale);
     if (element && !at.solved) return Status::out_of_range;
-    if (!verdict_wanted) pair.contact = false;
-    if (pair.contact && element) {
+    if (!verdict_wanted) point.contact = false;
+    if (point.contact && element) {
       if (far_side) return Status::singular_projection;
       if (found.ambiguous) return Status::ambiguous_projection;
       if (!at.safe) return Status::grazing_ray; // a ray from behind would push the slave further in
       const double deepest = plan.penetration_limit > 0.0
                                  ? plan.penetration_limit
-                                 : (is_simplex(pair.nodes.basis) ? 1.0 : 2.0) * square_root(measured.size2);
+                                 : (is_simplex(point.nodes.basis) ? 1.0 : 2.0) * square_root(measured.size2);
       if (-at.gap > deepest) return Status::deep_penetration;
     }
-    if (at.friction.active && !(determinant(pair.projector.metric) > 0.0)) {
+    if (at.friction.active && !(determinant(point.projector.metric) > 0.0)) {
       if (element && rubs()) return Status::degenerate_segment;
       at.friction.set_none();
     }
-    const bool forces = pair.contact && wants(want::residual | want::tangent);
+    const bool forces = point.contact && wants(want::residual | want::tangent);
     const bool varies =
         wants(want::xi_gradient | want::xi_hessian | want::gap_hessian) || (forces && rubs()) ||
-        (pair.contact && wants(want::tangent) && plan.tangent != TangentKind::first_variation);
+        (point.contact && wants(want::tangent) && plan.tangent != TangentKind::first_variation);
     if (varies && !shadow && !projection_varies()) return Status::singular_projection;
     return write();
   }
 
   // Gradients and Hessians of an element of a block, which is at its projection.
   Status evaluate_variations() {
-    at.pair.nodes.basis.template shape<2>(at.pair.xi, at.pair.projector.N);
+    at.point.nodes.basis.template shape<2>(at.point.xi, at.point.projector.N);
     at.measure(plan);
     at.law = {0.0, 0.0, 0.0, false};
-    at.pair.contact = false;
+    at.point.contact = false;
     at.friction.set_none();
     return at.ray || projection_varies() ? write() : Status::singular_projection;
   }
@@ -116,7 +116,7 @@ private:
   // Has friction a force here?
   bool rubs() const { return at.friction.active && plan.law.has_friction_force(); }
   Geometry<B> geometry() const {
-    Geometry<B> g(at.pair.nodes.basis);
+    Geometry<B> g(at.point.nodes.basis);
     g.set(in.slave, in.master);
     g.surface_coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
     g.height = plan.height;
@@ -124,12 +124,12 @@ private:
   }
   // Is the ray out of the tangent plane?
   bool ray_enters() const {
-    const Vec<double, D> m = normal_of_tangents(at.pair.projector.s.e);
+    const Vec<double, D> m = normal_of_tangents(at.point.projector.s.e);
     const double det = dot(m, at.ray->e);
     return det * det > 1e-20 * dot(m, m);
   }
   bool projection_varies() const {
-    const auto& p = at.pair.projector;
+    const auto& p = at.point.projector;
     const double metric = determinant(p.metric);
     const double det = plan.tangent == TangentKind::small_gap && !rubs() && !wants(want::kinematics)
                            ? metric
@@ -139,7 +139,7 @@ private:
 
   // May every force and small result be computed without leaving the range of double precision?
   bool law_in_range() const {
-    const double area = at.pair.area;
+    const double area = at.point.area;
     double size = area * (absolute(at.law.force) + absolute(at.law.stiffness));
     if (plan.law.wear.on) size += area * (absolute(at.wear.by_slid) + at.wear.slid + absolute(at.wear.lost));
     double tangential = at.friction.active ? sum_of_absolutes(at.friction.force) : 0.0;
@@ -163,7 +163,7 @@ private:
   // tangent)
   template <class F> Status for_each_matrix(F&& f) const {
     const int n = node_dofs(plan);
-    if (at.pair.contact && wants(want::tangent))
+    if (at.point.contact && wants(want::tangent))
       if (const Status s = f(weights_of_tangent(plan, at), out.tangent, out.tangent_leading_dimension, true);
           s != Status::ok)
         return s;
@@ -191,10 +191,10 @@ private:
     small.escaped = found.escaped;
     if (element && !(law_in_range() && small_in_range(small))) return Status::out_of_range;
     double residual[N];
-    const bool has_residual = at.pair.contact && wants(want::residual);
+    const bool has_residual = at.point.contact && wants(want::residual);
     if (has_residual) {
       at.residual(plan, residual);
-      if (!(sum_of_absolutes(residual, dofs_of<false>(at.pair.nodes.basis)) < largest_result))
+      if (!(sum_of_absolutes(residual, dofs_of<false>(at.point.nodes.basis)) < largest_result))
         return Status::out_of_range;
     }
     int matrices = 0;
@@ -237,10 +237,10 @@ private:
   void write_forces(const double (&residual)[N]) const {
     const int n = node_dofs(plan);
     if (wants(want::residual)) {
-      for (int i = 0; i < n; ++i) out.residual[i] = at.pair.contact ? residual[i] : 0.0;
+      for (int i = 0; i < n; ++i) out.residual[i] = at.point.contact ? residual[i] : 0.0;
       if (plan.multipliers > 0) multipliers.write_residual(0, out.residual + n);
     }
-    if (wants(want::tangent) && !at.pair.contact) {
+    if (wants(want::tangent) && !at.point.contact) {
       const std::int64_t leading = out.tangent_leading_dimension;
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) out.tangent[j * leading + i] = 0.0;
@@ -251,7 +251,7 @@ private:
   // The same of what has divisions by areas and stiffnesses: written here first
   bool small_in_range(const SmallResults<B, true, double>& small) const {
     double numbers[D + 2 + largest_state] = {};
-    PairBlock here =
+    ElementBlock here =
         block_of(in, out, in.start, out.wanted & (want::traction | want::energy | want::slip | want::state));
     here.traction = numbers, here.energy = numbers + D, here.slip = numbers + D + 1,
     here.state_end = numbers + D + 2;
@@ -268,34 +268,34 @@ template <int D> ENTS_INLINE bool set_ray(const Plan& plan, const double* slave,
   return true;
 }
 
-// use(pair, at) of an element at xi, whose surface is not evaluated there yet; grazing_ray where the slave is
+// use(point, at) of an element at xi, whose surface is not evaluated there yet; grazing_ray where the slave is
 // at the emitter.
 template <class B, bool H, class Use>
 ENTS_INLINE Status at_projection(const Plan& plan, const ElementInput& in, const double* found, Use&& use) {
   constexpr int D = B::dim, T = D - 1;
-  PairNodes<B, double> nodes(basis_of<B>(plan.basis));
+  ElementNodes<B, double> nodes(basis_of<B>(plan.basis));
   set_nodes<H>(plan, in.slave, in.master,
                in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
   double xi[T];
   for (int a = 0; a < T; ++a) xi[a] = found[a];
-  Pair<B, H, double> pair(nodes, xi);
-  ContactPoint<B, H, double> at(pair);
+  ProjectedPoint<B, H, double> point(nodes, xi);
+  ContactPoint<B, H, double> at(point);
   Ray<double, D> ray;
   if (plan.projection != ProjectionKind::normal) {
     if (!set_ray(plan, in.slave, ray)) return Status::grazing_ray;
     at.ray = &ray;
   }
-  return use(pair, at);
+  return use(point, at);
 }
 
 // An element that a block has projected: RestKernel
 template <class B, bool H>
 bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput& out,
                    const ProjectedElement& projected) {
-  const Status status = at_projection<B, H>(plan, in, projected.xi, [&](auto& pair, auto& at) {
-    pair.area = projected.area;
-    pair.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
-    pair.evaluate_at_solution();
+  const Status status = at_projection<B, H>(plan, in, projected.xi, [&](auto& point, auto& at) {
+    point.area = projected.area;
+    point.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
+    point.evaluate_at_solution();
     const FoundProjection found{};
     return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations();
   });
@@ -305,9 +305,9 @@ bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput
 template <class B, bool H>
 Status finish_element(const Plan& plan, const ElementInput& in, const ElementOutput& out,
                       const FoundProjection& found) {
-  return at_projection<B, H>(plan, in, found.xi, [&](auto& pair, auto& at) {
-    pair.evaluations = found.evaluations;
-    pair.ordinary = true; // read by the friction law; no block kernel has decided it here
+  return at_projection<B, H>(plan, in, found.xi, [&](auto& point, auto& at) {
+    point.evaluations = found.evaluations;
+    point.ordinary = true; // read by the friction law; no block kernel has decided it here
     return GeneralElement<B, H>{plan, in, out, found, at}.evaluate();
   });
 }

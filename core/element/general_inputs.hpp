@@ -2,7 +2,7 @@
 // What an element of any law, or each lane's, begins the increment with: its state and its multipliers.
 #pragma once
 
-#include "core/element/pair_inputs.hpp"
+#include "core/element/inputs.hpp"
 #include "core/model/slave_values.hpp"
 #include "core/tangent/contact_point.hpp"
 
@@ -16,7 +16,7 @@ template <class S, class Number> ENTS_INLINE S of_each(Number&& number) {
     return each_lane<width_of<S>>(number);
 }
 
-ENTS_INLINE bool has_sound_values(const Plan& plan, const PairBlock& block, std::int64_t e) {
+ENTS_INLINE bool has_sound_values(const Plan& plan, const ElementBlock& block, std::int64_t e) {
   return check_slave_values(plan.law, element_at(block.slave_values, block.slave_values_stride, e)) ==
          Status::ok;
 }
@@ -30,7 +30,7 @@ template <class B, bool H, class S> struct GeneralInputs {
   bool has_multiplier, has_wear;
   WornState<S, T> worn;
 
-  ENTS_INLINE GeneralInputs(const Plan& plan, const PairBlock& block, std::int64_t first) {
+  ENTS_INLINE GeneralInputs(const Plan& plan, const ElementBlock& block, std::int64_t first) {
     const auto state = [&](int k) ENTS_LAMBDA_INLINE {
       return element_at(block.state_begin, block.state_begin_stride, first + k);
     };

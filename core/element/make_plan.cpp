@@ -19,30 +19,30 @@ constexpr const KernelSet& (*kernels_of[])() = {ENTS_BASES(ENTS_BASIS)}; // [bas
 
 } // namespace
 
-void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan) {
-  plan.pairs = plan.pairs_without_friction = nullptr;
+void set_block_kernels(const Model& model, const BlockKernels& kernels, Plan& plan) {
+  plan.block = plan.block_without_friction = nullptr;
   if (!kernels.of_basis) return;
   const bool enriched = plan.height != nullptr;
   const ContactLaw& law = model.law;
-  const PairKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
-  plan.pairs = of.general[enriched];
+  const BlockKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
+  plan.block = of.general[enriched];
   if (!has_fast_kernel(law, model.projection, model.tangent)) return;
-  plan.pairs = of.of[enriched][law.has_friction()];
-  if (law.friction == FrictionKind::coulomb) plan.pairs_without_friction = of.of[enriched][false];
+  plan.block = of.of[enriched][law.has_friction()];
+  if (law.friction == FrictionKind::coulomb) plan.block_without_friction = of.of[enriched][false];
 }
 
-const PairKernels& best_pair_kernels() {
+const BlockKernels& best_block_kernels() {
   switch (best_instruction_set()) {
 #ifdef ENTS_HAS_AVX512
   case InstructionSet::avx512:
-    return avx512::pair_kernels;
+    return avx512::block_kernels;
 #endif
 #ifdef ENTS_HAS_AVX2
   case InstructionSet::avx2:
-    return avx2::pair_kernels;
+    return avx2::block_kernels;
 #endif
   default:
-    return portable::pair_kernels;
+    return portable::block_kernels;
   }
 }
 
@@ -73,7 +73,7 @@ Plan make(const Model& model, bool enriched) {
   plan.by_parameter = parameter_kernels(model.basis).rates;
   plan.coordinates = parameter_kernels(model.basis).coordinates;
   plan.height = enriched ? &model.height.root() : nullptr;
-  set_block_kernels(model, best_pair_kernels(), plan);
+  set_block_kernels(model, best_block_kernels(), plan);
   plan.height_nodes = enriched ? static_cast<std::int32_t>(model.height.nodes().size()) : 0;
   plan.surface_coordinates = model.own_surface_coordinates ? model.surface_coordinates.data() : nullptr;
   for (std::int32_t a = 0; a < 2; ++a)
@@ -100,9 +100,9 @@ Plan make(const Model& model, bool enriched) {
   if (enriched && model.law.flattening.parameter != 0) {
     plan.unflattened = plan.element;
     plan.element = evaluate_flattened;
-    plan.pairs = nullptr;
+    plan.block = nullptr;
   }
-  if (plan.pairs)
+  if (plan.block)
     plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
   return plan;
 }

@@ -2,7 +2,7 @@
 // The kernels of a model, chosen once.
 #pragma once
 
-#include "core/element/pair_kernels.hpp"
+#include "core/element/block_kernels.hpp"
 
 namespace ents {
 
@@ -12,9 +12,9 @@ Plan make_plan(const Model& model);
 Plan make_base_plan(const Model& model);
 
 // Sets those for blocks of elements of a model; null: evaluate_element() takes them one by one.
-void set_block_kernels(const Model& model, const PairKernels& kernels, Plan& plan);
+void set_block_kernels(const Model& model, const BlockKernels& kernels, Plan& plan);
 
 // Those of the best instruction set of this processor.
-const PairKernels& best_pair_kernels();
+const BlockKernels& best_block_kernels();
 
 } // namespace ents

@@ -19,7 +19,7 @@ template <class B, bool H, class S> struct MultiplierEquations {
 
   ENTS_INLINE void write_residual(int k, double* out) const {
     const double area = area_of(k);
-    out[0] = bits_of(at.pair.contact) >> k & 1
+    out[0] = bits_of(at.point.contact) >> k & 1
                  ? -area * lane(at.law_gap, k)
                  : open_multiplier_residual(plan.law, 0, area, lane(multiplier[0], k));
     for (int a = 1; a < plan.multipliers; ++a)
@@ -47,11 +47,11 @@ template <class B, bool H, class S> struct MultiplierEquations {
   template <class Sum> ENTS_INLINE double bound(const Sum& sum) const {
     const auto& f = at.friction;
     if (!f.active || !plan.law.has_friction_force())
-      return at.pair.area * (sum.size_of(sum.dg) + 1.0 / plan.law.number[0]);
+      return at.point.area * (sum.size_of(sum.dg) + 1.0 / plan.law.number[0]);
     const double rate = 1.0 / plan.law.friction_stiffness;
-    double by_multiplier = at.pair.area, nodes = 0.0, bound = 0.0;
-    if (f.slip) by_multiplier += at.pair.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);
-    by_multiplier += at.pair.area * sum_of_absolutes(f.by_force);
+    double by_multiplier = at.point.area, nodes = 0.0, bound = 0.0;
+    if (f.slip) by_multiplier += at.point.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);
+    by_multiplier += at.point.area * sum_of_absolutes(f.by_force);
     for (int a = 0; a < T; ++a) {
       bound += rate * sum.size_of(sum.P[a]);
       nodes += sum.size_of(sum.dxi[a]);
@@ -60,7 +60,7 @@ template <class B, bool H, class S> struct MultiplierEquations {
   }
 
 private:
-  ENTS_INLINE double area_of(int k) const { return lane(at.pair.area, k); }
+  ENTS_INLINE double area_of(int k) const { return lane(at.point.area, k); }
   ENTS_INLINE void clear(int n, double* out, std::int64_t leading) const {
     for (int e = 0; e < plan.multipliers; ++e) {
       for (int i = 0; i < n; ++i) out[(n + e) * leading + i] = out[i * leading + n + e] = 0.0;

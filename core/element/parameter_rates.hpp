@@ -14,7 +14,7 @@ namespace ents::ENTS_ISA {
 // The Newton step of the projection, in dual numbers: at the projection its value is zero, its derivative
 // dxi/dtheta.
 template <class B, class S>
-ENTS_INLINE void dual_step(Pair<B, true, S>& p, const Ray<S, B::dim>* ray, S (&step)[B::dim - 1]) {
+ENTS_INLINE void dual_step(ProjectedPoint<B, true, S>& p, const Ray<S, B::dim>* ray, S (&step)[B::dim - 1]) {
   constexpr int T = B::dim - 1;
   if (ray) {
     Vec<S, B::dim> onto[T], across;
@@ -38,7 +38,7 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
                                 std::int32_t parameter, ParameterRates& out) {
   using S = Dual<double>;
   constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>;
-  PairNodes<B, S> nodes(basis_of<B>(plan.basis));
+  ElementNodes<B, S> nodes(basis_of<B>(plan.basis));
   const int count = node_count(nodes.basis);
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < D; ++c) nodes.y[i][c] = S(in.master[D * i + c] - in.slave[c]);
@@ -50,10 +50,10 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   nodes.parameter = parameter;
   S start[T];
   for (int a = 0; a < T; ++a) start[a] = S(xi[a]);
-  Pair<B, true, S> pair(nodes, start);
-  pair.area = S(in.area ? *in.area : 1.0);
-  pair.evaluations = S(0.0);
-  pair.ordinary = true;
+  ProjectedPoint<B, true, S> point(nodes, start);
+  point.area = S(in.area ? *in.area : 1.0);
+  point.evaluations = S(0.0);
+  point.ordinary = true;
   Ray<S, D> ray;
   const bool shadow = plan.projection != ProjectionKind::normal;
   if (shadow) {
@@ -63,15 +63,15 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
     ray.inverse_distance = S(t.inverse_distance);
   }
   S step[T];
-  pair.projector.evaluate(pair.xi);
-  dual_step(pair, shadow ? &ray : nullptr, step);
-  for (int a = 0; a < T; ++a) pair.xi[a].d = step[a].d;
-  pair.projector.evaluate(pair.xi);
+  point.projector.evaluate(point.xi);
+  dual_step(point, shadow ? &ray : nullptr, step);
+  for (int a = 0; a < T; ++a) point.xi[a].d = step[a].d;
+  point.projector.evaluate(point.xi);
 
-  ContactPoint<B, true, S> at(pair);
+  ContactPoint<B, true, S> at(point);
   at.ray = shadow ? &ray : nullptr;
   at.measure(plan);
-  const PairBlock block = block_of(in, ElementOutput{}, nullptr, 0);
+  const ElementBlock block = block_of(in, ElementOutput{}, nullptr, 0);
   const GeneralInputs<B, true, double> begin(plan, block, 0);
   SlipBegin<S, T> slip;
   S multiplier[1 + T];
@@ -87,15 +87,15 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   at.evaluate_law(plan, slip, begin.has_multiplier ? multiplier : nullptr, begin.has_wear ? &worn : nullptr,
                   S(begin.offset), S(begin.scale));
   out.gap = at.gap.d;
-  out.energy = pair.area.v * at.law.energy.d;
+  out.energy = point.area.v * at.law.energy.d;
   out.pressure = 0.0 - at.law.force.d;
   out.stiffness = at.law.stiffness.v;
   const int n = plan.dofs;
   for (int i = 0; out.residual && i < n; ++i) out.residual[i] = 0.0;
   double size = absolute(out.gap) + absolute(out.energy);
-  if (pair.contact && out.residual) {
+  if (point.contact && out.residual) {
     S residual[N];
-    nodes.basis.template shape<2>(pair.xi, pair.projector.N);
+    nodes.basis.template shape<2>(point.xi, point.projector.N);
     at.residual(plan, residual);
     for (int i = 0; i < n; ++i) {
       out.residual[i] = residual[i].d;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a pair whose slave moves on to another segment: points of the master surface (projection,
+// The state of an element whose slave moves on to another segment: points of the master surface (projection,
 // anchor) and tangential multipliers as the new segment sees them.
 #pragma once
 

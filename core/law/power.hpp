@@ -2,7 +2,7 @@
 // The laws whose force is a power of the gap:
 //   penalty   W = eps g^2 / 2    g < 0
 //   power     p = c (-g)^m       g < 0, m a multiple of 1/2, >= 1
-// Elements of these have a kernel of their own (element/pair_kernel.hpp), which uses W'' = m W'/g.
+// Elements of these have a kernel of their own (element/fast_block.hpp), which uses W'' = m W'/g.
 #pragma once
 
 #include "core/law/normal_law.hpp"

@@ -32,7 +32,7 @@ ENTS_BASES(ENTS_BASIS)
 #undef ENTS_BASIS
 } // namespace ENTS_ISA
 
-// Does such a model have the faster kernel (pair_kernel.hpp)?
+// Does such a model have the faster kernel (fast_block.hpp)?
 constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection, TangentKind tangent) {
   return projection == ProjectionKind::normal && law.force_has_slope() && tangent == TangentKind::consistent;
 }
@@ -50,7 +50,7 @@ inline std::int32_t needs_of(const Model& model, const Plan& plan) {
   return if_so(enriched, need::height) |
          if_so(enriched && plan.height->kind != HeightKind::constant, need::slope) |
          if_so(!flat, need::curved) |
-         if_so(enriched || !flat, need::iteration) | // PairProjector::closed_form, and project()
+         if_so(enriched || !flat, need::iteration) | // SurfaceAt::closed_form, and project()
          if_so(!model.rigid_master, need::master) | if_so(law.has_friction(), need::friction) |
          if_so(has_history(plan), need::history) | if_so(plan.multipliers > 0, need::multipliers);
 }

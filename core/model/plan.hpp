@@ -66,9 +66,9 @@ using BorderKernel = bool (*)(const Plan&, const double* from, const double* mas
 using BoxKernel = void (*)(const Plan&, const double* master, const double* surface_coordinates, double* low,
                            double* high);
 
-// Elements first .. first + count - 1, count <= PairBlock::most. Bit k: element first + k is written; the
+// Elements first .. first + count - 1, count <= ElementBlock::most. Bit k: element first + k is written; the
 // others are left to the element kernel.
-using PairKernel = std::uint64_t (*)(const Plan&, const PairBlock&, std::int32_t count);
+using BlockKernel = std::uint64_t (*)(const Plan&, const ElementBlock&, std::int32_t count);
 
 // Derivatives of an element's results by a named parameter: see parameter_rates.hpp.
 struct ParameterRates {
@@ -99,10 +99,10 @@ struct Plan {
   ElementKernel element;
   FinishKernel finish;
   RestKernel rest;
-  ElementKernel unflattened;         // of a model with flattening: `element` at given numbers of the height
-  PairKernel pairs;                  // null: this model has no block kernel
-  PairKernel pairs_without_friction; // of the forces where the coefficient is 0; null: `pairs` computes them
-  std::int32_t block_results;        // of `pairs`, bits of `want`
+  ElementKernel unflattened;          // of a model with flattening: `element` at given numbers of the height
+  BlockKernel block;                  // null: this model has no block kernel
+  BlockKernel block_without_friction; // of the forces where the coefficient is 0; null: `block` computes them
+  std::int32_t block_results;         // of `block`, bits of `want`
   SurfaceKernel surface;
   TransferKernel transfer;
   ProjectKernel project;

@@ -81,7 +81,7 @@ struct DeferredCopy; // streaming.hpp
 
 // Elements `first` .. of a call for the kernels that take many at once. Strides and the leading dimension in
 // numbers; arrays that are not wanted or not given are null.
-struct PairBlock {
+struct ElementBlock {
   static constexpr std::int32_t most = 64;
 #define ENTS_ARRAY(field, size) const double* field;
   ENTS_INPUT_ARRAYS(ENTS_ARRAY)
@@ -105,9 +105,9 @@ struct PairBlock {
 };
 
 // The same of one element. Its results beside those in `wanted` are the element kernel's.
-inline PairBlock block_of(const ElementInput& in, const ElementOutput& out, const double* start,
-                          std::int32_t wanted) {
-  PairBlock b{};
+inline ElementBlock block_of(const ElementInput& in, const ElementOutput& out, const double* start,
+                             std::int32_t wanted) {
+  ElementBlock b{};
 #define ENTS_COPY(field, size) b.field = in.field;
   ENTS_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY

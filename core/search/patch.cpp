@@ -150,7 +150,7 @@ private:
   // was? False: nothing is known.
   bool follow(Detection& found) const {
     SegmentNodes nodes;
-    if (!plan_.pairs || gather(plan_, mesh_, before(), nodes) != Status::ok) return false;
+    if (!plan_.block || gather(plan_, mesh_, before(), nodes) != Status::ok) return false;
     ElementInput here = in_;
     here.master = nodes.positions, here.surface_coordinates = nodes.surface_coordinates;
     double xi[2] = {}, gap = 0.0;
@@ -158,7 +158,7 @@ private:
     ElementOutput look{};
     look.wanted = want::xi | want::gap | want::flags;
     look.xi = xi, look.gap = &gap, look.flags = &flags;
-    if (plan_.pairs(plan_, block_of(here, look, found.at.xi, look.wanted), 1) == 0 ||
+    if (plan_.block(plan_, block_of(here, look, found.at.xi, look.wanted), 1) == 0 ||
         (flags & flag::outside) != 0 || !within_reach(gap, before()))
       return false;
     found.segment = before();

@@ -28,7 +28,7 @@ template <class S, int D> ENTS_INLINE Vec<S, D> variation_of_ray(const Vec<S, D>
 template <class B, bool H, class S> struct ContactPoint {
   static constexpr int D = B::dim, T = D - 1;
   using V = Vec<S, D>;
-  Pair<B, H, S>& pair;            // its projector is at xi
+  ProjectedPoint<B, H, S>& point; // its projector is at xi
   const Ray<S, D>* ray = nullptr; // shadow projection
   S gap, normal_gap, law_gap;     // the last with the offset
   S clearance;                    // to the gap from which on there is contact, with what is worn
@@ -40,14 +40,14 @@ template <class B, bool H, class S> struct ContactPoint {
   WearOfIncrement<S, D> wear; // if the law has it
   Truth<S> solved;            // was its pressure found?
 
-  ENTS_INLINE explicit ContactPoint(Pair<B, H, S>& at) : pair(at) {}
+  ENTS_INLINE explicit ContactPoint(ProjectedPoint<B, H, S>& at) : point(at) {}
 
   // Gap and normal; by_nodes: the surface is complete
-  ENTS_INLINE typename Pair<B, H, S>::Measured measure(const Plan& plan, bool by_nodes = false) {
-    const auto& area = pair.projector.s.area;
-    const auto at = by_nodes ? pair.measure_at(plan, true, area * area, false) : pair.measure(plan, true);
-    gap = normal_gap = pair.gap;
-    normal = c = pair.normal;
+  ENTS_INLINE typename ProjectedPoint<B, H, S>::Measured measure(const Plan& plan, bool by_nodes = false) {
+    const auto& area = point.projector.s.area;
+    const auto at = by_nodes ? point.measure_at(plan, true, area * area, false) : point.measure(plan, true);
+    gap = normal_gap = point.gap;
+    normal = c = point.normal;
     safe = gap <= gap;
     if (ray) set_frame();
     return at;
@@ -63,38 +63,38 @@ template <class B, bool H, class S> struct ContactPoint {
     if (worn) {
       clearance = clearance + worn->depth;
       slipping = slip_share(begin.clearance, -clearance);
-      set_slid(plan.law, *worn, pair.xi, pair.projector.s.e, slipping, wear);
+      set_slid(plan.law, *worn, point.xi, point.projector.s.e, slipping, wear);
       law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
     } else {
       solved = gap <= gap;
       law = normal_force(plan.law, law_gap, lambda, scale);
     }
-    Truth<S> outside = pair.outside;
+    Truth<S> outside = point.outside;
     if (plan.multipliers > 0) { // a slave without area holds them at zero
-      const Truth<S> held = pair.area <= 0.0;
-      pair.area = select(held, S(1.0), pair.area);
+      const Truth<S> held = point.area <= 0.0;
+      point.area = select(held, S(1.0), point.area);
       outside = either(outside, held);
     }
-    pair.contact = without(law.contact, outside);
+    point.contact = without(law.contact, outside);
     const S held_energy =
         plan.law.multiplier_is_dof() ? open_multiplier_energy(plan.law.number[0], multiplier[0]) : none;
     law.energy = select(outside, held_energy, law.energy);
-    law.force = select(pair.contact, law.force, none);
-    law.stiffness = select(pair.contact, law.stiffness, none);
+    law.force = select(point.contact, law.force, none);
+    law.stiffness = select(point.contact, law.stiffness, none);
     if (worn) {
-      wear.by_slid = select(pair.contact, wear.by_slid, none);
+      wear.by_slid = select(point.contact, wear.by_slid, none);
       wear.lost = select(outside, none, wear.lost);
     }
-    pair.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
+    point.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
     if (plan.law.has_friction()) {
       SlipBegin<S, T> of = begin;
       if (plan.law.multiplier_is_dof()) // these leave no depth, and no measure of the way after the touch
         of.known = select(begin.clearance > 0.0, none, begin.known);
       else if (!worn)
         slipping = slip_share(begin.clearance, -clearance);
-      friction.evaluate(plan.law, pair.place(), of, slipping, -(pair.area * law.force),
+      friction.evaluate(plan.law, point.place(), of, slipping, -(point.area * law.force),
                         multiplier ? multiplier + 1 : nullptr);
-      pair.ordinary = both(pair.ordinary, friction.ordinary);
+      point.ordinary = both(point.ordinary, friction.ordinary);
     } else {
       friction.set_none();
     }
@@ -102,7 +102,7 @@ template <class B, bool H, class S> struct ContactPoint {
 
   // The variation of ds at fixed xi is sum_b form_of_slope<b>(wear.moved[b] m), that by xi:
   ENTS_INLINE void slid_by_xi(S (&by_xi)[T]) const {
-    const auto& s = pair.projector.s;
+    const auto& s = point.projector.s;
     for (int a = 0; a < T; ++a) {
       Vec<S, D> along = slipping.share * s.e[a];
       for (int b = 0; b < T; ++b) add_scaled(along, wear.moved[b], s.e2[symmetric_index(a, b)]);
@@ -120,17 +120,17 @@ template <class B, bool H, class S> struct ContactPoint {
   // R = A W' dg + t_a dxi^a. Shape functions and their derivatives are there.
   ENTS_INLINE void residual(const Plan& plan, S (&out)[dof_count<B, false>]) const {
     const bool friction_too = plan.law.has_friction_force();
-    V push = (pair.area * law.force) * c;
+    V push = (point.area * law.force) * c;
     // in the same roundings as those laws' own kernel
-    if (!ray && plan.law.force_has_slope()) push = (pair.area * pair.per_gap) * pair.gap_vector;
+    if (!ray && plan.law.force_has_slope()) push = (point.area * point.per_gap) * point.gap_vector;
     if (!ray && friction_too) {
-      friction_residual<false>(pair, friction, push, out);
+      friction_residual<false>(point, friction, push, out);
       return;
     }
     for (int a = 0; a < T && friction_too; ++a) add_scaled(push, friction.force[a], onto[a]);
     Form<B, S> f;
-    form_of_p<B, H>(pair.projector.s, push, f);
-    expand_to_dofs<false, parts_of_p<H>>(pair.nodes.basis, f, pair.projector.N, out);
+    form_of_p<B, H>(point.projector.s, push, f);
+    expand_to_dofs<false, parts_of_p<H>>(point.nodes.basis, f, point.projector.N, out);
     if (ray) {
       const V turn = variation_of_ray(push, *ray);
       for (int i = 0; i < D; ++i) out[i] = out[i] - gap * turn[i];
@@ -139,9 +139,9 @@ template <class B, bool H, class S> struct ContactPoint {
 
 private:
   ENTS_INLINE void set_frame() {
-    const Truth<S> frame = ray_frame(pair.projector.s.e, ray->e, onto, c);
+    const Truth<S> frame = ray_frame(point.projector.s.e, ray->e, onto, c);
     safe = both(frame, dot(normal, ray->e) > 1e-6);
-    gap = dot(c, pair.projector.s.d);
+    gap = dot(c, point.projector.s.d);
   }
 };
 

@@ -5,7 +5,7 @@
 // What is new: n_,ab, third derivatives of h and, in F_,xixi', d . rho_e,ab'.
 #pragma once
 
-#include "core/surface/pair_surface.hpp"
+#include "core/surface/surface_at.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -15,12 +15,12 @@ template <class B, bool H, class S> struct DirectionalDerivative {
   using U = Dual<S>;
   using V = Vec<S, D>;
 
-  const PairProjector<B, H, S>& p;
+  const SurfaceAt<B, H, S>& p;
   S y[T];
   Surface<B, H, U> s; // plain: d and e only
   S f2[K];            // F_,xixi'
 
-  ENTS_INLINE DirectionalDerivative(const PairProjector<B, H, S>& projector, const S (&xi)[T],
+  ENTS_INLINE DirectionalDerivative(const SurfaceAt<B, H, S>& projector, const S (&xi)[T],
                                     const S (&direction)[T])
       : p(projector) {
     for (int a = 0; a < T; ++a) y[a] = direction[a];

@@ -3,16 +3,17 @@
 #pragma once
 
 #include "core/law/friction.hpp"
-#include "core/tangent/pair_tangent.hpp"
+#include "core/tangent/frictionless_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
 // R = A W' dg + t_a dxi^a; push: A W' n_e
 template <bool Rigid, class B, bool H, class S>
-ENTS_INLINE void friction_residual(const Pair<B, H, S>& pair, const Friction<S, B::dim - 1>& friction,
-                                   const Vec<S, B::dim>& push, S (&out)[dof_count<B, Rigid>]) {
+ENTS_INLINE void friction_residual(const ProjectedPoint<B, H, S>& point,
+                                   const Friction<S, B::dim - 1>& friction, const Vec<S, B::dim>& push,
+                                   S (&out)[dof_count<B, Rigid>]) {
   constexpr int T = B::dim - 1;
-  const auto& p = pair.projector;
+  const auto& p = point.projector;
   Form<B, S> force, f[T];
   form_of_p<B, H>(p.s, push, force);
   if constexpr (!H)

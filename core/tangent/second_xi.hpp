@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// t_a D2xi^a of the normal projection (pair_friction_forms.hpp) in numbers of dofs, and with it, where the
+// t_a D2xi^a of the normal projection (friction_forms.hpp) in numbers of dofs, and with it, where the
 // law has a slope W'/g, the second variation of its force:
 //   (s r^T + r s^T) I + sum_a (w_a Z_a^T + Z_a w_a^T + w1_a z_a^T + z_a w1_a^T + x_a Y_a^T + Y_a x_a^T)
 #pragma once
 
-#include "core/tangent/pair_friction_forms.hpp"
-#include "core/tangent/pair_write.hpp"
+#include "core/tangent/friction_forms.hpp"
+#include "core/tangent/write_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
 template <class B, bool H, bool Rigid, class S> struct SecondXi {
-  using Forms = PairFrictionForms<B, H, Rigid, S>;
+  using Forms = FrictionForms<B, H, Rigid, S>;
   using Derivative = typename Forms::Derivative;
   static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
@@ -41,9 +41,9 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
 
   // x_a and Y_a; beside(a, f', x, Y) may add to the forms of Y_a.
   template <class Beside>
-  ENTS_INLINE void set_projection_terms(const Pair<B, H, S>& pair, const S (&inverse)[K],
+  ENTS_INLINE void set_projection_terms(const ProjectedPoint<B, H, S>& point, const S (&inverse)[K],
                                         const Derivative& derivative, const S& stiffness, Beside&& beside) {
-    const auto& p = pair.projector;
+    const auto& p = point.projector;
     Form<B, Dual<S>> f[T];
     forms_of_f(derivative.s, f);
     Form<B, S> value[T], xf[T];
@@ -51,7 +51,7 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
     for (int a = 0; a < T; ++a) expand_to_dofs<Rigid, parts>(basis, xf[a], p.N, x[a]);
     Shape<S, T, B::nodes> shape_rates;
     if constexpr (Forms::by_third)
-      if (has_thirds(basis)) Forms::set_shape_rates(basis, pair.xi, derivative.y, shape_rates);
+      if (has_thirds(basis)) Forms::set_shape_rates(basis, point.xi, derivative.y, shape_rates);
     for (int a = 0; a < T; ++a) {
       Form<B, S> rate, Yf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);

@@ -83,7 +83,7 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   // Shape functions and two derivatives of them are there.
   ENTS_NOINLINE void evaluate(const Plan& plan, const ContactPoint<B, H, S>& at, const Weights<S, T>& sum) {
     const bool shadow = at.ray != nullptr, second_xi = Friction && sum.second_xi;
-    basis = at.pair.nodes.basis;
+    basis = at.point.nodes.basis;
     for (auto& row : weights)
       for (int m = 0; m < places(); ++m) row[m] = S(0.0);
     by_gap = sum.by_gap;
@@ -109,7 +109,7 @@ template <class B, bool H, class S, bool Friction> struct TangentSum : SecondXi<
   // dg and dxi alone
   ENTS_NOINLINE void evaluate_first(const ContactPoint<B, H, S>& at) {
     Form<B, S> xf[T];
-    basis = at.pair.nodes.basis;
+    basis = at.point.nodes.basis;
     set_gap(at);
     forms_of_xi(at, xf);
     for (int a = 0; a < T; ++a) expand_xi(at, xf[a], dxi[a]);
@@ -183,7 +183,7 @@ private:
   ENTS_INLINE constexpr int dofs() const { return D * places(); }
   template <int Parts>
   static ENTS_INLINE void expand(const ContactPoint<B, H, S>& at, const Form<B, S>& f, Array& out) {
-    expand_to_dofs<false, Parts>(at.pair.nodes.basis, f, at.pair.projector.N, out);
+    expand_to_dofs<false, Parts>(at.point.nodes.basis, f, at.point.projector.N, out);
   }
   // + factor times the ray's own turn, of a covector's form
   static ENTS_INLINE void add_turn(const ContactPoint<B, H, S>& at, const V& c, Array& out) {
@@ -197,7 +197,7 @@ private:
 
   ENTS_INLINE void set_gap(const ContactPoint<B, H, S>& at) {
     Form<B, S> f;
-    form_of_p<B, H>(at.pair.projector.s, at.c, f);
+    form_of_p<B, H>(at.point.projector.s, at.c, f);
     expand<parts_of_p<H>>(at, f, dg);
     if (at.ray) add_turn(at, at.c, dg);
   }
@@ -206,12 +206,12 @@ private:
   static ENTS_INLINE void whole_form_of_p(const ContactPoint<B, H, S>& at, const V& c, Form<B, S>& f) {
     for (auto& v : f.a) v = V::zero();
     for (auto& v : f.a2.of) v = V::zero();
-    form_of_p<B, H>(at.pair.projector.s, c, f);
+    form_of_p<B, H>(at.point.projector.s, c, f);
   }
 
   // dxi^a, but for the turn of a ray
   static ENTS_INLINE void forms_of_xi(const ContactPoint<B, H, S>& at, Form<B, S> (&xf)[T]) {
-    const auto& p = at.pair.projector;
+    const auto& p = at.point.projector;
     if (at.ray) {
       for (int a = 0; a < T; ++a) whole_form_of_p(at, at.onto[a], xf[a]);
     } else {
@@ -242,7 +242,7 @@ private:
     for (int c = 0; c < T; ++c) add(dW, by_slid * by_xi[c], dxi[c]);
     unroll<T>([&](auto b) ENTS_LAMBDA_INLINE {
       Form<B, S> f;
-      form_of_slope<b.value, B, H>(at.pair.projector.s, at.wear.m, f);
+      form_of_slope<b.value, B, H>(at.point.projector.s, at.wear.m, f);
       Array own;
       expand<parts_of_slope<B, H>>(at, f, own);
       add(dW, by_slid * at.wear.moved[b], own);
@@ -252,7 +252,7 @@ private:
   // x, Y, w, Z, q, and of friction the weights, w1 and z; xf: dxi
   ENTS_INLINE void set_second(const ContactPoint<B, H, S>& at, const Weights<S, T>& sum,
                               const Form<B, S> (&xf)[T]) {
-    const auto& p = at.pair.projector;
+    const auto& p = at.point.projector;
     const bool shadow = at.ray != nullptr;
     const V c = shadow ? covector_of(at, sum) : at.normal;
     const S push = shadow ? S(1.0) : sum.second_gap ? sum.push : S(0.0);
@@ -276,10 +276,10 @@ private:
     if constexpr (Friction)
       if (has_second_xi) {
         S inverse[K], y[T];
-        Forms::set_direction(at.pair, sum.force, inverse, y);
-        const Derivative derivative(p, at.pair.xi, y);
+        Forms::set_direction(at.point, sum.force, inverse, y);
+        const Derivative derivative(p, at.point.xi, y);
         Base::set_weights(S(0.0), derivative);
-        Base::set_projection_terms(at.pair, inverse, derivative, S(0.0),
+        Base::set_projection_terms(at.point, inverse, derivative, S(0.0),
                                    [&](int a, const Form<B, S>&, const Form<B, S>(&)[T], Form<B, S>& Y_a)
                                        ENTS_LAMBDA_INLINE { add_form<parts>(Y_a, S(1.0), Yf[a]); });
         if constexpr (turns) Base::set_height_terms(S(0.0), derivative, add_z);
@@ -304,7 +304,7 @@ private:
   // Of push D2g with the covector c: q, and the forms of Y
   ENTS_INLINE void set_gap_terms(const ContactPoint<B, H, S>& at, const V& c, const S& push,
                                  const Form<B, S> (&xf)[T], Form<B, S> (&Yf)[T], S (&HP)[T][T]) {
-    const auto& p = at.pair.projector;
+    const auto& p = at.point.projector;
     S bend[K], G[T][T], PT[T][T];
     for (int k = 0; k < K; ++k) bend[k] = dot(c, p.s.e2[k]);
     for (auto& row : G)
@@ -351,12 +351,12 @@ private:
   ENTS_NOINLINE void set_force(const Plan& plan, const ContactPoint<B, H, S>& at, const Weights<S, T>& sum) {
     const auto& friction_at = at.friction;
     const typename Forms::ChangeOfForce change(
-        at.pair, friction_at, plan.law.multiplier_is_dof() || plan.law.multiplier_in_state());
+        at.point, friction_at, plan.law.multiplier_is_dof() || plan.law.multiplier_in_state());
     for (int a = 0; a < T; ++a) {
       Form<B, S> f;
       for (auto& v : f.a) v = V::zero();
       for (auto& v : f.a2.of) v = V::zero();
-      change.add_to(a, at.pair.projector.s, f);
+      change.add_to(a, at.point.projector.s, f);
       expand<parts_of_slope<B, H>>(at, f, P[a]);
       for (int b = 0; b < T; ++b) add(P[a], change.by_xi[a][b], dxi[b]);
       const S per_force = -friction_at.by_force[a];

@@ -5,8 +5,8 @@
 
 namespace bench {
 
-BlockKernel::BlockKernel(const Job& job, ents::PairKernel pairs)
-    : plan_(job.model().handle()->plan), pairs_(pairs ? pairs : plan_.pairs), count_(job.elements().count) {
+BlockKernel::BlockKernel(const Job& job, ents::BlockKernel pairs)
+    : plan_(job.model().handle()->plan), pairs_(pairs ? pairs : plan_.block), count_(job.elements().count) {
   const ents_input& in = job.input();
   const ents_output& out = job.output();
   block_.slave = in.slave, block_.slave_stride = in.slave_stride;
@@ -27,7 +27,7 @@ BlockKernel::BlockKernel(const Job& job, ents::PairKernel pairs)
 
 void BlockKernel::run(std::int32_t some) {
   for (block_.first = 0; block_.first < count_; block_.first += some)
-    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some))
+    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::ElementBlock::most - some))
       throw std::runtime_error("an element is not ordinary");
 }
 
@@ -37,7 +37,7 @@ void BlockKernel::run_in_turn(std::int32_t some) {
   std::int64_t wait = 0;
   for (std::int64_t first = 0; first < count_; first += some) {
     block_.first = first + wait;
-    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::PairBlock::most - some))
+    if (pairs_(plan_, block_, some) != ~std::uint64_t{0} >> (ents::ElementBlock::most - some))
       throw std::runtime_error("an element is not ordinary");
     wait = std::bit_cast<std::int64_t>(last_[(first + some - 1) * last_stride_]) & nothing;
   }

@@ -9,7 +9,7 @@ namespace bench {
 class BlockKernel {
 public:
   // pairs: null: the job's own. The job must outlive it.
-  explicit BlockKernel(const Job& job, ents::PairKernel pairs = nullptr);
+  explicit BlockKernel(const Job& job, ents::BlockKernel pairs = nullptr);
 
   // All elements of the job, `some` per call. Throws if one is not ordinary.
   void run(std::int32_t some);
@@ -18,16 +18,16 @@ public:
 
 private:
   const ents::Plan& plan_;
-  ents::PairKernel pairs_;
-  ents::PairBlock block_{};
+  ents::BlockKernel pairs_;
+  ents::ElementBlock block_{};
   std::int64_t count_;
   const double* last_; // of element 0
   std::int64_t last_stride_;
 };
 
 // Compiled with fused multiply-add; null where it is not built in (-DENTS_BENCH_FUSED=ON).
-ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction);
+ents::BlockKernel fused_kernel(const std::string& basis, bool enriched, bool friction);
 // Reads what the kernel reads and writes residuals of the same size, computing nothing; null as above.
-ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool friction);
+ents::BlockKernel moving_kernel(const std::string& basis, bool enriched, bool friction);
 
 } // namespace bench

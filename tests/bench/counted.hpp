@@ -4,7 +4,7 @@
 #define ENTS_ISA counted
 #include "core/law/laws.hpp"
 #include "core/tangent/friction_residual.hpp"
-#include "core/tangent/pair_reduced_friction.hpp"
+#include "core/tangent/reduced_friction_tangent.hpp"
 
 namespace ents::counted {
 

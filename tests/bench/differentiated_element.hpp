@@ -16,7 +16,7 @@
 #include <cstring>
 
 #define ENTS_ISA differentiation
-#include "core/tangent/pair_tangent.hpp"
+#include "core/tangent/frictionless_tangent.hpp"
 #include "differentiated.hpp"
 
 namespace ents::differentiation {
@@ -182,7 +182,7 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
   static void evaluate(const bench::DifferentiationInput& in, double* residual, double* tangent) {
     // projection
     using Kernel = KernelBasis<B>;
-    PairNodes<Kernel, double> nodes(basis_of<Kernel>(Basis::quad9)); // the one that is counted here
+    ElementNodes<Kernel, double> nodes(basis_of<Kernel>(Basis::quad9)); // the one that is counted here
     HeightNode node{};
     node.kind = HeightKind::sine;
     node.sine = {in.amplitude, {in.wave_vector[0], in.wave_vector[1]}, in.phase};
@@ -192,7 +192,7 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
       for (int c = 0; c < D; ++c) nodes.y[i][c] = in.master[D * i + c] - in.slave[c];
     double start[T];
     for (int a = 0; a < T; ++a) start[a] = in.start[a];
-    Pair<Kernel, H, double> pair(nodes, start);
+    ProjectedPoint<Kernel, H, double> pair(nodes, start);
     pair.project();
     pair.evaluate_at_solution();
     const double(&f2)[symmetric_size<T>] = second_derivatives(pair);
@@ -251,8 +251,9 @@ template <class Numbers, class B, bool H> struct DifferentiatedElement {
   }
 
 private:
-  static const double (&second_derivatives(Pair<KernelBasis<B>, H, double>& pair))[symmetric_size<T>] {
-    if constexpr (PairProjector<KernelBasis<B>, H, double>::closed_form)
+  static const double (
+      &second_derivatives(ProjectedPoint<KernelBasis<B>, H, double>& pair))[symmetric_size<T>] {
+    if constexpr (SurfaceAt<KernelBasis<B>, H, double>::closed_form)
       return pair.projector.base;
     else
       return pair.projector.f2;

@@ -2,7 +2,7 @@
 // where the compiler can, which is what equal bits on every machine cost; and without any computation.
 #if defined(ENTS_BENCH_FUSED)
 #define ENTS_ISA fused
-#include "core/element/pair_kernel.hpp"
+#include "core/element/fast_block.hpp"
 #endif
 
 #include "block_kernel.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 // Inputs into lanes, and as many numbers as a residual has out of them.
 template <class B, bool H, bool F>
-std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block, std::int32_t count) {
+std::uint64_t move_numbers(const ents::Plan& plan, const ents::ElementBlock& block, std::int32_t count) {
   using namespace ents::fused;
   std::uint64_t done = 0;
 #if defined(ENTS_HAS_LANES)
@@ -23,7 +23,7 @@ std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block,
   if constexpr (W > 1)
     for (std::int32_t at = 0; at + W <= count; at += W) {
       const std::int64_t e = block.first + at;
-      const PairLanes<B, H, F, W> in(plan, block, e);
+      const LaneInputs<B, H, F, W> in(plan, block, e);
       S r[N];
       for (int c = 0; c < D; ++c) r[c] = in.area;
       const int nodes = node_count(in.nodes.basis);
@@ -40,26 +40,26 @@ std::uint64_t move_numbers(const ents::Plan& plan, const ents::PairBlock& block,
 #endif
   return done;
 }
-template <class B> ents::PairKernel moving_kernel_of(bool enriched, bool friction) {
+template <class B> ents::BlockKernel moving_kernel_of(bool enriched, bool friction) {
   if (enriched) return friction ? move_numbers<B, true, true> : move_numbers<B, true, false>;
   return friction ? move_numbers<B, false, true> : move_numbers<B, false, false>;
 }
 
 } // namespace
 
-ents::PairKernel moving_kernel(const std::string& basis, bool enriched, bool friction) {
+ents::BlockKernel moving_kernel(const std::string& basis, bool enriched, bool friction) {
   using namespace ents::fused;
   if (basis == "line2") return moving_kernel_of<Line2>(enriched, friction);
   if (basis == "tri3") return moving_kernel_of<Tri3>(enriched, friction);
   if (basis == "quad4") return moving_kernel_of<Quad4>(enriched, friction);
   return moving_kernel_of<CountedBasis<3>>(enriched, friction);
 }
-template <class B> ents::PairKernel fused_kernel_of(bool enriched, bool friction) {
+template <class B> ents::BlockKernel fused_kernel_of(bool enriched, bool friction) {
   using namespace ents::fused;
-  if (enriched) return friction ? evaluate_pairs<B, true, true> : evaluate_pairs<B, true, false>;
-  return friction ? evaluate_pairs<B, false, true> : evaluate_pairs<B, false, false>;
+  if (enriched) return friction ? evaluate_fast<B, true, true> : evaluate_fast<B, true, false>;
+  return friction ? evaluate_fast<B, false, true> : evaluate_fast<B, false, false>;
 }
-ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
+ents::BlockKernel fused_kernel(const std::string& basis, bool enriched, bool friction) {
   using namespace ents::fused;
   if (basis == "line2") return fused_kernel_of<Line2>(enriched, friction);
   if (basis == "tri3") return fused_kernel_of<Tri3>(enriched, friction);
@@ -67,8 +67,8 @@ ents::PairKernel fused_kernel(const std::string& basis, bool enriched, bool fric
   return nullptr;
 }
 #else
-ents::PairKernel fused_kernel(const std::string&, bool, bool) { return nullptr; }
-ents::PairKernel moving_kernel(const std::string&, bool, bool) { return nullptr; }
+ents::BlockKernel fused_kernel(const std::string&, bool, bool) { return nullptr; }
+ents::BlockKernel moving_kernel(const std::string&, bool, bool) { return nullptr; }
 #endif
 
 } // namespace bench

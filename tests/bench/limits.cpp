@@ -53,8 +53,8 @@ void print_level(std::ostream& out, const Machine& machine, const std::string& b
   Job single({basis, variant, level.level, Call::single}), many({basis, variant, level.level, Call::batch});
   const double singles = static_cast<double>(single.elements().count),
                each = static_cast<double>(many.elements().count);
-  const ents::PairKernel fused = fused_kernel(basis, enriched, level.friction),
-                         moving = moving_kernel(basis, enriched, level.friction);
+  const ents::BlockKernel fused = fused_kernel(basis, enriched, level.friction),
+                          moving = moving_kernel(basis, enriched, level.friction);
   BlockKernel alone(single), alone_many(many), fused_many(many, fused), moving_many(many, moving);
   const int lanes = lanes_of(many), columns = level.tangent ? many.dofs() + 1 : 1;
   const std::vector<double> seconds = interleaved_seconds(

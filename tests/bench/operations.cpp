@@ -10,8 +10,8 @@ namespace {
 
 using namespace ents::counted;
 
-template <class B, bool H> PairNodes<B, Counted> bent_segment(const ents::HeightNode& height) {
-  PairNodes<B, Counted> nodes(basis_of<B>(ents::Basis::quad9)); // the one that is counted here
+template <class B, bool H> ElementNodes<B, Counted> bent_segment(const ents::HeightNode& height) {
+  ElementNodes<B, Counted> nodes(basis_of<B>(ents::Basis::quad9)); // the one that is counted here
   nodes.has_coordinates = false;
   nodes.height = H ? &height : nullptr;
   // natural coordinates of the nodes as a least-squares fit would find them do not matter here
@@ -81,11 +81,11 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
     plan.law.friction_coefficient = 0.3;
     plan.law.friction_stiffness = 1.0;
   }
-  const PairNodes<B, Counted> nodes = bent_segment<B, H>(node);
+  const ElementNodes<B, Counted> nodes = bent_segment<B, H>(node);
   Counted start[T];
   SlipBegin<Counted, T> begin{};
   for (Counted& x : start) x = is_simplex(nodes.basis) ? 0.2 : 0.1;
-  Pair<B, H, Counted> at(nodes, start);
+  ProjectedPoint<B, H, Counted> at(nodes, start);
   at.project();
   for (int a = 0; a < T; ++a) {
     start[a] = at.xi[a].v + 1e-2;
@@ -95,7 +95,7 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   begin.known = 1.0;
 
   Counted::operations = 0;
-  Pair<B, H, Counted> pair(nodes, start);
+  ProjectedPoint<B, H, Counted> pair(nodes, start);
   Friction<Counted, B::dim - 1> rub;
   pair.area = 1.0;
   pair.project();
@@ -109,8 +109,8 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
     friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
     if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
   } else {
-    pair_residual<false>(pair, residual);
-    if (wants_tangent) count_tangent<PairTangent<B, H, false, Counted>>(plan, pair);
+    frictionless_residual<false>(pair, residual);
+    if (wants_tangent) count_tangent<FrictionlessTangent<B, H, false, Counted>>(plan, pair);
   }
   return static_cast<double>(Counted::operations);
 }

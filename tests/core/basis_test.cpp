@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/surface/pair_rho.hpp"
+#include "core/surface/rho.hpp"
 #include "worst.hpp"
 
 namespace basis_test {
@@ -273,7 +273,7 @@ TYPED_TEST(BasisTest, IsAPolynomialOfItsNodes) {
   using B = TypeParam;
   using C = KernelBasis<B>;
   if constexpr (!is_flat<B>) {
-    PairNodes<C, double> nodes(basis_of<C>(name_of<B>()));
+    ElementNodes<C, double> nodes(basis_of<C>(name_of<B>()));
     nodes.has_coordinates = false;
     for (int i = 0; i < B::nodes; ++i)
       for (int c = 0; c < B::dim; ++c) nodes.y[i][c] = std::sin(1.0 + 7.0 * i + 3.0 * c);

@@ -1,5 +1,5 @@
 // Ordinary elements, that is nearly all, are evaluated by kernels of their own, many at once, compiled for
-// several instruction sets (core/projection/pair.hpp). Nothing of that may show: the bits of an element do
+// several instruction sets (core/projection/projected_point.hpp). Nothing of that may show: the bits of an element do
 // not depend on its neighbours in the call, on the length of the call or on the processor; and the kernels
 // that take the elements one by one say the same.
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ namespace laws::ordinary_elements_test {
 namespace {
 
 // From now on the model takes the kernels of this instruction set; null: it takes elements one by one.
-void use(const mechanics::Model& model, const ents::PairKernels* kernels) {
+void use(const mechanics::Model& model, const ents::BlockKernels* kernels) {
   ents::Plan& plan = const_cast<ents_model*>(model.handle())->plan;
   const ents::Model& m = model.handle()->model;
-  plan.pairs = plan.pairs_without_friction = nullptr;
+  plan.block = plan.block_without_friction = nullptr;
   if (kernels) ents::set_block_kernels(m, *kernels, plan);
-  plan.block_results = plan.pairs ? std::int32_t{ents::want::block} : 0;
+  plan.block_results = plan.block ? std::int32_t{ents::want::block} : 0;
 }
 
 struct Case {
@@ -250,22 +250,22 @@ TEST_F(OrdinaryElements, OfARigidMasterAreAPartOfThoseOfADeformableOne) {
 }
 
 TEST_F(OrdinaryElements, HaveTheSameBitsOnEveryInstructionSet) {
-  const ents::PairKernels& best = ents::best_pair_kernels();
-  std::vector<const ents::PairKernels*> others;
-  if (ents::portable::pair_kernels.of_basis) others.push_back(&ents::portable::pair_kernels);
+  const ents::BlockKernels& best = ents::best_block_kernels();
+  std::vector<const ents::BlockKernels*> others;
+  if (ents::portable::block_kernels.of_basis) others.push_back(&ents::portable::block_kernels);
 #ifdef ENTS_HAS_AVX2
-  if (__builtin_cpu_supports("avx2")) others.push_back(&ents::avx2::pair_kernels);
+  if (__builtin_cpu_supports("avx2")) others.push_back(&ents::avx2::block_kernels);
 #endif
   others.erase(std::remove(others.begin(), others.end(), &best), others.end());
   if (others.empty()) GTEST_SKIP() << "this library has " << best.instruction_set << " alone to run here";
   std::cout << best.instruction_set << " against";
-  for (const ents::PairKernels* other : others) std::cout << " " << other->instruction_set;
+  for (const ents::BlockKernels* other : others) std::cout << " " << other->instruction_set;
   std::cout << "\n";
   for_each_case([&](const Case& c, const Drawn& d) {
     const mechanics::Model model = model_of(d.scene, c);
     LawResults of_best;
     evaluate(model, d.elements, call_results, of_best);
-    for (const ents::PairKernels* kernels : others) {
+    for (const ents::BlockKernels* kernels : others) {
       LawResults other;
       use(model, kernels);
       evaluate(model, d.elements, call_results, other);

@@ -17,7 +17,7 @@
 namespace ents::ENTS_ISA {
 
 // Positions are relative to the slave node.
-template <class B, class S> struct PairNodes {
+template <class B, class S> struct ElementNodes {
   static constexpr int T = B::dim - 1;
   [[no_unique_address]] B basis;
   Vec<S, B::dim> y[B::nodes];
@@ -27,7 +27,7 @@ template <class B, class S> struct PairNodes {
   // Of dual numbers, whose derivatives are those by a parameter: 1 + its index (parameter_rates.hpp)
   std::int32_t parameter = 0;
 
-  ENTS_INLINE explicit PairNodes(const B& of) : basis(of) {}
+  ENTS_INLINE explicit ElementNodes(const B& of) : basis(of) {}
 
   // `sine` moves there
   template <int Order>
@@ -177,7 +177,7 @@ template <class S> struct Rho<CountedBasis<2>, S> : BentArea<CountedBasis<2>, S>
   using V = Vec<S, 2>;
   V c[4];
   bool cubic; // else quadratic
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) : cubic(nodes.basis.degree == 3) {
+  ENTS_INLINE explicit Rho(const ElementNodes<B, S>& nodes) : cubic(nodes.basis.degree == 3) {
     c[3] = V::zero();
     with_basis<2>(nodes.basis.which, [&](auto basis) ENTS_LAMBDA_INLINE {
       PowersOf<decltype(basis)>::template set<S>(nodes.y, c);
@@ -185,7 +185,7 @@ template <class S> struct Rho<CountedBasis<2>, S> : BentArea<CountedBasis<2>, S>
   }
 
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
+  ENTS_INLINE void evaluate(const ElementNodes<B, S>& nodes, const S (&xi)[1], Shape<S, 1, B::nodes>& N,
                             Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) nodes.basis.template shape<2>(xi, N);
     V d[4];
@@ -208,10 +208,10 @@ template <class S> struct Rho<CountedBasis<3>, S> : BentArea<CountedBasis<3>, S>
   using B = CountedBasis<3>;
   using V = Vec<S, 3>;
   V c[5][5];
-  ENTS_INLINE explicit Rho(const PairNodes<B, S>& nodes) { set(nodes); }
+  ENTS_INLINE explicit Rho(const ElementNodes<B, S>& nodes) { set(nodes); }
 
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
+  ENTS_INLINE void evaluate(const ElementNodes<B, S>& nodes, const S (&xi)[2], Shape<S, 2, B::nodes>& N,
                             Surface<B, H, S>& s) const {
     if (H && nodes.has_coordinates) nodes.basis.template shape<2>(xi, N);
     SurfaceDerivatives<S, Order> d;
@@ -236,7 +236,7 @@ template <class S> struct Rho<CountedBasis<3>, S> : BentArea<CountedBasis<3>, S>
   }
 
 private:
-  ENTS_NOINLINE void set(const PairNodes<B, S>& nodes) {
+  ENTS_NOINLINE void set(const ElementNodes<B, S>& nodes) {
     with_basis<3>(nodes.basis.which, [&](auto basis) ENTS_LAMBDA_INLINE {
       PowersOf<decltype(basis)>::template set<S>(nodes.y, c);
     });
@@ -273,7 +273,7 @@ private:
 template <class S> struct Rho<Quad4, S> {
   static constexpr bool linear_area = true;
   Vec<S, 3> c, c1, c2, c12; // rho - x_s = c + c1 xi_1 + c2 xi_2 + c12 xi_1 xi_2
-  ENTS_INLINE explicit Rho(const PairNodes<Quad4, S>& nodes) {
+  ENTS_INLINE explicit Rho(const ElementNodes<Quad4, S>& nodes) {
     const auto& y = nodes.y;
     const Vec<S, 3> sum_1 = y[0] + y[1], sum_2 = y[3] + y[2], difference_1 = y[1] - y[0],
                     difference_2 = y[2] - y[3];
@@ -284,7 +284,7 @@ template <class S> struct Rho<Quad4, S> {
     c12 = quarter * (difference_2 - difference_1);
   }
   template <int Order, bool H>
-  ENTS_INLINE void evaluate(const PairNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N,
+  ENTS_INLINE void evaluate(const ElementNodes<Quad4, S>& nodes, const S (&xi)[2], Shape<S, 2, 4>& N,
                             Surface<Quad4, H, S>& s) const {
     if (H && nodes.has_coordinates) Quad4::shape<2>(xi, N);
     s.a[0] = c1;

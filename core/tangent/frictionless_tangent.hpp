@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Residual and tangent of the frictionless element with a penalty or power law: see pair.hpp.
+// Residual and tangent of the frictionless element with a penalty or power law: see projected_point.hpp.
 #pragma once
 
-#include "core/projection/pair.hpp"
+#include "core/projection/projected_point.hpp"
 #include "core/tangent/dof_rows.hpp"
-#include "core/tangent/pair_forms.hpp"
-#include "core/tangent/pair_write.hpp"
+#include "core/tangent/projection_forms.hpp"
+#include "core/tangent/write_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
 // out = R: A W' dg
 template <bool Rigid, class B, bool H, class S>
-ENTS_INLINE void pair_residual(const Pair<B, H, S>& pair, S (&out)[dof_count<B, Rigid>]) {
+ENTS_INLINE void frictionless_residual(const ProjectedPoint<B, H, S>& point, S (&out)[dof_count<B, Rigid>]) {
   Form<B, S> f;
-  form_of_p<B, H>(pair.projector.s, (pair.area * pair.per_gap) * pair.gap_vector, f);
-  expand_to_dofs<Rigid, parts_of_p<H>>(pair.nodes.basis, f, pair.projector.N, out);
+  form_of_p<B, H>(point.projector.s, (point.area * point.per_gap) * point.gap_vector, f);
+  expand_to_dofs<Rigid, parts_of_p<H>>(point.nodes.basis, f, point.projector.N, out);
 }
 
 // Of g g^T = A (W'' - W'/g) dg dg^T = (m - 1) A W'/g dg dg^T, where the law is not linear
 template <class B, bool H, class S>
-ENTS_INLINE void form_of_g(const Plan& plan, const Pair<B, H, S>& pair, Form<B, S>& g) {
-  const S root = square_root(pair.area * pair.per_gap);
-  form_of_p<B, H>(pair.projector.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * pair.normal,
+ENTS_INLINE void form_of_g(const Plan& plan, const ProjectedPoint<B, H, S>& point, Form<B, S>& g) {
+  const S root = square_root(point.area * point.per_gap);
+  form_of_p<B, H>(point.projector.s, (root * square_root(0.5 * plan.law.twice_exponent - 1.0)) * point.normal,
                   g);
 }
 // False: the law is linear, and g zero.
 template <bool Rigid, class B, bool H, class S>
-ENTS_INLINE bool set_g(const Plan& plan, const Pair<B, H, S>& pair, DofArray<B, Rigid, S>& g) {
+ENTS_INLINE bool set_g(const Plan& plan, const ProjectedPoint<B, H, S>& point, DofArray<B, Rigid, S>& g) {
   if (plan.law.twice_exponent > 2) {
     Form<B, S> form;
-    form_of_g(plan, pair, form);
-    expand_to_dofs<Rigid, parts_of_p<H>>(pair.nodes.basis, form, pair.projector.N, g);
+    form_of_g(plan, point, form);
+    expand_to_dofs<Rigid, parts_of_p<H>>(point.nodes.basis, form, point.projector.N, g);
     return true;
   }
-  for_each_dof(dofs_of<Rigid>(pair.nodes.basis), g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
+  for_each_dof(dofs_of<Rigid>(point.nodes.basis), g, []() ENTS_LAMBDA_INLINE { return S(0.0); });
   return false;
 }
 
 // K = s s^T I - sum_a v_a v_a^T + sum_a (w_a z_a^T + z_a w_a^T) [ + g g^T ]
-template <class B, bool H, bool Rigid, class S> struct PairTangent {
+template <class B, bool H, bool Rigid, class S> struct FrictionlessTangent {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D;
   static constexpr bool turns = H && !Rigid; // w, z: dofs of the master
   static constexpr bool symmetric = true, has_rest = false, one_by_one = !turns;
@@ -55,10 +55,10 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
   // The slave, and nodes whose dofs there are
   ENTS_INLINE constexpr int places() const { return Rigid ? 1 : node_count(basis) + 1; }
 
-  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair) {
-    const auto& p = pair.projector;
-    const S stiffness = pair.area * pair.per_gap, root = square_root(stiffness);
-    basis = pair.nodes.basis;
+  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<B, H, S>& point) {
+    const auto& p = point.projector;
+    const S stiffness = point.area * point.per_gap, root = square_root(stiffness);
+    basis = point.nodes.basis;
     weights[0][0] = root;
     if constexpr (!Rigid)
       for (int i = 0; i + 1 < places(); ++i) weights[0][i + 1] = -(root * p.N.n[i]);
@@ -85,7 +85,7 @@ template <class B, bool H, bool Rigid, class S> struct PairTangent {
         expand_to_nodes(basis, p.N.d1[a], n, w[a]);
       }
     }
-    curved_law = set_g<Rigid>(plan, pair, g);
+    curved_law = set_g<Rigid>(plan, point, g);
   }
 
   // Each lane's to one[lane]

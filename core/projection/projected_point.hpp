@@ -15,31 +15,31 @@
 #include "core/law/power.hpp"
 #include "core/model/plan.hpp"
 #include "core/projection/projection.hpp"
-#include "core/surface/pair_surface.hpp"
+#include "core/surface/surface_at.hpp"
 
 namespace ents::ENTS_ISA {
 
-inline constexpr int max_pair_evaluations = 8;
+inline constexpr int most_projection_steps = 8;
 
 template <int K, class S> ENTS_INLINE Truth<S> minimum_of(const S (&f2)[K], const S (&metric)[K]) {
   return both(f2[0] > 1e-8 * metric[0], determinant(f2) > 1e-8 * determinant(metric));
 }
 
-template <class B, bool H, class S> struct Pair {
+template <class B, bool H, class S> struct ProjectedPoint {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  const PairNodes<B, S>& nodes;
+  const ElementNodes<B, S>& nodes;
   S area, xi[T];
   S evaluations, per_gap; // W'/g per area, 0 where open
   Vec<S, D> gap_vector;   // g n_e
   S gap;                  // g
   Vec<S, D> normal;       // and n_e, where they are measured
   Truth<S> ordinary, contact, outside;
-  PairProjector<B, H, S> projector;
+  SurfaceAt<B, H, S> projector;
 
-  ENTS_INLINE Pair(const PairNodes<B, S>& y, const S (&start)[T]) : nodes(y), projector(nodes) {
+  ENTS_INLINE ProjectedPoint(const ElementNodes<B, S>& y, const S (&start)[T]) : nodes(y), projector(nodes) {
     for (int a = 0; a < T; ++a) xi[a] = start[a];
   }
-  Pair(const Pair&) = delete;
+  ProjectedPoint(const ProjectedPoint&) = delete;
 
   // The surface at xi by sums over the nodes, which keep their accuracy where a segment is nearly degenerate.
   // False: it is. f2: F_,xixi, if it is known.
@@ -92,7 +92,7 @@ template <class B, bool H, class S> struct Pair {
     evaluations = S(0.0);
     Truth<S> active = evaluations >= 0.0;
     ordinary = active;
-    for (int count = 1; count < max_pair_evaluations; ++count) {
+    for (int count = 1; count < most_projection_steps; ++count) {
       S twice_merit;
       Truth<S> fine = step_at(xi, step, twice_merit);
       evaluations = select(active, evaluations + 1.0, evaluations);
@@ -130,7 +130,7 @@ template <class B, bool H, class S> struct Pair {
   }
 
   ENTS_INLINE void project() {
-    if constexpr (PairProjector<B, H, S>::closed_form) {
+    if constexpr (SurfaceAt<B, H, S>::closed_form) {
       for (int a = 0; a < T; ++a) xi[a] = projector.foot[a];
       evaluations = S(1.0);
       ordinary = evaluations > 0.0;
@@ -155,10 +155,10 @@ template <class B, bool H, class S> struct Pair {
 
   // The same along a ray e: the merit is the distance from it.
   ENTS_INLINE void project_along(const Vec<S, D>& e) {
-    descend(PairProjector<B, H, S>::rounding * dot(nodes.y[0], nodes.y[0]),
+    descend(SurfaceAt<B, H, S>::rounding * dot(nodes.y[0], nodes.y[0]),
             [&](const S(&at)[T], S(&step)[T], S& twice_merit) ENTS_LAMBDA_INLINE {
               auto& p = projector;
-              if constexpr (!PairProjector<B, H, S>::closed_form) p.evaluate(at);
+              if constexpr (!SurfaceAt<B, H, S>::closed_form) p.evaluate(at);
               if constexpr (is_flat<B>) p.finish(at);
               Vec<S, D> onto[T], across, off = p.s.d;
               const Truth<S> fine = ray_frame(p.s.e, e, onto, across);
@@ -171,7 +171,7 @@ template <class B, bool H, class S> struct Pair {
 
   // The surface at the projection.
   ENTS_INLINE void evaluate_at_solution() {
-    if constexpr (!PairProjector<B, H, S>::closed_form) projector.evaluate(xi);
+    if constexpr (!SurfaceAt<B, H, S>::closed_form) projector.evaluate(xi);
   }
 
   // What the law needs to know of the gap: g |m|, |m|^2 of the enriched and of the plain segment, and the

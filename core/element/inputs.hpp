@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/law/touch.hpp"
-#include "core/tangent/pair_tangent.hpp"
+#include "core/tangent/frictionless_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -30,7 +30,7 @@ ENTS_INLINE bool is_finite(const double* numbers, int count) {
   return zero == 0.0;
 }
 
-ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+ENTS_INLINE const double* coordinates_of(const Plan& plan, const ElementBlock& block, std::int64_t e) {
   return block.surface_coordinates ? block.surface_coordinates + e * block.surface_coordinates_stride
                                    : plan.surface_coordinates;
 }
@@ -38,7 +38,7 @@ ENTS_INLINE const double* coordinates_of(const Plan& plan, const PairBlock& bloc
 // The nodes of one element, seen from its slave.
 template <bool H, class B>
 ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* master,
-                           const double* coordinates, PairNodes<B, double>& nodes) {
+                           const double* coordinates, ElementNodes<B, double>& nodes) {
   constexpr int D = B::dim;
   const int count = node_count(nodes.basis);
   for (int i = 0; i < count; ++i) nodes.y[i] = vec_at<D>(master + std::int64_t{D} * i) - vec_at<D>(slave);
@@ -51,7 +51,7 @@ ENTS_INLINE void set_nodes(const Plan& plan, const double* slave, const double* 
 // What an element starts from, as evaluate_element() has it. Null: the whole segment has to be searched, or
 // an input is wrong that would not be noticed later.
 template <class B, bool H>
-ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std::int64_t e) {
+ENTS_INLINE const double* start_of(const Plan& plan, const ElementBlock& block, std::int64_t e) {
   if constexpr (!H)
     if (block.surface_coordinates &&
         !is_finite(coordinates_of(plan, block, e), (B::dim - 1) * node_count(basis_of<B>(plan.basis))))
@@ -70,14 +70,14 @@ ENTS_INLINE const double* start_of(const Plan& plan, const PairBlock& block, std
 }
 
 // Inputs of element e.
-template <class B, bool H, bool F> struct PairOne {
+template <class B, bool H, bool F> struct OneInput {
   static constexpr int T = B::dim - 1;
-  PairNodes<B, double> nodes;
+  ElementNodes<B, double> nodes;
   double xi[T], area;
   SlipBegin<double, T> begin{}; // friction
   bool known;
 
-  ENTS_INLINE PairOne(const Plan& plan, const PairBlock& block, std::int64_t e)
+  ENTS_INLINE OneInput(const Plan& plan, const ElementBlock& block, std::int64_t e)
       : nodes(basis_of<B>(plan.basis)) {
     const double* start = start_of<B, H>(plan, block, e);
     known = start != nullptr;
@@ -106,15 +106,15 @@ template <int W> ENTS_INLINE void prefetch(const double* from, std::int64_t stri
 }
 
 // Inputs of W elements from e on.
-template <class B, bool H, bool F, int W> struct PairLanes {
+template <class B, bool H, bool F, int W> struct LaneInputs {
   static constexpr int D = B::dim, T = D - 1;
   using S = Lanes<W>;
-  PairNodes<B, S> nodes;
+  ElementNodes<B, S> nodes;
   S xi[T], area;
   SlipBegin<S, T> begin; // friction
   std::uint32_t known;   // bit k: element e + k has a start
 
-  ENTS_INLINE PairLanes(const Plan& plan, const PairBlock& block, std::int64_t e)
+  ENTS_INLINE LaneInputs(const Plan& plan, const ElementBlock& block, std::int64_t e)
       : nodes(basis_of<B>(plan.basis)) {
     const B& basis = nodes.basis;
     const int count = node_count(basis);
@@ -174,7 +174,7 @@ private:
     return zero >= 0.0;
   }
   // As start_of() has it
-  ENTS_INLINE void read_states(const Plan& plan, const PairBlock& block, const double* const (&from)[W]) {
+  ENTS_INLINE void read_states(const Plan& plan, const ElementBlock& block, const double* const (&from)[W]) {
     S state[F ? StateLayout::xi_at + 2 * T + 1 : StateLayout::xi_at + T];
     read_lanes<W>(from, state);
     const auto is = [](const S& a, double b) ENTS_LAMBDA_INLINE { return both(a >= b, a <= b); };
@@ -198,7 +198,7 @@ private:
   }
   // Of a later element, or of none: inputs of long calls come from memory, and the hardware prefetch of the
   // processor stops at each page (4 KiB).
-  ENTS_INLINE void prefetch_inputs(const Plan& plan, const PairBlock& block, std::int64_t e) const {
+  ENTS_INLINE void prefetch_inputs(const Plan& plan, const ElementBlock& block, std::int64_t e) const {
     const int count = node_count(nodes.basis);
     const auto soon = [e](const double* data, std::int64_t stride, std::int64_t size) ENTS_LAMBDA_INLINE {
       if (data) prefetch<W>(data + e * stride, stride, size);

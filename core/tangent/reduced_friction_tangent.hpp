@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tangent of Coulomb friction (pair_friction_forms.hpp) in the reduced space, where w_a = n . delta a_a
+// The tangent of Coulomb friction (friction_forms.hpp) in the reduced space, where w_a = n . delta a_a
 // is on one field alone, w_a' = n' . delta a_a + y^b n . delta a_ab, and delta X . delta X and its derivative
 // are numbers times I.
 #pragma once
 
-#include "core/tangent/pair_friction_tangent.hpp"
-#include "core/tangent/pair_reduced.hpp"
+#include "core/tangent/friction_tangent.hpp"
+#include "core/tangent/reduced_expansion.hpp"
 
 namespace ents::ENTS_ISA {
 
 template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
-  using Forms = PairFrictionForms<B, H, Rigid, S>;
+  using Forms = FrictionForms<B, H, Rigid, S>;
   using Expansion = ReducedExpansion<B>;
   using V = Vec<S, B::dim>;
   static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
@@ -28,22 +28,22 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
   V g[M]; // at the nodes
   bool curved_law;
 
-  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
+  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<B, H, S>& point,
                             const Friction<S, B::dim - 1>& friction) {
-    for (int a = 0; a < T; ++a) xi[a] = pair.xi[a];
-    stiffness = pair.area * pair.per_gap;
+    for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
+    stiffness = point.area * point.per_gap;
     S inverse[K];
-    Forms::set_direction(pair, friction.force, inverse, y);
+    Forms::set_direction(point, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-      const Derivative derivative(pair.projector, pair.xi, y);
+      const Derivative derivative(point.projector, point.xi, y);
       Forms::in_part(
-          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, derivative); });
+          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, point, friction, inverse, derivative); });
       if constexpr (turns) Forms::in_part([&]() ENTS_LAMBDA_INLINE { set_height_terms(derivative); });
     });
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
       Form<B, S> form;
-      form_of_g(plan, pair, form);
+      form_of_g(plan, point, form);
       V of[fields];
       unroll<fields>([&](auto f) ENTS_LAMBDA_INLINE {
         if constexpr (f.value < fields_of_g)
@@ -151,7 +151,7 @@ private:
     if constexpr (Column > T && Row < slopes) add(sum, n[c], on_field<Row>(bent_z[Column - D]));
   }
 
-  ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
+  ENTS_INLINE void set_projection_terms(const Plan& plan, const ProjectedPoint<B, H, S>& point,
                                         const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
                                         const Derivative& derivative) {
     Form<B, Dual<S>> f[T];
@@ -159,14 +159,14 @@ private:
     // (what is added to stays in registers where it is known to be nobody else's)
     Form<B, S> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
-    const typename Forms::ChangeOfForce change(pair, friction, false);
+    const typename Forms::ChangeOfForce change(point, friction, false);
     Form<B, S> gap;
-    form_of_p<B, H>(pair.projector.s, pair.normal, gap);
+    form_of_p<B, H>(point.projector.s, point.normal, gap);
     for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
       Form<B, S> rate, Yf, Pf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
       Forms::template set_P<true>(a, derivative, stiffness, rate, xf, change,
-                                  Forms::by_gap(a, plan, pair, friction), gap, Pf);
+                                  Forms::by_gap(a, plan, point, friction), gap, Pf);
       keep<Forms::parts>(xf[a], x[a]);
       keep<Forms::parts_of_rate>(Yf, Y[a]);
       keep<Forms::parts_of_rate>(Pf, P[a]);
@@ -203,6 +203,6 @@ private:
 template <class B, bool H, bool Rigid, class S>
 using FrictionTangentOf =
     std::conditional_t<std::is_same_v<B, Tri3> || (H && std::is_same_v<B, Quad4>),
-                       ReducedFrictionTangent<B, H, Rigid, S>, PairFrictionTangent<B, H, Rigid, S>>;
+                       ReducedFrictionTangent<B, H, Rigid, S>, FrictionTangent<B, H, Rigid, S>>;
 
 } // namespace ents::ENTS_ISA

@@ -12,7 +12,7 @@
 
 #include "worst.hpp"
 
-namespace pair_sine_test {
+namespace moving_sine_test {
 namespace {
 
 using namespace ents;
@@ -36,7 +36,7 @@ TEST(MovedSine, IsTheSine) {
   for (int walk = 0; walk < 20000; ++walk) {
     SineAt<double> at;
     double turns = std::uniform_real_distribution<double>(-2.0, 2.0)(generator);
-    for (int i = 0; i < 8; ++i) { // max_pair_evaluations
+    for (int i = 0; i < 8; ++i) { // most_projection_steps
       move_sine(at, sine, turns);
       double s, c;
       sin_cos_turns(turns, sine.phase, s, c);
@@ -97,4 +97,4 @@ TEST(MovedSine, EveryLaneMovesAsTheNumberAlone) {
 #endif
 
 } // namespace
-} // namespace pair_sine_test
+} // namespace moving_sine_test

@@ -4,15 +4,16 @@
 
 #include <cstring>
 
-#include "core/element/pair_kernels.hpp"
-#include "core/element/pair_results.hpp"
+#include "core/element/block_kernels.hpp"
+#include "core/element/small_results.hpp"
 #include "core/tangent/friction_residual.hpp"
-#include "core/tangent/pair_reduced_friction.hpp"
+#include "core/tangent/reduced_friction_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
 template <bool F, bool Rigid, class B, bool H, class S>
-using TangentOf = std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, PairTangent<B, H, Rigid, S>>;
+using TangentOf =
+    std::conditional_t<F, FrictionTangentOf<B, H, Rigid, S>, FrictionlessTangent<B, H, Rigid, S>>;
 
 inline constexpr std::int32_t beside_forces = want::block & ~want::forces;
 
@@ -23,7 +24,8 @@ ENTS_INLINE bool has_functions(const Plan& plan) {
   return false;
 }
 // Are its third derivatives finite, which tangents with friction have?
-template <class B, bool H, class S> ENTS_NOINLINE Truth<S> height_has_thirds(const Pair<B, H, S>& p) {
+template <class B, bool H, class S>
+ENTS_NOINLINE Truth<S> height_has_thirds(const ProjectedPoint<B, H, S>& p) {
   constexpr int T = B::dim - 1;
   S size(0.0);
   for (int c = 0; c < T; ++c) {
@@ -38,7 +40,7 @@ template <class B, bool H, class S> ENTS_NOINLINE Truth<S> height_has_thirds(con
 
 // Gap, force and friction at the projection.
 template <bool F, class B, bool H, class S>
-ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, S>& p,
+ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, ProjectedPoint<B, H, S>& p,
                               Friction<S, B::dim - 1>& f, const SlipBegin<S, B::dim - 1>* begin) {
   p.evaluate_at_solution();
   p.evaluate_law(plan, F || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
@@ -53,15 +55,16 @@ ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted, Pair<B, H, 
 }
 // Shape functions come as late as here, with as many derivatives as are asked for.
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void residual(Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f, S (&out)[dof_count<B, Rigid>]) {
+ENTS_INLINE void residual(ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f,
+                          S (&out)[dof_count<B, Rigid>]) {
   if constexpr (!Rigid) p.nodes.basis.template shape<(H ? 1 : 0) + (F ? 1 : 0)>(p.xi, p.projector.N);
   if constexpr (F)
     friction_residual<Rigid>(p, f, (p.area * p.per_gap) * p.gap_vector, out);
   else
-    pair_residual<Rigid>(p, out);
+    frictionless_residual<Rigid>(p, out);
 }
 template <bool F, bool Rigid, class B, bool H, class S>
-ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f,
+ENTS_INLINE void tangent(const Plan& plan, ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f,
                          TangentOf<F, Rigid, B, H, S>& out) {
   if constexpr (!Rigid) p.nodes.basis.template shape<H || F ? 2 : 1>(p.xi, p.projector.N);
   if constexpr (F)
@@ -72,7 +75,8 @@ ENTS_INLINE void tangent(const Plan& plan, Pair<B, H, S>& p, const Friction<S, B
 
 // The `rest` of a block of one element at its projection
 template <class B, bool H>
-ENTS_INLINE bool write_rest(const Plan& plan, const PairBlock& block, const Pair<B, H, double>& p) {
+ENTS_INLINE bool write_rest(const Plan& plan, const ElementBlock& block,
+                            const ProjectedPoint<B, H, double>& p) {
   ProjectedElement at{};
   for (int a = 0; a < B::dim - 1; ++a) at.xi[a] = p.xi[a];
   const auto& sine = p.projector.sine;
@@ -82,11 +86,11 @@ ENTS_INLINE bool write_rest(const Plan& plan, const PairBlock& block, const Pair
 }
 
 // An element that is clearly open
-ENTS_INLINE void write_open(const PairBlock& block, std::int64_t e) {
+ENTS_INLINE void write_open(const ElementBlock& block, std::int64_t e) {
   if (block.wanted & want::flags) block.flags[e * block.flags_stride] = 0;
 }
 // An element that is open
-ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
+ENTS_INLINE void write_zeros(const ElementBlock& block, std::int64_t e, int N) {
   if (block.wanted & forces_only) return;
   if (block.wanted & want::residual)
     for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
@@ -100,7 +104,7 @@ ENTS_INLINE void write_zeros(const PairBlock& block, std::int64_t e, int N) {
 
 // Residual and tangent of an element in contact.
 template <bool F, bool Rigid, class B, bool H>
-ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, double>& p,
+ENTS_INLINE void write_forces(const Plan& plan, const ElementBlock& block, ProjectedPoint<B, H, double>& p,
                               const Friction<double, B::dim - 1>& f, std::int64_t e) {
   constexpr int N = dof_count<B, Rigid>;
   if (block.wanted & want::residual) {
@@ -142,10 +146,10 @@ ENTS_INLINE void write_forces_of(bool rigid, Arguments&... arguments) {
 }
 
 template <class B, bool H, bool F>
-ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int64_t e) {
-  const PairOne<B, H, F> in(plan, block, e);
+ENTS_INLINE bool evaluate_one(const Plan& plan, const ElementBlock& block, std::int64_t e) {
+  const OneInput<B, H, F> in(plan, block, e);
   if (!in.known) return false;
-  Pair<B, H, double> p(in.nodes, in.xi);
+  ProjectedPoint<B, H, double> p(in.nodes, in.xi);
   Friction<double, B::dim - 1> f;
   p.area = in.area;
   if (block.wanted & forces_only && p.has_area() && p.is_clearly_open(plan)) {
@@ -166,10 +170,10 @@ ENTS_INLINE bool pair_of_one(const Plan& plan, const PairBlock& block, std::int6
 #if defined(ENTS_HAS_LANES)
 // Both projections at once.
 template <class B, bool H, int W>
-ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) {
+ENTS_INLINE void project_both(ProjectedPoint<B, H, Lanes<W>>& a, ProjectedPoint<B, H, Lanes<W>>& b) {
   constexpr int D = B::dim, T = D - 1;
   using S = Twice<Lanes<W>>;
-  PairNodes<B, S> nodes(a.nodes.basis);
+  ElementNodes<B, S> nodes(a.nodes.basis);
   const int count = node_count(nodes.basis);
   for (int i = 0; i < count; ++i)
     for (int c = 0; c < D; ++c) nodes.y[i][c] = {a.nodes.y[i][c], b.nodes.y[i][c]};
@@ -180,7 +184,7 @@ ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) 
   nodes.height = a.nodes.height;
   S xi[T];
   for (int i = 0; i < T; ++i) xi[i] = {a.xi[i], b.xi[i]};
-  Pair<B, H, S> p(nodes, xi);
+  ProjectedPoint<B, H, S> p(nodes, xi);
   p.project();
   for (int i = 0; i < T; ++i) a.xi[i] = p.xi[i].low, b.xi[i] = p.xi[i].high;
   a.evaluations = p.evaluations.low, b.evaluations = p.evaluations.high;
@@ -192,7 +196,7 @@ ENTS_INLINE void project_both(Pair<B, H, Lanes<W>>& a, Pair<B, H, Lanes<W>>& b) 
 
 // Residuals and tangents of the elements e + k whose bit is set in `contact`.
 template <bool F, bool Rigid, class B, bool H, int W>
-ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, H, Lanes<W>>& p,
+ENTS_INLINE void write_forces(const Plan& plan, const ElementBlock& block, ProjectedPoint<B, H, Lanes<W>>& p,
                               const Friction<Lanes<W>, B::dim - 1>& f, std::int64_t e,
                               std::uint32_t contact) {
   constexpr int N = dof_count<B, Rigid>;
@@ -232,9 +236,9 @@ ENTS_INLINE void write_forces(const Plan& plan, const PairBlock& block, Pair<B, 
 // W projected elements from e on, those with a bit in `far` clearly open; bit k: element e + k was ordinary
 // and is written.
 template <class B, bool H, bool F, int W>
-ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& block,
-                                           const PairLanes<B, H, F, W>& in, Pair<B, H, Lanes<W>>& p,
-                                           std::uint32_t far, std::int64_t e) {
+ENTS_INLINE std::uint32_t
+write_lanes_from(const Plan& plan, const ElementBlock& block, const LaneInputs<B, H, F, W>& in,
+                 ProjectedPoint<B, H, Lanes<W>>& p, std::uint32_t far, std::int64_t e) {
   constexpr int D = B::dim;
   using S = Lanes<W>;
   Friction<S, B::dim - 1> f;
@@ -260,25 +264,25 @@ ENTS_INLINE std::uint32_t write_lanes_from(const Plan& plan, const PairBlock& bl
 
 // Bit k: element first + k was ordinary and is written.
 template <class B, bool H, bool F>
-std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int32_t count) {
+std::uint64_t evaluate_fast(const Plan& plan, const ElementBlock& block, std::int32_t count) {
   std::uint64_t done = 0;
   std::int32_t k = 0;
 #if defined(ENTS_HAS_LANES)
   if constexpr (1 < block_width<B>)
     for (constexpr int W = block_width<B>; k + W <= count;) {
       constexpr std::uint32_t all = (1u << W) - 1;
-      const auto far_of = [&](const PairLanes<B, H, F, W>& lanes,
-                              const Pair<B, H, Lanes<W>>& pair) ENTS_LAMBDA_INLINE {
+      const auto far_of = [&](const LaneInputs<B, H, F, W>& lanes,
+                              const ProjectedPoint<B, H, Lanes<W>>& point) ENTS_LAMBDA_INLINE {
         return block.wanted & forces_only
-                   ? lanes.known & bits_of(both(pair.has_area(), pair.is_clearly_open(plan)))
+                   ? lanes.known & bits_of(both(point.has_area(), point.is_clearly_open(plan)))
                    : 0u;
       };
       // a line's few numbers leave registers free for two projections at once
       constexpr bool in_pairs = std::is_same_v<B, Line2> && H;
       const bool two = in_pairs && k + 2 * W <= count;
       const std::int64_t e = block.first + k;
-      const PairLanes<B, H, F, W> a(plan, block, e);
-      Pair<B, H, Lanes<W>> p(a.nodes, a.xi);
+      const LaneInputs<B, H, F, W> a(plan, block, e);
+      ProjectedPoint<B, H, Lanes<W>> p(a.nodes, a.xi);
       p.area = a.area;
       const std::uint32_t far = far_of(a, p);
       if (far == all) {
@@ -288,8 +292,8 @@ std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int3
         continue;
       }
       if (two) {
-        const PairLanes<B, H, F, W> b(plan, block, e + W);
-        Pair<B, H, Lanes<W>> q(b.nodes, b.xi);
+        const LaneInputs<B, H, F, W> b(plan, block, e + W);
+        ProjectedPoint<B, H, Lanes<W>> q(b.nodes, b.xi);
         q.area = b.area;
         if constexpr (in_pairs) project_both(p, q);
         done |= std::uint64_t{write_lanes_from<B, H, F, W>(plan, block, b, q, far_of(b, q), e + W)}
@@ -301,15 +305,15 @@ std::uint64_t evaluate_pairs(const Plan& plan, const PairBlock& block, std::int3
       k += two ? 2 * W : W;
     }
 #endif
-  for (; k < count; ++k) done |= std::uint64_t{pair_of_one<B, H, F>(plan, block, block.first + k)} << k;
+  for (; k < count; ++k) done |= std::uint64_t{evaluate_one<B, H, F>(plan, block, block.first + k)} << k;
   return done;
 }
 
-// Those of a basis, instantiated; pair_table.cpp lists them.
+// Those of a basis, instantiated; block_table.cpp lists them.
 #define ENTS_PAIR_KERNELS(B)                                                                                 \
-  template std::uint64_t evaluate_pairs<B, false, false>(const Plan&, const PairBlock&, std::int32_t);       \
-  template std::uint64_t evaluate_pairs<B, false, true>(const Plan&, const PairBlock&, std::int32_t);        \
-  template std::uint64_t evaluate_pairs<B, true, false>(const Plan&, const PairBlock&, std::int32_t);        \
-  template std::uint64_t evaluate_pairs<B, true, true>(const Plan&, const PairBlock&, std::int32_t);
+  template std::uint64_t evaluate_fast<B, false, false>(const Plan&, const ElementBlock&, std::int32_t);     \
+  template std::uint64_t evaluate_fast<B, false, true>(const Plan&, const ElementBlock&, std::int32_t);      \
+  template std::uint64_t evaluate_fast<B, true, false>(const Plan&, const ElementBlock&, std::int32_t);      \
+  template std::uint64_t evaluate_fast<B, true, true>(const Plan&, const ElementBlock&, std::int32_t);
 
 } // namespace ents::ENTS_ISA

@@ -3,14 +3,14 @@
 // contracted once, and what the basis does not have is not computed.
 //
 //   flat (line2, tri3)   n and A are constant: the iteration knows xi, h and the distance from the plane only
-//   others               rho as a polynomial of xi (pair_rho.hpp)
+//   others               rho as a polynomial of xi (rho.hpp)
 //
 // n_,a and n_,ab follow from m = a_1 x a_2 (2D: the tangent turned by 90 degrees), n = m / |m|:
 //   |m| n_,a  = m_,a - n (n . m_,a)
 //   |m| n_,ab = m_,ab - n_,a (n . m_,b) - n_,b (n . m_,a) - n (n_,a . m_,b + n . m_,ab)
 #pragma once
 
-#include "core/surface/pair_rho.hpp"
+#include "core/surface/rho.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -24,12 +24,12 @@ template <class B, bool H, class S> ENTS_INLINE void set_dual_tangents(Surface<B
 }
 
 // What Newton's method needs at xi: F = d . d / 2, r_a = rho_e,a . d, F_,xixi and A_e.
-template <class B, bool H, class S> struct PairProjector {
+template <class B, bool H, class S> struct SurfaceAt {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = false;
   static constexpr double rounding =
       1e-26; // of twice_merit, relative to the square of the distance of a node
-  const PairNodes<B, S>& nodes;
+  const ElementNodes<B, S>& nodes;
   Rho<B, S> rho;
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
@@ -37,7 +37,7 @@ template <class B, bool H, class S> struct PairProjector {
   S r[T], metric[K], f2[K], twice_merit;
   S inverse_area2; // enriched
 
-  ENTS_INLINE explicit PairProjector(const PairNodes<B, S>& p) : nodes(p), rho(p) {}
+  ENTS_INLINE explicit SurfaceAt(const ElementNodes<B, S>& p) : nodes(p), rho(p) {}
 
   ENTS_INLINE void evaluate(const S (&xi)[T]) {
     rho.template evaluate<H ? 3 : 2>(nodes, xi, N, s);
@@ -111,11 +111,11 @@ template <class B, bool H, class S> struct PairProjector {
 // Flat segments. With xi_0 the projection on the plane and zeta the distance from it,
 //   F = (xi_0 - xi) A (xi_0 - xi) / 2 + (zeta - h)^2 / 2 .
 template <class B, bool H, class S>
-requires(is_flat<B>) struct PairProjector<B, H, S> {
+requires(is_flat<B>) struct SurfaceAt<B, H, S> {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr bool closed_form = !H;
   static constexpr double rounding = 1e-26;
-  const PairNodes<B, S>& nodes;
+  const ElementNodes<B, S>& nodes;
   Shape<S, T, B::nodes> N;
   Surface<B, H, S> s;
   SineAt<S> sine;
@@ -123,7 +123,7 @@ requires(is_flat<B>) struct PairProjector<B, H, S> {
   S base[K], area2, foot[T], zeta;
   S r[T], metric[K], f2[K], twice_merit;
 
-  ENTS_INLINE explicit PairProjector(const PairNodes<B, S>& p) : nodes(p) {
+  ENTS_INLINE explicit SurfaceAt(const ElementNodes<B, S>& p) : nodes(p) {
     if constexpr (T == 1) {
       offset = S(-0.5) * (p.y[0] + p.y[1]);
       s.a[0] = S(0.5) * (p.y[1] - p.y[0]);
@@ -200,13 +200,13 @@ requires(is_flat<B>) struct PairProjector<B, H, S> {
 // a triple product vanishes.) `metric` is that of rho.
 template <bool H, class S> struct QuadDescent {
   static constexpr double rounding = 1e-13; // twice_merit is a difference of squares of the distance
-  const PairNodes<Quad4, S>& nodes;
+  const ElementNodes<Quad4, S>& nodes;
   SineAt<S>& sine;
   S g00, g01, g02, g0x, g11, g12, g1x, g22, g2x, gxx; // c_i . c_j; x: 12
   S p0, p1, p2, px, m00, m01, m02, m11, m12, m22;     // enriched: of P, of m . m
   S r[2], metric[3], f2[3], twice_merit;
 
-  ENTS_INLINE explicit QuadDescent(PairProjector<Quad4, H, S>& p) : nodes(p.nodes), sine(p.sine) {
+  ENTS_INLINE explicit QuadDescent(SurfaceAt<Quad4, H, S>& p) : nodes(p.nodes), sine(p.sine) {
     const auto& [c, c1, c2, c12] = p.rho;
     g00 = dot(c, c), g01 = dot(c, c1), g02 = dot(c, c2), g0x = dot(c, c12);
     g11 = dot(c1, c1), g12 = dot(c1, c2), g1x = dot(c1, c12), g22 = dot(c2, c2), g2x = dot(c2, c12),
@@ -258,7 +258,7 @@ template <bool H, class S> struct QuadDescent {
 };
 
 // What Newton's method asks: the projector itself, or a shorter way to the same numbers
-template <class B, bool H, class S> struct DescentOf { using type = PairProjector<B, H, S>&; };
+template <class B, bool H, class S> struct DescentOf { using type = SurfaceAt<B, H, S>&; };
 template <bool H, class S> struct DescentOf<Quad4, H, S> { using type = QuadDescent<H, S>; };
 
 } // namespace ents::ENTS_ISA

@@ -5,8 +5,8 @@
 // nodes few, so that what lies between the two expansions stays in the fastest cache.
 #pragma once
 
-#include "core/tangent/pair_forms.hpp"
-#include "core/tangent/pair_write.hpp"
+#include "core/tangent/projection_forms.hpp"
+#include "core/tangent/write_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 

@@ -2,14 +2,14 @@
 // Small results of ordinary elements: all but residual and tangent.
 #pragma once
 
-#include "core/element/pair_inputs.hpp"
+#include "core/element/inputs.hpp"
 
 namespace ents::ENTS_ISA {
 
 template <class B, bool H, class S> struct ContactPoint; // tangent/contact_point.hpp
 
 // What they are made of: a copy for where they are wanted. Numbers of a lane are read from memory, where
-// nothing else of a Pair need be.
+// nothing else of a ProjectedPoint need be.
 template <class B, bool F, class S> struct SmallResults {
   static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   S xi[T], gap, normal_gap, force, area, evaluations; // force: W'
@@ -26,7 +26,8 @@ template <class B, bool F, class S> struct SmallResults {
   bool escaped = false; // the projection left the segment for good
 
   // An ordinary element
-  template <bool H> ENTS_INLINE SmallResults(const Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
+  template <bool H>
+  ENTS_INLINE SmallResults(const ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
     set(p, f);
     normal_gap = gap = p.gap;
     force = p.per_gap * p.gap;
@@ -35,22 +36,22 @@ template <class B, bool F, class S> struct SmallResults {
   }
   // Any element
   template <bool H> ENTS_INLINE explicit SmallResults(const ContactPoint<B, H, S>& at) {
-    set(at.pair, at.friction);
+    set(at.point, at.friction);
     gap = at.gap, normal_gap = at.normal_gap, normal = at.normal;
     force = at.law.force;
     energy = area * at.law.energy;
     has_energy = true;
     if constexpr (F)
       for (int a = 0; a < T; ++a) tangential[a] = at.friction.force[a];
-    for (int k = 0; k < K; ++k) metric[k] = at.pair.projector.metric[k];
+    for (int k = 0; k < K; ++k) metric[k] = at.point.projector.metric[k];
     lost = at.wear.lost;
     clearance = at.clearance;
   }
 
   // Of lane k, to element e
-  ENTS_INLINE void write(const Plan& plan, const PairBlock& block, int k, std::int64_t e) const {
+  ENTS_INLINE void write(const Plan& plan, const ElementBlock& block, int k, std::int64_t e) const {
     const std::int32_t wanted = block.wanted;
-    const bool pair = contact >> k & 1;
+    const bool touches = contact >> k & 1;
     if (wanted & want::xi)
       for (int a = 0; a < T; ++a) block.xi[e * block.xi_stride + a] = lane(xi[a], k);
     const double g = lane(gap, k), of_slave = lane(area, k);
@@ -68,13 +69,13 @@ template <class B, bool F, class S> struct SmallResults {
       }
     }
     if (wanted & want::pressure)
-      block.pressure[e * block.pressure_stride] = pair ? 0.0 - lane(force, k) : 0.0;
+      block.pressure[e * block.pressure_stride] = touches ? 0.0 - lane(force, k) : 0.0;
     if (wanted & want::energy) {
       if (has_energy)
         block.energy[e * block.energy_stride] = lane(energy, k);
       else
         block.energy[e * block.energy_stride] =
-            pair ? of_slave * (lane(force, k) * g / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
+            touches ? of_slave * (lane(force, k) * g / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
     }
     if (wanted & want::iterations)
       block.iterations[e * block.iterations_stride] = static_cast<std::int32_t>(lane(evaluations, k));
@@ -82,7 +83,7 @@ template <class B, bool F, class S> struct SmallResults {
   }
 
 private:
-  template <bool H> ENTS_INLINE void set(const Pair<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
+  template <bool H> ENTS_INLINE void set(const ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE { xi[a] = p.xi[a], tangents[a] = p.projector.s.e[a]; });
     area = p.area, evaluations = p.evaluations;
     d = p.projector.s.d;
@@ -147,21 +148,21 @@ private:
     for (int a = 0; a < T; ++a) end[StateLayout::worn_anchor + a] = escaped ? 0.0 : lane(xi[a], k);
   }
 
-  ENTS_INLINE void write_history(const Plan& plan, const PairBlock& block, int k, std::int64_t e) const {
+  ENTS_INLINE void write_history(const Plan& plan, const ElementBlock& block, int k, std::int64_t e) const {
     const std::int32_t wanted = block.wanted;
     const double* begin = element_at(block.state_begin, block.state_begin_stride, e);
-    const bool pair = contact >> k & 1, rubs = active >> k & 1, slips = slip >> k & 1;
-    const double now = static_cast<double>(escaped ? History::none
-                                           : !pair ? History::open
-                                           : slips ? History::slip
-                                                   : History::stick);
+    const bool touches = contact >> k & 1, rubs = active >> k & 1, slips = slip >> k & 1;
+    const double now = static_cast<double>(escaped    ? History::none
+                                           : !touches ? History::open
+                                           : slips    ? History::slip
+                                                      : History::stick);
     const bool changed = begin && !same_status(begin[StateLayout::history_at], now);
     const double age = begin && !changed ? begin[StateLayout::age_at] + 1.0 : 0.0;
     if (wanted & want::flags)
       block.flags[e * block.flags_stride] =
-          (pair ? flag::contact : 0) | (outside >> k & 1 ? flag::outside : 0) |
+          (touches ? flag::contact : 0) | (outside >> k & 1 ? flag::outside : 0) |
           (changed ? flag::changed : 0) | (rubs ? (slips ? flag::slip : flag::stick) : 0) |
-          (F && pair && !rubs && plan.law.has_friction() ? flag::no_begin : 0) |
+          (F && touches && !rubs && plan.law.has_friction() ? flag::no_begin : 0) |
           (at_shear_limit >> k & 1 ? flag::shear_limit : 0) | more_flags;
     if (wanted & want::age) block.age[e * block.age_stride] = age;
     double anchor[T] = {}, slipped = 0.0;

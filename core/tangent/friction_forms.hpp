@@ -12,11 +12,11 @@
 
 #include "core/law/friction.hpp"
 #include "core/tangent/directional_derivative.hpp"
-#include "core/tangent/pair_tangent.hpp"
+#include "core/tangent/frictionless_tangent.hpp"
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
+template <class B, bool H, bool Rigid, class S> struct FrictionForms {
   static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D, K = symmetric_size<T>;
   static constexpr bool turns = H && !Rigid;          // w, Z: dofs of the master
   static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
@@ -27,9 +27,9 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
   using Derivative = DirectionalDerivative<B, H, S>;
 
   // M and y = - M t
-  static ENTS_INLINE void set_direction(const Pair<B, H, S>& pair, const S (&force)[T], S (&inverse)[K],
-                                        S (&y)[T]) {
-    const auto& f2 = pair.projector.f2;
+  static ENTS_INLINE void set_direction(const ProjectedPoint<B, H, S>& point, const S (&force)[T],
+                                        S (&inverse)[K], S (&y)[T]) {
+    const auto& f2 = point.projector.f2;
     invert(f2, determinant(f2), inverse);
     for (int a = 0; a < T; ++a) {
       S sum = inverse[symmetric_index(a, 0)] * force[0];
@@ -67,10 +67,10 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
     S by_xi[T][T];
     Vec<S, D> towards[T][T];
 
-    ENTS_INLINE ChangeOfForce(const Pair<B, H, S>& pair, const Friction<S, B::dim - 1>& friction,
+    ENTS_INLINE ChangeOfForce(const ProjectedPoint<B, H, S>& point, const Friction<S, B::dim - 1>& friction,
                               bool multipliers) {
-      const auto& surface = pair.projector.s;
-      const auto& metric = pair.projector.metric;
+      const auto& surface = point.projector.s;
+      const auto& metric = point.projector.metric;
       const auto& w = friction.moved;
       const S none(0.0);
       const S ratio = select(friction.slip,
@@ -147,10 +147,10 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionForms {
   };
 
   // dt_a/dg of the penalty and the power law: by the gap itself, and by the pressure
-  static ENTS_INLINE S by_gap(int a, const Plan& plan, const Pair<B, H, S>& pair,
+  static ENTS_INLINE S by_gap(int a, const Plan& plan, const ProjectedPoint<B, H, S>& point,
                               const Friction<S, B::dim - 1>& friction) {
     const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
-    return friction.by_gap[a] - friction.by_force[a] * (exponent * pair.area * pair.per_gap);
+    return friction.by_gap[a] - friction.by_force[a] * (exponent * point.area * point.per_gap);
   }
 
   // (F'_ab - (A W'/g) F_,ab) / 2

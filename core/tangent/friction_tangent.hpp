@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tangent of Coulomb friction (pair_friction_forms.hpp) from numbers of dofs: second_xi.hpp, and
+// The tangent of Coulomb friction (friction_forms.hpp) from numbers of dofs: second_xi.hpp, and
 //   sum_a x_a dt_a^T [ + g g^T ]
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : SecondXi<B, H, Rigid, S> {
+template <class B, bool H, bool Rigid, class S> struct FrictionTangent : SecondXi<B, H, Rigid, S> {
   using Base = SecondXi<B, H, Rigid, S>;
   using Base::D, Base::T, Base::N, Base::K, Base::turns, Base::bends, Base::parts, Base::parts_of_rate;
   using Base::x, Base::Y, Base::w, Base::Z, Base::w1, Base::z;
@@ -21,24 +21,24 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
   DofArray<B, Rigid, S> g;
   bool curved_law;
 
-  ENTS_INLINE void evaluate(const Plan& plan, const Pair<B, H, S>& pair,
+  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<B, H, S>& point,
                             const Friction<S, B::dim - 1>& friction) {
-    const auto& p = pair.projector;
+    const auto& p = point.projector;
     this->basis = p.nodes.basis;
-    const S stiffness = pair.area * pair.per_gap;
+    const S stiffness = point.area * point.per_gap;
     S inverse[K], y[T];
-    Forms::set_direction(pair, friction.force, inverse, y);
+    Forms::set_direction(point, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-      const Derivative derivative(p, pair.xi, y);
+      const Derivative derivative(p, point.xi, y);
       Base::set_weights(stiffness, derivative);
       Forms::in_part(
-          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, pair, friction, inverse, derivative); });
+          [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, point, friction, inverse, derivative); });
       if constexpr (turns)
         Forms::in_part([&]() ENTS_LAMBDA_INLINE {
           Base::set_height_terms(stiffness, derivative, [](int, Form<B, S>&) ENTS_LAMBDA_INLINE {});
         });
     });
-    curved_law = set_g<Rigid>(plan, pair, g);
+    curved_law = set_g<Rigid>(plan, point, g);
   }
 
   // Each lane's to one[lane]
@@ -67,20 +67,20 @@ template <class B, bool H, bool Rigid, class S> struct PairFrictionTangent : Sec
   }
 
 private:
-  ENTS_INLINE void set_projection_terms(const Plan& plan, const Pair<B, H, S>& pair,
+  ENTS_INLINE void set_projection_terms(const Plan& plan, const ProjectedPoint<B, H, S>& point,
                                         const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
                                         const Derivative& derivative) {
-    const S stiffness = pair.area * pair.per_gap;
-    const typename Forms::ChangeOfForce change(pair, friction, false);
+    const S stiffness = point.area * point.per_gap;
+    const typename Forms::ChangeOfForce change(point, friction, false);
     Form<B, S> gap;
-    form_of_p<B, H>(pair.projector.s, pair.normal, gap);
+    form_of_p<B, H>(point.projector.s, point.normal, gap);
     Base::set_projection_terms(
-        pair, inverse, derivative, stiffness,
+        point, inverse, derivative, stiffness,
         [&](int a, const Form<B, S>& rate, const Form<B, S>(&xf)[T], const Form<B, S>&) ENTS_LAMBDA_INLINE {
           Form<B, S> Pf;
           Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change,
-                                            Forms::by_gap(a, plan, pair, friction), gap, Pf);
-          expand_to_dofs<Rigid, symmetric ? parts : parts_of_rate>(this->basis, Pf, pair.projector.N, P[a]);
+                                            Forms::by_gap(a, plan, point, friction), gap, Pf);
+          expand_to_dofs<Rigid, symmetric ? parts : parts_of_rate>(this->basis, Pf, point.projector.N, P[a]);
         });
   }
 };

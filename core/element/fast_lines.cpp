@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/element/pair_kernel.hpp"
+#include "core/element/fast_block.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_PAIR_KERNELS(CountedBasis<3>)
+ENTS_PAIR_KERNELS(Line2)
 } // namespace ents::ENTS_ISA
