@@ -20,16 +20,17 @@ ENTS_INLINE bool sums_friction(const Plan& plan) {
 }
 
 // What the tangent of an element in contact is the sum of.
-template <class B, bool H, class S>
-ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const ContactPoint<B, H, S>& at) {
-  Weights<S, B::dim - 1> sum;
+template <class Basis, bool Enriched, class Scalar>
+ENTS_INLINE Weights<Scalar, Basis::dim - 1>
+weights_of_tangent(const Plan& plan, const ContactPoint<Basis, Enriched, Scalar>& at) {
+  Weights<Scalar, Basis::dim - 1> sum;
   const bool friction = plan.law.has_friction_force();
   sum.by_gap = at.point.area * at.law.stiffness;
   sum.stiff = true;
-  sum.by_slid = plan.law.wear.on ? at.point.area * at.wear.by_slid : S(0.0);
+  sum.by_slid = plan.law.wear.on ? at.point.area * at.wear.by_slid : Scalar(0.0);
   sum.wears = plan.law.wear.on;
   sum.push = at.point.area * at.law.force;
-  for (int a = 0; a < B::dim - 1; ++a) sum.force[a] = friction ? at.friction.force[a] : S(0.0);
+  for (int a = 0; a < Basis::dim - 1; ++a) sum.force[a] = friction ? at.friction.force[a] : Scalar(0.0);
   sum.second_gap = plan.tangent != TangentKind::first_variation;
   sum.small_gap = plan.tangent == TangentKind::small_gap;
   sum.second_xi = friction && plan.tangent == TangentKind::consistent;
@@ -37,15 +38,15 @@ ENTS_INLINE Weights<S, B::dim - 1> weights_of_tangent(const Plan& plan, const Co
   return sum;
 }
 
-template <class B, bool H> struct GeneralElement {
-  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, false>;
-  using Sum = TangentSum<B, H, double, true>;
+template <class Basis, bool Enriched> struct GeneralElement {
+  static constexpr int D = Basis::dim, T = D - 1, N = dof_count<Basis, false>;
+  using Sum = TangentSum<Basis, Enriched, double, true>;
   const Plan& plan;
   const ElementInput& in;
   const ElementOutput& out;
   const FoundProjection& found;
-  ContactPoint<B, H, double>& at;
-  const MultiplierEquations<B, H, double> multipliers{plan, at, in.multiplier};
+  ContactPoint<Basis, Enriched, double>& at;
+  const MultiplierEquations<Basis, Enriched, double> multipliers{plan, at, in.multiplier};
   const bool element = (out.wanted & want::element) != 0;
   // flags are those of the element; alone, or with kinematics, they refuse nothing
   const bool verdict_wanted =
@@ -77,7 +78,7 @@ template <class B, bool H> struct GeneralElement {
     if (found.searched) more_flags |= flag::searched;
 
     const ElementBlock block = block_of(in, out, nullptr, 0);
-    const GeneralInputs<B, H, double> begin(plan, block, 0);
+    const GeneralInputs<Basis, Enriched, double> begin(plan, block, 0);
     at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale);
     if (element && !at.solved) return Status::out_of_range;
     if (!verdict_wanted) point.contact = false;
@@ -115,8 +116,8 @@ template <class B, bool H> struct GeneralElement {
 private:
   // Has friction a force here?
   bool rubs() const { return at.friction.active && plan.law.has_friction_force(); }
-  Geometry<B> geometry() const {
-    Geometry<B> g(at.point.nodes.basis);
+  Geometry<Basis> geometry() const {
+    Geometry<Basis> g(at.point.nodes.basis);
     g.set(in.slave, in.master);
     g.surface_coordinates = in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates;
     g.height = plan.height;
@@ -186,7 +187,7 @@ private:
     const int n = node_dofs(plan);
     const bool rigid = n == D;
     Sum sum;
-    SmallResults<B, true, double> small(at);
+    SmallResults<Basis, true, double> small(at);
     small.more_flags = more_flags;
     small.escaped = found.escaped;
     if (element && !(law_in_range() && small_in_range(small))) return Status::out_of_range;
@@ -249,7 +250,7 @@ private:
   }
 
   // The same of what has divisions by areas and stiffnesses: written here first
-  bool small_in_range(const SmallResults<B, true, double>& small) const {
+  bool small_in_range(const SmallResults<Basis, true, double>& small) const {
     double numbers[D + 2 + largest_state] = {};
     ElementBlock here =
         block_of(in, out, in.start, out.wanted & (want::traction | want::energy | want::slip | want::state));
@@ -270,16 +271,16 @@ template <int D> ENTS_INLINE bool set_ray(const Plan& plan, const double* slave,
 
 // use(point, at) of an element at xi, whose surface is not evaluated there yet; grazing_ray where the slave is
 // at the emitter.
-template <class B, bool H, class Use>
+template <class Basis, bool Enriched, class Use>
 ENTS_INLINE Status at_projection(const Plan& plan, const ElementInput& in, const double* found, Use&& use) {
-  constexpr int D = B::dim, T = D - 1;
-  ElementNodes<B, double> nodes(basis_of<B>(plan.basis));
-  set_nodes<H>(plan, in.slave, in.master,
-               in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
+  constexpr int D = Basis::dim, T = D - 1;
+  ElementNodes<Basis, double> nodes(basis_of<Basis>(plan.basis));
+  set_nodes<Enriched>(plan, in.slave, in.master,
+                      in.surface_coordinates ? in.surface_coordinates : plan.surface_coordinates, nodes);
   double xi[T];
   for (int a = 0; a < T; ++a) xi[a] = found[a];
-  ProjectedPoint<B, H, double> point(nodes, xi);
-  ContactPoint<B, H, double> at(point);
+  ProjectedPoint<Basis, Enriched, double> point(nodes, xi);
+  ContactPoint<Basis, Enriched, double> at(point);
   Ray<double, D> ray;
   if (plan.projection != ProjectionKind::normal) {
     if (!set_ray(plan, in.slave, ray)) return Status::grazing_ray;
@@ -289,26 +290,26 @@ ENTS_INLINE Status at_projection(const Plan& plan, const ElementInput& in, const
 }
 
 // An element that a block has projected: RestKernel
-template <class B, bool H>
+template <class Basis, bool Enriched>
 bool evaluate_rest(const Plan& plan, const ElementInput& in, const ElementOutput& out,
                    const ProjectedElement& projected) {
-  const Status status = at_projection<B, H>(plan, in, projected.xi, [&](auto& point, auto& at) {
+  const Status status = at_projection<Basis, Enriched>(plan, in, projected.xi, [&](auto& point, auto& at) {
     point.area = projected.area;
     point.projector.sine = {projected.sine[0], projected.sine[1], projected.sine[2]};
     point.evaluate_at_solution();
     const FoundProjection found{};
-    return GeneralElement<B, H>{plan, in, out, found, at}.evaluate_variations();
+    return GeneralElement<Basis, Enriched>{plan, in, out, found, at}.evaluate_variations();
   });
   return status == Status::ok;
 }
 
-template <class B, bool H>
+template <class Basis, bool Enriched>
 Status finish_element(const Plan& plan, const ElementInput& in, const ElementOutput& out,
                       const FoundProjection& found) {
-  return at_projection<B, H>(plan, in, found.xi, [&](auto& point, auto& at) {
+  return at_projection<Basis, Enriched>(plan, in, found.xi, [&](auto& point, auto& at) {
     point.evaluations = found.evaluations;
     point.ordinary = true; // read by the friction law; no block kernel has decided it here
-    return GeneralElement<B, H>{plan, in, out, found, at}.evaluate();
+    return GeneralElement<Basis, Enriched>{plan, in, out, found, at}.evaluate();
   });
 }
 

@@ -11,11 +11,11 @@ namespace ents::ENTS_ISA {
 ENTS_INLINE int node_dofs(const Plan& plan) { return plan.dofs - plan.multipliers; }
 
 // Results of multiplier dofs, of lane k: lambda_n [F/L^2], then lambda_a [F/L] with friction.
-template <class B, bool H, class S> struct MultiplierEquations {
-  static constexpr int T = B::dim - 1;
+template <class Basis, bool Enriched, class Scalar> struct MultiplierEquations {
+  static constexpr int T = Basis::dim - 1;
   const Plan& plan;
-  const ContactPoint<B, H, S>& at;
-  const S* multiplier;
+  const ContactPoint<Basis, Enriched, Scalar>& at;
+  const Scalar* multiplier;
 
   ENTS_INLINE void write_residual(int k, double* out) const {
     const double area = area_of(k);

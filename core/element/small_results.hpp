@@ -6,28 +6,29 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, class S> struct ContactPoint; // tangent/contact_point.hpp
+template <class Basis, bool Enriched, class Scalar> struct ContactPoint; // tangent/contact_point.hpp
 
 // What they are made of: a copy for where they are wanted. Numbers of a lane are read from memory, where
 // nothing else of a ProjectedPoint need be.
-template <class B, bool F, class S> struct SmallResults {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  S xi[T], gap, normal_gap, force, area, evaluations; // force: W'
-  S energy = S(0.0); // W of the area, if it is not a penalty's or a power law's
+template <class Basis, bool Frictional, class Scalar> struct SmallResults {
+  static constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
+  Scalar xi[T], gap, normal_gap, force, area, evaluations; // force: W'
+  Scalar energy = Scalar(0.0); // W of the area, if it is not a penalty's or a power law's
   bool has_energy = false;
-  Vec<S, D> normal, d, tangents[T]; // n_e, x_s - rho_e, rho_e,a
-  std::uint32_t contact, outside;   // bits of lanes, as those below
+  Vec<Scalar, D> normal, d, tangents[T]; // n_e, x_s - rho_e, rho_e,a
+  std::uint32_t contact, outside;        // bits of lanes, as those below
   std::uint32_t active = 0, slip = 0, at_shear_limit = 0;
-  S moved[T], stretch[T], raised[T], limit, norm, scale; // friction
-  S tangential[T], metric[K]; // t_a and rho_e,a . rho_e,b, where the law has multipliers
-  S lost;                     // of the increment, where the law has wear
-  S clearance;                // of an open element
+  Scalar moved[T], stretch[T], raised[T], limit, norm, scale; // friction
+  Scalar tangential[T], metric[K]; // t_a and rho_e,a . rho_e,b, where the law has multipliers
+  Scalar lost;                     // of the increment, where the law has wear
+  Scalar clearance;                // of an open element
   std::int32_t more_flags = 0;
   bool escaped = false; // the projection left the segment for good
 
   // An ordinary element
-  template <bool H>
-  ENTS_INLINE SmallResults(const ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
+  template <bool Enriched>
+  ENTS_INLINE SmallResults(const ProjectedPoint<Basis, Enriched, Scalar>& p,
+                           const Friction<Scalar, Basis::dim - 1>& f) {
     set(p, f);
     normal_gap = gap = p.gap;
     force = p.per_gap * p.gap;
@@ -35,13 +36,14 @@ template <class B, bool F, class S> struct SmallResults {
     clearance = p.gap;
   }
   // Any element
-  template <bool H> ENTS_INLINE explicit SmallResults(const ContactPoint<B, H, S>& at) {
+  template <bool Enriched>
+  ENTS_INLINE explicit SmallResults(const ContactPoint<Basis, Enriched, Scalar>& at) {
     set(at.point, at.friction);
     gap = at.gap, normal_gap = at.normal_gap, normal = at.normal;
     force = at.law.force;
     energy = area * at.law.energy;
     has_energy = true;
-    if constexpr (F)
+    if constexpr (Frictional)
       for (int a = 0; a < T; ++a) tangential[a] = at.friction.force[a];
     for (int k = 0; k < K; ++k) metric[k] = at.point.projector.metric[k];
     lost = at.wear.lost;
@@ -63,7 +65,7 @@ template <class B, bool F, class S> struct SmallResults {
         block.point[e * block.point_stride + c] = block.slave[e * block.slave_stride + c] - lane(d[c], k);
       if (wanted & want::traction) { // t^a rho_e,a / A
         double sum = 0.0;
-        if constexpr (F)
+        if constexpr (Frictional)
           for (int a = 0; a < T; ++a) sum += traction(of_slave, a, k) * lane(tangents[a][c], k);
         block.traction[e * block.traction_stride + c] = sum;
       }
@@ -83,12 +85,14 @@ template <class B, bool F, class S> struct SmallResults {
   }
 
 private:
-  template <bool H> ENTS_INLINE void set(const ProjectedPoint<B, H, S>& p, const Friction<S, B::dim - 1>& f) {
+  template <bool Enriched>
+  ENTS_INLINE void set(const ProjectedPoint<Basis, Enriched, Scalar>& p,
+                       const Friction<Scalar, Basis::dim - 1>& f) {
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE { xi[a] = p.xi[a], tangents[a] = p.projector.s.e[a]; });
     area = p.area, evaluations = p.evaluations;
     d = p.projector.s.d;
     contact = bits_of(p.contact), outside = bits_of(p.outside);
-    if constexpr (F) {
+    if constexpr (Frictional) {
       active = bits_of(f.active), slip = bits_of(f.slip), at_shear_limit = bits_of(f.at_shear_limit);
       unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
         moved[a] = f.moved[a], stretch[a] = f.stretch[a], raised[a] = f.raised[a];
@@ -127,7 +131,7 @@ private:
   // Multipliers at the end of an increment of Uzawa's iteration
   ENTS_INLINE void write_multipliers(const ContactLaw& law, int k, double* to) const {
     to[0] = contact >> k & 1 ? 0.0 - lane(force, k) : 0.0;
-    if (F && law.has_friction()) {
+    if (Frictional && law.has_friction()) {
       const double of_slave = lane(area, k);
       double kept = 1.0;
       if ((slip >> k & 1) && lane(limit, k) > 0.0)
@@ -162,11 +166,11 @@ private:
       block.flags[e * block.flags_stride] =
           (touches ? flag::contact : 0) | (outside >> k & 1 ? flag::outside : 0) |
           (changed ? flag::changed : 0) | (rubs ? (slips ? flag::slip : flag::stick) : 0) |
-          (F && touches && !rubs && plan.law.has_friction() ? flag::no_begin : 0) |
+          (Frictional && touches && !rubs && plan.law.has_friction() ? flag::no_begin : 0) |
           (at_shear_limit >> k & 1 ? flag::shear_limit : 0) | more_flags;
     if (wanted & want::age) block.age[e * block.age_stride] = age;
     double anchor[T] = {}, slipped = 0.0;
-    if constexpr (F)
+    if constexpr (Frictional)
       if (plan.state.slip_at >= 0)
         slipped = (begin ? begin[plan.state.slip_at] : 0.0) + move_anchor(plan.law, k, anchor);
     if (wanted & want::slip) block.slip[e * block.slip_stride] = slipped;
@@ -176,7 +180,7 @@ private:
     end[StateLayout::history_at] = now;
     end[StateLayout::age_at] = age;
     for (int a = 0; a < T; ++a) end[StateLayout::xi_at + a] = escaped ? 0.0 : lane(xi[a], k);
-    if constexpr (F)
+    if constexpr (Frictional)
       if (plan.state.slip_at >= 0) {
         for (int a = 0; a < T; ++a) end[plan.state.anchor_at + a] = escaped ? 0.0 : anchor[a];
         end[plan.state.slip_at] = slipped;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An element on its way to its projection: xi, gap, normal and the surface there, found by Newton's method
-// from a start next to it. It serves every law and both projections, for one element (S = double) or one per
+// from a start next to it. It serves every law and both projections, for one element (Scalar = double) or one per
 // lane; both run the same operations in the same order. Whatever is not ordinary (no start, a projection that
 // needs care, an edge of the range of numbers, an error) is left to evaluate_element().
 //
@@ -21,42 +21,44 @@ namespace ents::ENTS_ISA {
 
 inline constexpr int most_projection_steps = 8;
 
-template <int K, class S> ENTS_INLINE Truth<S> minimum_of(const S (&f2)[K], const S (&metric)[K]) {
+template <int K, class Scalar>
+ENTS_INLINE Truth<Scalar> minimum_of(const Scalar (&f2)[K], const Scalar (&metric)[K]) {
   return both(f2[0] > 1e-8 * metric[0], determinant(f2) > 1e-8 * determinant(metric));
 }
 
-template <class B, bool H, class S> struct ProjectedPoint {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  const ElementNodes<B, S>& nodes;
-  S area, xi[T];
-  S evaluations, per_gap; // W'/g per area, 0 where open
-  Vec<S, D> gap_vector;   // g n_e
-  S gap;                  // g
-  Vec<S, D> normal;       // and n_e, where they are measured
-  Truth<S> ordinary, contact, outside;
-  SurfaceAt<B, H, S> projector;
+template <class Basis, bool Enriched, class Scalar> struct ProjectedPoint {
+  static constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
+  const ElementNodes<Basis, Scalar>& nodes;
+  Scalar area, xi[T];
+  Scalar evaluations, per_gap; // W'/g per area, 0 where open
+  Vec<Scalar, D> gap_vector;   // g n_e
+  Scalar gap;                  // g
+  Vec<Scalar, D> normal;       // and n_e, where they are measured
+  Truth<Scalar> ordinary, contact, outside;
+  SurfaceAt<Basis, Enriched, Scalar> projector;
 
-  ENTS_INLINE ProjectedPoint(const ElementNodes<B, S>& y, const S (&start)[T]) : nodes(y), projector(nodes) {
+  ENTS_INLINE ProjectedPoint(const ElementNodes<Basis, Scalar>& y, const Scalar (&start)[T])
+      : nodes(y), projector(nodes) {
     for (int a = 0; a < T; ++a) xi[a] = start[a];
   }
   ProjectedPoint(const ProjectedPoint&) = delete;
 
   // The surface at xi by sums over the nodes, which keep their accuracy where a segment is nearly degenerate.
   // False: it is. f2: F_,xixi, if it is known.
-  ENTS_INLINE bool arrive_by_nodes(const Geometry<B>& g, const double* f2) {
+  ENTS_INLINE bool arrive_by_nodes(const Geometry<Basis>& g, const double* f2) {
     auto& p = projector;
     if (!evaluate_surface<2>(g, xi, p.N, p.s)) return false;
     for (int k = 0; k < K; ++k) {
       p.metric[k] = dot(p.s.e[k / 2], p.s.e[(k + 1) / 2]);
       p.f2[k] = f2 ? f2[k] : p.metric[k] - dot(p.s.d, p.s.e2[k]);
     }
-    if constexpr (is_flat<B> && H) p.zeta = dot(p.s.n, p.s.d) + p.s.height.h;
+    if constexpr (is_flat<Basis> && Enriched) p.zeta = dot(p.s.n, p.s.d) + p.s.height.h;
     return true;
   }
 
-  FrictionPlace<S, T> place() const { return {xi, projector.metric, area, contact}; }
+  FrictionPlace<Scalar, T> place() const { return {xi, projector.metric, area, contact}; }
 
-  ENTS_INLINE Truth<S> has_area() const { return both(area >= 0.0, area < safe_magnitude); }
+  ENTS_INLINE Truth<Scalar> has_area() const { return both(area >= 0.0, area < safe_magnitude); }
 
   // Is the slave above all of the enriched segment, so that a projection could only find it open? False: not
   // known.
@@ -64,42 +66,43 @@ template <class B, bool H, class S> struct ProjectedPoint {
   //                  zeta - h > 0 along n
   //   quad4, plain   rho is a graph over the plane of its middle if its normals are on the side of that
   //                  normal; they and rho are bilinear, so their corners decide
-  ENTS_INLINE Truth<S> is_clearly_open(const Plan& plan) const {
-    if constexpr (is_flat<B>) {
-      if constexpr (H)
-        return projector.zeta > S(plan.height_bound);
+  ENTS_INLINE Truth<Scalar> is_clearly_open(const Plan& plan) const {
+    if constexpr (is_flat<Basis>) {
+      if constexpr (Enriched)
+        return projector.zeta > Scalar(plan.height_bound);
       else
-        return dot(normal_of_tangents(projector.s.a), projector.offset) > S(0.0);
-    } else if constexpr (std::is_same_v<B, Quad4> && !H) {
+        return dot(normal_of_tangents(projector.s.a), projector.offset) > Scalar(0.0);
+    } else if constexpr (std::is_same_v<Basis, Quad4> && !Enriched) {
       const auto& rho = projector.rho;
-      const Vec<S, 3> middle = cross(rho.c1, rho.c2), turn_1 = cross(rho.c1, rho.c12),
-                      turn_2 = cross(rho.c12, rho.c2);
-      const S reach = S(1.0 + plan.border), size = dot(middle, middle);
-      Truth<S> open = size > reach * (absolute(dot(middle, turn_1)) + absolute(dot(middle, turn_2)));
-      const S height = dot(middle, rho.c), along_1 = reach * dot(middle, rho.c1),
-              along_2 = reach * dot(middle, rho.c2), warp = reach * reach * dot(middle, rho.c12);
+      const Vec<Scalar, 3> middle = cross(rho.c1, rho.c2), turn_1 = cross(rho.c1, rho.c12),
+                           turn_2 = cross(rho.c12, rho.c2);
+      const Scalar reach = Scalar(1.0 + plan.border), size = dot(middle, middle);
+      Truth<Scalar> open = size > reach * (absolute(dot(middle, turn_1)) + absolute(dot(middle, turn_2)));
+      const Scalar height = dot(middle, rho.c), along_1 = reach * dot(middle, rho.c1),
+                   along_2 = reach * dot(middle, rho.c2), warp = reach * reach * dot(middle, rho.c12);
       return both(open, -height > absolute(along_1) + absolute(along_2) + absolute(warp));
     } else {
-      return S(1.0) < S(0.0);
+      return Scalar(1.0) < Scalar(0.0);
     }
   }
 
   // Newton's method with full steps. Not ordinary: a step that does not descend, is long or leaves the
   // segment far behind. step_at(xi, step, twice_merit): the step from xi; where is it one? floor: rounding of
   // twice_merit
-  template <class Step> ENTS_INLINE void descend(const S& floor, Step&& step_at) {
-    S step[T], previous_length = S(0.0), previous_merit = S(2.0 * safe_magnitude * safe_magnitude);
-    evaluations = S(0.0);
-    Truth<S> active = evaluations >= 0.0;
+  template <class Step> ENTS_INLINE void descend(const Scalar& floor, Step&& step_at) {
+    Scalar step[T], previous_length = Scalar(0.0),
+                    previous_merit = Scalar(2.0 * safe_magnitude * safe_magnitude);
+    evaluations = Scalar(0.0);
+    Truth<Scalar> active = evaluations >= 0.0;
     ordinary = active;
     for (int count = 1; count < most_projection_steps; ++count) {
-      S twice_merit;
-      Truth<S> fine = step_at(xi, step, twice_merit);
+      Scalar twice_merit;
+      Truth<Scalar> fine = step_at(xi, step, twice_merit);
       evaluations = select(active, evaluations + 1.0, evaluations);
-      S length = absolute(step[0]);
+      Scalar length = absolute(step[0]);
       if constexpr (T == 2) length = larger(length, absolute(step[1]));
       fine = both(both(fine, length <= max_step), twice_merit <= previous_merit * (1.0 + 1e-12) + floor);
-      S size = S(0.0);
+      Scalar size = Scalar(0.0);
       for (int a = 0; a < T; ++a) {
         step[a] = xi[a] + step[a];
         size = size + absolute(step[a]);
@@ -110,7 +113,7 @@ template <class B, bool H, class S> struct ProjectedPoint {
       active = both(active, length > 1e-15);
       if (!any(active)) break;
       // quadratic convergence: see project() of projection.hpp
-      const Truth<S> last =
+      const Truth<Scalar> last =
           either(length <= 1e-13, both(length < 1e-4, 10.0 * length * length * length <=
                                                           1e-16 * previous_length * previous_length));
       // one element, or all of them: the next step does not wait for what this one is compared with
@@ -130,20 +133,20 @@ template <class B, bool H, class S> struct ProjectedPoint {
   }
 
   ENTS_INLINE void project() {
-    if constexpr (SurfaceAt<B, H, S>::closed_form) {
+    if constexpr (SurfaceAt<Basis, Enriched, Scalar>::closed_form) {
       for (int a = 0; a < T; ++a) xi[a] = projector.foot[a];
-      evaluations = S(1.0);
+      evaluations = Scalar(1.0);
       ordinary = evaluations > 0.0;
     } else {
-      using Descent = typename DescentOf<B, H, S>::type;
+      using Descent = typename DescentOf<Basis, Enriched, Scalar>::type;
       Descent p(projector);
       descend(std::remove_reference_t<Descent>::rounding * dot(nodes.y[0], nodes.y[0]),
-              [&](const S(&at)[T], S(&step)[T], S& twice_merit) ENTS_LAMBDA_INLINE {
+              [&](const Scalar(&at)[T], Scalar(&step)[T], Scalar& twice_merit) ENTS_LAMBDA_INLINE {
                 p.evaluate(at);
                 if constexpr (T == 1) {
                   step[0] = unchecked_ratio(p.r[0], p.f2[0]);
                 } else {
-                  const S q = unchecked_inverse(determinant(p.f2));
+                  const Scalar q = unchecked_inverse(determinant(p.f2));
                   step[0] = (p.f2[2] * p.r[0] - p.f2[1] * p.r[1]) * q;
                   step[1] = (p.f2[0] * p.r[1] - p.f2[1] * p.r[0]) * q;
                 }
@@ -154,14 +157,14 @@ template <class B, bool H, class S> struct ProjectedPoint {
   }
 
   // The same along a ray e: the merit is the distance from it.
-  ENTS_INLINE void project_along(const Vec<S, D>& e) {
-    descend(SurfaceAt<B, H, S>::rounding * dot(nodes.y[0], nodes.y[0]),
-            [&](const S(&at)[T], S(&step)[T], S& twice_merit) ENTS_LAMBDA_INLINE {
+  ENTS_INLINE void project_along(const Vec<Scalar, D>& e) {
+    descend(SurfaceAt<Basis, Enriched, Scalar>::rounding * dot(nodes.y[0], nodes.y[0]),
+            [&](const Scalar(&at)[T], Scalar(&step)[T], Scalar& twice_merit) ENTS_LAMBDA_INLINE {
               auto& p = projector;
-              if constexpr (!SurfaceAt<B, H, S>::closed_form) p.evaluate(at);
-              if constexpr (is_flat<B>) p.finish(at);
-              Vec<S, D> onto[T], across, off = p.s.d;
-              const Truth<S> fine = ray_frame(p.s.e, e, onto, across);
+              if constexpr (!SurfaceAt<Basis, Enriched, Scalar>::closed_form) p.evaluate(at);
+              if constexpr (is_flat<Basis>) p.finish(at);
+              Vec<Scalar, D> onto[T], across, off = p.s.d;
+              const Truth<Scalar> fine = ray_frame(p.s.e, e, onto, across);
               for (int a = 0; a < T; ++a) step[a] = dot(onto[a], p.s.d);
               add_scaled(off, -dot(p.s.d, e), e);
               twice_merit = dot(off, off);
@@ -171,13 +174,13 @@ template <class B, bool H, class S> struct ProjectedPoint {
 
   // The surface at the projection.
   ENTS_INLINE void evaluate_at_solution() {
-    if constexpr (!SurfaceAt<B, H, S>::closed_form) projector.evaluate(xi);
+    if constexpr (!SurfaceAt<Basis, Enriched, Scalar>::closed_form) projector.evaluate(xi);
   }
 
   // What the law needs to know of the gap: g |m|, |m|^2 of the enriched and of the plain segment, and the
   // squared size of the segment.
   struct Measured {
-    S across, area2_e, area2, size2;
+    Scalar across, area2_e, area2, size2;
   };
 
   // Gap and normal. A penalty's forces need neither g nor n_e, which cost a root.
@@ -186,24 +189,25 @@ template <class B, bool H, class S> struct ProjectedPoint {
   }
 
   // The same where the surface is complete; area2: |a|^2 or |a_1 x a_2|^2
-  ENTS_INLINE Measured measure_at(const Plan& plan, bool measures, const S& area2, bool from_foot = true) {
+  ENTS_INLINE Measured measure_at(const Plan& plan, bool measures, const Scalar& area2,
+                                  bool from_foot = true) {
     auto& p = projector;
     Measured at;
     at.area2 = area2;
-    const Vec<S, D> m = H ? normal_of_tangents(p.s.e) : normal_of_tangents(p.s.a);
-    at.area2_e = H ? dot(m, m) : at.area2;
-    if constexpr (is_flat<B> && !H)
+    const Vec<Scalar, D> m = Enriched ? normal_of_tangents(p.s.e) : normal_of_tangents(p.s.a);
+    at.area2_e = Enriched ? dot(m, m) : at.area2;
+    if constexpr (is_flat<Basis> && !Enriched)
       at.across = dot(from_foot ? p.offset : p.s.d, m);
     else
       at.across = dot(p.s.d, m);
     gap_vector = unchecked_ratio(at.across, at.area2_e) * m;
     if (measures) {
-      const S q = unchecked_inverse(square_root(at.area2_e));
+      const Scalar q = unchecked_inverse(square_root(at.area2_e));
       normal = q * m;
       gap = at.across * q;
     } else {
-      normal = Vec<S, D>::zero();
-      gap = S(0.0);
+      normal = Vec<Scalar, D>::zero();
+      gap = Scalar(0.0);
     }
     at.size2 = dot(p.s.a[0], p.s.a[0]);
     if constexpr (T == 2) at.size2 = at.size2 + dot(p.s.a[1], p.s.a[1]);
@@ -219,38 +223,40 @@ template <class B, bool H, class S> struct ProjectedPoint {
 
   // Is the surface far from degenerate, and every number far from the ends of the range? closest: is it the
   // closest point, too?
-  ENTS_INLINE Truth<S> is_regular(const Measured& at, bool closest = true) const {
+  ENTS_INLINE Truth<Scalar> is_regular(const Measured& at, bool closest = true) const {
     const auto& p = projector;
     const int count = node_count(nodes.basis);
-    Truth<S> regular = has_area();
-    if constexpr (H) {
+    Truth<Scalar> regular = has_area();
+    if constexpr (Enriched) {
       regular = both(regular, at.area2_e > degenerate_size * at.area2);
-      S heights = absolute(p.s.height.h);
-      for (const S& h : p.s.height.h1) heights = heights + absolute(h);
-      for (const S& h : p.s.height.h2) heights = heights + absolute(h);
+      Scalar heights = absolute(p.s.height.h);
+      for (const Scalar& h : p.s.height.h1) heights = heights + absolute(h);
+      for (const Scalar& h : p.s.height.h2) heights = heights + absolute(h);
       regular = both(regular, heights < safe_magnitude);
       if (nodes.has_coordinates) {
-        S far = absolute(nodes.coordinates[0]);
+        Scalar far = absolute(nodes.coordinates[0]);
         for (int i = 1; i < T * count; ++i) far = far + absolute(nodes.coordinates[i]);
         regular = both(regular, far < safe_magnitude);
       }
     }
-    S reach2 = dot(nodes.y[0], nodes.y[0]);
+    Scalar reach2 = dot(nodes.y[0], nodes.y[0]);
     for (int i = 1; i < count; ++i) reach2 = reach2 + dot(nodes.y[i], nodes.y[i]);
     // degenerate segments: the margins of Geometry::smallest_area2, and more. On a plane xi comes from normal
     // equations, whose error grows with the square of the ratio of the sides: up to 100
-    constexpr double flattest = is_flat<B> && T == 2 ? 1e-4 : 1e-20;
-    const S& size2 = at.size2;
-    const S small = flattest * (T == 2 ? size2 * size2 : size2) + 1e-26 * reach2 * (T == 2 ? size2 : S(1.0));
+    constexpr double flattest = is_flat<Basis> && T == 2 ? 1e-4 : 1e-20;
+    const Scalar& size2 = at.size2;
+    const Scalar small =
+        flattest * (T == 2 ? size2 * size2 : size2) + 1e-26 * reach2 * (T == 2 ? size2 : Scalar(1.0));
     regular = both(regular, closest ? both(at.area2 > small, minimum_of(p.f2, p.metric)) : at.area2 > small);
     return both(regular, both(at.area2 > 1.0 / (safe_magnitude * safe_magnitude),
                               reach2 < safe_magnitude * safe_magnitude));
   }
 
   // Is it so deep that the careful kernel has to decide whether that is too deep? across: g |m|
-  ENTS_INLINE Truth<S> is_deep(const Plan& plan, const Measured& at, const S& across) const {
-    const S deep2 = plan.penetration_limit > 0.0 ? S(plan.penetration_limit * plan.penetration_limit)
-                                                 : (is_simplex(nodes.basis) ? 1.0 : 4.0) * at.size2;
+  ENTS_INLINE Truth<Scalar> is_deep(const Plan& plan, const Measured& at, const Scalar& across) const {
+    const Scalar deep2 = plan.penetration_limit > 0.0
+                             ? Scalar(plan.penetration_limit * plan.penetration_limit)
+                             : (is_simplex(nodes.basis) ? 1.0 : 4.0) * at.size2;
     return across * across >= 0.99 * deep2 * at.area2_e;
   }
 
@@ -262,7 +268,7 @@ template <class B, bool H, class S> struct ProjectedPoint {
     per_gap = force_per_gap(plan.law, gap);
     ordinary = both(ordinary, area * per_gap < safe_magnitude);
     ordinary = without(ordinary, both(contact, is_deep(plan, at, at.across)));
-    per_gap = select(contact, per_gap, S(0.0));
+    per_gap = select(contact, per_gap, Scalar(0.0));
   }
 };
 

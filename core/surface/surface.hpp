@@ -20,15 +20,15 @@ inline constexpr double degenerate_distance = 2e-15; // relative to its distance
 
 // One contact element's geometry. Positions are relative to the slave node: what matters (gap, tangents)
 // is then computed from differences, whatever the distance to the host's origin.
-template <class B> struct Geometry {
-  static constexpr int D = B::dim, T = D - 1;
-  [[no_unique_address]] B basis;
-  Vec<double, D> y[B::nodes];        // x_i - x_s
+template <class Basis> struct Geometry {
+  static constexpr int D = Basis::dim, T = D - 1;
+  [[no_unique_address]] Basis basis;
+  Vec<double, D> y[Basis::nodes];    // x_i - x_s
   const double* surface_coordinates; // [nodes][T] or null: s = xi
   const HeightNode* height;          // null: plain segment
   double smallest_area2;             // of the tangents, squared: below it there is no normal
 
-  ENTS_INLINE explicit Geometry(const B& of) : basis(of) {}
+  ENTS_INLINE explicit Geometry(const Basis& of) : basis(of) {}
   ENTS_INLINE void set(const double* slave, const double* master) {
     const int nodes = node_count(basis);
     for (int i = 0; i < nodes; ++i)
@@ -45,20 +45,20 @@ template <class B> struct Geometry {
 };
 
 // h and its derivatives by xi
-template <class S, int T> using HeightByXi = HeightJet<T, S>;
+template <class Scalar, int T> using HeightByXi = HeightJet<T, Scalar>;
 
-// Surface at one xi. H: enriched or plain. Order 1: tangents; 2: curvatures, too.
-template <class B, bool H, class S> struct Surface {
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
-  using V = Vec<S, D>;
+// Surface at one xi, enriched or plain. Order 1: tangents; 2: curvatures, too.
+template <class Basis, bool Enriched, class Scalar> struct Surface {
+  static constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
+  using V = Vec<Scalar, D>;
 
   V a[T], a2[K], a3[T == 1 ? 1 : 4]; // rho_,a rho_,ab rho_,abc (only where the basis has them)
   V n;                               // unit normal of rho
   V dual[T];                         // a^k
-  S dual_metric[K];                  // a^k . a^l
-  S area;                            // |a| or |a_1 x a_2|
-  V n1[T];                           // n_,a (H, bent basis)
-  HeightJet<T, S> height;            // by xi (H)
+  Scalar dual_metric[K];             // a^k . a^l
+  Scalar area;                       // |a| or |a_1 x a_2|
+  V n1[T];                           // n_,a (enriched, bent basis)
+  HeightJet<T, Scalar> height;       // by xi (enriched)
 
   V d;     // x_s - rho_e
   V e[T];  // rho_e,a
@@ -66,21 +66,22 @@ template <class B, bool H, class S> struct Surface {
 };
 
 // h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
-template <int Order, class B, class Height, class S, class C>
-ENTS_INLINE void evaluate_height_by_xi(const B& basis, Height&& height, const C* coordinates,
-                                       const S (&xi)[B::dim - 1], const Shape<S, B::dim - 1, B::nodes>& N,
-                                       HeightJet<B::dim - 1, S>& out) {
-  constexpr int T = B::dim - 1, K = symmetric_size<T>;
+template <int Order, class Basis, class Height, class Scalar, class C>
+ENTS_INLINE void evaluate_height_by_xi(const Basis& basis, Height&& height, const C* coordinates,
+                                       const Scalar (&xi)[Basis::dim - 1],
+                                       const Shape<Scalar, Basis::dim - 1, Basis::nodes>& N,
+                                       HeightJet<Basis::dim - 1, Scalar>& out) {
+  constexpr int T = Basis::dim - 1, K = symmetric_size<T>;
   const int nodes = node_count(basis);
   if (!coordinates) {
     out = height(xi);
     return;
   }
-  S s[T], s1[T][T], s2[K][T]; // s, s_,a, s_,ab
+  Scalar s[T], s1[T][T], s2[K][T]; // s, s_,a, s_,ab
   const C* c = coordinates;
-  C relative[is_range<S> ? T * B::nodes : 1];
-  if constexpr (is_range<S>) { // sum N_i = 1: of differences, or the ranges of N_i would grow with the
-                               // distance from s = 0
+  C relative[is_range<Scalar> ? T * Basis::nodes : 1];
+  if constexpr (is_range<Scalar>) { // sum N_i = 1: of differences, or the ranges of N_i would grow with the
+                                    // distance from s = 0
     for (int i = 0; i < T * nodes; ++i) relative[i] = coordinates[i] - coordinates[i % T];
     c = relative;
   }
@@ -93,15 +94,15 @@ ENTS_INLINE void evaluate_height_by_xi(const B& basis, Height&& height, const C*
     }
     if constexpr (Order > 1)
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-        if constexpr (B::second[k]) {
+        if constexpr (Basis::second[k]) {
           s2[k][t] = N.d2[k][0] * c[t];
           for (int i = 1; i < nodes; ++i) s2[k][t] = s2[k][t] + N.d2[k][i] * c[T * i + t];
         }
       });
   }
-  if constexpr (is_range<S>)
+  if constexpr (is_range<Scalar>)
     for (int t = 0; t < T; ++t) s[t] = s[t] + coordinates[t];
-  const HeightJet<T, S> j = height(s);
+  const HeightJet<T, Scalar> j = height(s);
   out.h = j.h;
   for (int a = 0; a < T; ++a) {
     out.h1[a] = j.h1[0] * s1[a][0];
@@ -110,20 +111,21 @@ ENTS_INLINE void evaluate_height_by_xi(const B& basis, Height&& height, const C*
   if constexpr (Order > 1)
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
       constexpr int a = k / 2, b = (k + 1) / 2; // 11, 12, 22
-      S v = j.h2[0] * (s1[a][0] * s1[b][0]);
+      Scalar v = j.h2[0] * (s1[a][0] * s1[b][0]);
       if constexpr (T == 2)
         v = v + j.h2[1] * (s1[a][0] * s1[b][1] + s1[a][1] * s1[b][0]) + j.h2[2] * (s1[a][1] * s1[b][1]);
-      if constexpr (B::second[k])
+      if constexpr (Basis::second[k])
         for (int t = 0; t < T; ++t) v = v + j.h1[t] * s2[k][t];
       out.h2[k] = v;
     });
 }
 
 // sum_i w_i y_i of the nodes
-template <class B, class S> ENTS_INLINE Vec<S, B::dim> combine(const S (&w)[B::nodes], const Geometry<B>& g) {
-  constexpr int D = B::dim;
+template <class Basis, class Scalar>
+ENTS_INLINE Vec<Scalar, Basis::dim> combine(const Scalar (&w)[Basis::nodes], const Geometry<Basis>& g) {
+  constexpr int D = Basis::dim;
   const int nodes = node_count(g.basis);
-  Vec<S, D> v;
+  Vec<Scalar, D> v;
   for (int k = 0; k < D; ++k) {
     v[k] = w[0] * g.y[0][k];
     for (int i = 1; i < nodes; ++i) v[k] = v[k] + w[i] * g.y[i][k];
@@ -133,65 +135,67 @@ template <class B, class S> ENTS_INLINE Vec<S, B::dim> combine(const S (&w)[B::n
 
 // Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface
 // is complete but for it.
-template <int Order, class B, bool H, class S>
-ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1],
-                                  Shape<S, B::dim - 1, B::nodes>& N, Surface<B, H, S>& s) {
-  constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
+template <int Order, class Basis, bool Enriched, class Scalar>
+ENTS_INLINE bool evaluate_surface(const Geometry<Basis>& g, const Scalar (&xi)[Basis::dim - 1],
+                                  Shape<Scalar, Basis::dim - 1, Basis::nodes>& N,
+                                  Surface<Basis, Enriched, Scalar>& s) {
+  constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
   // the curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc
-  constexpr bool bent = H && !is_flat<B>;
-  constexpr int basis_order = bent || is_range<S> ? Order + 1 : Order;
+  constexpr bool bent = Enriched && !is_flat<Basis>;
+  constexpr int basis_order = bent || is_range<Scalar> ? Order + 1 : Order;
   g.basis.template shape<basis_order>(xi, N);
   s.d = -combine(N.n, g);
   for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g);
   if constexpr (basis_order > 1)
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::second[k]) s.a2[k] = combine(N.d2[k], g);
+      if constexpr (Basis::second[k]) s.a2[k] = combine(N.d2[k], g);
     });
   if constexpr (basis_order > 2)
     unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (B::third[k])
+      if constexpr (Basis::third[k])
         if (has_third(g.basis, k)) s.a3[k] = combine(N.d3[k], g);
     });
-  if constexpr (is_range<S>) narrow<basis_order>(g.basis, xi, s);
+  if constexpr (is_range<Scalar>) narrow<basis_order>(g.basis, xi, s);
 
-  const Vec<S, D> m = normal_of_tangents(s.a);
-  const S area2 = dot(m, m);
-  S metric[K];
-  if constexpr (H) {
+  const Vec<Scalar, D> m = normal_of_tangents(s.a);
+  const Scalar area2 = dot(m, m);
+  Scalar metric[K];
+  if constexpr (Enriched) {
     metric[0] = dot(s.a[0], s.a[0]);
     if constexpr (T == 2) {
       metric[1] = dot(s.a[0], s.a[1]);
       metric[2] = dot(s.a[1], s.a[1]);
     }
   }
-  if constexpr (!H) {
+  if constexpr (!Enriched) {
     for (int a = 0; a < T; ++a) s.e[a] = s.a[a];
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Order > 1 && B::second[k])
+      if constexpr (Order > 1 && Basis::second[k])
         s.e2[k] = s.a2[k];
       else
-        s.e2[k] = Vec<S, D>::zero();
+        s.e2[k] = Vec<Scalar, D>::zero();
     });
   }
   if (!(value_of(area2) > g.smallest_area2)) return false;
   s.area = square_root(area2);
   s.n = (1.0 / s.area) * m;
 
-  if constexpr (H) {
+  if constexpr (Enriched) {
     invert(metric, area2, s.dual_metric);
     for (int a = 0; a < T; ++a) {
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
-    const auto height_at = [&](const S(&at)[T]) ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
+    const auto height_at = [&](const Scalar(&at)[T])
+                               ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
     evaluate_height_by_xi<Order>(g.basis, height_at, g.surface_coordinates, xi, N, s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
     if constexpr (bent) {
-      for (int a = 0; a < T; ++a) s.n1[a] = Vec<S, D>::zero();
+      for (int a = 0; a < T; ++a) s.n1[a] = Vec<Scalar, D>::zero();
       unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
         unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
-          if constexpr (B::second[symmetric_index(a, k)])
+          if constexpr (Basis::second[symmetric_index(a, k)])
             add_scaled(s.n1[a], -dot(s.n, s.a2[symmetric_index(a, k)]), s.dual[k]);
         });
       });
@@ -205,16 +209,18 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
         constexpr int a = k / 2, b = (k + 1) / 2;
         s.e2[k] = h.h2[k] * s.n;
-        if constexpr (B::second[k]) s.e2[k] = s.e2[k] + s.a2[k];
+        if constexpr (Basis::second[k]) s.e2[k] = s.e2[k] + s.a2[k];
         if constexpr (bent) {
           add_scaled(s.e2[k], h.h1[a], s.n1[b]);
           add_scaled(s.e2[k], h.h1[b], s.n1[a]);
-          Vec<S, D> n2 = -dot(s.n1[a], s.n1[b]) * s.n;
+          Vec<Scalar, D> n2 = -dot(s.n1[a], s.n1[b]) * s.n;
           unroll<T>([&](auto c) ENTS_LAMBDA_INLINE {
-            S t = S(0.0);
-            if constexpr (B::second[symmetric_index(b, c)]) t = t + dot(s.n1[a], s.a2[symmetric_index(b, c)]);
-            if constexpr (B::second[symmetric_index(a, c)]) t = t + dot(s.n1[b], s.a2[symmetric_index(a, c)]);
-            if constexpr (B::third[a + b + c])
+            Scalar t = Scalar(0.0);
+            if constexpr (Basis::second[symmetric_index(b, c)])
+              t = t + dot(s.n1[a], s.a2[symmetric_index(b, c)]);
+            if constexpr (Basis::second[symmetric_index(a, c)])
+              t = t + dot(s.n1[b], s.a2[symmetric_index(a, c)]);
+            if constexpr (Basis::third[a + b + c])
               if (has_third(g.basis, a + b + c)) t = t + dot(s.n, s.a3[a + b + c]);
             add_scaled(n2, -t, s.dual[c]);
           });
@@ -226,13 +232,13 @@ ENTS_INLINE bool evaluate_surface(const Geometry<B>& g, const S (&xi)[B::dim - 1
 }
 
 // Unit normal and |area| of rho_e; false where rho_e has no tangent plane.
-template <class B, bool H, class S>
-ENTS_INLINE bool enriched_normal(const Surface<B, H, S>& s, Vec<S, B::dim>& normal) {
-  if constexpr (!H) {
+template <class Basis, bool Enriched, class Scalar>
+ENTS_INLINE bool enriched_normal(const Surface<Basis, Enriched, Scalar>& s, Vec<Scalar, Basis::dim>& normal) {
+  if constexpr (!Enriched) {
     normal = s.n;
   } else {
-    const Vec<S, B::dim> m = normal_of_tangents(s.e);
-    const S area2 = dot(m, m);
+    const Vec<Scalar, Basis::dim> m = normal_of_tangents(s.e);
+    const Scalar area2 = dot(m, m);
     const double base = value_of(s.area);
     if (!(value_of(area2) > degenerate_size * degenerate_size * base * base)) return false;
     normal = (1.0 / square_root(area2)) * m;

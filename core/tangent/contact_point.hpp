@@ -13,37 +13,39 @@
 namespace ents::ENTS_ISA {
 
 // The direction of a shadow projection.
-template <class S, int D> struct Ray {
-  Vec<S, D> e;
-  S inverse_distance; // 1 / |emitter - x_s|; 0 for a fixed direction
+template <class Scalar, int D> struct Ray {
+  Vec<Scalar, D> e;
+  Scalar inverse_distance; // 1 / |emitter - x_s|; 0 for a fixed direction
 };
 
 // Coefficients on the slave of c . delta e, e the unit vector from the slave to the emitter.
-template <class S, int D> ENTS_INLINE Vec<S, D> variation_of_ray(const Vec<S, D>& c, const Ray<S, D>& ray) {
-  Vec<S, D> v = (-ray.inverse_distance) * c;
+template <class Scalar, int D>
+ENTS_INLINE Vec<Scalar, D> variation_of_ray(const Vec<Scalar, D>& c, const Ray<Scalar, D>& ray) {
+  Vec<Scalar, D> v = (-ray.inverse_distance) * c;
   add_scaled(v, ray.inverse_distance * dot(c, ray.e), ray.e);
   return v;
 }
 
-template <class B, bool H, class S> struct ContactPoint {
-  static constexpr int D = B::dim, T = D - 1;
-  using V = Vec<S, D>;
-  ProjectedPoint<B, H, S>& point; // its projector is at xi
-  const Ray<S, D>* ray = nullptr; // shadow projection
-  S gap, normal_gap, law_gap;     // the last with the offset
-  S clearance;                    // to the gap from which on there is contact, with what is worn
-  SlipShare<S> slipping;
-  V normal, c, onto[T]; // n_e; onto: shadow
-  NormalForce<S> law;   // 0 where there is no contact
-  Truth<S> safe;        // has the ray a frame, and does it enter the surface from the front?
-  Friction<S, B::dim - 1> friction;
-  WearOfIncrement<S, D> wear; // if the law has it
-  Truth<S> solved;            // was its pressure found?
+template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
+  static constexpr int D = Basis::dim, T = D - 1;
+  using V = Vec<Scalar, D>;
+  ProjectedPoint<Basis, Enriched, Scalar>& point; // its projector is at xi
+  const Ray<Scalar, D>* ray = nullptr;            // shadow projection
+  Scalar gap, normal_gap, law_gap;                // the last with the offset
+  Scalar clearance; // to the gap from which on there is contact, with what is worn
+  SlipShare<Scalar> slipping;
+  V normal, c, onto[T];    // n_e; onto: shadow
+  NormalForce<Scalar> law; // 0 where there is no contact
+  Truth<Scalar> safe;      // has the ray a frame, and does it enter the surface from the front?
+  Friction<Scalar, Basis::dim - 1> friction;
+  WearOfIncrement<Scalar, D> wear; // if the law has it
+  Truth<Scalar> solved;            // was its pressure found?
 
-  ENTS_INLINE explicit ContactPoint(ProjectedPoint<B, H, S>& at) : point(at) {}
+  ENTS_INLINE explicit ContactPoint(ProjectedPoint<Basis, Enriched, Scalar>& at) : point(at) {}
 
   // Gap and normal; by_nodes: the surface is complete
-  ENTS_INLINE typename ProjectedPoint<B, H, S>::Measured measure(const Plan& plan, bool by_nodes = false) {
+  ENTS_INLINE typename ProjectedPoint<Basis, Enriched, Scalar>::Measured measure(const Plan& plan,
+                                                                                 bool by_nodes = false) {
     const auto& area = point.projector.s.area;
     const auto at = by_nodes ? point.measure_at(plan, true, area * area, false) : point.measure(plan, true);
     gap = normal_gap = point.gap;
@@ -55,10 +57,10 @@ template <class B, bool H, class S> struct ContactPoint {
 
   // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; worn: null without
   // wear; offset, scale: of the slave node.
-  ENTS_INLINE void evaluate_law(const Plan& plan, const SlipBegin<S, T>& begin, const S* multiplier,
-                                const WornState<S, T>* worn, const S& offset, const S& scale) {
-    const S none(0.0), lambda = multiplier ? multiplier[0] : none;
-    law_gap = gap + (offset + law_number<S>(plan.law.offset, plan.law.rates.offset));
+  ENTS_INLINE void evaluate_law(const Plan& plan, const SlipBegin<Scalar, T>& begin, const Scalar* multiplier,
+                                const WornState<Scalar, T>* worn, const Scalar& offset, const Scalar& scale) {
+    const Scalar none(0.0), lambda = multiplier ? multiplier[0] : none;
+    law_gap = gap + (offset + law_number<Scalar>(plan.law.offset, plan.law.rates.offset));
     clearance = law_gap - touching_gap(plan.law, scale);
     if (worn) {
       clearance = clearance + worn->depth;
@@ -69,14 +71,14 @@ template <class B, bool H, class S> struct ContactPoint {
       solved = gap <= gap;
       law = normal_force(plan.law, law_gap, lambda, scale);
     }
-    Truth<S> outside = point.outside;
+    Truth<Scalar> outside = point.outside;
     if (plan.multipliers > 0) { // a slave without area holds them at zero
-      const Truth<S> held = point.area <= 0.0;
-      point.area = select(held, S(1.0), point.area);
+      const Truth<Scalar> held = point.area <= 0.0;
+      point.area = select(held, Scalar(1.0), point.area);
       outside = either(outside, held);
     }
     point.contact = without(law.contact, outside);
-    const S held_energy =
+    const Scalar held_energy =
         plan.law.multiplier_is_dof() ? open_multiplier_energy(plan.law.number[0], multiplier[0]) : none;
     law.energy = select(outside, held_energy, law.energy);
     law.force = select(point.contact, law.force, none);
@@ -87,7 +89,7 @@ template <class B, bool H, class S> struct ContactPoint {
     }
     point.per_gap = plan.law.force_has_slope() ? force_per_gap(plan.law, gap) : none;
     if (plan.law.has_friction()) {
-      SlipBegin<S, T> of = begin;
+      SlipBegin<Scalar, T> of = begin;
       if (plan.law.multiplier_is_dof()) // these leave no depth, and no measure of the way after the touch
         of.known = select(begin.clearance > 0.0, none, begin.known);
       else if (!worn)
@@ -101,24 +103,24 @@ template <class B, bool H, class S> struct ContactPoint {
   }
 
   // The variation of ds at fixed xi is sum_b form_of_slope<b>(wear.moved[b] m), that by xi:
-  ENTS_INLINE void slid_by_xi(S (&by_xi)[T]) const {
+  ENTS_INLINE void slid_by_xi(Scalar (&by_xi)[T]) const {
     const auto& s = point.projector.s;
     for (int a = 0; a < T; ++a) {
-      Vec<S, D> along = slipping.share * s.e[a];
+      Vec<Scalar, D> along = slipping.share * s.e[a];
       for (int b = 0; b < T; ++b) add_scaled(along, wear.moved[b], s.e2[symmetric_index(a, b)]);
       by_xi[a] = dot(wear.m, along);
     }
   }
 
   // The covector whose work is that of both forces under a shadow projection, W' c + t_a onto^a of an area.
-  ENTS_INLINE V covector(const S& push, const S (&force)[T]) const {
+  ENTS_INLINE V covector(const Scalar& push, const Scalar (&force)[T]) const {
     V sum = push * c;
     for (int a = 0; a < T; ++a) add_scaled(sum, force[a], onto[a]);
     return sum;
   }
 
   // R = A W' dg + t_a dxi^a. Shape functions and their derivatives are there.
-  ENTS_INLINE void residual(const Plan& plan, S (&out)[dof_count<B, false>]) const {
+  ENTS_INLINE void residual(const Plan& plan, Scalar (&out)[dof_count<Basis, false>]) const {
     const bool friction_too = plan.law.has_friction_force();
     V push = (point.area * law.force) * c;
     // in the same roundings as those laws' own kernel
@@ -128,9 +130,9 @@ template <class B, bool H, class S> struct ContactPoint {
       return;
     }
     for (int a = 0; a < T && friction_too; ++a) add_scaled(push, friction.force[a], onto[a]);
-    Form<B, S> f;
-    form_of_p<B, H>(point.projector.s, push, f);
-    expand_to_dofs<false, parts_of_p<H>>(point.nodes.basis, f, point.projector.N, out);
+    Form<Basis, Scalar> f;
+    form_of_p<Basis, Enriched>(point.projector.s, push, f);
+    expand_to_dofs<false, parts_of_p<Enriched>>(point.nodes.basis, f, point.projector.N, out);
     if (ray) {
       const V turn = variation_of_ray(push, *ray);
       for (int i = 0; i < D; ++i) out[i] = out[i] - gap * turn[i];
@@ -139,7 +141,7 @@ template <class B, bool H, class S> struct ContactPoint {
 
 private:
   ENTS_INLINE void set_frame() {
-    const Truth<S> frame = ray_frame(point.projector.s.e, ray->e, onto, c);
+    const Truth<Scalar> frame = ray_frame(point.projector.s.e, ray->e, onto, c);
     safe = both(frame, dot(normal, ray->e) > 1e-6);
     gap = dot(c, point.projector.s.d);
   }

@@ -29,9 +29,10 @@ inline constexpr int register_width = 1;
 // Elements that the block kernels of a basis take at once. Sanitizers check those of few dofs, which have all
 // of the code.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-template <class B> inline constexpr int block_width = B::dim*(B::nodes + 1) <= 15 ? register_width : 1;
+template <class Basis>
+inline constexpr int block_width = Basis::dim*(Basis::nodes + 1) <= 15 ? register_width : 1;
 #else
-template <class B> inline constexpr int block_width = register_width;
+template <class Basis> inline constexpr int block_width = register_width;
 #endif
 
 // The widest register that is not longer than n.
@@ -88,16 +89,20 @@ template <int N> struct DofRow {
 
 // Are numbers of dofs kept in rows? Where their number is known at compile time, and one element has
 // registers of its own.
-template <class B, bool Rigid, class S>
-inline constexpr bool has_rows = std::is_same_v<S, double>&& register_width >= 4 && !counts_dofs<B, Rigid>;
+template <class Basis, bool Rigid, class Scalar>
+inline constexpr bool has_rows =
+    std::is_same_v<Scalar, double>&& register_width >= 4 && !counts_dofs<Basis, Rigid>;
 
 // Numbers of the dofs of an element (double), or of one per lane
-template <class B, bool Rigid, class S> struct DofNumbers { using type = S[dof_count<B, Rigid>]; };
-template <class B, bool Rigid, class S>
-requires(has_rows<B, Rigid, S>) struct DofNumbers<B, Rigid, S> {
-  using type = DofRow<dof_count<B, Rigid>>;
+template <class Basis, bool Rigid, class Scalar> struct DofNumbers {
+  using type = Scalar[dof_count<Basis, Rigid>];
 };
-template <class B, bool Rigid, class S> using DofArray = typename DofNumbers<B, Rigid, S>::type;
+template <class Basis, bool Rigid, class Scalar>
+requires(has_rows<Basis, Rigid, Scalar>) struct DofNumbers<Basis, Rigid, Scalar> {
+  using type = DofRow<dof_count<Basis, Rigid>>;
+};
+template <class Basis, bool Rigid, class Scalar>
+using DofArray = typename DofNumbers<Basis, Rigid, Scalar>::type;
 
 template <int Piece, int N, class R> ENTS_INLINE void set_piece(double (&out)[N], const R& r) {
   store(out + piece_at(N, width_for(N), Piece), r);
@@ -114,8 +119,8 @@ template <int Piece, int N> ENTS_INLINE auto piece_of(const DofRow<N>& numbers) 
 }
 
 // out = f(in ...) of each of `count` dofs
-template <class S, int N, class F, class... In>
-ENTS_INLINE void for_each_dof(int count, S (&out)[N], F&& f, const In&... in) {
+template <class Scalar, int N, class F, class... In>
+ENTS_INLINE void for_each_dof(int count, Scalar (&out)[N], F&& f, const In&... in) {
   for (int i = 0; i < count; ++i) out[i] = f(in[i]...);
 }
 template <int N, class F, class... In>
@@ -184,24 +189,25 @@ private:
     }
   }
 };
-template <class B, bool Rigid, int Piece, int N = dof_count<B, Rigid>>
-using PieceOfDofs = DofPiece<B::dim, piece_width(N, width_for(N), Piece), piece_at(N, width_for(N), Piece)>;
+template <class Basis, bool Rigid, int Piece, int N = dof_count<Basis, Rigid>>
+using PieceOfDofs =
+    DofPiece<Basis::dim, piece_width(N, width_for(N), Piece), piece_at(N, width_for(N), Piece)>;
 #endif
 
 // expand() to numbers of dofs; that of the slave may be left out
-template <bool Rigid, int Parts, bool Slave = true, class B, class S, class Out>
-ENTS_INLINE void expand_to_dofs(const B& basis, const Form<B, S>& f, const Shape<S, B::dim - 1, B::nodes>& N,
-                                Out& out) {
-  constexpr int D = B::dim;
-  if constexpr (!has_rows<B, Rigid, S>) {
+template <bool Rigid, int Parts, bool Slave = true, class Basis, class Scalar, class Out>
+ENTS_INLINE void expand_to_dofs(const Basis& basis, const Form<Basis, Scalar>& f,
+                                const Shape<Scalar, Basis::dim - 1, Basis::nodes>& N, Out& out) {
+  constexpr int D = Basis::dim;
+  if constexpr (!has_rows<Basis, Rigid, Scalar>) {
     expand<Rigid, Parts>(basis, f, N, out);
     if constexpr (!Slave)
-      for (int c = 0; c < D; ++c) out[c] = S(0.0);
+      for (int c = 0; c < D; ++c) out[c] = Scalar(0.0);
   } else {
 #if defined(ENTS_HAS_DOF_ROWS)
-    constexpr int T = D - 1, count = dof_count<B, Rigid>;
+    constexpr int T = D - 1, count = dof_count<Basis, Rigid>;
     unroll<pieces(count, width_for(count))>([&](auto piece) ENTS_LAMBDA_INLINE {
-      using Piece = PieceOfDofs<B, Rigid, piece.value>;
+      using Piece = PieceOfDofs<Basis, Rigid, piece.value>;
       using R = typename Piece::R;
       R slave(0.0), v(0.0);
       if constexpr ((Parts & on_position) != 0) {
@@ -214,7 +220,7 @@ ENTS_INLINE void expand_to_dofs(const B& basis, const Form<B, S>& f, const Shape
           for (int k = 0; k < T; ++k) v = v + Piece::template weights<0>(N.d1[k]) * Piece::components(f.a[k]);
         if constexpr ((Parts & on_curvatures) != 0)
           unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
-            if constexpr (B::second[k])
+            if constexpr (Basis::second[k])
               v = v + Piece::template weights<0>(N.d2[k]) * Piece::components(f.a2[k]);
           });
       }
@@ -226,20 +232,20 @@ ENTS_INLINE void expand_to_dofs(const B& basis, const Form<B, S>& f, const Shape
 }
 
 // out = weight of the node times v; 0 at the slave
-template <class B, class S, class Out>
-ENTS_INLINE void expand_to_nodes(const B& basis, const S (&weights)[B::nodes], const Vec<S, B::dim>& v,
-                                 Out& out) {
-  constexpr int D = B::dim;
-  if constexpr (!has_rows<B, false, S>) {
+template <class Basis, class Scalar, class Out>
+ENTS_INLINE void expand_to_nodes(const Basis& basis, const Scalar (&weights)[Basis::nodes],
+                                 const Vec<Scalar, Basis::dim>& v, Out& out) {
+  constexpr int D = Basis::dim;
+  if constexpr (!has_rows<Basis, false, Scalar>) {
     const int nodes = node_count(basis);
-    for (int c = 0; c < D; ++c) out[c] = S(0.0);
+    for (int c = 0; c < D; ++c) out[c] = Scalar(0.0);
     for (int i = 0; i < nodes; ++i)
       for (int c = 0; c < D; ++c) out[D * (i + 1) + c] = weights[i] * v[c];
   } else {
 #if defined(ENTS_HAS_DOF_ROWS)
-    constexpr int count = dof_count<B, false>;
+    constexpr int count = dof_count<Basis, false>;
     unroll<pieces(count, width_for(count))>([&](auto piece) ENTS_LAMBDA_INLINE {
-      using Piece = PieceOfDofs<B, false, piece.value>;
+      using Piece = PieceOfDofs<Basis, false, piece.value>;
       typename Piece::R r = Piece::template weights<0>(weights) * Piece::components(v);
       if constexpr (Piece::has_slave) r = Piece::where_slave(0.0, r);
       set_piece<piece.value>(out, r);

@@ -16,23 +16,25 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct FrictionForms {
-  static constexpr int D = B::dim, T = D - 1, N = dof_count<B, Rigid>, M = N / D, K = symmetric_size<T>;
-  static constexpr bool turns = H && !Rigid;          // w, Z: dofs of the master
-  static constexpr bool bends = turns && !is_flat<B>; // does w change along y?
+template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionForms {
+  static constexpr int D = Basis::dim, T = D - 1, N = dof_count<Basis, Rigid>, M = N / D,
+                       K = symmetric_size<T>;
+  static constexpr bool turns = Enriched && !Rigid;       // w, Z: dofs of the master
+  static constexpr bool bends = turns && !is_flat<Basis>; // does w change along y?
   // of f and of its rate, of z and of its rate
-  static constexpr int parts = parts_of_f<B, H>, parts_of_rate = is_flat<B> ? parts : parts | on_curvatures;
+  static constexpr int parts = parts_of_f<Basis, Enriched>,
+                       parts_of_rate = is_flat<Basis> ? parts : parts | on_curvatures;
   static constexpr int parts_of_z = on_position | on_tangents,
-                       parts_of_z_rate = is_flat<B> ? parts_of_z : parts_of_z | on_curvatures;
-  using Derivative = DirectionalDerivative<B, H, S>;
+                       parts_of_z_rate = is_flat<Basis> ? parts_of_z : parts_of_z | on_curvatures;
+  using Derivative = DirectionalDerivative<Basis, Enriched, Scalar>;
 
   // M and y = - M t
-  static ENTS_INLINE void set_direction(const ProjectedPoint<B, H, S>& point, const S (&force)[T],
-                                        S (&inverse)[K], S (&y)[T]) {
+  static ENTS_INLINE void set_direction(const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                                        const Scalar (&force)[T], Scalar (&inverse)[K], Scalar (&y)[T]) {
     const auto& f2 = point.projector.f2;
     invert(f2, determinant(f2), inverse);
     for (int a = 0; a < T; ++a) {
-      S sum = inverse[symmetric_index(a, 0)] * force[0];
+      Scalar sum = inverse[symmetric_index(a, 0)] * force[0];
       if constexpr (T == 2) sum = sum + inverse[symmetric_index(a, 1)] * force[1];
       y[a] = -sum;
     }
@@ -40,7 +42,7 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
 
   // With a height, not inlined: this shortens compilation.
   template <class Part> static ENTS_INLINE void in_part(Part&& part) {
-    if constexpr (H)
+    if constexpr (Enriched)
       apart(part);
     else
       part();
@@ -48,8 +50,8 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
   template <class Part> static ENTS_NOINLINE void apart(Part&& part) { part(); }
 
   // x_a; value: f
-  static ENTS_INLINE void set_x(const Form<B, Dual<S>> (&f)[T], const S (&inverse)[K], Form<B, S> (&value)[T],
-                                Form<B, S> (&x)[T]) {
+  static ENTS_INLINE void set_x(const Form<Basis, Dual<Scalar>> (&f)[T], const Scalar (&inverse)[K],
+                                Form<Basis, Scalar> (&value)[T], Form<Basis, Scalar> (&x)[T]) {
     for (int a = 0; a < T; ++a) value_of_form<parts>(f[a], value[a]);
     for (int a = 0; a < T; ++a) {
       set_form<parts>(x[a], inverse[symmetric_index(a, 0)], value[0]);
@@ -64,32 +66,33 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
   //   slip   t_a = L n_a,  dn_a = (D(A_ab w^b) - n_a m^b (D(A_bc w^c) - D(A_bc) u^c / 2)) / |u|
   // Without a multiplier u = w, and what is subtracted becomes n_a (m_c dxi^c + m^b w^c D(A_bc) / 2).
   struct ChangeOfForce {
-    S by_xi[T][T];
-    Vec<S, D> towards[T][T];
+    Scalar by_xi[T][T];
+    Vec<Scalar, D> towards[T][T];
 
-    ENTS_INLINE ChangeOfForce(const ProjectedPoint<B, H, S>& point, const Friction<S, B::dim - 1>& friction,
-                              bool multipliers) {
+    ENTS_INLINE ChangeOfForce(const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                              const Friction<Scalar, Basis::dim - 1>& friction, bool multipliers) {
       const auto& surface = point.projector.s;
       const auto& metric = point.projector.metric;
       const auto& w = friction.moved;
-      const S none(0.0);
-      const S ratio = select(friction.slip,
-                             friction.scale * (friction.limit / select(friction.slip, friction.norm, S(1.0))),
-                             select(friction.active, friction.scale, none));
-      S m[T], slips[T];
+      const Scalar none(0.0);
+      const Scalar ratio =
+          select(friction.slip,
+                 friction.scale * (friction.limit / select(friction.slip, friction.norm, Scalar(1.0))),
+                 select(friction.active, friction.scale, none));
+      Scalar m[T], slips[T];
       for (int a = 0; a < T; ++a) {
         slips[a] = select(friction.slip, friction.direction[a], none);
         m[a] = select(friction.slip, friction.raised[a], none);
       }
       // (A_ab w^b)_,c at fixed w and |u|_,c, with W = w^b rho_e,b
-      Vec<S, D> W = w[0] * surface.e[0];
+      Vec<Scalar, D> W = w[0] * surface.e[0];
       if constexpr (T == 2) add_scaled(W, w[1], surface.e[1]);
-      S along[T];
+      Scalar along[T];
       for (int c = 0; c < T; ++c) {
         along[c] = friction.share * slips[c];
         for (int a = 0; a < T; ++a) by_xi[a][c] = friction.share * metric[symmetric_index(a, c)];
-        if constexpr (H || !is_flat<B>) {
-          Vec<S, D> bend = w[0] * surface.e2[symmetric_index(0, c)];
+        if constexpr (Enriched || !is_flat<Basis>) {
+          Vec<Scalar, D> bend = w[0] * surface.e2[symmetric_index(0, c)];
           if constexpr (T == 2) add_scaled(bend, w[1], surface.e2[symmetric_index(1, c)]);
           for (int a = 0; a < T; ++a) {
             by_xi[a][c] = dot(surface.e[a], bend) + dot(W, surface.e2[symmetric_index(a, c)]) + by_xi[a][c];
@@ -100,11 +103,11 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
       for (int a = 0; a < T; ++a)
         for (int b = 0; b < T; ++b) towards[a][b] = (ratio * w[b]) * surface.e[a];
       if (multipliers) {
-        S v[T]; // w - u / 2
+        Scalar v[T]; // w - u / 2
         for (int a = 0; a < T; ++a) v[a] = w[a] - 0.5 * friction.stretch[a];
-        Vec<S, D> V = v[0] * surface.e[0], U = m[0] * surface.e[0];
+        Vec<Scalar, D> V = v[0] * surface.e[0], U = m[0] * surface.e[0];
         if constexpr (T == 2) add_scaled(V, v[1], surface.e[1]), add_scaled(U, m[1], surface.e[1]);
-        if constexpr (H || !is_flat<B>)
+        if constexpr (Enriched || !is_flat<Basis>)
           for (int c = 0; c < T; ++c)
             for (int a = 0; a < T; ++a) {
               const auto& bend = surface.e2[symmetric_index(a, c)];
@@ -126,52 +129,56 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
     }
 
     // sum_b towards[a][b] . D(rho_e,b)
-    ENTS_INLINE void add_to(int a, const Surface<B, H, S>& surface, Form<B, S>& f) const {
+    ENTS_INLINE void add_to(int a, const Surface<Basis, Enriched, Scalar>& surface,
+                            Form<Basis, Scalar>& f) const {
       unroll<T>([&](auto b) ENTS_LAMBDA_INLINE { add_slope<b.value>(surface, towards[a][b], f); });
     }
     template <int I>
-    static ENTS_INLINE void add_slope(const Surface<B, H, S>& surface, const Vec<S, D>& c, Form<B, S>& f) {
-      if constexpr (!H) {
+    static ENTS_INLINE void add_slope(const Surface<Basis, Enriched, Scalar>& surface,
+                                      const Vec<Scalar, D>& c, Form<Basis, Scalar>& f) {
+      if constexpr (!Enriched) {
         f.a[I] = f.a[I] + c;
       } else {
-        Form<B, S> of;
-        form_of_slope<I, B, H>(surface, c, of);
+        Form<Basis, Scalar> of;
+        form_of_slope<I, Basis, Enriched>(surface, c, of);
         for (int k = 0; k < T; ++k) f.a[k] = f.a[k] + of.a[k];
-        if constexpr (!is_flat<B>)
+        if constexpr (!is_flat<Basis>)
           unroll<T>([&](auto k) ENTS_LAMBDA_INLINE {
             constexpr int at = symmetric_index(k, I);
-            if constexpr (B::second[at]) f.a2[at] = f.a2[at] + of.a2[at];
+            if constexpr (Basis::second[at]) f.a2[at] = f.a2[at] + of.a2[at];
           });
       }
     }
   };
 
   // dt_a/dg of the penalty and the power law: by the gap itself, and by the pressure
-  static ENTS_INLINE S by_gap(int a, const Plan& plan, const ProjectedPoint<B, H, S>& point,
-                              const Friction<S, B::dim - 1>& friction) {
-    const S exponent = S(0.5 * plan.law.twice_exponent); // W'' = m W'/g
+  static ENTS_INLINE Scalar by_gap(int a, const Plan& plan,
+                                   const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                                   const Friction<Scalar, Basis::dim - 1>& friction) {
+    const Scalar exponent = Scalar(0.5 * plan.law.twice_exponent); // W'' = m W'/g
     return friction.by_gap[a] - friction.by_force[a] * (exponent * point.area * point.per_gap);
   }
 
   // (F'_ab - (A W'/g) F_,ab) / 2
-  static ENTS_INLINE S half_bend(int a, int b, const Derivative& derivative, const S& stiffness) {
+  static ENTS_INLINE Scalar half_bend(int a, int b, const Derivative& derivative, const Scalar& stiffness) {
     const int k = symmetric_index(a, b);
     return 0.5 * (derivative.f2[k] - stiffness * derivative.p.f2[k]);
   }
   // Y_a but for what changes by third derivatives; rate: f'_a
-  static ENTS_INLINE void set_Y(int a, const Derivative& derivative, const S& stiffness,
-                                const Form<B, Dual<S>> (&f)[T], const Form<B, S> (&x)[T], Form<B, S>& rate,
-                                Form<B, S>& Y) {
+  static ENTS_INLINE void set_Y(int a, const Derivative& derivative, const Scalar& stiffness,
+                                const Form<Basis, Dual<Scalar>> (&f)[T], const Form<Basis, Scalar> (&x)[T],
+                                Form<Basis, Scalar>& rate, Form<Basis, Scalar>& Y) {
     set_form_rate<parts>(f[a], derivative.y, rate);
-    set_form<parts_of_rate>(Y, S(-1.0), rate);
+    set_form<parts_of_rate>(Y, Scalar(-1.0), rate);
     for (int c = 0; c < T; ++c) add_form<parts>(Y, half_bend(a, c, derivative, stiffness), x[c]);
   }
   // dt_a or, if Joined, Y_a + dt_a; gap: dg
   template <bool Joined>
-  static ENTS_INLINE void set_P(int a, const Derivative& derivative, const S& stiffness,
-                                const Form<B, S>& rate, const Form<B, S> (&x)[T], const ChangeOfForce& change,
-                                const S& by_gap, const Form<B, S>& gap, Form<B, S>& P) {
-    if constexpr (Joined) set_form<parts_of_rate>(P, S(-1.0), rate);
+  static ENTS_INLINE void set_P(int a, const Derivative& derivative, const Scalar& stiffness,
+                                const Form<Basis, Scalar>& rate, const Form<Basis, Scalar> (&x)[T],
+                                const ChangeOfForce& change, const Scalar& by_gap,
+                                const Form<Basis, Scalar>& gap, Form<Basis, Scalar>& P) {
+    if constexpr (Joined) set_form<parts_of_rate>(P, Scalar(-1.0), rate);
     for (int c = 0; c < T; ++c) {
       if constexpr (Joined)
         add_form<parts>(P, half_bend(a, c, derivative, stiffness) + change.by_xi[a][c], x[c]);
@@ -181,14 +188,14 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
         add_form<parts>(P, change.by_xi[a][c], x[c]);
     }
     change.add_to(a, derivative.p.s, P);
-    add_form<parts_of_p<H>>(P, by_gap, gap);
+    add_form<parts_of_p<Enriched>>(P, by_gap, gap);
   }
 
   static constexpr bool by_third =
-      H && !Rigid && Derivative::bend_changes; // may forms of second derivatives change?
+      Enriched && !Rigid && Derivative::bend_changes; // may forms of second derivatives change?
   // d2: y^c N_,abc
-  static ENTS_INLINE void set_shape_rates(const B& basis, const S (&xi)[T], const S (&y)[T],
-                                          Shape<S, T, B::nodes>& of) {
+  static ENTS_INLINE void set_shape_rates(const Basis& basis, const Scalar (&xi)[T], const Scalar (&y)[T],
+                                          Shape<Scalar, T, Basis::nodes>& of) {
     basis.template shape<3>(xi, of);
     const int nodes = node_count(basis);
     unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
@@ -204,39 +211,41 @@ template <class B, bool H, bool Rigid, class S> struct FrictionForms {
     });
   }
   // - value of the part on second derivatives, whose expansion changes by third ones
-  static ENTS_INLINE void subtract_third(const B& basis, const Form<B, S>& value,
-                                         const Shape<S, T, B::nodes>& rates, DofArray<B, Rigid, S>& from) {
-    DofArray<B, Rigid, S> of;
+  static ENTS_INLINE void subtract_third(const Basis& basis, const Form<Basis, Scalar>& value,
+                                         const Shape<Scalar, T, Basis::nodes>& rates,
+                                         DofArray<Basis, Rigid, Scalar>& from) {
+    DofArray<Basis, Rigid, Scalar> of;
     expand_to_dofs<Rigid, on_curvatures>(basis, value, rates, of);
     for_each_dof(
         dofs_of<Rigid>(basis), from, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u - v; }, from, of);
   }
   // y^b N_,ab
-  static ENTS_INLINE void set_slope_rates(int a, const B& basis, const Shape<S, T, B::nodes>& N,
-                                          const S (&y)[T], S (&change)[B::nodes]) {
+  static ENTS_INLINE void set_slope_rates(int a, const Basis& basis, const Shape<Scalar, T, Basis::nodes>& N,
+                                          const Scalar (&y)[T], Scalar (&change)[Basis::nodes]) {
     const int nodes = node_count(basis);
     for (int i = 0; i < nodes; ++i)
       if constexpr (T == 1)
         change[i] = y[0] * N.d2[0][i];
-      else if constexpr (!B::second[0])
+      else if constexpr (!Basis::second[0])
         change[i] = y[1 - a] * N.d2[1][i];
       else
         change[i] = y[0] * N.d2[a][i] + y[1] * N.d2[a + 1][i];
   }
   // The rate of w_a
-  static ENTS_INLINE void expand_turn_rate(int a, const Derivative& derivative, DofArray<B, false, S>& w1) {
-    const B& basis = derivative.p.nodes.basis;
-    S change[B::nodes];
+  static ENTS_INLINE void expand_turn_rate(int a, const Derivative& derivative,
+                                           DofArray<Basis, false, Scalar>& w1) {
+    const Basis& basis = derivative.p.nodes.basis;
+    Scalar change[Basis::nodes];
     set_slope_rates(a, basis, derivative.p.N, derivative.y, change);
-    DofArray<B, false, S> now, turned;
+    DofArray<Basis, false, Scalar> now, turned;
     expand_to_nodes(basis, change, derivative.p.s.n, now);
     expand_to_nodes(basis, derivative.p.N.d1[a], derivative_of(derivative.s.n), turned);
     for_each_dof(
         dofs_of<false>(basis), w1, [](auto u, auto v) ENTS_LAMBDA_INLINE { return u + v; }, now, turned);
   }
 
-  static ENTS_INLINE void set_Z(const Form<B, Dual<S>>& moving_z, const Derivative& derivative,
-                                const S& stiffness, Form<B, S>& z, Form<B, S>& Z) {
+  static ENTS_INLINE void set_Z(const Form<Basis, Dual<Scalar>>& moving_z, const Derivative& derivative,
+                                const Scalar& stiffness, Form<Basis, Scalar>& z, Form<Basis, Scalar>& Z) {
     value_of_form<parts_of_z>(moving_z, z);
     set_form_rate<parts_of_z>(moving_z, derivative.y, Z);
     add_form<parts_of_z>(Z, stiffness, z);

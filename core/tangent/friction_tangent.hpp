@@ -7,26 +7,28 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct FrictionTangent : SecondXi<B, H, Rigid, S> {
-  using Base = SecondXi<B, H, Rigid, S>;
+template <class Basis, bool Enriched, bool Rigid, class Scalar>
+struct FrictionTangent : SecondXi<Basis, Enriched, Rigid, Scalar> {
+  using Base = SecondXi<Basis, Enriched, Rigid, Scalar>;
   using Base::D, Base::T, Base::N, Base::K, Base::turns, Base::bends, Base::parts, Base::parts_of_rate;
   using Base::x, Base::Y, Base::w, Base::Z, Base::w1, Base::z;
   using typename Base::Derivative;
   using typename Base::Forms;
-  static constexpr bool symmetric = H && !is_flat<B>, has_rest = symmetric; // but for that rest, x_a P_a^T
+  static constexpr bool symmetric = Enriched && !is_flat<Basis>,
+                        has_rest = symmetric; // but for that rest, x_a P_a^T
   static constexpr bool one_by_one = !turns;
   static constexpr int products =
       T * (2 + (turns ? 2 : 0) + (bends ? 2 : 0) + (has_rest ? 1 : 0)); // that an entry is the sum of
-  DofArray<B, Rigid, S> P[T];                                           // dt_a; Y_a + dt_a if not `symmetric`
-  DofArray<B, Rigid, S> g;
+  DofArray<Basis, Rigid, Scalar> P[T];                                  // dt_a; Y_a + dt_a if not `symmetric`
+  DofArray<Basis, Rigid, Scalar> g;
   bool curved_law;
 
-  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<B, H, S>& point,
-                            const Friction<S, B::dim - 1>& friction) {
+  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                            const Friction<Scalar, Basis::dim - 1>& friction) {
     const auto& p = point.projector;
     this->basis = p.nodes.basis;
-    const S stiffness = point.area * point.per_gap;
-    S inverse[K], y[T];
+    const Scalar stiffness = point.area * point.per_gap;
+    Scalar inverse[K], y[T];
     Forms::set_direction(point, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
       const Derivative derivative(p, point.xi, y);
@@ -35,7 +37,7 @@ template <class B, bool H, bool Rigid, class S> struct FrictionTangent : SecondX
           [&]() ENTS_LAMBDA_INLINE { set_projection_terms(plan, point, friction, inverse, derivative); });
       if constexpr (turns)
         Forms::in_part([&]() ENTS_LAMBDA_INLINE {
-          Base::set_height_terms(stiffness, derivative, [](int, Form<B, S>&) ENTS_LAMBDA_INLINE {});
+          Base::set_height_terms(stiffness, derivative, [](int, Form<Basis, Scalar>&) ENTS_LAMBDA_INLINE {});
         });
     });
     curved_law = set_g<Rigid>(plan, point, g);
@@ -67,17 +69,19 @@ template <class B, bool H, bool Rigid, class S> struct FrictionTangent : SecondX
   }
 
 private:
-  ENTS_INLINE void set_projection_terms(const Plan& plan, const ProjectedPoint<B, H, S>& point,
-                                        const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
-                                        const Derivative& derivative) {
-    const S stiffness = point.area * point.per_gap;
+  ENTS_INLINE void set_projection_terms(const Plan& plan,
+                                        const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                                        const Friction<Scalar, Basis::dim - 1>& friction,
+                                        const Scalar (&inverse)[K], const Derivative& derivative) {
+    const Scalar stiffness = point.area * point.per_gap;
     const typename Forms::ChangeOfForce change(point, friction, false);
-    Form<B, S> gap;
-    form_of_p<B, H>(point.projector.s, point.normal, gap);
+    Form<Basis, Scalar> gap;
+    form_of_p<Basis, Enriched>(point.projector.s, point.normal, gap);
     Base::set_projection_terms(
         point, inverse, derivative, stiffness,
-        [&](int a, const Form<B, S>& rate, const Form<B, S>(&xf)[T], const Form<B, S>&) ENTS_LAMBDA_INLINE {
-          Form<B, S> Pf;
+        [&](int a, const Form<Basis, Scalar>& rate, const Form<Basis, Scalar>(&xf)[T],
+            const Form<Basis, Scalar>&) ENTS_LAMBDA_INLINE {
+          Form<Basis, Scalar> Pf;
           Forms::template set_P<!symmetric>(a, derivative, stiffness, rate, xf, change,
                                             Forms::by_gap(a, plan, point, friction), gap, Pf);
           expand_to_dofs<Rigid, symmetric ? parts : parts_of_rate>(this->basis, Pf, point.projector.N, P[a]);

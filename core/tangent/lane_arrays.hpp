@@ -75,11 +75,11 @@ ENTS_INLINE void read_lanes(const double* const (&from)[W], Lanes<W> (&out)[Coun
   read_numbers<Count>(from, out);
 }
 // `each` numbers of each node
-template <int each, class B, int W>
-ENTS_INLINE void read_nodes(const B& basis, const double* const (&from)[W], Lanes<W>* out) {
-  if constexpr (!is_counted<B>) {
-    read_numbers<each * B::nodes>(from, out);
-  } else if constexpr (B::dim == 2) { // few, in which no register need find room
+template <int each, class Basis, int W>
+ENTS_INLINE void read_nodes(const Basis& basis, const double* const (&from)[W], Lanes<W>* out) {
+  if constexpr (!is_counted<Basis>) {
+    read_numbers<each * Basis::nodes>(from, out);
+  } else if constexpr (Basis::dim == 2) { // few, in which no register need find room
     with_basis<2>(basis.which, [&](auto type) ENTS_LAMBDA_INLINE {
       read_numbers<each* decltype(type)::nodes>(from, out);
     });

@@ -10,14 +10,14 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool Rigid, int Parts>
+template <class Basis, bool Rigid, int Parts>
 inline constexpr int fields_of = Rigid                         ? 1
-                                 : (Parts& on_curvatures) != 0 ? B::dim + OnCurvatures<B, int>::count
-                                 : (Parts& on_tangents) != 0   ? B::dim
+                                 : (Parts& on_curvatures) != 0 ? Basis::dim + OnCurvatures<Basis, int>::count
+                                 : (Parts& on_tangents) != 0   ? Basis::dim
                                                                : 1;
 
-template <int Field, class B, class S> ENTS_INLINE auto& on_field(Form<B, S>& f) {
-  constexpr int D = B::dim;
+template <int Field, class Basis, class Scalar> ENTS_INLINE auto& on_field(Form<Basis, Scalar>& f) {
+  constexpr int D = Basis::dim;
   if constexpr (Field == 0)
     return f.x;
   else if constexpr (Field < D)
@@ -25,17 +25,18 @@ template <int Field, class B, class S> ENTS_INLINE auto& on_field(Form<B, S>& f)
   else
     return f.a2.of[Field - D];
 }
-template <int Field, class B, class S> ENTS_INLINE const auto& on_field(const Form<B, S>& f) {
-  return on_field<Field>(const_cast<Form<B, S>&>(f));
+template <int Field, class Basis, class Scalar>
+ENTS_INLINE const auto& on_field(const Form<Basis, Scalar>& f) {
+  return on_field<Field>(const_cast<Form<Basis, Scalar>&>(f));
 }
 
 // What is on the fields, at the slave and at the nodes of the master: 1 and 0 or - N_i, N_i,k and N_i,kl of
 // it.
-template <class B> struct ReducedExpansion;
+template <class Basis> struct ReducedExpansion;
 
 template <> struct ReducedExpansion<Tri3> {
-  template <class S, class V>
-  static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[3], V (&at)[4]) {
+  template <class Scalar, class V>
+  static ENTS_INLINE void expand(const Scalar (&xi)[2], const V (&field)[3], V (&at)[4]) {
     at[0] = field[0];
     at[2] = field[1] - xi[0] * field[0];
     at[3] = field[2] - xi[1] * field[0];
@@ -44,10 +45,10 @@ template <> struct ReducedExpansion<Tri3> {
 };
 template <> struct ReducedExpansion<Quad4> {
   // as factors of 1, xi_1, xi_2 and xi_1 xi_2 at the corners, over 4
-  template <class S, class V>
-  static ENTS_INLINE void expand(const S (&xi)[2], const V (&field)[4], V (&at)[5]) {
-    const S quarter(0.25);
-    const V even = S(-0.25) * field[0];
+  template <class Scalar, class V>
+  static ENTS_INLINE void expand(const Scalar (&xi)[2], const V (&field)[4], V (&at)[5]) {
+    const Scalar quarter(0.25);
+    const V even = Scalar(-0.25) * field[0];
     V one = quarter * field[1], two = quarter * field[2], twist = quarter * field[3];
     add_scaled(twist, xi[0], two);
     add_scaled(one, xi[0], even);
@@ -73,8 +74,8 @@ ENTS_INLINE void expand_fields(const Tangent& t, const V (&field)[Fields], V (&a
 
 // f(a) of each natural coordinate. Code for eight elements, written once for each coordinate, would not fit
 // into the cache of instructions.
-template <int T, class S, class F> ENTS_INLINE void for_each_coordinate(F&& f) {
-  if constexpr (std::is_same_v<S, double> || register_width < 8) {
+template <int T, class Scalar, class F> ENTS_INLINE void for_each_coordinate(F&& f) {
+  if constexpr (std::is_same_v<Scalar, double> || register_width < 8) {
     for (int a = 0; a < T; ++a) f(a);
   } else {
     ENTS_ROLLED
@@ -88,7 +89,7 @@ concept Reduced = requires {
 };
 
 // component c of v += x
-template <class S, int D> ENTS_INLINE void add_to_component(Vec<S, D>& v, int c, const S& x) {
+template <class Scalar, int D> ENTS_INLINE void add_to_component(Vec<Scalar, D>& v, int c, const Scalar& x) {
   for (int i = 0; i < D; ++i) v[i] = i == c ? v[i] + x : v[i];
 }
 #if defined(__AVX__) && defined(__GNUC__) && !defined(__clang__)
@@ -157,9 +158,9 @@ template <int D, Reduced Tangent, int W>
 ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std::int64_t leading,
                                  std::uint32_t used, DeferredCopy* last) {
   constexpr int N = Tangent::N, steps = D * Tangent::fields;
-  using S = Lanes<W>;
+  using Scalar = Lanes<W>;
   const auto between = [&]() ENTS_LAMBDA_INLINE { interleave_copy(last, (W * N * N + steps - 1) / steps); };
-  S entries[N * N];
+  Scalar entries[N * N];
   // rolled as in for_each_coordinate()
   ENTS_ROLLED
   for (int c = 0; c < D; ++c)
@@ -167,7 +168,7 @@ ENTS_NOINLINE void write_tangent(const Tangent& t, double* const (&out)[W], std:
       if (t.curved_law) add_scaled(v, t.g[n][c], t.g[m]);
       store(v, entries + (D * n + c) * N + D * m);
     });
-  write_columns<N>(out, leading, used, [&](int i) ENTS_LAMBDA_INLINE -> const S& { return entries[i]; });
+  write_columns<N>(out, leading, used, [&](int i) ENTS_LAMBDA_INLINE -> const Scalar& { return entries[i]; });
 }
 #endif
 

@@ -9,30 +9,30 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
-  using Forms = FrictionForms<B, H, Rigid, S>;
-  using Expansion = ReducedExpansion<B>;
-  using V = Vec<S, B::dim>;
-  static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
+template <class Basis, bool Enriched, bool Rigid, class Scalar> struct ReducedFrictionTangent {
+  using Forms = FrictionForms<Basis, Enriched, Rigid, Scalar>;
+  using Expansion = ReducedExpansion<Basis>;
+  using V = Vec<Scalar, Basis::dim>;
+  static constexpr int D = Basis::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
   static constexpr bool one_by_one = register_width == 4 && !Rigid; // few registers
-  static constexpr int fields = fields_of<B, Rigid, Forms::parts_of_rate>,
-                       fields_of_x = fields_of<B, Rigid, Forms::parts>;
-  static constexpr int fields_of_g = fields_of<B, Rigid, parts_of_p<H>>;
+  static constexpr int fields = fields_of<Basis, Rigid, Forms::parts_of_rate>,
+                       fields_of_x = fields_of<Basis, Rigid, Forms::parts>;
+  static constexpr int fields_of_g = fields_of<Basis, Rigid, parts_of_p<Enriched>>;
   static constexpr int slopes = Rigid ? 1 : D; // without delta a_kl
-  Form<B, S> x[T], Y[T], P[T];                 // P: Y_a + dt_a
+  Form<Basis, Scalar> x[T], Y[T], P[T];        // P: Y_a + dt_a
   V n, n_rate;
-  Form<B, S> Z[turns ? T : 1], z[bends ? T : 1];
-  Form<B, S> bent_z[bends ? fields - D : 1]; // sum of y^b z_a over both orders of ab
-  S stiffness, y[T], xi[T];
+  Form<Basis, Scalar> Z[turns ? T : 1], z[bends ? T : 1];
+  Form<Basis, Scalar> bent_z[bends ? fields - D : 1]; // sum of y^b z_a over both orders of ab
+  Scalar stiffness, y[T], xi[T];
   V g[M]; // at the nodes
   bool curved_law;
 
-  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<B, H, S>& point,
-                            const Friction<S, B::dim - 1>& friction) {
+  ENTS_INLINE void evaluate(const Plan& plan, const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                            const Friction<Scalar, Basis::dim - 1>& friction) {
     for (int a = 0; a < T; ++a) xi[a] = point.xi[a];
     stiffness = point.area * point.per_gap;
-    S inverse[K];
+    Scalar inverse[K];
     Forms::set_direction(point, friction.force, inverse, y);
     Forms::in_part([&]() ENTS_LAMBDA_INLINE {
       const Derivative derivative(point.projector, point.xi, y);
@@ -42,7 +42,7 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
     });
     curved_law = plan.law.twice_exponent > 2;
     if (curved_law) {
-      Form<B, S> form;
+      Form<Basis, Scalar> form;
       form_of_g(plan, point, form);
       V of[fields];
       unroll<fields>([&](auto f) ENTS_LAMBDA_INLINE {
@@ -126,15 +126,15 @@ template <class B, bool H, bool Rigid, class S> struct ReducedFrictionTangent {
 private:
   using Derivative = typename Forms::Derivative;
 
-  template <bool First = false> static ENTS_INLINE void add(V& sum, const S& factor, const V& v) {
+  template <bool First = false> static ENTS_INLINE void add(V& sum, const Scalar& factor, const V& v) {
     if constexpr (First)
       sum = factor * v;
     else
       add_scaled(sum, factor, v);
   }
 
-  template <int Parts> static ENTS_INLINE void keep(const Form<B, S>& f, Form<B, S>& to) {
-    unroll<fields_of<B, Rigid, Parts>>(
+  template <int Parts> static ENTS_INLINE void keep(const Form<Basis, Scalar>& f, Form<Basis, Scalar>& to) {
+    unroll<fields_of<Basis, Rigid, Parts>>(
         [&](auto field) ENTS_LAMBDA_INLINE { on_field<field.value>(to) = on_field<field.value>(f); });
   }
 
@@ -151,19 +151,20 @@ private:
     if constexpr (Column > T && Row < slopes) add(sum, n[c], on_field<Row>(bent_z[Column - D]));
   }
 
-  ENTS_INLINE void set_projection_terms(const Plan& plan, const ProjectedPoint<B, H, S>& point,
-                                        const Friction<S, B::dim - 1>& friction, const S (&inverse)[K],
-                                        const Derivative& derivative) {
-    Form<B, Dual<S>> f[T];
+  ENTS_INLINE void set_projection_terms(const Plan& plan,
+                                        const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                                        const Friction<Scalar, Basis::dim - 1>& friction,
+                                        const Scalar (&inverse)[K], const Derivative& derivative) {
+    Form<Basis, Dual<Scalar>> f[T];
     forms_of_f(derivative.s, f);
     // (what is added to stays in registers where it is known to be nobody else's)
-    Form<B, S> value[T], xf[T];
+    Form<Basis, Scalar> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     const typename Forms::ChangeOfForce change(point, friction, false);
-    Form<B, S> gap;
-    form_of_p<B, H>(point.projector.s, point.normal, gap);
-    for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
-      Form<B, S> rate, Yf, Pf;
+    Form<Basis, Scalar> gap;
+    form_of_p<Basis, Enriched>(point.projector.s, point.normal, gap);
+    for_each_coordinate<T, Scalar>([&](int a) ENTS_LAMBDA_INLINE {
+      Form<Basis, Scalar> rate, Yf, Pf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
       Forms::template set_P<true>(a, derivative, stiffness, rate, xf, change,
                                   Forms::by_gap(a, plan, point, friction), gap, Pf);
@@ -174,12 +175,12 @@ private:
   }
 
   ENTS_INLINE void set_height_terms(const Derivative& derivative) {
-    Form<B, Dual<S>> moving_z[T];
-    forms_of_z<B>(derivative.s, moving_z);
+    Form<Basis, Dual<Scalar>> moving_z[T];
+    forms_of_z<Basis>(derivative.s, moving_z);
     n = derivative.p.s.n;
-    Form<B, S> zf[T];
-    for_each_coordinate<T, S>([&](int a) ENTS_LAMBDA_INLINE {
-      Form<B, S> Zf;
+    Form<Basis, Scalar> zf[T];
+    for_each_coordinate<T, Scalar>([&](int a) ENTS_LAMBDA_INLINE {
+      Form<Basis, Scalar> Zf;
       Forms::set_Z(moving_z[a], derivative, stiffness, zf[a], Zf);
       keep<Forms::parts_of_z_rate>(Zf, Z[a]);
       if constexpr (bends) keep<Forms::parts_of_z>(zf[a], z[a]);
@@ -188,11 +189,11 @@ private:
       n_rate = derivative_of(derivative.s.n);
       unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
         constexpr int a = k / 2, b = (k + 1) / 2;
-        if constexpr (B::second[k]) {
-          Form<B, S> sum;
+        if constexpr (Basis::second[k]) {
+          Form<Basis, Scalar> sum;
           set_form<Forms::parts_of_z>(sum, derivative.y[b], zf[a]);
           if constexpr (a != b) add_form<Forms::parts_of_z>(sum, derivative.y[a], zf[b]);
-          keep<Forms::parts_of_z>(sum, bent_z[OnCurvatures<B, V>::before(k)]);
+          keep<Forms::parts_of_z>(sum, bent_z[OnCurvatures<Basis, V>::before(k)]);
         }
       });
     }
@@ -200,9 +201,10 @@ private:
 };
 
 // Where it is the faster way (measured)
-template <class B, bool H, bool Rigid, class S>
+template <class Basis, bool Enriched, bool Rigid, class Scalar>
 using FrictionTangentOf =
-    std::conditional_t<std::is_same_v<B, Tri3> || (H && std::is_same_v<B, Quad4>),
-                       ReducedFrictionTangent<B, H, Rigid, S>, FrictionTangent<B, H, Rigid, S>>;
+    std::conditional_t<std::is_same_v<Basis, Tri3> || (Enriched && std::is_same_v<Basis, Quad4>),
+                       ReducedFrictionTangent<Basis, Enriched, Rigid, Scalar>,
+                       FrictionTangent<Basis, Enriched, Rigid, Scalar>>;
 
 } // namespace ents::ENTS_ISA

@@ -9,16 +9,16 @@
 
 namespace ents::ENTS_ISA {
 
-template <class B, bool H, bool Rigid, class S> struct SecondXi {
-  using Forms = FrictionForms<B, H, Rigid, S>;
+template <class Basis, bool Enriched, bool Rigid, class Scalar> struct SecondXi {
+  using Forms = FrictionForms<Basis, Enriched, Rigid, Scalar>;
   using Derivative = typename Forms::Derivative;
-  static constexpr int D = B::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
+  static constexpr int D = Basis::dim, T = D - 1, N = Forms::N, M = Forms::M, K = Forms::K;
   static constexpr bool turns = Forms::turns, bends = Forms::bends;
   static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
-  static constexpr bool counted = counts_dofs<B, Rigid>;
-  using Array = DofArray<B, Rigid, S>;
-  [[no_unique_address]] B basis; // whoever evaluates sets it
-  S weights[2][M];               // s, r
+  static constexpr bool counted = counts_dofs<Basis, Rigid>;
+  using Array = DofArray<Basis, Rigid, Scalar>;
+  [[no_unique_address]] Basis basis; // whoever evaluates sets it
+  Scalar weights[2][M];              // s, r
   Array x[T], Y[T];
   Array w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
 
@@ -26,13 +26,13 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
   ENTS_INLINE constexpr int places() const { return Rigid ? 1 : node_count(basis) + 1; }
 
   // (A W'/g) s s^T + s s1^T + s1 s^T = s r^T + r s^T with r = s1 + (A W'/g) s / 2
-  ENTS_INLINE void set_weights(const S& stiffness, const Derivative& derivative) {
-    const S half = 0.5 * stiffness;
-    weights[0][0] = S(1.0);
+  ENTS_INLINE void set_weights(const Scalar& stiffness, const Derivative& derivative) {
+    const Scalar half = 0.5 * stiffness;
+    weights[0][0] = Scalar(1.0);
     weights[1][0] = half;
     if constexpr (!Rigid)
       for (int i = 0; i + 1 < places(); ++i) {
-        S change = derivative.y[0] * derivative.p.N.d1[0][i];
+        Scalar change = derivative.y[0] * derivative.p.N.d1[0][i];
         if constexpr (T == 2) change = change + derivative.y[1] * derivative.p.N.d1[1][i];
         weights[0][i + 1] = -derivative.p.N.n[i];
         weights[1][i + 1] = -change - half * derivative.p.N.n[i];
@@ -41,19 +41,20 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
 
   // x_a and Y_a; beside(a, f', x, Y) may add to the forms of Y_a.
   template <class Beside>
-  ENTS_INLINE void set_projection_terms(const ProjectedPoint<B, H, S>& point, const S (&inverse)[K],
-                                        const Derivative& derivative, const S& stiffness, Beside&& beside) {
+  ENTS_INLINE void set_projection_terms(const ProjectedPoint<Basis, Enriched, Scalar>& point,
+                                        const Scalar (&inverse)[K], const Derivative& derivative,
+                                        const Scalar& stiffness, Beside&& beside) {
     const auto& p = point.projector;
-    Form<B, Dual<S>> f[T];
+    Form<Basis, Dual<Scalar>> f[T];
     forms_of_f(derivative.s, f);
-    Form<B, S> value[T], xf[T];
+    Form<Basis, Scalar> value[T], xf[T];
     Forms::set_x(f, inverse, value, xf);
     for (int a = 0; a < T; ++a) expand_to_dofs<Rigid, parts>(basis, xf[a], p.N, x[a]);
-    Shape<S, T, B::nodes> shape_rates;
+    Shape<Scalar, T, Basis::nodes> shape_rates;
     if constexpr (Forms::by_third)
       if (has_thirds(basis)) Forms::set_shape_rates(basis, point.xi, derivative.y, shape_rates);
     for (int a = 0; a < T; ++a) {
-      Form<B, S> rate, Yf;
+      Form<Basis, Scalar> rate, Yf;
       Forms::set_Y(a, derivative, stiffness, f, xf, rate, Yf);
       beside(a, rate, xf, Yf);
       expand_to_dofs<Rigid, parts_of_rate>(basis, Yf, p.N, Y[a]);
@@ -64,12 +65,12 @@ template <class B, bool H, bool Rigid, class S> struct SecondXi {
 
   // w_a, Z_a and their changes; beside(a, Z) may add to the form of Z_a.
   template <class Beside>
-  ENTS_INLINE void set_height_terms(const S& stiffness, const Derivative& derivative, Beside&& beside) {
+  ENTS_INLINE void set_height_terms(const Scalar& stiffness, const Derivative& derivative, Beside&& beside) {
     const auto& p = derivative.p;
-    Form<B, Dual<S>> moving_z[T];
-    forms_of_z<B>(derivative.s, moving_z);
+    Form<Basis, Dual<Scalar>> moving_z[T];
+    forms_of_z<Basis>(derivative.s, moving_z);
     unroll<T>([&](auto a) ENTS_LAMBDA_INLINE {
-      Form<B, S> zf, Zf;
+      Form<Basis, Scalar> zf, Zf;
       Forms::set_Z(moving_z[a], derivative, stiffness, zf, Zf);
       beside(a, Zf);
       expand_to_dofs<Rigid, Forms::parts_of_z_rate>(basis, Zf, p.N, Z[a]);
