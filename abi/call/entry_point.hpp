@@ -9,7 +9,7 @@
 #include <exception>
 #include <new>
 
-#include "ents.h"
+#include "abi/ents.h"
 
 namespace ents {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "abi/ents.h"
 #include "core/height/height_tree.hpp"
-#include "ents.h"
 
 namespace ents {
 
