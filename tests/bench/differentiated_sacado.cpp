@@ -2,7 +2,7 @@
 #include "differentiated.hpp"
 
 #ifdef ENTS_BENCH_SACADO
-#define TRILINOS_NO_CONFIG_H // or the other parts of Trilinos that Debian built it with, MPI among them, are \
+#define TRILINOS_NO_CONFIG_H // or the other parts of Trilinos that Debian built it with, MPI among them, are
                              // wanted, too
 #include <Sacado_No_Kokkos.hpp>
 
