@@ -26,6 +26,11 @@ std::int32_t check(std::int32_t status, const ents_report& report) {
   return status;
 }
 
+/// For calls that no smaller step cures: any other status than ENTS_OK ends here.
+void require(std::int32_t status, const ents_report& report) {
+  if (check(status, report) != ENTS_OK) throw std::runtime_error(report.message);
+}
+
 /// The basis of a smoothed segment that the text names, or "".
 std::string smoothed_basis(const std::string& text) {
   for (const char* basis : {"catmull_rom4", "bspline4"})
@@ -39,20 +44,20 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
                              const Options& options)
     : slave_(std::move(slave)), master_(std::move(master)), dofs_(dofs), reach_(options.reach) {
   auto report = made<ents_report>();
-  check(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report), report);
+  require(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report), report);
   std::string text = model;
   const std::size_t first = model.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && model[first] == '{') {
-    check(ents_model_create(model.data(), signed_size(model.size()), nullptr, nullptr, 0, &model_, &report),
-          report);
+    require(ents_model_create(model.data(), signed_size(model.size()), nullptr, nullptr, 0, &model_, &report),
+            report);
   } else {
-    check(ents_model_create_from_file(model.c_str(), &model_, &report), report);
+    require(ents_model_create_from_file(model.c_str(), &model_, &report), report);
     std::ostringstream read;
     read << std::ifstream(model).rdbuf();
     text = read.str();
   }
   layout_ = made<ents_layout>();
-  check(ents_model_layout(model_, &layout_, &report), report);
+  require(ents_model_layout(model_, &layout_, &report), report);
   const std::string basis = smoothed_basis(text);
   if (layout_.dimension != 2 || (layout_.nodes != 2 && basis.empty()))
     throw std::runtime_error(
@@ -68,17 +73,17 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
     begin_.push_back(nodes(master_));
   } else {
     std::int64_t count = 0, terms = 0;
-    check(ents_smooth_size("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
-                           nodes(master_), &count, &terms, &report),
-          report);
+    require(ents_smooth_size("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
+                             nodes(master_), &count, &terms, &report),
+            report);
     segments_.resize(static_cast<std::size_t>(edges(master_) * layout_.nodes));
     begin_.resize(static_cast<std::size_t>(count + 1));
     of_.resize(static_cast<std::size_t>(terms));
     weights_.resize(static_cast<std::size_t>(terms));
-    check(ents_smooth("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
-                      nodes(master_), count, terms, segments_.data(), begin_.data(), of_.data(),
-                      weights_.data(), &report),
-          report);
+    require(ents_smooth("line2", basis.c_str(), options.ends, edges(master_), master_.edges.data(),
+                        nodes(master_), count, terms, segments_.data(), begin_.data(), of_.data(),
+                        weights_.data(), &report),
+            report);
   }
   const std::vector<double> at_rest(static_cast<std::size_t>(dofs_), 0.0);
   points_ = points_begin_ = points(at_rest.data());
@@ -92,9 +97,9 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   mesh_.nodes = signed_size(points_.size() / 2), mesh_.positions = points_.data();
   mesh_.surface_coordinates = coordinates_.empty() ? nullptr : coordinates_.data();
   std::int64_t size = 0;
-  check(ents_tree_size(model_, mesh_.segments, &size, &report), report);
+  require(ents_tree_size(model_, mesh_.segments, &size, &report), report);
   tree_.resize(static_cast<std::size_t>(size));
-  check(ents_tree_build(model_, &mesh_, tree_.data(), size, &report), report);
+  require(ents_tree_build(model_, &mesh_, tree_.data(), size, &report), report);
   for (std::size_t e = 0; options.reach <= 0 && e < master_.edges.size(); e += 2) {
     const double *a = &master_.start[2 * static_cast<std::size_t>(master_.edges[e])],
                  *b = &master_.start[2 * static_cast<std::size_t>(master_.edges[e + 1])];
@@ -103,15 +108,15 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
 
   const std::size_t n = slave_.vertices.size();
   areas_.resize(n);
-  check(ents_tributary_areas("line2", edges(slave_), slave_.edges.data(), nodes(slave_), slave_.start.data(),
-                             options.thickness, areas_.data(), &report),
-        report);
+  require(ents_tributary_areas("line2", edges(slave_), slave_.edges.data(), nodes(slave_),
+                               slave_.start.data(), options.thickness, areas_.data(), &report),
+          report);
   segment_.assign(n, -1);
   segment_begin_ = segment_;
   xi_.assign(n, 0.0);
   xi_begin_ = xi_;
   state_begin_.assign(n * static_cast<std::size_t>(layout_.state_size), 0.0);
-  check(ents_state_init(model_, signed_size(n), state_begin_.data(), layout_.state_size, &report), report);
+  require(ents_state_init(model_, signed_size(n), state_begin_.data(), layout_.state_size, &report), report);
   state_end_ = state_begin_;
 }
 
@@ -132,7 +137,7 @@ std::vector<double> BorderContact::points(const double* u) const {
   combination.begin = begin_.data(), combination.nodes = of_.data(), combination.weights = weights_.data();
   std::vector<double> result(2 * static_cast<std::size_t>(combination.points));
   auto report = made<ents_report>();
-  check(ents_combine(&combination, 2, nodes(master_), now.data(), result.data(), &report), report);
+  require(ents_combine(&combination, 2, nodes(master_), now.data(), result.data(), &report), report);
   return result;
 }
 
@@ -206,7 +211,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   const std::vector<double> slave = now_ = positions(slave_, u);
   points_ = points(u);
   mesh_.positions = points_.data();
-  check(ents_tree_refit(model_, &mesh_, tree_.data(), signed_size(tree_.size()), &report), report);
+  require(ents_tree_refit(model_, &mesh_, tree_.data(), signed_size(tree_.size()), &report), report);
   std::vector<std::int32_t> flags(n);
   auto detection = made<ents_detection>();
   detection.slave = slave.data(), detection.reach = reach_;

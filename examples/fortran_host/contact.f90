@@ -116,7 +116,7 @@ contains
     system%values = c_loc(k)
     ok = ents_iterate(model, mesh, tree, size(tree, kind=int64), 0_int64, slave_count, detection, input, c_loc(output), &
       c_loc(system), report) == ENTS_OK
-    call check(report%status)
+    if (report%status < 0) call check(report%status)
     if (.not. ok) return
     where (iand(flags, ENTS_FLAG_CONTACT) == 0) segment = -1 ! open nodes are searched anew: they may move over another flank
   end function add_contact
@@ -128,10 +128,10 @@ contains
     slave_begin = slave_now
   end subroutine accept_contact
 
-  ! Mistakes end the program with the library's message.
+  ! Whatever is not ENTS_OK ends the program with the library's message: a facet without area, say, has a positive status.
   subroutine check(status)
     integer(c_int32_t), intent(in) :: status
-    if (status >= 0) return
+    if (status == ENTS_OK) return
     print '(a)', "ents: " // ents_string(report%message)
     error stop
   end subroutine check

@@ -2,6 +2,8 @@
 // Contact of two borders, as the plugin of FreeFEM has it: an increment that is cut or thrown away leaves no
 // trace.
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +99,19 @@ TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
   contact_.reject();
   contact_.accept(); // of nothing
   expect_same(before, at(0.1, 0.05));
+}
+
+/// Without areas the contact would have no forces.
+TEST(Border, WithAnEdgeWithoutLengthIsRefused) {
+  const Border master{{0, 1}, {-1, 0, 1, 0}, {0, 1}},
+      slave{{2, 3, 4}, {0.5, 0, -0.5, 0, -0.5, 0}, {0, 1, 1, 2}};
+  try {
+    BorderContact(R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})",
+                  slave, master, 10, Options());
+    FAIL() << "no refusal";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("facet 1"), std::string::npos) << error.what();
+  }
 }
 
 } // namespace
