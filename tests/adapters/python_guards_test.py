@@ -69,7 +69,15 @@ class Statuses(Cases):
 class Heights(Cases):
     def model(self, function, **keys):
         ents.library().register_height("guards", 1, function)
-        return ents.Model({**PLAIN, "height": {"type": "callback", "name": "guards", **keys}})
+        with warnings.catch_warnings():
+            if not keys:
+                warnings.simplefilter("ignore")
+            return ents.Model({**PLAIN, "master": "rigid", "height": {"type": "callback", "name": "guards", **keys}})
+
+    def row(self, model):
+        """A row of 11 slave points over one segment."""
+        x = np.c_[np.linspace(0.5, -0.5, 11), np.full(11, 0.05)]
+        return ents.Contact(model, x, np.c_[np.arange(10), np.arange(1, 11)], [[0, 1]], master_positions=LINE, reach=0.5)
 
     def test_what_a_height_function_raises(self):
         calls = []
@@ -89,6 +97,17 @@ class Heights(Cases):
         model = self.model(lambda order, s: calls.append(order), bound=0.1, slope=0.1, curvature=0.1)  # forgets to return
         self.refused(ents.Status.NO_PROJECTION, ["returned None", "first 1000 calls"], lambda: model.evaluate([[0.1, 0.0]], LINE, "gap"))
         self.assertLess(len(calls), 1010)
+        for value in (None, np.nan):  # once for all slave points of a surface
+            calls.clear()
+            model = self.model(lambda order, s: calls.append(order) or (value if value is None else [value + 0 * s[0]] * (order + 1)))
+            contact = self.row(model)
+            self.refused(ents.Status.NO_PROJECTION, ["returned None or NaN"], lambda: contact.update(np.zeros(contact.rows)))
+            self.assertLess(len(calls), 1010)
+        calls.clear()
+        contact = self.row(self.model(raises, bound=0.1, slope=0.1, curvature=0.1))
+        with self.assertRaisesRegex(ZeroDivisionError, "in the height"):
+            contact.update(np.zeros(contact.rows))
+        self.assertEqual(len(calls), 1)
         half = lambda order, s: None if (s[0] > 0).any() else [0 * s[0]] * (order + 1)
         model = self.model(half, bound=0.1, slope=0.1, curvature=0.1)
         status = model.evaluate([[-0.5, 0.1], [0.5, 0.1]], LINE, "gap", start=[0.0])["status"]
@@ -96,11 +115,15 @@ class Heights(Cases):
 
     def test_a_height_function_without_bounds(self):
         wave = lambda order, s: [0.1 * np.sin(s[0]), 0.1 * np.cos(s[0]), -0.1 * np.sin(s[0]), -0.1 * np.cos(s[0])][:order + 1]
-        with self.assertWarnsRegex(UserWarning, '"guards" comes without slope, curvature'):
+        with self.assertWarnsRegex(UserWarning, '"guards" comes without slope, curvature: .* 100 000 calls a slave point'):
             self.model(wave, bound=0.1)
+        calls = []
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            self.model(wave, bound=0.1, slope=0.1, curvature=0.1)
+            contact = self.row(self.model(lambda order, s: calls.append(order) or wave(order, s), bound=0.1, slope=0.1, curvature=0.1))
+        contact.update(np.zeros(contact.rows))
+        self.assertLess(len(calls), 1109)
+        self.assertAlmostEqual(contact.gap[5], 0.05 / np.sqrt(1.01), delta=1e-3)  # h = 0.1 s near the middle
 
     def test_maps_that_are_hardly_meant(self):
         rng = np.random.default_rng(0)
@@ -120,6 +143,11 @@ class Heights(Cases):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             map_of(heights)
+        profile = lambda values: self.row(ents.Model({"segment": "line2", "master": "rigid", "contact": PENALTY, "height": {
+            "type": "map", "data": "scan", "size": [2], "boundary": "clamped"}}, data={"scan": values}))
+        for words, values in (("are they in the mesh's unit of length", 400 * heights[:1]), ("farther than reach = 0.5", heights[:1] + 0.8 * np.sign(heights[:1]))):
+            with self.assertWarnsRegex(UserWarning, words):
+                profile(values)
         masked = np.ma.masked_less(heights, heights.min() + 1e-9)
         row, column = np.unravel_index(heights.argmin(), heights.shape)
         for call in (lambda: map_of(masked), lambda: ents.Model({"segment": "quad4", "height": {"type": "map", "values": masked, "size": [2, 2], "boundary": "clamped"}})):

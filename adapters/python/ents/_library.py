@@ -85,7 +85,7 @@ class Library:
         """Register a height function, for models with {"type": "callback", "name": name}; None: forget the name. dimension: surface
         coordinates, 1 or 2. function(order, s): order is 2 or 3, s [dimension][count] are points; it returns h and its derivatives up to
         the order, [numbers][count], in the order h, h_1, h_11, h_111 or h, h_1, h_2, h_11, h_12, h_22, h_111, h_112, h_122, h_222, or
-        None where it is not defined (a function that is not defined anywhere raises Error). The call of the library in which the function raises an exception raises that exception. The function
+        None, or NaN, where it is not defined (a function that is not defined anywhere raises Error). The call of the library in which the function raises an exception raises that exception. The function
         is kept for good: models call it as long as they live. Threads that evaluate such a model take turns.
         In the model say "bound", "slope" and "curvature" (largest |h|, |h_1|, |h_11|): without them each search samples the whole segment,
         100 000 calls a slave point."""
@@ -99,15 +99,17 @@ class Library:
             if _raised.error is None:
                 try:
                     numbers = function(order, np.ctypeslib.as_array(s, (dimension, count)))
-                    if numbers is None:
-                        _raised.undefined += 1
-                        if _raised.undefined > MOST_UNDEFINED:
-                            raise Error(Status.NO_PROJECTION, f'the height function "{name}" has returned None, not defined, in its first {MOST_UNDEFINED} calls: '
-                                        "does it return h and its derivatives?")
-                        return 1
-                    _raised.undefined = -math.inf
-                    np.ctypeslib.as_array(jet, (numbers_of_jet, count))[:] = numbers
-                    return 0
+                    values = np.ctypeslib.as_array(jet, (numbers_of_jet, count))
+                    if numbers is not None:
+                        values[:] = numbers
+                    if numbers is not None and not np.isnan(values[0]).all():
+                        _raised.undefined = -math.inf
+                        return 0
+                    _raised.undefined += 1
+                    if _raised.undefined > MOST_UNDEFINED:
+                        raise Error(Status.NO_PROJECTION, f'the height function "{name}" has returned None or NaN, not defined, in its first {MOST_UNDEFINED} '
+                                    "calls: does it return h and its derivatives?")
+                    return 1
                 except BaseException as error:  # noqa: B902: nothing may pass through the library; call() raises it
                     _raised.error = error
             # The results of this call are lost: it ends soonest on a flat surface.
