@@ -40,7 +40,9 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
   result.wanted = want::gap, result.gap = &gap;
   // Most have simply risen; this costs one projection. Without a law the segment has no border: the
   // projection may lie beyond its edges.
-  if (base.element(base, element, result) == Status::ok && gap > plan.height_bound) return Lost::no;
+  const Status projected = base.element(base, element, result);
+  if (projected == Status::ok && gap > plan.height_bound) return Lost::no;
+  if (projected == Status::degenerate_segment) return Lost::beside; // it has collapsed, and shows no side
   // What is closest to the slave, a projection at any distance or a border, says on which side it is. Where
   // the border is known first, the search for a projection looks no farther.
   constexpr double anywhere = 1e100;

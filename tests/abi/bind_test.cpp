@@ -68,38 +68,46 @@ TEST(Bind, LeavesTheModelAsItWasAfterAnError) {
   EXPECT_EQ(bound.results(), before);
 }
 
-TEST(Bind, TreesOfTheModelServeABoundOneOfTheSameHeight) {
-  const Model model(
-      R"({"segment": "line2", "parameters": {"a": 0.1, "eps": 100}, "height": {"type": "sine", "amplitude": "a", )"
-      R"("wave_vector": [1], "phase": 0}, "contact": {"normal": {"type": "penalty", "stiffness": "eps"}}})");
+// A tree is built with the model and used with the one that these values make of it: status, and the gap of a slave
+// above a crest of the height.
+int32_t detect_bound(const std::string& text, const std::vector<double>& values, double& gap) {
+  const Model model(text);
   const int64_t connectivity[] = {0, 1};
-  const double positions[] = {-1, 0, 1, 0};
+  const double positions[] = {-1, 0, 1, 0}, slave[] = {0.25, 0.2};
   ents_master_mesh mesh{};
   mesh.struct_size = sizeof mesh;
   mesh.segments = 1, mesh.nodes = 2, mesh.connectivity = connectivity, mesh.positions = positions;
-  int64_t size = 0;
-  ASSERT_EQ(ents_tree_size(model.get(), 1, &size, nullptr), ENTS_OK);
+  int64_t size = 0, segment = -1;
+  EXPECT_EQ(ents_tree_size(model.get(), 1, &size, nullptr), ENTS_OK);
   std::vector<double> tree(static_cast<std::size_t>(size));
-  ASSERT_EQ(ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr), ENTS_OK);
-  const struct {
-    double height;
-    int32_t status;
-  } cases[] = {{0.1, ENTS_OK}, {0.2, ENTS_BAD_STATE}, {0.1, ENTS_OK}};
+  EXPECT_EQ(ents_tree_build(model.get(), &mesh, tree.data(), size, nullptr), ENTS_OK);
   ents_model* bound = nullptr;
-  for (const auto& c : cases) {
-    const double values[] = {c.height, 300.0};
-    ASSERT_EQ(ents_model_bind(model.get(), values, nullptr, 0, &bound, nullptr), ENTS_OK);
-    const double slave[] = {0.1, 0.2};
-    double xi = 0.0;
-    int64_t segment = -1;
-    int32_t flags = 0;
-    ents_detection detection{};
-    detection.struct_size = sizeof detection;
-    detection.slave = slave, detection.reach = 1.0, detection.segment = &segment, detection.xi = &xi;
-    detection.flags = &flags;
-    EXPECT_EQ(ents_detect(bound, &mesh, tree.data(), size, 0, 1, &detection, nullptr), c.status) << c.height;
-  }
+  EXPECT_EQ(ents_model_bind(model.get(), values.data(), nullptr, 0, &bound, nullptr), ENTS_OK);
+  double xi = 0.0;
+  ents_detection detection{};
+  detection.struct_size = sizeof detection;
+  detection.slave = slave, detection.reach = 1.0, detection.segment = &segment, detection.xi = &xi;
+  detection.gap = &gap;
+  const int32_t status = ents_detect(bound, &mesh, tree.data(), size, 0, 1, &detection, nullptr);
   ents_model_destroy(&bound, nullptr);
+  return status;
+}
+
+TEST(Bind, TreesOfTheModelServeABoundOneOfTheSameHeight) {
+  const auto text = [](const char* amplitude, const char* parameters) {
+    return R"({"segment": "line2", "height": {"type": "sine", "wave_vector": [1], "phase": 0, "amplitude": )" +
+           std::string(amplitude) +
+           R"(}, "contact": {"normal": {"type": "penalty", "stiffness": "eps"}}, "parameters": )" +
+           parameters + "}";
+  };
+  const std::string with = text("\"a\"", R"({"a": 0.1, "eps": 100})"),
+                    without = text("0.1", R"({"eps": 100})");
+  double gap = 0.0;
+  EXPECT_EQ(detect_bound(with, {0.1, 300.0}, gap), ENTS_OK);
+  EXPECT_NEAR(gap, 0.1, 1e-15);
+  EXPECT_EQ(detect_bound(with, {0.2, 300.0}, gap), ENTS_BAD_STATE);
+  EXPECT_EQ(detect_bound(without, {300.0}, gap = 0.0), ENTS_OK);
+  EXPECT_NEAR(gap, 0.1, 1e-15);
 }
 
 TEST(Bind, TakesFieldsOfANewerCallerAndRefusesWhatItDoesNotKnow) {

@@ -124,6 +124,25 @@ TEST(LostContact, IsToldOfEverySlaveThatDoesNotRise) {
   for (const int c : count) EXPECT_GT(c, samples(4000) / 50);
 }
 
+// A master that collapses to a point, as an iterate may, has no side on which its slaves could be open.
+TEST(LostContact, ACollapsedMasterIsNone) {
+  for (const int d : {2, 3})
+    for (const double size : {1e-9, 1e-300, 0.0}) {
+      Sheet sheet(d);
+      const Model model(text_of(d, penalty));
+      Slave slave(model, sheet.mesh);
+      slave.at[0] = 1.4, slave.at[1] = d == 2 ? -0.01 : 1.3, slave.at[2] = -0.01;
+      ASSERT_EQ(slave.detect(), ENTS_OK) << slave.report.message;
+      ASSERT_GE(slave.segment, 0);
+      for (double& x : sheet.positions) x *= size;
+      ASSERT_EQ(call::tree_refit(model.get(), &sheet.mesh, slave.tree.data(),
+                                 static_cast<int64_t>(slave.tree.size()), nullptr),
+                ENTS_OK);
+      EXPECT_EQ(slave.detect(), ENTS_NO_PROJECTION) << size;
+      EXPECT_NE(slave.flags & ENTS_FLAG_LEFT, 0) << size;
+    }
+}
+
 // How a texture goes on beyond the edge is unknown: a slave that is not above its crests has not risen.
 TEST(LostContact, ATextureCountsWithItsGreatestHeight) {
   mechanics::Random random(43);

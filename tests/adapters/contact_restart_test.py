@@ -7,12 +7,13 @@ import pickle
 import sys
 import tempfile
 import unittest
+import warnings
 
 sys.dont_write_bytecode = True
 try:
     import numpy as np
     import scipy.sparse as sparse
-    from bodies import chain
+    from bodies import block, chain, stiffness
     from scipy.sparse.linalg import spsolve
 except ModuleNotFoundError as error:
     print(f"contact_restart_test.py: {error} (Debian: python3-numpy, python3-scipy)")
@@ -89,6 +90,7 @@ class Restart(unittest.TestCase):
         typed.commit()
         value = friction(typed.update(moved(0.0009))[0])
         self.assertEqual(value, friction(np.frombuffer(wanted[0][0])))
+        self.assertAlmostEqual(value, 1e3 * 0.0009 * 0.9, 12)  # it sticks: stiffness, way and length
         with self.assertRaises(ValueError):
             typed.state[:] = saved
         with self.assertRaisesRegex(ents.Error, "state: the shape"):
@@ -139,9 +141,11 @@ class Restart(unittest.TestCase):
         before, _ = contact.update(moved(0.0004))
         nan = np.zeros(X.size)
         nan[2 * COUNT + 3] = np.nan
+        collapsed = np.where(np.arange(len(X))[:, None] < COUNT, 0, -X)
         for u, words in ((np.full(X.size, np.nan), "u[0] is nan"), (nan, "u[15] is nan"), (1e200 * np.random.default_rng(0).normal(size=X.shape), ""),
-                         (np.full(X.size, np.inf), "u[0] is inf")):
-            with self.assertRaises(ents.CutStep) as caught:
+                         (np.full(X.size, np.inf), "u[0] is inf"), (collapsed, "was in contact and lies beside all segments")):
+            with self.assertRaises(ents.CutStep) as caught, warnings.catch_warnings():
+                warnings.simplefilter("error")
                 contact.update(u)
             self.assertIn(words, str(caught.exception))
             self.assertEqual(caught.exception.step_factor, 0.5)
@@ -165,6 +169,32 @@ class Increments(unittest.TestCase):
                 residual, _ = contact.update(np.tile([0.3 * k / count, 0], 4))
                 contact.commit()
             self.assertAlmostEqual(np.abs(residual[::2].sum() / residual[1::2].sum()), 0.3, 12)
+
+    def test_friction_of_points_that_enter_contact(self):
+        """A slider slides over a rigid wave, and points enter its spots (0.2 long) in every increment: mean T / N over whole periods does not depend on
+        the step. It is mu times the mean over the penetrated points of the foot's way over the point's, 1 / (1 - curvature depth)."""
+        mu, amplitude, length, height = 0.3, 0.02, 0.5, 0.013
+        w, s, x = 2 * np.pi / length, np.linspace(0, 0.25, 4001), np.linspace(0, 0.25, 4001)
+        x = x[amplitude * np.sin(w * x) > height]
+        s = x.copy()
+        for _ in range(30):  # Newton's method for the closest point
+            f, f1, f2 = amplitude * np.sin(w * s), amplitude * w * np.cos(w * s), -amplitude * w ** 2 * np.sin(w * s)
+            s -= (s - x + (f - height) * f1) / (1 + f1 ** 2 + (f - height) * f2)
+        depth, cosine = np.hypot(s - x, f - height), 1 / np.sqrt(1 + f1 ** 2)
+        wanted = mu * (depth * cosine / (1 + f2 * cosine ** 3 * depth)).sum() / (depth * cosine).sum()
+        self.assertAlmostEqual(wanted, 0.305, 3)
+        law = {"normal": {"type": "penalty", "stiffness": 1e4}, "friction": {"type": "coulomb", "coefficient": mu, "stiffness": 1e5}}
+        slider = np.c_[np.linspace(2, 0, 201), np.zeros(201)]
+        for step in (0.1, 0.05, 0.02, 0.01):  # 1 / 2 to 1 / 20 of a spot
+            contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law, "height": {"type": "sine", "amplitude": amplitude,
+                                    "wave_vector": [1 / length]}}, slider, chain(np.arange(201)), [[0, 1]], master_positions=[[-3, 0], [6, 0]],
+                                   surface_coordinates="x")
+            forces = np.zeros(2)
+            for k in range(int(round(1.5 / step)) + 1):
+                residual, _ = contact.update(np.tile([k * step, height], 201), tangent=False)
+                contact.commit()
+                forces += residual.reshape(-1, 2).sum(axis=0) if k * step > 0.5 - 1e-9 else 0
+            self.assertAlmostEqual(forces[0] / -forces[1], wanted, delta=1e-3 * wanted)  # 40 points a spot
 
     def test_multipliers_go_along_to_other_segments(self):
         """Augmented friction on one segment and on four: the same forces, after Uzawa's steps on the next segment and back on the first one."""
@@ -263,31 +293,39 @@ class LineSearch(unittest.TestCase):
         self.assertIsNone(tangent)
         np.testing.assert_array_equal(residual, new().update(moved(0.001))[0])
 
+    def iterate(self, search):
+        """A block of E = 1 on a rigid line, friction stiffness 10 E / l, pressed by 4 % and moved by a fifth of an element in one step."""
+        x, cells, n = block((0, 0), (1, 0.5), (4, 4))
+        K, free = stiffness(x, cells), np.arange(2 * n[-1, 0])  # all but its top
+        law = {"normal": {"type": "penalty", "stiffness": 400.0}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 40.0}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law}, x, chain(n[0, ::-1]), [[0, 1]], master_positions=[[-3, 0], [3, 0]], reach=0.3)
+        contact.update(np.zeros(x.size))
+        contact.commit()
+        u, norms = np.zeros(x.size), []
+        u.reshape(-1, 2)[n[-1]] = [0.05, -0.02]
+        for iteration in range(40):
+            residual, tangent = contact.update(u)
+            r = (K @ u + residual)[free]
+            norms.append(np.linalg.norm(r))
+            if iteration and norms[-1] < 1e-12:
+                break
+            du, factor = np.zeros(x.size), 1.0
+            du[free] = -spsolve((K + tangent)[free][:, free].tocsc(), r)
+            while search and factor > 1e-3 and not np.linalg.norm(
+                    (K @ (u + factor * du) + contact.update(u + factor * du, tangent=False)[0])[free]) < (1 - 1e-4 * factor) * norms[-1]:
+                factor /= 2
+            u = u + factor * du
+        return contact, norms
+
     def test_backtracking_ends_where_plain_newton_alternates(self):
-        """Two nodes on springs under friction whose stiffness is far above theirs, moved by a large step: slip one way, slip the other way."""
-        x = np.array([[0.6, 0.0], [0.4, 0.0]])
-        law = {"normal": {"type": "penalty", "stiffness": 1e3}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 1e5}}
-        contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law}, x, [[0, 1]], [[0, 1]], master_positions=[[-3, 0], [3, 0]], reach=0.5)
-        K = sparse.csr_matrix(np.kron(np.eye(2), np.diag([30.0, 50.0])))
-        force = np.tile([0.0, -5.0], 2)
-        contact.update(np.zeros(4))
-        u = np.zeros(4)
-        for step in range(1, 4):
-            for iteration in range(50):
-                residual, tangent = contact.update(u)
-                r = K @ u + residual - step * force
-                if iteration and np.abs(r).max() < 1e-10:
-                    break
-                du, factor = -spsolve((K + tangent).tocsc(), r), 1.0
-                while factor > 1e-3:
-                    trial = K @ (u + factor * du) + contact.update(u + factor * du, tangent=False)[0] - step * force
-                    if np.linalg.norm(trial) < (1 - 1e-4 * factor) * np.linalg.norm(r):
-                        break
-                    factor /= 2
-                u = u + factor * du
-            else:
-                self.fail("no convergence")
-            contact.commit()
+        _, norms = self.iterate(search=False)
+        self.assertEqual(len(norms), 40)
+        self.assertGreater(norms[-1], 1e-3)
+        self.assertAlmostEqual(norms[-1], norms[-3], delta=1e-9)  # slip one way, slip the other way
+        contact, norms = self.iterate(search=True)
+        self.assertLess(len(norms), 8)
+        force = contact.residual.reshape(-1, 2).sum(axis=0)
+        self.assertAlmostEqual(force[0], -0.3 * force[1], 12)  # all of it slips
 
 
 if __name__ == "__main__":

@@ -241,4 +241,5 @@ def _none(mirror: Sequence) -> Sequence:
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300)
+    with np.errstate(over="ignore"):  # of an iterate beyond all bounds, whose step is cut
+        return vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300)
