@@ -313,6 +313,15 @@ class Forces(unittest.TestCase):
             # A constant pressure: half of each facet's share to each of its nodes.
             np.testing.assert_allclose(-residual[1::2], 20 * np.array([0.1, 0.15, 0.3, 0.25]), rtol=0, atol=1e-13)
 
+    def test_traction_is_that_on_the_master(self):
+        """A row in contact slides to the right and drags the master along: traction to the right, and that much on the slave to the left."""
+        law = {**PENALTY, "friction": {"type": "coulomb", "coefficient": 0.25, "stiffness": 1e3}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "contact": law}, [[0.8, -0.01], [0.2, -0.01]], [[0, 1]], [[0, 1]],
+                               master_positions=[[-1, 0], [2, 0]])
+        residual, _ = contact.update(np.tile([0.1, 0.0], 2))
+        np.testing.assert_allclose(contact.pressure, 8, rtol=1e-12)
+        np.testing.assert_allclose(contact.traction, [[2, 0]] * 2, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(residual[::2], 2 * contact.areas, rtol=1e-12)  # internal force: the load that holds the slave points to the right
 
     def test_elements_of_two_processes_add_up(self):
         rng = np.random.default_rng(7)

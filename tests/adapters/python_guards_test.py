@@ -43,6 +43,15 @@ class Statuses(Cases):
                 error = self.refused(ents.Status.DEEP_PENETRATION, ["penetration_limit"], lambda: model.derivatives(slave, LINE, **more), ents.CutStep)
                 self.assertEqual(error.element, k)
 
+    def test_derivatives_with_values_of_the_slave(self):
+        model = ents.Model({**PLAIN, "parameters": {"eps": 100.0}, "contact": {"normal": {"type": "penalty", "stiffness": "eps"}, "offset": 0}})
+        values = [-0.005, 1, 1]  # the gap is smaller by 0.005
+        found = model.derivatives([[0.1, -0.01]], LINE, slave_values=values)
+        residual = model.evaluate([[0.1, -0.01]], LINE, "residual", slave_values=values)["residual"][0]
+        np.testing.assert_allclose(residual[1], -1.5)
+        np.testing.assert_allclose(found["residual"][0, 0], residual / 100)
+        np.testing.assert_allclose(found["energy"], 0.5 * 0.015 ** 2)
+
     def test_facets_without_area(self):
         library = ents.library()
         for call in (lambda: library.tributary_areas("quad4", *FLAT), lambda: library.sampling_points("quad4", 2, *FLAT),

@@ -37,6 +37,13 @@ class Page(unittest.TestCase):
         force = names["K"] @ names["u"] + names["contact"].residual - names["force"]
         self.assertLess(np.abs(force).max(), 1e-9)
 
+    def test_a_step_without_convergence_is_not_committed(self):
+        page = (pathlib.Path(__file__).resolve().parents[2] / "adapters" / "python" / "README.md").read_text()
+        first = re.findall(r"```python\n(.*?)```", page, re.S)[0]
+        self.assertIn("range(30)", first)
+        with self.assertRaisesRegex(RuntimeError, "no convergence at y = -0.05"):
+            exec(first.replace("range(30)", "range(1)"), {})
+
     def test_lines(self):
         page = (pathlib.Path(__file__).resolve().parents[2] / "adapters" / "python" / "README.md").read_text()
         self.assertFalse([line for line in page.splitlines() if len(line) > 120 and not line.startswith("|")])
