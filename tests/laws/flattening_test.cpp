@@ -108,6 +108,36 @@ TEST(Flattening, SeveralAnswersAreRefused) {
   EXPECT_GT(one, 1000);
 }
 
+// The variations of the gap are those at a fixed scale, whose gap is y - s h: 1 for the slave's y. The gap's own
+// derivative is less: the surface gives way, ds/dy > 0 where h > 0. The tangent has it.
+TEST(Flattening, VariationsOfTheGapAreThoseAtAFixedScale) {
+  const double height = 0.05, y = 0.02, step = 1e-6;
+  const mechanics::Model model(model_with(height).dump());
+  const double slave[2] = {0.3, y}, master[4] = {-1, 0, 1, 0}, start = 0.3;
+  double gradient[6], hessian[36], xi_gradient[6], tangent[36], gap = 0.0;
+  ents_input in{};
+  in.struct_size = sizeof in, in.slave = slave, in.master = master, in.start = &start;
+  ents_output out{};
+  out.struct_size = sizeof out;
+  out.wanted = ENTS_GAP | ENTS_GAP_GRADIENT | ENTS_GAP_HESSIAN | ENTS_XI_GRADIENT | ENTS_TANGENT;
+  out.gap = &gap, out.gap_gradient = gradient, out.gap_hessian = hessian, out.xi_gradient = xi_gradient;
+  out.tangent = tangent;
+  ASSERT_EQ(ents_evaluate(model.handle(), 0, 1, &in, &out, nullptr), ENTS_OK);
+  const double share[2] = {0.5 * (1 - start), 0.5 * (1 + start)};
+  const double expected[6] = {0, 1, 0, -share[0], 0, -share[1]}; // of y - s h - the height of the segment
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(gradient[i], expected[i], 1e-14) << i;
+  // along the segment xi is x
+  EXPECT_NEAR(xi_gradient[0], 1.0, 1e-14);
+  EXPECT_NEAR(xi_gradient[2], -share[0], 1e-14);
+  EXPECT_NEAR(hessian[7], 0.0, 1e-14);
+  const auto difference = [&](double FlattenedAnswer::*of) {
+    return (evaluate_at(height, y + step).*of - evaluate_at(height, y - step).*of) / (2 * step);
+  };
+  const double by_difference = difference(&FlattenedAnswer::gap);
+  EXPECT_LT(by_difference, 0.9);
+  EXPECT_NEAR(tangent[7], eps * by_difference, 1e-6 * eps);
+}
+
 std::string refusal(const json& text) {
   ents_model* model = nullptr;
   ents_report report{};

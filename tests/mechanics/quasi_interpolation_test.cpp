@@ -3,6 +3,7 @@
 // nodes lie, continuity, ends, and the nodal forces of a uniform pressure.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "smoothed_surface.hpp"
@@ -72,6 +73,25 @@ TEST(QuasiInterpolation, OfARingHasOrderFour) {
   EXPECT_NEAR(order("ring, control points at the nodes", nodes), 2.0, 0.05);
   EXPECT_GT(order("ring, quasi-interpolation", quasi), 3.9);
   EXPECT_NEAR(quasi[1], 1.56e-4, 1e-6);
+  // the spline whose control points are the nodes runs inside of them, most in the middle of a facet
+  const double a = pi / 24;
+  EXPECT_NEAR(nodes[1], 1.1 * (1.0 - (23.0 * std::cos(a) + std::cos(3.0 * a)) / 24.0), 1e-9);
+  EXPECT_NEAR(nodes[1], 0.0125, 1e-5);
+}
+
+TEST(QuasiInterpolation, ControlPointsAreOfThreeNeighbours) {
+  const HostMesh ring = chain(24, true);
+  const SmoothedSurface spline("bspline4", ring, ENTS_ENDS_QUASI_CUBIC);
+  for (const std::int64_t point : spline.surface.connectivity) {
+    const std::int64_t first = spline.begin[static_cast<std::size_t>(point)],
+                       end = spline.begin[static_cast<std::size_t>(point) + 1];
+    std::vector<double> weights(spline.weights.begin() + first, spline.weights.begin() + end);
+    std::sort(weights.begin(), weights.end());
+    ASSERT_EQ(weights.size(), 3u);
+    EXPECT_NEAR(weights[0], -1.0 / 6.0, 1e-15);
+    EXPECT_NEAR(weights[1], -1.0 / 6.0, 1e-15);
+    EXPECT_NEAR(weights[2], 8.0 / 6.0, 1e-15);
+  }
 }
 
 // Over an arc whose ends are free: nodes that are not equidistant (x = t + t^2 / 4).
