@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/element/make_plan.hpp"
+#include "core/height/height_value.hpp"
 
 namespace ents {
 
@@ -43,6 +44,14 @@ bool has_base_normal(Basis basis, const double* master, const double* xi) {
   return plan.surface(plan, master, nullptr, xi, {}) == Status::ok;
 }
 
+// Is the height a function that is not defined there? log(s) beyond 0, say, whose derivatives have values.
+bool has_no_height(const Plan& plan, const double* master, const double* surface_coordinates,
+                   const double* xi) {
+  double s[2], area_per_s = 0.0;
+  return plan.coordinates(plan, master, surface_coordinates, xi, s, area_per_s) == Status::ok &&
+         !is_defined_at(*plan.height, plan.parameters, s, 2);
+}
+
 } // namespace
 
 double cosine_of_ray(const Plan& plan, const double* point, const double* normal) {
@@ -73,8 +82,10 @@ Status check_admissibility(const Model& model, const Plan& plan, const double* m
       double point[3], normal[3], height, curvature, base_curvature;
       const SurfacePoint out = {point, normal, &height, nullptr, nullptr, &curvature, &base_curvature};
       const Status status = plan.surface(plan, master, surface_coordinates, xi, out);
-      if (status == Status::degenerate_segment && plan.height &&
-          has_base_normal(model.basis, master, xi)) { // a fold of rho_e
+      if (plan.height &&
+          (status == Status::degenerate_segment ||
+           (status == Status::out_of_range && has_no_height(plan, master, surface_coordinates, xi))) &&
+          has_base_normal(model.basis, master, xi)) { // a fold of rho_e, or it has no height there
         keep_larger(result.fold, infinity, xi);
         keep_smaller(result.reach, 0.0, xi);
         continue;

@@ -95,23 +95,46 @@ TEST(UndefinedHeight, IsNoDegenerateSegment) {
               ENTS_NO_PROJECTION)
         << c.height;
   }
-  // nowhere at all
-  const Model nowhere(with_height("line2", expression("sqrt(-1 - u^2)")));
+}
+
+// Checks name a height that has no value anywhere; where it has one on a part, that part is checked, and the rest
+// is a fold.
+TEST(UndefinedHeight, IsNamedByTheChecks) {
   const double master[] = {-1, 0, 1, 0};
-  ents_admissibility admissibility{};
-  admissibility.struct_size = sizeof admissibility;
-  ents_report report = new_report();
-  EXPECT_EQ(
-      call::model_check(nowhere.get(), master, static_cast<const double*>(nullptr), &admissibility, &report),
-      ENTS_NO_PROJECTION);
-  EXPECT_NE(std::string(report.message).find("at s = (0)"), std::string::npos) << report.message;
   const int64_t connectivity[] = {0, 1};
   ents_master_mesh mesh{};
   mesh.struct_size = sizeof mesh;
   mesh.segments = 1, mesh.nodes = 2, mesh.connectivity = connectivity, mesh.positions = master;
-  ents_surface_admissibility of_surface{};
-  of_surface.struct_size = sizeof of_surface;
-  EXPECT_EQ(call::surface_check(nowhere.get(), &mesh, &of_surface, &report), ENTS_NO_PROJECTION);
+  const struct {
+    const char* height;
+    bool somewhere;
+  } cases[] = {{"sqrt(-1 - u^2)", false}, {"log(u - 2)", false}, {"sqrt(u)", true}, {"log(u)", true}};
+  for (const auto& c : cases) {
+    const Model model(with_height("line2", expression(c.height)));
+    const int32_t expected = c.somewhere ? ENTS_OK : ENTS_NO_PROJECTION;
+    const auto is_named = [&](const ents_report& report) {
+      EXPECT_EQ(c.somewhere, std::string(report.message).find("at s = (0)") == std::string::npos)
+          << c.height << " " << report.message;
+    };
+    ents_admissibility of_segment{};
+    of_segment.struct_size = sizeof of_segment;
+    ents_report report = new_report();
+    EXPECT_EQ(
+        call::model_check(model.get(), master, static_cast<const double*>(nullptr), &of_segment, &report),
+        expected)
+        << c.height << " " << report.message;
+    is_named(report);
+    ents_surface_admissibility of_surface{};
+    of_surface.struct_size = sizeof of_surface;
+    report = new_report();
+    EXPECT_EQ(call::surface_check(model.get(), &mesh, &of_surface, &report), expected)
+        << c.height << " " << report.message;
+    is_named(report);
+    if (!c.somewhere) continue;
+    EXPECT_NE(of_surface.violated & (1 << ENTS_CHECK_FOLD), 0) << c.height;
+    EXPECT_LT(of_surface.height_min, of_surface.height_max) << c.height;
+    EXPECT_TRUE(std::isfinite(of_surface.height_min) && std::isfinite(of_segment.height_max)) << c.height;
+  }
 }
 
 // Tangents with friction have third derivatives. Where one is NaN or infinite, the element has no projection:
