@@ -300,8 +300,9 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
 /// digits.
 constexpr double touch_share = 1e-6, rise_share = 1e-9;
 
-/// A body that only contact holds, and that begins on the master with a gap of zero, would be loose in the
-/// first iteration: elements at zero gap are open. The master is raised until the nodes on it are in contact.
+/// A body that only contact holds, and that begins on the master, would be loose in the first iteration where
+/// its elements are open: rounding may leave a gap above 0, and laws with multipliers and tables are open at
+/// 0, too. The master is raised until the nodes on it are in contact.
 void raise_master(const Mesh& mesh, Contact& contact) {
   const double size = mean_size(mesh, contact.master);
   contact.touch = touch_share * size;
