@@ -70,8 +70,7 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
   if (result.outcome == Outcome::failed) ccx::stop("U1E", result.message);
   if (result.outcome == Outcome::cut)
     qa[2] = qa[2] > 0 ? std::fmin(qa[2], result.step_factor) : result.step_factor;
-  ccx::note_contact(*nelem, result.contact);
-  if (result.left) ccx::note_left(*nelem, {co, v, mi[1] + 1});
+  if (result.left) ccx::note_left(host, *nelem, {v, mi[1] + 1});
   if (result.message[0]) std::printf(" %s\n", result.message);
   for (int i = 0; i < dofs; ++i) {
     if (*calcul_fn == 1) fn[nodal(i)] += residual[i];
@@ -81,9 +80,9 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
 }
 
 /// An increment has converged at vold.
-CCX_API void ents_ccx_increment_end_(const double* co, const double* vold, const int* mi, const int* istep,
+CCX_API void ents_ccx_increment_end_(const double*, const double* vold, const int* mi, const int* istep,
                                      const int* iinc) {
-  ccx::check_patches({co, vold, mi[1] + 1}, *istep, *iinc);
+  ccx::check_patches(host, {vold, mi[1] + 1}, *istep, *iinc);
 }
 
 /// Before the first increment: does a contact element need ccx's unsymmetric solver?

@@ -11,6 +11,7 @@
 
 #include "body.hpp"
 #include "description.hpp"
+#include "patch_watch.hpp"
 #include "selfcheck.hpp"
 
 namespace ents_adapter {
@@ -138,6 +139,18 @@ std::string place_of(const double* slave, int dimension) {
   std::snprintf(text, sizeof text, dimension == 2 ? "(%.6g, %.6g)" : "(%.6g, %.6g, %.6g)", slave[0], slave[1],
                 slave[2]);
   return text;
+}
+
+/// An open slave beside its patch, below the surface as it goes on there, no deeper than the patch is wide.
+bool lies_beside(const Arguments& arguments, int32_t flags, double gap, const double* master) {
+  if (!arguments.model->patch || !(flags & ENTS_FLAG_OUTSIDE) || (flags & ENTS_FLAG_CONTACT) || !(gap < 0) ||
+      (arguments.options & option_may_leave))
+    return false;
+  const int d = arguments.model->layout.dimension;
+  double width = 0;
+  for (int node = 1; node < arguments.model->layout.nodes; ++node)
+    for (int i = 0; i < d; ++i) width = std::max(width, std::abs(master[d * node + i] - master[i]));
+  return -gap <= width;
 }
 
 /// The host's history as a state block; hosts begin with zeros.
@@ -321,6 +334,13 @@ Result evaluate(const Element& e) {
             "that lie there; if the master ends there, add 16 to " + e.host->properties + "3");
     return result;
   }
+  result.beside = lies_beside(arguments, flags, gap, input.master);
+  result.depth = result.beside ? -gap : 0;
+  if (e.listed && e.number >= 0 && !arguments.body)
+    if (const std::string wrong =
+            note(e, model.patch, arguments.slave_nodes, result.contact, result.beside, result.depth);
+        !wrong.empty())
+      return fail(e, wrong);
   if (arguments.body) {
     double of_body[largest_body_dofs], matrix[largest_body_dofs * largest_body_dofs];
     ents_pose_element(layout.dimension, &body.pose, unknowns, residual, e.tangent ? tangent : nullptr,

@@ -136,10 +136,8 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
 }
 
 /// @return null if the model has no height, or takes no start
-ents_model* without_height(const std::string& file, const std::string& directory) {
-  std::ifstream in(file, std::ios::binary);
-  auto model = nlohmann::json::parse(in, nullptr, false);
-  if (!model.is_object() || !model.contains("height") || model["height"].is_null() || model.contains("patch"))
+ents_model* without_height(nlohmann::json model, const std::string& directory) {
+  if (!model.contains("height") || model["height"].is_null() || model.contains("patch"))
     return nullptr; // on a patch the library finds the start by itself
   model["height"] = nullptr;
   const std::string text = model.dump();
@@ -171,7 +169,11 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
     ents_model_destroy(&loaded->model, nullptr);
     return loaded;
   }
-  loaded->base = without_height(loaded->file, directory);
+  std::ifstream in(loaded->file, std::ios::binary);
+  if (auto model = nlohmann::json::parse(in, nullptr, false); model.is_object()) {
+    loaded->patch = model.contains("patch");
+    loaded->base = without_height(std::move(model), directory);
+  }
   return loaded;
 }
 

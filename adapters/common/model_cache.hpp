@@ -37,6 +37,7 @@ struct LoadedModel {
   std::vector<ElementRow> rows; ///< sorted by element
   int slave_nodes = 1;          ///< of each row
   bool offsets = false;         ///< in each row
+  bool patch = false;           ///< the element has several segments
   std::vector<double> body;     ///< [m][d] master nodes about the reference node; empty: they are the host's
 
   /// @return null if there is no such line

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents_patches.json: what the adapter of CalculiX needs to notice a slave point that is beside its patch.
+// ents_patches.json: what the adapters need to notice a slave point that is beside its patch.
 #include "write.hpp"
+
+#include <set>
 
 #include "library.hpp"
 
@@ -8,7 +10,9 @@ namespace ents_deck {
 
 nlohmann::ordered_json watched(const Job& job) {
   nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
+  std::set<int> used;
   const auto ids = [&](const std::vector<int>& nodes) {
+    used.insert(nodes.begin(), nodes.end());
     nlohmann::ordered_json out = nlohmann::ordered_json::array();
     for (const int node : nodes) out.push_back(job.mesh.nodes[static_cast<std::size_t>(node)].id);
     return out;
@@ -31,6 +35,7 @@ nlohmann::ordered_json watched(const Job& job) {
                         {"nodes", ids(point.nodes)},
                         {"weights", point.weights},
                         {"normal", point.normal},
+                        {"masters", patch_of[i] ? ids(patch_of[i]->nodes) : nlohmann::ordered_json::array()},
                         {"faces", patch_of[i] ? nlohmann::ordered_json(patch_of[i]->faces)
                                               : nlohmann::ordered_json::array()}});
     }
@@ -42,7 +47,12 @@ nlohmann::ordered_json watched(const Job& job) {
                      {"faces", std::move(faces)},
                      {"points", std::move(points)}});
   }
-  return {{"pairs", std::move(pairs)}};
+  nlohmann::ordered_json nodes = nlohmann::ordered_json::array();
+  for (const int node : used) {
+    const Node& at = job.mesh.nodes[static_cast<std::size_t>(node)];
+    nodes.push_back({at.id, at.x[0], at.x[1], at.x[2]});
+  }
+  return {{"nodes", std::move(nodes)}, {"pairs", std::move(pairs)}};
 }
 
 } // namespace ents_deck

@@ -230,7 +230,7 @@ std::vector<JobFile> files_of_job(const Job& job, const Options& options, const 
          own == edits.end() ? string(source.files[f].text) : edited(source.files[f].text, own->second),
          {}});
   }
-  if (options.program == Program::calculix)
+  if (has_tables(job)) // element numbers are those of the deck
     files.push_back({out / "ents_patches.json", watched(job).dump() + "\n", {}});
   const std::int64_t first = first_free_element(job);
   std::map<string, string> maps;

@@ -36,7 +36,7 @@ std::int64_t first_free_element(const Job& job);
 /// Are areas and coordinates in tables ents_k.txt (flat decks), or in properties (decks with parts)?
 bool has_tables(const Job& job);
 
-/// ents_patches.json, from which the adapter of CalculiX notices slave points beside their patches.
+/// ents_patches.json, from which the adapters notice slave points beside their patches.
 nlohmann::ordered_json watched(const Job& job);
 
 /// A file of the job: its text, or a copy of another one.

@@ -45,6 +45,12 @@
           real (c_double), value    :: factor
           character (kind=c_char)   :: text(*)
         end function
+        integer (c_int) function ents_feap_step_end(number,text,
+     &                           length) bind(c)
+          import :: c_int, c_char
+          integer (c_int), value    :: number,length
+          character (kind=c_char)   :: text(*)
+        end function
       end interface
 
       status = 0
@@ -62,6 +68,8 @@
 !       ul(:,:,2): u - u_n
         status = ents_feap_form(d,xl,ul,ul(1,1,2),n_el,nel,ndf,ndm,
      &           nst,want,ctan(1),hr(nh1),hr(nh2),words,s,p,text,width)
+      elseif(isw.eq.12) then
+        status = ents_feap_step_end(n_el,text,width)
       elseif(isw.eq.14) then
         do i = 0,nint(d(4))-1
           hr(nh1+i) = 0.0d0

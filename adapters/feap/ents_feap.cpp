@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include "../common/element.hpp"
 #include "../common/limits.hpp"
+#include "../common/patch_watch.hpp"
 
 #define FEAP_API extern "C" __attribute__((visibility("default")))
 
@@ -27,10 +29,10 @@ Element describe(const double* d, int nodes, int ndf, int ndm) {
   return e;
 }
 
-void keep(const Result& result, char* text, int length) {
+void keep(const char* message, char* text, int length) {
   std::memset(text, ' ', static_cast<std::size_t>(length));
-  const std::size_t size = std::strlen(result.message);
-  std::memcpy(text, result.message,
+  const std::size_t size = std::strlen(message);
+  std::memcpy(text, message,
               size < static_cast<std::size_t>(length) ? size : static_cast<std::size_t>(length));
 }
 
@@ -50,7 +52,7 @@ FEAP_API int ents_feap_check(const double* d, int nodes, int ndf, int ndm, int* 
   e.history_size = largest_history;
   const Result result = check(e);
   *history = result.state_size;
-  keep(result, text, length);
+  keep(result.message, text, length);
   return result.outcome == Outcome::done ? 0 : 1;
 }
 
@@ -74,6 +76,17 @@ FEAP_API int ents_feap_form(const double* d, const double* xl, const double* ul,
   if (tangent) e.tangent = {s, 1, nst};
   e.history_end = {end};
   const Result result = evaluate(e);
-  keep(result, text, length);
+  keep(result.message, text, length);
   return result.outcome != Outcome::done ? 1 : result.message[0] ? 2 : 0;
+}
+
+/// isw 12: the step that TIME ends has converged.
+/// @return 0; 1: stop, a contact is lost; 2: there is something to say
+FEAP_API int ents_feap_step_end(int number, char* text, int length) {
+  const IncrementEnd end = element_converged(host, number);
+  std::string words;
+  for (const std::string& warning : end.warnings) words += (words.empty() ? "" : "; ") + warning;
+  if (!end.lost.empty()) words = end.lost;
+  keep(words.c_str(), text, length);
+  return !end.lost.empty() ? 1 : words.empty() ? 0 : 2;
 }

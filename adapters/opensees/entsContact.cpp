@@ -5,10 +5,12 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <string>
 #include <vector>
 
 #include "../common/element.hpp"
 #include "../common/limits.hpp"
+#include "../common/patch_watch.hpp"
 
 extern "C" {
 
@@ -119,7 +121,23 @@ int read(eleObject* ele) {
   return 0;
 }
 
+/// OpenSees passes over what an element answers to COMMIT: every FORM after it is refused.
+std::string& lost_contact() {
+  static std::string& one = *new std::string;
+  return one;
+}
+
+int commit_element(eleObject* ele) {
+  std::copy(ele->tState, ele->tState + ele->nState, ele->cState);
+  const IncrementEnd end = element_converged(host, ele->tag);
+  for (const std::string& text : end.warnings) tell(text.c_str());
+  if (end.lost.empty()) return 0;
+  lost_contact() = end.lost;
+  return tell(end.lost.c_str());
+}
+
 int evaluate_element(eleObject* ele, double* tang, double* resid) {
+  if (!lost_contact().empty()) return tell(lost_contact().c_str());
   int d = static_cast<int>(ele->param[3]);
   double position[largest_dofs], displacement[largest_dofs], change[largest_dofs], residual[largest_dofs],
       tangent[largest_dofs * largest_dofs];
@@ -177,7 +195,7 @@ extern "C" __attribute__((visibility("default"))) void entsContact(eleObject* el
     *error = read(ele);
     break;
   case commit:
-    std::copy(ele->tState, ele->tState + ele->nState, ele->cState);
+    *error = commit_element(ele);
     break;
   case revert:
     std::copy(ele->cState, ele->cState + ele->nState, ele->tState);

@@ -33,10 +33,12 @@ public:
     HostWithHistory::accept();
   }
 
+  int number(int element) const override { return 7000 + element; }
+
 private:
   Answer call(int element, const std::vector<double>& displacement, int keyHisUpd) {
     if (!keyHisUpd) last_[at(element)] = displacement;
-    int number = 7000 + element, d = elements_.dimension, nNodes = static_cast<int>(nodes(element).size()),
+    int id = number(element), d = elements_.dimension, nNodes = static_cast<int>(nodes(element).size()),
         nUsrDof = nNodes * d, one = 1, none = 0, nReal = elements_.options != 0 ? 3 : 2, nSaveVars = size_,
         keyEleErr = 99, keyEleCnv = 99;
     int keyMtx[10] = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0};
@@ -49,7 +51,7 @@ private:
                       static_cast<double>(elements_.options)},
            zero = 0;
     for (int i = 0; i < size_; ++i) save[at(i)] = committed(element)[at(i)];
-    userelem_(&number, &one, keyMtx, &none, &d, &nNodes, nullptr, &one, &nUsrDof, &none, &none, &one, &none,
+    userelem_(&id, &one, keyMtx, &none, &d, &nNodes, nullptr, &one, &nUsrDof, &none, &none, &one, &none,
               nullptr, nullptr, nullptr, &zero, &none, &none, nullptr, &none, &nReal, real, &nSaveVars,
               save.data(), x.data(), current.data(), u.data(), change.data(), still.data(), still.data(),
               still.data(), &none, &one, &one, &none, &none, &one, &keyHisUpd, &one, &one, &one, &zero,

@@ -50,6 +50,8 @@ public:
   virtual Answer evaluate(int element, const std::vector<double>& displacement) = 0;
   /// The increment has converged: what the last evaluation left is the history.
   virtual void accept() = 0;
+  /// Of an element, as the host passes it; -1: it passes none
+  virtual int number(int /*element*/) const { return -1; }
 
 protected:
   /// Entries of the element's nodes, one after the other.

@@ -85,7 +85,12 @@ public:
     history_out(element);
     return answer;
   }
-  void accept() override { committed_ = trial_; }
+  int number(int element) const override { return element + 1; }
+  /// TIME calls all elements with isw 12 before the next step.
+  void accept() override {
+    committed_ = trial_;
+    for (int k = 0; k < static_cast<int>(d_.size()); ++k) call(k, 12, nullptr, nullptr, nullptr, nullptr);
+  }
 
 private:
   void call(int k, int isw, double* xl, double* ul, double* s, double* p) {

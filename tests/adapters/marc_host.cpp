@@ -23,7 +23,7 @@ public:
       : HostWithHistory(elements, 2), as_user_code_(as_user_code) {}
 
   Answer evaluate(int element, const std::vector<double>& displacement) override {
-    int number = element + 1, nnode = static_cast<int>(nodes(element).size()), d = elements_.dimension,
+    int m = number(element), nnode = static_cast<int>(nodes(element).size()), d = elements_.dimension,
         idss = nnode * d, jtype = -9, none = 0, nstats = size_;
     const auto n = at(idss);
     Guarded xk(n * n), xm(n * n), f(n), r(n), dt(at(size_));
@@ -39,9 +39,9 @@ public:
                       1e99,
                       1e99};
     const auto call = [&](int iflag) {
-      uselem_(&number, xk.data(), xm.data(), &nnode, &d, f.data(), r.data(), &jtype, u.data(),
-              increment.data(), &none, &none, &none, &nstats, &none, &none, x.data(), &d, &iflag, &idss,
-              t.data(), dt.data(), nullptr, nullptr, nullptr, geom, nullptr, nullptr, &none);
+      uselem_(&m, xk.data(), xm.data(), &nnode, &d, f.data(), r.data(), &jtype, u.data(), increment.data(),
+              &none, &none, &none, &nstats, &none, &none, x.data(), &d, &iflag, &idss, t.data(), dt.data(),
+              nullptr, nullptr, nullptr, geom, nullptr, nullptr, &none);
       for (const Guarded* array : {&xk, &xm, &f, &r, &dt}) array->check_guards("an array");
     };
     Answer answer;
@@ -55,11 +55,23 @@ public:
     for (std::size_t i = 0; i < n; ++i)
       if (r[i] != answer.residual[i]) throw std::runtime_error("r differs between iflag 2 and 4");
     for (int i = 0; i < elements_.state_size; ++i) trial(element)[at(i)] = t[at(i)] + dt[at(i)];
-    call(1), call(3), call(5);
+    call(1), call(3);
     f.check_written("f", 0, n), xm.check_written("xm", 0, n * n);
     for (double& force : answer.residual)
       if (as_user_code_) force = -force;
     return answer;
+  }
+  int number(int element) const override { return element + 1; }
+  /// Output of the increment.
+  void accept() override {
+    HostWithHistory::accept();
+    for (int k = 0; k < static_cast<int>(elements_.nodes.size()); ++k) {
+      int m = number(k), nnode = static_cast<int>(nodes(k).size()), d = elements_.dimension, idss = nnode * d,
+          jtype = -9, none = 0, nstats = size_, output = 5;
+      uselem_(&m, nullptr, nullptr, &nnode, &d, nullptr, nullptr, &jtype, nullptr, nullptr, &none, &none,
+              &none, &nstats, &none, &none, nullptr, &d, &output, &idss, nullptr, nullptr, nullptr, nullptr,
+              nullptr, nullptr, nullptr, nullptr, &none);
+    }
   }
 
 private:

@@ -127,6 +127,7 @@ TEST_P(Mistakes, AreasInTheTableAreNone) {
   std::ofstream table("ents_947.txt");
   for (const int first : {1, 100, 7000, 90001}) // numbers that the emulated hosts give
     for (int k = 0; k < 9; ++k) table << first + k << " 0.4\n";
+  for (int b = 0; b < 136; ++b) table << 500001 + b << " 0.4\n"; // others in a block of Abaqus/Explicit
   table.close();
   Elements in_table = p.elements, in_deck = p.elements;
   in_table.model = 947, in_table.area.assign(9, 0), in_deck.area.assign(9, 0.4);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OpenSees, emulated: the functions that it offers loaded elements, and an element's life: INIT, FORM ...
 // COMMIT or REVERT.
+#include <cstdio>
 #include <cstring>
 
 #include "guarded.hpp"
@@ -56,7 +57,7 @@ public:
     domain.dimension = elements.dimension, domain.extra = extra, domain.mismatches = 0;
     for (int k = 0; k < static_cast<int>(elements.nodes.size()); ++k) {
       const auto& list = nodes(k);
-      domain.integers = {100 + k, elements.model, static_cast<int>(list.size())};
+      domain.integers = {number(k), elements.model, static_cast<int>(list.size())};
       for (const int node : list) domain.integers.push_back(node + 1);
       domain.doubles = {area(k), static_cast<double>(elements.options)};
       objects_.push_back(std::make_unique<eleObject>());
@@ -114,6 +115,7 @@ public:
       if (tang[i] != 0) throw std::runtime_error("a mass");
     return answer;
   }
+  int number(int element) const override { return 100 + element; }
   void accept() override {
     for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 1, nullptr, nullptr);
   }
@@ -180,6 +182,7 @@ int ops_getnodeincrdisp_(int* node, int* count, double* data) {
 int ops_getndf_() { return domain.usual(); }
 int ops_error_(char* text, int length) {
   domain.error.assign(text, static_cast<std::size_t>(length));
+  std::fwrite(text, 1, domain.error.size(), stderr);
   return 0;
 }
 

@@ -41,7 +41,8 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
   if (elements_.options != 0) c.props.push_back(elements_.options);
   for (std::size_t i = 0; i < c.svars.size(); ++i)
     c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
-  c.jelem = 90001 + element;
+  c.jelem = number(element);
+  c.kinc = increment_;
   switch (program_) {
   case Program::abaqus:
     break;
@@ -62,6 +63,17 @@ UelCall UelHost::call(int element, const std::vector<double>& displacement) cons
     break;
   }
   return c;
+}
+
+/// Abaqus calls UEXTERNALDB at the end of an increment; the others have no such call.
+void UelHost::accept() {
+  committed_ = trial_;
+  if (program_ == Program::abaqus) {
+    int lop = 2, none = 0, step = 1;
+    double time[2] = {0.5, 1.5}, dtime = 0.5;
+    uexternaldb_(&lop, &none, time, &dtime, &step, &increment_);
+  }
+  ++increment_;
 }
 
 Answer UelHost::evaluate(int element, const std::vector<double>& displacement) {

@@ -15,6 +15,7 @@ using UelFunction = void(double* rhs, double* amatrx, double* svars, double* ene
                          double* ddlmag, int* mdload, double* pnewdt, int* jprops, int* njprop,
                          double* period);
 UelFunction uel, uel_;
+void uexternaldb_(int* lop, int* lrestart, double* time, double* dtime, int* kstep, int* kinc);
 }
 
 namespace adapters {
@@ -49,11 +50,13 @@ public:
   UelHost(const Elements& elements, Program program);
 
   Answer evaluate(int element, const std::vector<double>& displacement) override;
-  void accept() override { committed_ = trial_; }
+  void accept() override;
+  int number(int element) const override { return 90001 + element; }
   UelCall call(int element, const std::vector<double>& displacement) const;
 
 private:
   Program program_;
+  int increment_ = 1;
   std::vector<std::vector<double>> committed_, trial_; ///< SVARS
 };
 

@@ -15,6 +15,8 @@ extern "C" void vuel_(int* nblock, double* rhs, double* amass, double* dtime_sta
                       double* dtime_previous, int* kstep, int* kinc, int* lflags, double* mass_scale,
                       double* predef, int* npredef, int* jdltyp, double* adlmag);
 
+extern "C" void vexternaldb_(int* lOp, int* i_array, int* niArray, double* r_array, int* nrArray);
+
 namespace adapters {
 namespace {
 
@@ -25,7 +27,12 @@ public:
   void accept() override {
     HostWithHistory::accept();
     plain().accept();
+    int end_of_increment = 4, integers[6] = {100, 100, 1, ++increment_ * 100, 0, 0}, six = 6, three = 3;
+    double reals[3] = {};
+    vexternaldb_(&end_of_increment, integers, &six, reals, &three);
+    if (integers[4] == 2) throw HostStopped("j_int_TerminateAnalysis");
   }
+  int number(int element) const override { return 90001 + element; }
   void begin(const std::vector<double>& displacement) override {
     HostWithHistory::begin(displacement);
     if (plain_) plain_->begin(displacement);
@@ -54,7 +61,8 @@ public:
     double props[3] = {static_cast<double>(elements_.model), area(element),
                        static_cast<double>(elements_.options)},
            time[2] = {0, 0}, period = 1, dtime = 1e-3;
-    std::vector<int> jelem(at(block), 5);
+    std::vector<int> jelem(at(block));
+    for (int b = 0; b < block; ++b) jelem[at(b)] = b == mine ? number(element) : 500001 + b;
     const auto call = [&](int operation) {
       int lflags[3] = {17, 1, operation};
       vuel_(&block, rhs.data(), amass.data(), stable.data(), svars.data(), &nsvars, energy.data(), &nnode,
@@ -94,6 +102,7 @@ private:
     return *plain_;
   }
 
+  int increment_ = 0;
   std::once_flag made_;
   std::unique_ptr<EmulatedHost> plain_;
 };

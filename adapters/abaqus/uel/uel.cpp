@@ -2,9 +2,11 @@
 // Abaqus/Standard UEL, and the programs that load one: MOOSE and OOFEM, which pass fewer arguments.
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include "../../common/element.hpp"
+#include "../../common/patch_watch.hpp"
 #include "../abaqus.hpp"
 
 namespace {
@@ -50,6 +52,39 @@ const char* wrong_host(const int* lflags, bool moose) {
   return nullptr;
 }
 
+/// Increments, of which the host tells the ends by UEXTERNALDB, or else by a new number in the next call.
+struct Increments {
+  std::mutex mutex;
+  bool has_ends = false; ///< UEXTERNALDB is called
+  int step = 0, increment = 0;
+  std::string lost; ///< not empty: the job has to end
+};
+
+Increments& increments() {
+  static Increments& one = *new Increments; // never freed: threads of the host may outlive static objects
+  return one;
+}
+
+void end_increment(Increments& all) {
+  IncrementEnd end = increment_end(host);
+  for (const std::string& text : end.warnings) abaqus::tell(abaqus::Severity::warning, text.c_str());
+  if (end.lost.empty()) return;
+  all.lost = std::move(end.lost);
+  abaqus::tell(abaqus::Severity::error, all.lost.c_str());
+}
+
+/// An element is called. @return false: a contact has been lost, the job has to end
+bool goes_on(const int* step, const int* increment) {
+  Increments& all = increments();
+  const std::lock_guard lock(all.mutex);
+  if (!all.has_ends && step && increment && (*step != all.step || *increment != all.increment)) {
+    const bool is_first = all.step == 0 && all.increment == 0;
+    all.step = *step, all.increment = *increment;
+    if (!is_first) end_increment(all);
+  }
+  return all.lost.empty();
+}
+
 void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int mlvarx) {
   for (int k = 0; rhs && k < columns; ++k)
     for (int i = 0; i < dofs; ++i) rhs[i + static_cast<std::ptrdiff_t>(k) * mlvarx] = value;
@@ -61,8 +96,8 @@ void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int 
 ENTS_ENTRY(uel, UEL,
            (double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs, int* nsvars,
             double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double*,
-            double*, int*, double*, double*, int*, int*, int* jelem, double*, int*, int*, double*, double*,
-            int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
+            double*, int*, double*, double*, int* kstep, int* kinc, int* jelem, double*, int*, int*, double*,
+            double*, int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
   const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
   const int option = options({props}, *nprops);
   const bool moose = option > 0 && (option & option_old_displacement);
@@ -72,6 +107,11 @@ ENTS_ENTRY(uel, UEL,
   if (const char* wrong = wrong_host(lflags, moose)) {
     abaqus::tell(abaqus::Severity::error,
                  ("ents, element " + std::to_string(jelem ? *jelem : 0) + ": " + wrong).c_str());
+    if (!abaqus::is_host() || !abaqus::stop())
+      fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
+    return;
+  }
+  if (!goes_on(kstep, kinc)) {
     if (!abaqus::is_host() || !abaqus::stop())
       fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
     return;
@@ -139,4 +179,13 @@ ENTS_ENTRY(uel, UEL,
   // A host that can neither cut nor stop gets numbers that it cannot take for a solution.
   if (!abaqus::is_host() || (!cut && !abaqus::stop()))
     fill(std::numeric_limits<double>::quiet_NaN(), rhs, amatrx, dofs, columns, *mlvarx);
+}
+
+/// LOP = 2: the increment has converged. XIT must not be called here: the next call of an element does.
+ENTS_ENTRY(uexternaldb, UEXTERNALDB, (int* lop, int*, double*, double*, int*, int*)) {
+  constexpr int end = 2;
+  Increments& all = increments();
+  const std::lock_guard lock(all.mutex);
+  all.has_ends = true;
+  if (*lop == end && all.lost.empty()) end_increment(all);
 }

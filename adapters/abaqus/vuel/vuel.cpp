@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "../../common/element.hpp"
+#include "../../common/patch_watch.hpp"
 #include "../abaqus.hpp"
 
 namespace {
@@ -69,4 +71,17 @@ ENTS_ENTRY(vuel, VUEL,
     if (!abaqus::stop()) std::fill(rhs, rhs + block * dofs, std::numeric_limits<double>::quiet_NaN());
     return;
   }
+}
+
+/// Ends of increments, of which every hundredth is compared with the patches, and of steps.
+ENTS_ENTRY(vexternaldb, VEXTERNALDB, (int* lOp, int* i_array, int*, double*, int*)) {
+  constexpr int end_of_increment = 4, end_of_step = 5, every = 100;
+  constexpr int increment = 3, status = 4,
+                terminate_analysis = 2; // entries of i_array, and a value of the second
+  if (*lOp != end_of_step && (*lOp != end_of_increment || i_array[increment] % every != 0)) return;
+  const IncrementEnd end = increment_end(host);
+  for (const std::string& text : end.warnings) abaqus::tell(abaqus::Severity::warning, text.c_str());
+  if (end.lost.empty()) return;
+  abaqus::tell(abaqus::Severity::error, end.lost.c_str());
+  i_array[status] = terminate_analysis;
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
+#include <string>
 
 #include "../../common/element.hpp"
+#include "../../common/patch_watch.hpp"
 
 #if defined(_WIN32)
 #define USERELEM_NAME USERELEM
@@ -64,5 +66,11 @@ USERELEM_API void USERELEM_NAME(int* elId, int*, int* keyMtx, int*, int* nDim, i
   const Result result = evaluate(e);
   if (result.message[0]) std::printf(" *** %s\n", result.message), std::fflush(stdout);
   *keyEleErr = result.outcome == Outcome::failed ? 1 : 0;
+  if (*keyHisUpd == 1) {
+    const IncrementEnd end = element_converged(host, *elId);
+    for (const std::string& text : end.warnings) std::printf(" *** %s\n", text.c_str());
+    if (!end.lost.empty()) std::printf(" *** %s\n", end.lost.c_str()), *keyEleErr = 1;
+    std::fflush(stdout);
+  }
   *keyEleCnv = result.outcome == Outcome::cut ? 0 : 1; // 0: bisect the substep
 }

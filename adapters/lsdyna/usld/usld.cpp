@@ -2,6 +2,7 @@
 // LS-DYNA user element usld_e101: blocks of elements, the block index first. It is an eight-node solid; nodes
 // that the contact element does not need repeat others. What facts are known of the interface, README.md
 // says.
+#include <atomic>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -29,6 +30,18 @@ constexpr Host host{.nodes = "nodes: ",
                     .spare_nodes = true,
                     .multipliers = false,
                     .displacements = false};
+
+/// LS-DYNA tells neither an element's number nor the end of a step: the first one alone is reported.
+void report_beside(const Result& result, const double* slave) {
+  static std::atomic<bool> reported{false};
+  if (!result.beside || reported.exchange(true)) return;
+  std::printf(
+      " *** ents: warning: the slave at (%.6g, %.6g, %.6g) is open, lies beside its patch and %.4g below the "
+      "surface that goes on there (only the first one is reported): if the master goes on, contact is not "
+      "seen, write a wider \"patch\"; if it ends there, add 16 to %s3\n",
+      slave[0], slave[1], slave[2], result.depth, host.properties);
+  std::fflush(stdout);
+}
 
 [[noreturn]] void stop() {
   int code = 2;
@@ -86,5 +99,6 @@ usld_e101_(double* force, double* stiff, int* ndtot, int* istif, double* x1, dou
     const Result result = evaluate(e);
     if (result.message[0]) std::printf(" *** %s\n", result.message), std::fflush(stdout);
     if (result.outcome != Outcome::done) stop();
+    report_beside(result, position);
   }
 }

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "../../common/element.hpp"
 #include "../../common/limits.hpp"
+#include "../../common/patch_watch.hpp"
 
 // MSC Marc's routine that ends the job.
 extern "C" __attribute__((weak)) void quit_(int* code);
@@ -60,6 +62,14 @@ uselem_(int* m, double* xk, double* xm, int* nnode, int* ndeg, double* f, double
     break;
   case forces:
     break;
+  case output: {
+    const IncrementEnd end = element_converged(host, *m);
+    for (const std::string& text : end.warnings) std::printf(" *** %s\n", text.c_str());
+    if (!end.lost.empty()) std::printf(" *** %s\n", end.lost.c_str());
+    std::fflush(stdout);
+    if (!end.lost.empty()) stop();
+    return;
+  }
   default:
     return;
   }
