@@ -169,9 +169,10 @@ std::set<int> within(const FacetTree& tree, const Neighbours& all, const FacetTr
   return chosen;
 }
 
-/// The one direction that all of the driven motion has along the surface, as long as it; absent: there are several.
-std::optional<Point> straight_path(const PatchRequest& request, const Point& normal) {
-  if (request.slide || request.any_direction > 0 || request.least > 0) return {};
+/// The one direction that all of the driven motion has along the surface, as long as the slide; absent: there are
+/// several, or none is known. Where a point leaves it all the same, the adapter says so.
+std::optional<Point> straight_path(const PatchRequest& request, const Point& normal, double slide) {
+  if (request.any_direction > 0) return {};
   std::optional<Point> out;
   const double whole = length(request.motion);
   for (std::size_t j = 0; j < 3; ++j) {
@@ -183,6 +184,8 @@ std::optional<Point> straight_path(const PatchRequest& request, const Point& nor
     if (out) return {};
     out = along;
   }
+  if (out)
+    for (double& component : *out) component *= slide / std::sqrt(dot(*out, *out));
   return out;
 }
 
@@ -274,7 +277,7 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
     if (slide > 0.05 * face_size) chosen = within(tree, all, under, slide + tolerance);
     std::set<int> nodes = nodes_of(all, chosen);
     if (static_cast<int>(nodes.size()) > largest)
-      if (const auto path = straight_path(request, normal)) {
+      if (const auto path = straight_path(request, normal, slide)) {
         chosen = along(tree, all, under, *path, 0.1 * face_size);
         nodes = nodes_of(all, chosen);
         ++out.narrow;

@@ -35,20 +35,27 @@ TEST(DeckPatches, EqualNeighbourhoodsShareAModel) {
 
 // Where all faces within the slide are too many, a point that is driven along one axis has those of its way.
 TEST(DeckPatches, AStraightSlideTakesTheFacesOfItsWay) {
-  const string far = deck("NHIGH, 1, 1, 0.05", "NHIGH, 1, 1, 1.4");
-  const Contact contact = converted(far).contacts.at(0);
-  EXPECT_GT(contact.patches.narrow, 0);
-  const Mesh mesh = mesh_of(far);
-  const FacetTree tree(mesh, contact.master.faces);
-  for (const Patch& patch : contact.patches.list) {
-    EXPECT_LE(patch.nodes.size(), 16u);
-    for (double way = -1.4; way <= 1.4; way += 0.05) {
-      Point x = contact.points[static_cast<std::size_t>(patch.slave)].x;
-      x[0] += way;
-      if (x[0] < 0 || x[0] > 3) continue;
-      const int face = tree.closest(x, {0, 0, -1}).face;
-      EXPECT_NE(std::find(patch.faces.begin(), patch.faces.end(), face), patch.faces.end()) << x[0];
+  for (const bool told : {false, true}) { // by the deck alone, or as --slide, along what the deck drives
+    Options options;
+    if (told) options.slide = 1.4;
+    const string far = deck("NHIGH, 1, 1, 0.05", told ? "NHIGH, 1, 1, 0.1" : "NHIGH, 1, 1, 1.4");
+    const Contact contact = converted(far, options).contacts.at(0);
+    EXPECT_GT(contact.patches.narrow, 0);
+    const Mesh mesh = mesh_of(far);
+    const FacetTree tree(mesh, contact.master.faces);
+    std::set<std::vector<int>> different;
+    for (const Patch& patch : contact.patches.list) {
+      EXPECT_LE(patch.nodes.size(), 16u);
+      different.insert(patch.faces);
+      for (double way = -1.4; way <= 1.4; way += 0.05) {
+        Point x = contact.points[static_cast<std::size_t>(patch.slave)].x;
+        x[0] += way;
+        if (x[0] < 0 || x[0] > 3) continue;
+        const int face = tree.closest(x, {0, 0, -1}).face;
+        EXPECT_NE(std::find(patch.faces.begin(), patch.faces.end(), face), patch.faces.end()) << x[0];
+      }
     }
+    EXPECT_GE(different.size(), 4u) << "each point has those that it meets itself";
   }
   const string error = error_of([] { converted(deck("NHIGH, 1, 1, 0.05", "NHIGH, 1, 2, 1.4")); });
   EXPECT_NE(error.find("--points 0 leaves 19 of them"), string::npos) << error;
