@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Published cases as decks: `ents-deck run`, and ccx's own contact on the same deck with the same stiffness, in ccx with finite strain."""
+import math
+
 import numpy as np
 
 import ccx
@@ -91,6 +93,36 @@ def lame_rings_deck(check):
 @target("press_fit_deck", case="press_fit as a deck of CPS4", source="Lame", right="pressure 6.1523 to 0.5 %, by the inner ring's displacement")
 def press_fit_deck(check):
     compare_rings(check, "fit", (10.0, 20.0, 30.0), 0.0025, (210e3, 0.3), 0, 6.1523)
+
+
+def quarter_ring(inner, outer, radial, around):
+    """A quarter of a ring of CPE8, whose middles lie on the circles: where two polygons slide, their corners hook into each other."""
+    polar = lambda x: (inner * (outer / inner) ** x[:, :1]) * np.column_stack([np.cos(math.pi / 2 * x[:, 1]), np.sin(math.pi / 2 * x[:, 1])])
+    body = block("quad8", [radial, around], [0, 0], [1, 1], polar)
+    step = math.pi / 2 / around
+    between = np.abs(np.arctan2(body.positions[:, 1], body.positions[:, 0]) / step % 1 - 0.5) < 0.1
+    body.positions[between] /= math.cos(step / 2)
+    r = np.hypot(*body.positions.T)
+    body.inside, body.outside = np.flatnonzero(r < inner * 1.0001), np.flatnonzero(r > outer * 0.9999)
+    return body
+
+
+@target("disk_in_ring_deck", case="disk_in_ring as a deck of CPE8, a quarter of it", source="Code_Aster SSNP169F",
+        right="radial displacement between -0.00422769 and -0.00441231: mean to 0.5 %, wave to 2 %")
+def disk_in_ring_deck(check):
+    part = 1e-3  # as in disk_in_ring
+    inner, outer = quarter_ring(0.006, 0.6, 16, 12), quarter_ring(0.6, 1.0, 4, 12)
+    before, both = len(inner.cells), inner.joined(outer)
+    middle = lambda cell: math.atan2(*outer.positions[outer.cells[cell, :4]].mean(axis=0)[::-1])
+    loads = [f"{before + cell + 1}, P{face}, {part * (1e7 + 1e5 * math.cos(2 * middle(cell)))!r}" for cell, face in ccx.faces_of(outer, outer.outside)]
+    held = [(np.flatnonzero(np.abs(both.positions[:, axis]) < 1e-9), axis) for axis in (0, 1)]
+    text = ccx.deck(inner, outer, [(1e9, 0.2)] * 2, inner.outside, outer.inside, 1000 * 1e9 / 0.4, held, [static(["*DLOAD", *loads], 1)],
+                    watched=inner.outside)
+    ours, own = (np.array([u[node] @ inner.positions[node] for node in inner.outside]) / 0.6 / part for u in ccx.both(check, "disk", text))
+    # 24 quadratic cells in a wave; the penalty gives way by 0.06 % of the displacements, the hole takes 0.01 %.
+    for name, of, right, bound in (("mean displacement / 0.00432", lambda u: (u.max() + u.min()) / 2, -0.00432, 5e-3),
+                                   ("wave of the displacement / 9.230599e-5", lambda u: np.ptp(u) / 2, 9.230599e-5, 0.02)):
+        check.near(name, 1, of(ours) / right, bound, of(own) / right)
 
 
 @target("patch_deck", case="patch as decks of CPE4 and CPE8, finite strain: 3 faces under 3, 2 and 5", source="El-Abbasi, Bathe 2001; Code_Aster SSNP121",

@@ -207,11 +207,12 @@ class Pairs:
 
 
 @target("wedge", case="a block on a plane of slope t = 0.1, weight G, pushed up by a horizontal force F; mu 0, 0.1, 0.2, 0.3",
-        source="NAFEMS CGS-4, FrontISTR !599", right="F / G = (t + mu) / (1 - mu t) = 0.1, 0.202020, 0.306122, 0.412371")
+        source="NAFEMS CGS-4, FrontISTR !599", right="F / G = (t + mu) / (1 - mu t) = 0.1, 0.202020, 0.306122, 0.412371; "
+        "N / G = (1 + t^2)^(1/2) / (1 - mu t) = 1.004988, 1.015139, 1.025497, 1.036070")
 def wedge(check):
     slope = 0.1
     up = np.array([[1, -slope], [slope, 1]]) / np.hypot(1, slope)
-    for mu, right in ((0.0, 0.1), (0.1, 0.202020), (0.2, 0.306122), (0.3, 0.412371)):
+    for mu, right, across in ((0.0, 0.1, 1.004988), (0.1, 0.202020, 1.015139), (0.2, 0.306122, 1.025497), (0.3, 0.412371, 1.036070)):
         body = block("quad4", [8, 4], [0, -1e-4], [2, 1 - 1e-4])
         faces, side = body.faces(1, -1e-4), body.where(0, 0)
         body.positions = body.positions @ up.T
@@ -229,4 +230,6 @@ def wedge(check):
         # Balance holds to Newton's tolerance, 1e-12 of forces of 1e-2 on 50 nodes; mu p is exact on a flat plane. The target has six digits.
         check.near(f"mu = {mu}: F / G", (slope + mu) / (1 - mu * slope), sideways, 1e-9)
         check.near(f"mu = {mu}: the published value", right, sideways, 6e-7)
+        check.near(f"mu = {mu}: N / G", np.hypot(1, slope) / (1 - mu * slope), contact.pressure @ contact.areas, 1e-9)
+        check.near(f"mu = {mu}: the published N / G", across, contact.pressure @ contact.areas, 6e-7)
         check.true(f"mu = {mu}: slipping nodes", "all (none without friction)", f"{np.count_nonzero(contact.flags & ents.Flag.SLIP)}", slips or mu == 0)
