@@ -3,6 +3,8 @@
 // it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -88,6 +90,18 @@ Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& li
 }
 
 // How far a box [low[d], high[d]] is from a point.
-double distance_to_box(int d, const double* point, const double* box);
+inline double distance_to_box(int d, const double* point, const double* box) {
+  double sum = 0.0;
+  for (int k = 0; k < d; ++k) {
+    const double off = std::max({box[k] - point[k], point[k] - box[d + k], 0.0});
+    sum += off * off;
+  }
+  return std::sqrt(sum);
+}
+
+struct MasterMesh; // detection.hpp
+// low, high: [d] of a box around the enriched segment
+Status box_of_segment(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, double* low,
+                      double* high);
 
 } // namespace ents
