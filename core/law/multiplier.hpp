@@ -3,6 +3,8 @@
 //   augmented             W = (<p>^2 - lambda^2) / (2 eps), p = lambda - eps g; lambda in the state (Uzawa)
 //   augmented_multiplier  the same with lambda as a dof (Alart and Curnier 1991, semi-smooth Newton)
 //   multiplier            lambda as a dof, no augmentation; eps only decides the active set
+// There is contact where lambda - eps g >= 0: bodies that touch are held before there is a multiplier, as with a
+// penalty.
 // Multipliers that are dofs have the equation lambda = 0 where there is no contact, as R = -A / eps lambda.
 #pragma once
 
@@ -33,7 +35,7 @@ struct Augmented : NormalLaw {
   template <class S>
   static ENTS_INLINE NormalForce<S> force(const ContactLaw& law, const NormalPlace<S>& at) {
     const S eps = law_number<S>(law.number[0], law.rates.normal), p = at.multiplier - eps * at.gap;
-    return {-p, eps, 0.5 * p * p * (1.0 / eps) + open_multiplier_energy(eps, at.multiplier), p > 0.0};
+    return {-p, eps, 0.5 * p * p * (1.0 / eps) + open_multiplier_energy(eps, at.multiplier), p >= 0.0};
   }
 };
 
@@ -52,7 +54,7 @@ struct PureMultiplier : NormalLaw {
   template <class S>
   static ENTS_INLINE NormalForce<S> force(const ContactLaw& law, const NormalPlace<S>& at) {
     const S eps = law_number<S>(law.number[0], law.rates.normal);
-    return {-at.multiplier, S(0.0), -(at.multiplier * at.gap), at.multiplier - eps * at.gap > 0.0};
+    return {-at.multiplier, S(0.0), -(at.multiplier * at.gap), at.multiplier - eps * at.gap >= 0.0};
   }
 };
 

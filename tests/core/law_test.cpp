@@ -110,6 +110,13 @@ TEST_P(EveryLaw, IsWhatItSaysOfItself) {
     if (!GetParam().has_scale) {
       ASSERT_EQ(f.force, normal_force(law, gap, lambda).force);
     }
+    // Bodies that touch are held, but by laws whose stiffness begins at 0, or is in the multiplier.
+    const NormalForce<double> touching = normal_force(law, 0.0, 0.0, scale);
+    if (GetParam().kind != NormalKind::table) { // its points decide
+      ASSERT_TRUE(touching.contact);
+      ASSERT_EQ(touching.stiffness > 0.0, GetParam().kind != NormalKind::multiplier &&
+                                              (GetParam().kind != NormalKind::power || is_linear(law)));
+    }
     // Contact begins at touching_gap(), without a jump of the force
     const double begin = touching_gap(law, scale);
     ASSERT_FALSE(normal_force(law, begin + 1e-9, lambda, scale).contact);
