@@ -46,18 +46,21 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   auto report = made<ents_report>();
   require(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report), report);
   std::string text = model;
+  ents_model* created = nullptr;
   const std::size_t first = model.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && model[first] == '{') {
-    require(ents_model_create(model.data(), signed_size(model.size()), nullptr, nullptr, 0, &model_, &report),
-            report);
+    require(
+        ents_model_create(model.data(), signed_size(model.size()), nullptr, nullptr, 0, &created, &report),
+        report);
   } else {
-    require(ents_model_create_from_file(model.c_str(), &model_, &report), report);
+    require(ents_model_create_from_file(model.c_str(), &created, &report), report);
     std::ostringstream read;
     read << std::ifstream(model).rdbuf();
     text = read.str();
   }
+  model_.reset(created);
   layout_ = made<ents_layout>();
-  require(ents_model_layout(model_, &layout_, &report), report);
+  require(ents_model_layout(model_.get(), &layout_, &report), report);
   const std::string basis = smoothed_basis(text);
   if (layout_.dimension != 2 || (layout_.nodes != 2 && basis.empty()))
     throw std::runtime_error(
@@ -97,9 +100,9 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   mesh_.nodes = signed_size(points_.size() / 2), mesh_.positions = points_.data();
   mesh_.surface_coordinates = coordinates_.empty() ? nullptr : coordinates_.data();
   std::int64_t size = 0;
-  require(ents_tree_size(model_, mesh_.segments, &size, &report), report);
+  require(ents_tree_size(model_.get(), mesh_.segments, &size, &report), report);
   tree_.resize(static_cast<std::size_t>(size));
-  require(ents_tree_build(model_, &mesh_, tree_.data(), size, &report), report);
+  require(ents_tree_build(model_.get(), &mesh_, tree_.data(), size, &report), report);
   for (std::size_t e = 0; options.reach <= 0 && e < master_.edges.size(); e += 2) {
     const double *a = &master_.start[2 * static_cast<std::size_t>(master_.edges[e])],
                  *b = &master_.start[2 * static_cast<std::size_t>(master_.edges[e + 1])];
@@ -116,11 +119,10 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   xi_.assign(n, 0.0);
   xi_begin_ = xi_;
   state_begin_.assign(n * static_cast<std::size_t>(layout_.state_size), 0.0);
-  require(ents_state_init(model_, signed_size(n), state_begin_.data(), layout_.state_size, &report), report);
+  require(ents_state_init(model_.get(), signed_size(n), state_begin_.data(), layout_.state_size, &report),
+          report);
   state_end_ = state_begin_;
 }
-
-BorderContact::~BorderContact() { ents_model_destroy(&model_, nullptr); }
 
 std::vector<double> BorderContact::positions(const Border& border, const double* u) const {
   std::vector<double> result = border.start;
@@ -145,7 +147,7 @@ std::vector<double> BorderContact::points(const double* u) const {
 std::int32_t BorderContact::transfer(std::size_t k, double* state, ents_report& report) const {
   const auto size = static_cast<std::size_t>(layout_.state_size), m = static_cast<std::size_t>(layout_.nodes);
   if (segment_begin_[k] < 0)
-    return check(ents_state_init(model_, 1, state, layout_.state_size, &report), report);
+    return check(ents_state_init(model_.get(), 1, state, layout_.state_size, &report), report);
   if (segment_begin_[k] == segment_[k]) {
     std::copy_n(state_begin_.data() + k * size, size, state);
     return ENTS_OK;
@@ -159,7 +161,7 @@ std::int32_t BorderContact::transfer(std::size_t k, double* state, ents_report& 
     return coordinates_.empty() ? nullptr : coordinates_.data() + static_cast<std::size_t>(segment) * m;
   };
   const double *old_coordinates = gather(segment_begin_[k], from), *coordinates = gather(segment_[k], to);
-  return check(ents_state_transfer(model_, from.data(), old_coordinates, to.data(), coordinates,
+  return check(ents_state_transfer(model_.get(), from.data(), old_coordinates, to.data(), coordinates,
                                    state_begin_.data() + k * size, state, &report),
                report);
 }
@@ -177,7 +179,7 @@ bool BorderContact::find_begin(std::size_t k, double* state) const {
   auto out = made<ents_output>();
   out.wanted = ENTS_STATE, out.state_end = end.data();
   auto report = made<ents_report>();
-  if (check(ents_evaluate(model_, 0, 1, &in, &out, &report), report) != ENTS_OK) return false;
+  if (check(ents_evaluate(model_.get(), 0, 1, &in, &out, &report), report) != ENTS_OK) return false;
   std::copy(end.begin(), end.end(), state);
   return true;
 }
@@ -211,12 +213,12 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   const std::vector<double> slave = now_ = positions(slave_, u);
   points_ = points(u);
   mesh_.positions = points_.data();
-  require(ents_tree_refit(model_, &mesh_, tree_.data(), signed_size(tree_.size()), &report), report);
+  require(ents_tree_refit(model_.get(), &mesh_, tree_.data(), signed_size(tree_.size()), &report), report);
   std::vector<std::int32_t> flags(n);
   auto detection = made<ents_detection>();
   detection.slave = slave.data(), detection.reach = reach_;
   detection.segment = segment_.data(), detection.xi = xi_.data(), detection.flags = flags.data();
-  if (check(ents_detect(model_, &mesh_, tree_.data(), signed_size(tree_.size()), 0, signed_size(n),
+  if (check(ents_detect(model_.get(), &mesh_, tree_.data(), signed_size(tree_.size()), 0, signed_size(n),
                         &detection, &report),
             report) != ENTS_OK)
     return cut(report);
@@ -259,7 +261,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
     out.state_end = end.data(), out.state_end_stride = signed_size(size);
   }
   const auto evaluate_all = [&] {
-    return check(ents_evaluate(model_, 0, signed_size(closed.size()), &in, &out, &report), report);
+    return check(ents_evaluate(model_.get(), 0, signed_size(closed.size()), &in, &out, &report), report);
   };
   if (evaluate_all() != ENTS_OK) return cut(report);
   bool found = false;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,6 @@ public:
   /// @param model  JSON text, or the name of a file with it
   /// @param dofs   of the whole mesh
   BorderContact(const std::string& model, Border slave, Border master, long dofs, const Options& options);
-  ~BorderContact();
   BorderContact(const BorderContact&) = delete;
   BorderContact& operator=(const BorderContact&) = delete;
 
@@ -67,7 +67,11 @@ private:
   bool find_begin(std::size_t slave, double* state) const;
   void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
 
-  ents_model* model_ = nullptr;
+  /// A constructor that throws has no destructor: the model goes with this.
+  struct Destroy {
+    void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
+  };
+  std::unique_ptr<ents_model, Destroy> model_;
   ents_layout layout_{};
   Border slave_, master_;
   long dofs_;
