@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/smoothing/smoothing.hpp"
@@ -40,7 +41,8 @@ Row row(std::int64_t n, bool closed) {
   const std::int64_t nodes = closed ? n : n + 1;
   for (std::int64_t i = 0; i < nodes; ++i) {
     const double t = static_cast<double>(i);
-    r.x.push_back(closed ? std::cos(2.0 * M_PI * t / static_cast<double>(n)) : 0.1 * t * t * t - t);
+    r.x.push_back(closed ? std::cos(2.0 * std::numbers::pi * t / static_cast<double>(n))
+                         : 0.1 * t * t * t - t);
   }
   return r;
 }
@@ -68,7 +70,7 @@ TEST(SmoothedLines, CombinationsSumToOne) {
 TEST(SmoothedLines, AQuasiInterpolationFollowsTheNodesToOrderFour) {
   for (const std::int64_t n : {12, 24, 48}) {
     const Row r = row(n, true);
-    const double t = 2.0 * M_PI / static_cast<double>(n);
+    const double t = 2.0 * std::numbers::pi / static_cast<double>(n);
     EXPECT_NEAR(at(smooth(Ends::straight, r), 0, r.x, -1.0), (2.0 + std::cos(t)) / 3.0, 1e-15);
     // (-1, 8, -1) / 6: 1 - (1 - cos t)^2 / 9, a 36th of the fourth difference
     EXPECT_NEAR(at(smooth(Ends::quasi_cubic, r), 0, r.x, -1.0), 1.0 - std::pow(1.0 - std::cos(t), 2) / 9.0,
