@@ -302,7 +302,8 @@ IncrementEnd element_converged(const Host& host, std::int64_t element) {
     for (auto& [number, seen] : all.seen) seen.told = false;
     all.told = 0;
   };
-  // An element that is told again while others have not been: they have been taken out of the job.
+  // The host has evaluated this element for a second increment, and others not at all since the first: the
+  // host no longer has those, and the first increment has ended.
   IncrementEnd out;
   if (own->second.told) out = end(all, host), forget();
   own->second.told = true;

@@ -17,7 +17,7 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct SecondXi 
   static constexpr int parts = Forms::parts, parts_of_rate = Forms::parts_of_rate;
   static constexpr bool counted = counts_dofs<Basis, Rigid>;
   using Array = DofArray<Basis, Rigid, Scalar>;
-  [[no_unique_address]] Basis basis; // whoever evaluates sets it
+  [[no_unique_address]] Basis basis; // set by evaluate() of the tangent
   Scalar weights[2][M];              // s, r
   Array x[T], Y[T];
   Array w[turns ? T : 1], Z[turns ? T : 1], w1[bends ? T : 1], z[bends ? T : 1];
