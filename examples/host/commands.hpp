@@ -4,11 +4,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace host {
+
+class EntsLibrary;
+struct Scene;
 
 struct CommonOptions {
   std::filesystem::path library; ///< of libents.so; empty: next to the program, else the system's
@@ -20,7 +24,8 @@ struct RunOptions {
   int explicit_divisions = 0;         ///< > 0: the master as an explicit mesh of plain segments
   bool compare = false;               ///< the scene against explicit meshes
   std::vector<int> compare_divisions; ///< empty: the scene's own list
-  std::string adapter = "plain";      ///< of adapter_names()
+  /// Puts other functions in the place of the library's before a model is made; empty: they stay
+  std::function<void(const Scene&, EntsLibrary&)> prepare;
   bool pictures = true;
   std::string variant;           ///< of the scene; empty: the scene as it is
   bool nodes = false;            ///< fields of the slave nodes in the JSON result

@@ -13,7 +13,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "adapter.hpp"
 #include "commands.hpp"
 #include "error.hpp"
 #include "nearest_word.hpp"
@@ -129,16 +128,6 @@ int run_program(int argc, char** argv) {
                    "other run may write into it meanwhile; without it nothing is written but the lines on "
                    "the terminal")
       ->type_name("DIR");
-  std::string names; // install_adapter checks the name
-  for (const std::string& name : adapter_names())
-    if (name != "plain") names += (names.empty() ? "" : ", ") + name;
-  run_app
-      ->add_option("--adapter", run.adapter,
-                   "how the contact reaches the library: directly (plain), or through the adapter of another "
-                   "program: " +
-                       names)
-      ->type_name("NAME")
-      ->capture_default_str();
   run_app
       ->add_option(
           "--explicit", run.explicit_divisions,
@@ -306,8 +295,7 @@ int run_program(int argc, char** argv) {
                     "Example:\n"
                     "  ents-host chart --out out/chart && xdg-open out/chart/chart.html");
 
-  for (const char* other :
-       {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes", "--adapter"})
+  for (const char* other : {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes"})
     compare->excludes(other); // each mesh is solved in one go, by the library itself
 
   try {

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "adapter.hpp"
 #include "check_extent.hpp"
 #include "commands.hpp"
 #include "restart.hpp"
@@ -73,20 +72,6 @@ void note_resolution(const Simulation& simulation) {
                  describe(resolution, simulation.scene().units.length).c_str());
 }
 
-/// What elements of other programs cannot do.
-void check_adapter(const Scene& scene, const std::string& adapter) {
-  if (!scene.contact || adapter == "plain") return;
-  const std::string end = "; run it without --adapter " + adapter;
-  if (scene.contact->body && adapter == "lsdyna")
-    throw InputError(scene.file.string() +
-                     ": /contact/master/rigid_body: elements of LS-DYNA see present positions only, and the "
-                     "turns of a body are displacements" +
-                     end);
-  if (!find_json(scene.contact->model, "/parameters").is_null())
-    throw InputError(scene.contact->model_where +
-                     "/parameters: the elements of adapters read a model once, and it stays" + end);
-}
-
 } // namespace
 
 int run_command(const CommonOptions& common, const RunOptions& options) {
@@ -94,8 +79,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   const Scene scene = read_scene(options.scene, options.variant);
   std::unique_ptr<EntsLibrary> library;
   if (scene.contact) library = std::make_unique<EntsLibrary>(common.library);
-  check_adapter(scene, options.adapter);
-  if (library) install_adapter(*library, options.adapter);
+  if (library && options.prepare) options.prepare(scene, *library);
   Simulation simulation(scene, library.get(), options.explicit_divisions);
 
   StepPlan plan;

@@ -33,26 +33,29 @@ public:
     HostWithHistory::accept();
   }
 
+  std::vector<double> history(int element) override {
+    call(element, last_[at(element)], 1);
+    return trial(element);
+  }
   int number(int element) const override { return 7000 + element; }
 
 private:
   Answer call(int element, const std::vector<double>& displacement, int keyHisUpd) {
     if (!keyHisUpd) last_[at(element)] = displacement;
     int id = number(element), d = elements_.dimension, nNodes = static_cast<int>(nodes(element).size()),
-        nUsrDof = nNodes * d, one = 1, none = 0, nReal = elements_.options != 0 ? 3 : 2, nSaveVars = size_,
-        keyEleErr = 99, keyEleCnv = 99;
+        nUsrDof = nNodes * d, one = 1, none = 0, nSaveVars = size_, keyEleErr = 99, keyEleCnv = 99;
     int keyMtx[10] = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0};
     const auto n = at(nUsrDof);
     Guarded stiff(n * n), mass(n * n), damp(n * n), sstiff(n * n), fExt(n), fInt(n), save(at(size_)),
         energy(1);
     std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
                         change = gather_change(element, displacement), current(n, 1e99), still(n, 1e99);
-    double real[3] = {static_cast<double>(elements_.model), area(element),
-                      static_cast<double>(elements_.options)},
-           zero = 0;
+    std::vector<double> real = constants(element);
+    int nReal = static_cast<int>(real.size());
+    double zero = 0;
     for (int i = 0; i < size_; ++i) save[at(i)] = committed(element)[at(i)];
     userelem_(&id, &one, keyMtx, &none, &d, &nNodes, nullptr, &one, &nUsrDof, &none, &none, &one, &none,
-              nullptr, nullptr, nullptr, &zero, &none, &none, nullptr, &none, &nReal, real, &nSaveVars,
+              nullptr, nullptr, nullptr, &zero, &none, &none, nullptr, &none, &nReal, real.data(), &nSaveVars,
               save.data(), x.data(), current.data(), u.data(), change.data(), still.data(), still.data(),
               still.data(), &none, &one, &one, &none, &none, &one, &keyHisUpd, &one, &one, &one, &zero,
               &keyEleErr, &keyEleCnv, stiff.data(), mass.data(), damp.data(), sstiff.data(), fExt.data(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calculix_host.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -27,8 +28,6 @@ int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, co
 }
 
 namespace adapters {
-namespace {} // namespace
-
 CalculixHost::CalculixHost(const Elements& elements, const std::string& element_type)
     : EmulatedHost(elements), co_(elements.reference), nstate_(elements.state_size + 2),
       uel_(element_type == "U1A") {
@@ -51,6 +50,14 @@ CalculixHost::CalculixHost(const Elements& elements, const std::string& element_
       uel_ ? ents_ccx_uel_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data())
            : ents_ccx_unsymmetric_(&ne, ipkon_.data(), lakon_.data(), ielprop_.data(), prop_.data(), &nprop);
   if ((unsymmetric == 0) != elements.symmetric) throw std::runtime_error("the solver does not fit the model");
+}
+
+void CalculixHost::set_history(int element, const std::vector<double>& state) {
+  std::copy(state.begin(), state.end(), xstateini_.begin() + element * nstate_);
+}
+
+std::vector<double> CalculixHost::history(int element) {
+  return {xstate_.begin() + element * nstate_, xstate_.begin() + (element + 1) * nstate_};
 }
 
 Answer CalculixHost::evaluate(int element, const std::vector<double>& displacement) {

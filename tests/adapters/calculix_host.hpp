@@ -14,6 +14,8 @@ public:
 
   Answer evaluate(int element, const std::vector<double>& displacement) override;
   void accept() override { xstateini_ = xstate_; }
+  void set_history(int element, const std::vector<double>& state) override;
+  std::vector<double> history(int element) override;
   /// As in a *STEP without NLGEOM and in *BUCKLE: there is no memory for the history.
   void linear_step() { linear_step_ = true; }
 

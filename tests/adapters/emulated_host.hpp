@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the emulated hosts have in common: each owns the contact elements of a small problem, keeps their
-// history as its host does, and calls its adapter as its host would. Answers come back in one form, so that
-// one solver serves all of them.
+// What the emulated hosts have in common: each owns contact elements, keeps their history as its host does,
+// and calls its adapter as its host would. Answers come back in one form, so that one solver serves all of
+// them: that of a small problem (problem.hpp), and that of the scenes (scene_route.hpp), where a host owns one
+// element for one evaluation.
 #pragma once
 
 #include <stdexcept>
@@ -21,6 +22,9 @@ struct Elements {
   int multipliers = 0;
   bool symmetric = false; ///< the tangent
   int options = 0;        ///< the deck's
+  bool body = false; ///< slave, reference node of a rigid body, and a node whose displacements are its turns
+  bool stiffness = true;                   ///< is asked for, also where the host itself has none
+  std::vector<double> surface_coordinates; ///< of every element's master nodes, where the deck gives them
 
   int unknowns() const { return static_cast<int>(reference.size()); }
 };
@@ -28,7 +32,7 @@ struct Elements {
 /// One element's answer. Empty residual: the host was asked to cut its increment.
 struct Answer {
   std::vector<double> residual; ///< [nodes of the element][d], R = dW/du
-  std::vector<double> tangent;  ///< column-major, [rows][rows]
+  std::vector<double> tangent;  ///< column-major, [rows][rows]; empty: there is none (Elements::stiffness)
   double step_factor = 1;
 };
 
@@ -50,6 +54,12 @@ public:
   virtual Answer evaluate(int element, const std::vector<double>& displacement) = 0;
   /// The increment has converged: what the last evaluation left is the history.
   virtual void accept() = 0;
+  /// History of an element at the begin of the increment, for a host that takes up a job of another one
+  /// @param state  [state_size]; what the host keeps besides stays as it is
+  virtual void set_history(int element, const std::vector<double>& state) = 0;
+  /// What the last evaluation of this element leaves if its increment is accepted
+  /// @return  [state_size] or more
+  virtual std::vector<double> history(int element) = 0;
   /// Of an element, as the host passes it; -1: it passes none
   virtual int number(int /*element*/) const { return -1; }
 
@@ -74,6 +84,14 @@ protected:
     return elements_.nodes[static_cast<std::size_t>(element)];
   }
   double area(int element) const { return elements_.area[static_cast<std::size_t>(element)]; }
+  /// Constants of a user element: model, area, and what the deck gives besides.
+  std::vector<double> constants(int element) const {
+    std::vector<double> values{static_cast<double>(elements_.model), area(element)};
+    const std::vector<double>& coordinates = elements_.surface_coordinates;
+    if (elements_.options != 0 || !coordinates.empty()) values.push_back(elements_.options);
+    values.insert(values.end(), coordinates.begin(), coordinates.end());
+    return values;
+  }
 
   const Elements elements_;
   std::vector<double> begin_;

@@ -86,6 +86,10 @@ public:
     return answer;
   }
   int number(int element) const override { return element + 1; }
+  void set_history(int element, const std::vector<double>& state) override {
+    std::copy(state.begin(), state.end(), committed_[at(element)].begin());
+  }
+  std::vector<double> history(int element) override { return trial_[at(element)]; }
   /// TIME calls all elements with isw 12 before the next step.
   void accept() override {
     committed_ = trial_;

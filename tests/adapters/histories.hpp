@@ -3,6 +3,7 @@
 // first.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "emulated_host.hpp"
@@ -16,6 +17,10 @@ public:
         committed_(elements.nodes.size(), std::vector<double>(static_cast<std::size_t>(size_))),
         trial_(committed_) {}
   void accept() override { committed_ = trial_; }
+  void set_history(int element, const std::vector<double>& state) override {
+    std::copy(state.begin(), state.end(), committed_[static_cast<std::size_t>(element)].begin());
+  }
+  std::vector<double> history(int element) override { return trial(element); }
 
 protected:
   const std::vector<double>& committed(int element) const {

@@ -6,22 +6,44 @@
 #include "uel_host.hpp"
 
 namespace adapters {
+namespace {
+
+std::unique_ptr<EmulatedHost> abaqus_host(const Elements& elements) {
+  return std::make_unique<UelHost>(elements, UelHost::Program::abaqus);
+}
+
+std::unique_ptr<EmulatedHost> calculix_host(const Elements& elements) {
+  return std::make_unique<CalculixHost>(elements);
+}
+
+} // namespace
 
 std::vector<HostKind> hosts() {
   return {
-      {"abaqus_uel",
-       [](const Elements& e) { return std::make_unique<UelHost>(e, UelHost::Program::abaqus); }},
+      {.name = "abaqus", .make = abaqus_host, .title = "Abaqus/Standard", .coordinates = true},
       // A plane model is a layer of solids there.
-      {"calculix", [](const Elements& e) { return std::make_unique<CalculixHost>(e); }, true, 3},
-      {"abaqus_vuel", vuel_host, false, 0,
-       false}, // an explicit increment cannot be cut, nor solved for multipliers
-      {"opensees", opensees_host},
-      {"opensees_frame", opensees_frame_host},
-      {"feap", feap_host, false},
-      {"ansys", ansys_host},
+      {.name = "calculix", .make = calculix_host, .dimension = 3, .title = "CalculiX", .nodes = 20},
+      // An explicit increment cannot be cut, nor solved for multipliers.
+      {.name = "abaqus_explicit",
+       .make = vuel_host,
+       .cuts = false,
+       .multipliers = false,
+       .title = "Abaqus/Explicit",
+       .coordinates = true,
+       .stiffness = false},
+      {.name = "opensees", .make = opensees_host, .title = "OpenSees", .nodes = 18},
+      {.name = "opensees_frame", .make = opensees_frame_host, .title = "OpenSees", .nodes = 18},
+      {.name = "feap", .make = feap_host, .cuts = false, .title = "FEAP"},
+      {.name = "ansys", .make = ansys_host, .title = "Ansys MAPDL", .coordinates = true},
       // State variables come back as begin + increment: one rounding more.
-      {"marc", marc_host, false, 0, true, false},
-      {"lsdyna", lsdyna_host, false, 3, false},
+      {.name = "marc", .make = marc_host, .cuts = false, .same_bits = false, .title = "MSC Marc"},
+      {.name = "lsdyna",
+       .make = lsdyna_host,
+       .cuts = false,
+       .dimension = 3,
+       .multipliers = false,
+       .title = "LS-DYNA",
+       .nodes = 8},
   };
 }
 

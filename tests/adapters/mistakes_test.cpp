@@ -70,8 +70,8 @@ struct Words {
   int options = 57; ///< that it has, a sum
 };
 constexpr Words words[] = {
-    {"abaqus_uel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 63},
-    {"abaqus_vuel", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 61},
+    {"abaqus", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 63},
+    {"abaqus_explicit", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 61},
     {"calculix", "*USER ELEMENT, NODES=5", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry 2"},
     {"opensees", "with nodes: 5", nullptr, "element entsContact, property 2"},
     {"opensees_frame", "with nodes: 5", nullptr, "element entsContact, property 2"},

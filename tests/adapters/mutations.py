@@ -31,7 +31,7 @@ def user_element(file, **texts):
 
 
 LIBRARIES = [
-    Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp"], [], HOSTS, "*abaqus_uel*:Uel.*",
+    Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp"], [], HOSTS, "*/abaqus_*:Uel.*-*abaqus_explicit*",
             user_element(
                 "abaqus/uel/uel.cpp",
                 tangent=("e.tangent = {amatrx, 1, dofs}", "e.tangent = {amatrx, dofs, 1}"),
@@ -44,7 +44,7 @@ LIBRARIES = [
         Mutant("tangents swapped in where a point starts", "abaqus/uinter/uinter.cpp", "start[a] = -rdisp[1 + a]", "start[a] = -rdisp[d - 1 - a]"),
         Mutant("DDSDDR transposed", "common/point.cpp", "p.stiffness[i + d * j]", "p.stiffness[j + d * i]"),
         Mutant("tangents swapped in STRESS", "common/point.cpp", "p.traction[j] = side", "p.traction[j == 0 ? 0 : d - j] = side")]),
-    Library("ents_abaqus_explicit", ["abaqus/abaqus.cpp", "abaqus/vuel/vuel.cpp"], ["-DENTS_ABAQUS_EXPLICIT"], HOSTS, "*abaqus_vuel*",
+    Library("ents_abaqus_explicit", ["abaqus/abaqus.cpp", "abaqus/vuel/vuel.cpp"], ["-DENTS_ABAQUS_EXPLICIT"], HOSTS, "*abaqus_explicit*",
             user_element(
                 "abaqus/vuel/vuel.cpp",
                 coordinates=("{coords + b, block * nodes, block}", "{coords + b, block, block * e.coordinates}"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // OpenSees, emulated: the functions that it offers loaded elements, and an element's life: INIT, FORM ...
 // COMMIT or REVERT.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -116,6 +117,13 @@ public:
     return answer;
   }
   int number(int element) const override { return 100 + element; }
+  void set_history(int element, const std::vector<double>& state) override {
+    std::copy(state.begin(), state.end(), objects_[at(element)]->cState);
+  }
+  std::vector<double> history(int element) override {
+    const eleObject& object = *objects_[at(element)];
+    return {object.tState, object.tState + object.nState};
+  }
   void accept() override {
     for (int k = 0; k < static_cast<int>(objects_.size()); ++k) request(k, 1, nullptr, nullptr);
   }

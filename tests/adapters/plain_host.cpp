@@ -89,6 +89,10 @@ public:
     return answer;
   }
   void accept() override { history_ = trial_; }
+  void set_history(int element, const std::vector<double>& state) override {
+    history_[static_cast<std::size_t>(element)] = state;
+  }
+  std::vector<double> history(int element) override { return trial_[static_cast<std::size_t>(element)]; }
 
 private:
   PlainModel model_, base_;

@@ -123,7 +123,7 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
 
 SceneResult run_scene(const std::string& file, const std::string& adapter, const std::string& options) {
   const std::string errors = file + "." + adapter + ".errors";
-  const std::string command = "\"" ENTS_HOST "\" run \"" + file + "\" --json --nodes --adapter " + adapter +
+  const std::string command = "\"" ENTS_SCENE_HOST "\" \"" + file + "\" --json --nodes --adapter " + adapter +
                               " " + options + " 2>\"" + errors + "\"";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);

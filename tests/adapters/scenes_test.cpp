@@ -263,6 +263,11 @@ TEST_F(Scenes, RigidBodiesHaveAReferenceNode) {
   EXPECT_NE(refusal.find("/contact/master/rigid_body"), std::string::npos) << refusal;
 }
 
+TEST_F(Scenes, ModelsWhoseParametersMoveAreRefused) {
+  const std::string refusal = run_scene(ENTS_EXAMPLES "/wear_cylinder/scene.json", "abaqus").refusal;
+  EXPECT_NE(refusal.find("run it without --adapter abaqus"), std::string::npos) << refusal;
+}
+
 TEST_F(Scenes, AnUnknownNameIsToldWithTheList) {
   try {
     write_scene("hertz4d", Mesh::coarse, folder_);

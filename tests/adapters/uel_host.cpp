@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "uel_host.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace adapters {
@@ -32,13 +33,16 @@ UelHost::UelHost(const Elements& elements, Program program)
 
 UelCall UelHost::call(int element, const std::vector<double>& displacement) const {
   const int d = elements_.dimension;
-  UelCall c(static_cast<int>(nodes(element).size()), d, elements_.state_size + 1);
+  // The turns of a rigid body are those of its reference node; in the plane it has one.
+  UelCall c(elements_.body ? 2 : static_cast<int>(nodes(element).size()), d, elements_.state_size + 1,
+            !elements_.body ? 0
+            : d == 2        ? 1
+                            : 3);
   c.coords = gather(element, elements_.reference);
   c.u = gather(element, displacement);
   const std::vector<double> old = begin_.empty() ? std::vector<double>(c.u.size()) : gather(element, begin_);
   c.du = gather_change(element, displacement);
-  c.props = {static_cast<double>(elements_.model), area(element)};
-  if (elements_.options != 0) c.props.push_back(elements_.options);
+  c.props = constants(element);
   for (std::size_t i = 0; i < c.svars.size(); ++i)
     c.svars[i] = committed_[static_cast<std::size_t>(element)][i];
   c.jelem = number(element);
@@ -76,6 +80,10 @@ void UelHost::accept() {
   ++increment_;
 }
 
+void UelHost::set_history(int element, const std::vector<double>& state) {
+  std::copy(state.begin(), state.end(), committed_[static_cast<std::size_t>(element)].begin());
+}
+
 Answer UelHost::evaluate(int element, const std::vector<double>& displacement) {
   UelCall c = call(element, displacement);
   if (program_ == Program::moose_mesh) { // stiffness, then residual: each from the history of before
@@ -104,6 +112,12 @@ Answer UelHost::evaluate(int element, const std::vector<double>& displacement) {
   c.amatrx.check_written("AMATRX", 0, n * n);
   for (std::size_t i = 0; i < n; ++i) answer.residual.push_back(-c.rhs[i]);
   for (std::size_t i = 0; i < n * n; ++i) answer.tangent.push_back(c.amatrx[i]);
+  // Degrees of freedom that the element does not have: those of a node of the turns in the plane.
+  const std::size_t rows = at(elements_.dimension) * nodes(element).size();
+  for (std::size_t column = n; n < rows && column-- > 0;)
+    answer.tangent.insert(answer.tangent.begin() + static_cast<std::ptrdiff_t>(n * (column + 1)), rows - n,
+                          0.0);
+  answer.residual.resize(rows), answer.tangent.resize(rows * rows);
   auto& trial = trial_[static_cast<std::size_t>(element)];
   for (std::size_t i = 0; i < trial.size(); ++i) trial[i] = c.svars[i];
   return answer;

@@ -51,6 +51,8 @@ public:
 
   Answer evaluate(int element, const std::vector<double>& displacement) override;
   void accept() override;
+  void set_history(int element, const std::vector<double>& state) override;
+  std::vector<double> history(int element) override { return trial_[static_cast<std::size_t>(element)]; }
   int number(int element) const override { return 90001 + element; }
   UelCall call(int element, const std::vector<double>& displacement) const;
 

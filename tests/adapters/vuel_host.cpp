@@ -40,7 +40,7 @@ public:
   Answer evaluate(int element, const std::vector<double>& displacement) override {
     const int blocks[] = {1, 7, 136};
     int block = blocks[element % 3], d = elements_.dimension, nnode = static_cast<int>(nodes(element).size()),
-        ndofel = nnode * d, nsvars = size_, nprops = elements_.options != 0 ? 3 : 2, none = 0, one = 1;
+        ndofel = nnode * d, nsvars = size_, none = 0, one = 1;
     const int mine = block / 2;
     const std::vector<double> x = gather(element, elements_.reference), u = gather(element, displacement),
                               du = gather_change(element, displacement);
@@ -58,15 +58,15 @@ public:
         }
       for (int i = 0; i < nsvars; ++i) svars[at(b + block * i)] = committed(element)[at(i)];
     }
-    double props[3] = {static_cast<double>(elements_.model), area(element),
-                       static_cast<double>(elements_.options)},
-           time[2] = {0, 0}, period = 1, dtime = 1e-3;
+    std::vector<double> props = constants(element);
+    int nprops = static_cast<int>(props.size());
+    double time[2] = {0, 0}, period = 1, dtime = 1e-3;
     std::vector<int> jelem(at(block));
     for (int b = 0; b < block; ++b) jelem[at(b)] = b == mine ? number(element) : 500001 + b;
     const auto call = [&](int operation) {
       int lflags[3] = {17, 1, operation};
       vuel_(&block, rhs.data(), amass.data(), stable.data(), svars.data(), &nsvars, energy.data(), &nnode,
-            &ndofel, props, &nprops, nullptr, &none, coords.data(), &d, total.data(), change.data(),
+            &ndofel, props.data(), &nprops, nullptr, &none, coords.data(), &d, total.data(), change.data(),
             still.data(), still.data(), &one, jelem.data(), time, &period, &dtime, &dtime, &one, &one, lflags,
             scale.data(), nullptr, &none, nullptr, nullptr);
     };
@@ -81,7 +81,9 @@ public:
     rhs.check_written("rhs", 0, rhs.size()), stable.check_written("dtimeStable", 0, stable.size());
     rhs.check_guards("rhs"), amass.check_guards("amass"), stable.check_guards("dtimeStable"),
         svars.check_guards("svars"), energy.check_guards("energy");
-    Answer answer = plain().evaluate(element, displacement);
+    Answer answer;
+    if (elements_.stiffness) answer = plain().evaluate(element, displacement);
+    answer.residual.resize(at(ndofel));
     for (int i = 0; i < ndofel; ++i) {
       answer.residual[at(i)] = rhs[at(mine + block * i)];
       for (int b = 0; b < block; ++b)

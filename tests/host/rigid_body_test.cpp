@@ -158,15 +158,6 @@ TEST(RigidBody, AScrewHasItsTorque) {
   EXPECT_TRUE(quadratic(records.back().increments.back().residuals, 1e6, 1e-10));
 }
 
-TEST(RigidBody, AdaptersAreRefused) {
-  for (const auto& [scene, adapter] : {std::pair{"screw", "lsdyna"}, {"wear_cylinder", "abaqus"}}) {
-    const test::ProgramOutput output = test::ents_host("run " + test::scene_file(scene).string() +
-                                                       " --adapter " + adapter + " --out refused_by_adapter");
-    EXPECT_EQ(output.exit_code, 2) << output.text;
-    EXPECT_NE(output.text.find("run it without --adapter"), std::string::npos) << output.text;
-  }
-}
-
 TEST(RigidBody, MistakesAreNamed) {
   Json json = wheel(0, 4);
   Json& body = json["contact"]["master"]["rigid_body"];

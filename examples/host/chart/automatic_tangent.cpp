@@ -45,9 +45,9 @@ template <class S> Vector<S> cross(const Vector<S>& a, const Vector<S>& b) {
 }
 
 /// rho_e and its tangents at xi.
-template <class S> struct Place { Vector<S> point, tangent[2]; };
+template <class S> struct SurfacePlace { Vector<S> point, tangent[2]; };
 
-template <class S> Place<S> surface(const double* master, const std::array<S, 2>& xi) {
+template <class S> SurfacePlace<S> surface(const double* master, const std::array<S, 2>& xi) {
   constexpr double side[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   const S zero(0.0);
   Vector<S> rho{zero, zero, zero}, a[2]{rho, rho}, a12 = rho;
@@ -82,7 +82,7 @@ template <class S> Place<S> surface(const double* master, const std::array<S, 2>
   const S size = sqrt(dot(m, m));
   Vector<S> n;
   for (std::size_t c = 0; c < 3; ++c) n[c] = m[c] / size;
-  Place<S> at;
+  SurfacePlace<S> at;
   for (std::size_t c = 0; c < 3; ++c) at.point[c] = rho[c] + h * n[c];
   const Vector<S> m1[2] = {cross(a[0], a12), cross(a12, a[1])};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -98,7 +98,7 @@ void differentiate(const double* slave, const double* master, double area, const
                    double* tangent) {
   using Five = Number<5>; // xi, x_s
   using Three = Number<3>;
-  const Place<Five> at = surface<Five>(master, {Five(xi[0], 5, 0), Five(xi[1], 5, 1)});
+  const SurfacePlace<Five> at = surface<Five>(master, {Five(xi[0], 5, 0), Five(xi[1], 5, 1)});
   Vector<Five> d;
   for (std::size_t c = 0; c < 3; ++c) d[c] = Five(slave[c], 5, 2 + static_cast<int>(c)) - at.point[c];
   const Five r[2] = {dot(at.tangent[0], d), dot(at.tangent[1], d)};
@@ -109,7 +109,7 @@ void differentiate(const double* slave, const double* master, double area, const
     by_slave.row(a) = r[a].derivatives().tail<3>();
   }
   const Eigen::Matrix<double, 2, 3> rates = -by_xi.inverse() * by_slave;
-  const Place<Three> moved = surface<Three>(
+  const SurfacePlace<Three> moved = surface<Three>(
       master, {Three(xi[0], rates.row(0).transpose()), Three(xi[1], rates.row(1).transpose())});
   for (std::size_t c = 0; c < 3; ++c) {
     const Three force =

@@ -1,37 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "adapter.hpp"
+#include "scene_route.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <unistd.h>
 
-#include "adapters/program.hpp"
+#include "abaqus_services.hpp"
 #include "error.hpp"
+#include "guarded.hpp"
+#include "hosts.hpp"
 #include "json_reader.hpp"
 #include "own_elements.hpp"
 
-namespace host {
+namespace adapters {
 namespace {
-
 namespace fs = std::filesystem;
-
-using adapters::Program;
-using adapters::UserElement;
+using host::InputError, host::JobError, host::Json, host::OwnElements, host::ents_struct;
 
 /// No adapter: the plain interface, asked as an adapter asks it.
-const Program direct{.name = "direct", .file = nullptr, .title = "none", .coordinates = true};
-
-const Program* const programs[] = {&direct,           &adapters::abaqus,   &adapters::abaqus_explicit,
-                                   &adapters::ansys,  &adapters::calculix, &adapters::feap,
-                                   &adapters::lsdyna, &adapters::marc,     &adapters::opensees};
+const HostKind direct{.name = "direct", .make = nullptr, .title = "none", .coordinates = true};
 
 /// What an element brings that is in the files of its model.
 struct InFiles {
@@ -50,8 +45,7 @@ struct WrittenModel {
 
 /// What the functions that stand in for the library's need. One process, one adapter.
 struct Route {
-  const Program* program = nullptr;
-  void* adapter = nullptr; ///< its shared library
+  const HostKind* kind = nullptr;
   decltype(&ents_model_create) create = nullptr;
   decltype(&ents_model_layout) layout = nullptr;
   decltype(&ents_model_destroy) destroy = nullptr;
@@ -68,7 +62,7 @@ struct Route {
   }
 } route;
 
-std::string option() { return std::string("--adapter ") + route.program->name + ": "; }
+std::string option() { return "--adapter " + route.kind->name + ": "; }
 
 void make_paths_absolute(Json& value, const fs::path& directory) {
   if (value.is_object() && value.contains("file"))
@@ -79,8 +73,8 @@ void make_paths_absolute(Json& value, const fs::path& directory) {
 
 /// @throws InputError for what elements of this program cannot have
 void check_limits(const Json& model, const ents_layout& layout) {
-  const Program& program = *route.program;
-  const std::string who = std::string("user elements of ") + program.title;
+  const HostKind& program = *route.kind;
+  const std::string who = "user elements of " + program.title;
   const int nodes = 1 + layout.nodes + (layout.multipliers > 0 ? 1 : 0);
   if (program.dimension != 0 && layout.dimension != program.dimension)
     throw InputError(option() + "/dimension is " + std::to_string(layout.dimension) + ", " + who +
@@ -117,7 +111,7 @@ int32_t create_model(const char* text, int64_t length, const char* directory, co
     route.destroy(model, nullptr);
     throw;
   }
-  if (route.program == &direct) written.base = without_height(written.json, directory);
+  if (route.kind == &direct) written.base = without_height(written.json, directory);
   make_paths_absolute(written.json, directory == nullptr ? "." : directory);
   route.models.insert_or_assign(*model, std::move(written));
   return status;
@@ -164,70 +158,77 @@ struct ElementResult {
   std::vector<double> residual, tangent, state;
 };
 
-/// An element as the program sees it.
+/// Reference point and turns of a rigid body as nodes; no turn since the history: derivatives are by spins.
+void add_body(Elements& e, const ents_pose& pose, std::vector<double>& displacement,
+              std::vector<double>& state) {
+  const std::vector<double> in_body = e.reference;
+  const std::size_t d = at(e.dimension);
+  e.body = true;
+  for (std::size_t i = 0; i < d; ++i) {
+    e.reference[i] = pose.point[i];
+    for (std::size_t j = 0; j < d; ++j) e.reference[i] += pose.turn[d * i + j] * in_body[j];
+  }
+  e.reference.insert(e.reference.end(), pose.point, pose.point + d);
+  e.reference.resize(3 * d);
+  displacement.assign(3 * d, 0.0);
+  if (d == 2) {
+    displacement[2 * d] = std::atan2(pose.turn[2], pose.turn[0]);
+    return;
+  }
+  state.insert(state.end(), pose.turn, pose.turn + 9);
+  state.resize(state.size() + 3);
+}
+
+/// An element through the adapter, by a host that has no other one and in whose increment nothing has moved.
 /// @param pose  of a rigid body that turns, or null
-UserElement user_element(WrittenModel& model, int64_t k, const ents_input& in, const ents_pose* pose) {
+/// @return the step factor; < 1: the adapter wants a cut and nothing was written
+double evaluate_one(WrittenModel& model, const ents_input& in, const ents_pose* pose, ElementResult& out) {
+  if (*in.area == 0) return 1; // a node without area is in no deck: its forces are zero
   const ents_layout& layout = model.layout;
-  const auto d = static_cast<std::size_t>(layout.dimension), m = static_cast<std::size_t>(layout.nodes),
-             multipliers = static_cast<std::size_t>(layout.multipliers),
-             coordinates = m * static_cast<std::size_t>(layout.parameters);
-  UserElement e;
-  e.dimension = layout.dimension;
-  e.nodes = pose != nullptr ? 3 : 1 + layout.nodes + (multipliers > 0 ? 1 : 0);
-  e.place = static_cast<int>(k);
-  e.position.assign(in.slave, in.slave + d);
-  const std::size_t rows = static_cast<std::size_t>(e.rows());
-  e.state.resize(static_cast<std::size_t>(layout.state_size));
-  if (in.state_begin != nullptr) e.state.assign(in.state_begin, in.state_begin + layout.state_size);
+  const std::size_t d = at(layout.dimension), m = at(layout.nodes), multipliers = at(layout.multipliers);
+  Elements e;
+  e.dimension = layout.dimension, e.multipliers = layout.multipliers, e.stiffness = route.kind->stiffness;
+  e.symmetric = layout.symmetric_tangent != 0 && pose == nullptr;
+  e.area = {*in.area};
+  e.reference.assign(in.slave, in.slave + d);
+  std::vector<double> state(at(layout.state_size)), displacement;
+  if (in.state_begin != nullptr) state.assign(in.state_begin, in.state_begin + layout.state_size);
   InFiles in_files;
   if (pose != nullptr) {
     in_files.body.assign(in.master, in.master + m * d);
-    adapters::add_body(e, *pose);
+    add_body(e, *pose, displacement, state);
   } else {
-    e.position.insert(e.position.end(), in.master, in.master + m * d);
-    e.position.resize(rows);
-    e.displacement.resize(rows);
-    std::copy_n(in.multiplier, multipliers,
-                e.displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
+    e.reference.insert(e.reference.end(), in.master, in.master + m * d);
+    if (multipliers > 0) e.reference.resize(e.reference.size() + d);
+    displacement.resize(e.reference.size());
+    std::copy_n(in.multiplier, multipliers, displacement.begin() + static_cast<std::ptrdiff_t>((m + 1) * d));
   }
-  e.state_size = static_cast<int>(e.state.size());
-  std::vector<double> s;
+  e.nodes.emplace_back(e.reference.size() / d);
+  std::iota(e.nodes[0].begin(), e.nodes[0].end(), 0);
+  e.state_size = static_cast<int>(state.size());
   if (in.surface_coordinates != nullptr)
-    s.assign(in.surface_coordinates, in.surface_coordinates + coordinates);
-  if (!route.program->coordinates) in_files.coordinates = s;
-  const int number = model_number(model, in_files);
-  e.properties = {static_cast<double>(number), *in.area, 0};
-  if (route.program->coordinates) e.properties.insert(e.properties.end(), s.begin(), s.end());
-  constexpr double unset = std::numeric_limits<double>::quiet_NaN();
-  e.residual.assign(rows, unset);
-  e.tangent.assign(rows * rows, unset);
-  return e;
-}
-
-/// An element through the adapter: what its program asks for.
-/// @return the step factor; < 1: the adapter wants a cut and nothing was written
-double evaluate_one(WrittenModel& model, int64_t k, const ents_input& in, const ents_pose* pose,
-                    ElementResult& out) {
-  const ents_layout& layout = model.layout;
-  UserElement e = user_element(model, k, in, pose);
-  if (e.properties[1] == 0) return 1; // a node without area is in no deck: its forces are zero
-  route.program->call(route.adapter, e);
-  if (e.step_factor < 1) return e.step_factor;
-  const auto dofs = out.residual.size(),
-             of_nodes = pose != nullptr ? dofs : static_cast<std::size_t>(layout.dofs - layout.multipliers),
-             first_multiplier = static_cast<std::size_t>((layout.nodes + 1) * layout.dimension),
-             rows = static_cast<std::size_t>(e.rows());
-  const auto row = [&](std::size_t i) { return i < of_nodes ? i : first_multiplier + i - of_nodes; };
+    (route.kind->coordinates ? e.surface_coordinates : in_files.coordinates)
+        .assign(in.surface_coordinates, in.surface_coordinates + m * at(layout.parameters));
+  e.model = model_number(model, in_files);
+  const std::unique_ptr<EmulatedHost> host = route.kind->make(e);
+  host->set_history(0, state);
+  host->begin(displacement);
+  const Answer answer = host->evaluate(0, displacement);
+  if (answer.residual.empty()) return answer.step_factor;
+  // Multipliers come behind all nodes, also behind those of a master that has no unknowns.
+  const std::size_t dofs = out.residual.size(), rows = answer.residual.size(),
+                    of_nodes = pose != nullptr ? dofs : dofs - multipliers;
+  const auto row = [&](std::size_t i) { return i < of_nodes ? i : (m + 1) * d + i - of_nodes; };
   for (std::size_t j = 0; j < dofs; ++j) {
-    out.residual[j] = e.residual[row(j)];
-    if (!std::isfinite(out.residual[j])) throw JobError(option() + "a force is not finite");
-    for (std::size_t i = 0; route.program->tangent && i < dofs; ++i) {
-      const double stiffness = out.tangent[i + dofs * j] = e.tangent[row(i) + rows * row(j)];
-      if (!std::isfinite(stiffness)) throw JobError(option() + "a stiffness is not finite");
-    }
+    out.residual[j] = answer.residual[row(j)];
+    for (std::size_t i = 0; e.stiffness && i < dofs; ++i)
+      out.tangent[i + dofs * j] = answer.tangent[row(i) + rows * row(j)];
   }
-  e.state.resize(static_cast<std::size_t>(layout.state_size)); // a body's history is the pose
-  out.state = e.state;
+  for (const std::vector<double>* values : {&out.residual, &out.tangent})
+    for (const double value : *values)
+      if (!std::isfinite(value)) throw JobError(option() + "a force or a stiffness is not finite");
+  state = host->history(0);
+  std::copy_n(state.begin(), out.state.size(), out.state.begin()); // a body's history is the pose
   return 1;
 }
 
@@ -305,9 +306,9 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
   no_forces.residual = no_forces.values = nullptr;
   const int32_t status = route.assemble(handle, first, count, input, output, &no_forces, report);
   if (status < 0) return status;
-  if (status > 0 && !route.program->cuts)
+  if (status > 0 && !route.kind->cuts)
     throw JobError(option() + "an element needs a smaller load step (" + report->message +
-                   "), which elements of " + route.program->title +
+                   "), which elements of " + route.kind->title +
                    " cannot ask for: give /steps/values more entries");
   double step_factor = 1;
   int64_t k = first;
@@ -322,12 +323,18 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
     const ents_input in = elements.input(k);
     ElementResult result{std::vector<double>(dofs), std::vector<double>(dofs * dofs),
                          std::vector<double>(static_cast<std::size_t>(layout.state_size))};
-    if (route.program == &direct) {
+    if (route.kind == &direct) {
       step_factor = evaluate_directly(handle, model, in, system->pose, result);
     } else {
-      if (!route.program->tangent && system->values != nullptr)
+      if (!route.kind->stiffness && system->values != nullptr)
         evaluate_plainly(handle, in, system->pose, in.start, result);
-      step_factor = evaluate_one(model, k, in, system->pose, result);
+      try {
+        step_factor = evaluate_one(model, in, system->pose, result);
+      } catch (const HostStopped& stop) { // what Abaqus reads besides
+        std::string why = stop.what();
+        for (const AbaqusMessage& message : abaqus_messages()) why += "; " + message.text;
+        throw JobError(option() + "the adapter has ended the job: " + why);
+      }
     }
     if (step_factor < 1) break;
     elements.add(k, result.residual.data(), result.tangent.data());
@@ -346,42 +353,48 @@ int32_t assemble_elements(const ents_model* handle, int64_t first, int64_t count
 
 } // namespace
 
-std::vector<std::string> adapter_names() {
-  std::vector<std::string> names{"plain"};
-  for (const Program* program : programs) names.emplace_back(program->name);
+std::vector<std::string> route_names() {
+  std::vector<std::string> names{"plain", direct.name};
+  for (const HostKind& kind : hosts()) names.push_back(kind.name);
   return names;
 }
 
-void install_adapter(EntsLibrary& library, const std::string& name) {
+void check_adapter(const host::Scene& scene, const std::string& name) {
+  if (!scene.contact || name == "plain") return;
+  std::string why;
+  if (scene.contact->body && name == "lsdyna")
+    why = scene.file.string() + ": /contact/master/rigid_body: elements of LS-DYNA see present positions "
+                                "only, and the turns of a body are displacements";
+  if (!host::find_json(scene.contact->model, "/parameters").is_null())
+    why =
+        scene.contact->model_where + "/parameters: the elements of adapters read a model once, and it stays";
+  if (!why.empty()) throw InputError(why + "; run it without --adapter " + name);
+}
+
+void install_adapter(host::EntsLibrary& library, const std::string& name) {
   if (name == "plain") return;
   if (name == "abaqus_uinter")
-    throw InputError("--adapter abaqus_uinter: UINTER is the law of a point of Abaqus's own contact, it sees "
-                     "no segments and no master "
-                     "nodes: there is nothing in a scene that it could be called for. "
-                     "adapters/abaqus/uinter/README.md says "
-                     "what tests it; the user element is --adapter abaqus");
-  const auto* entry = std::find_if(std::begin(programs), std::end(programs),
-                                   [&](const Program* p) { return p->name == name; });
-  if (entry == std::end(programs)) {
+    throw InputError("--adapter abaqus_uinter: UINTER is the law of a point and has no segments; the user "
+                     "element is --adapter abaqus (adapters/abaqus/uinter/README.md says what tests UINTER)");
+  static const std::vector<HostKind> kinds = hosts();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const HostKind& each) { return each.name == name; });
+  if (kind == kinds.end() && name != direct.name) {
     std::string all;
-    for (const std::string& known : adapter_names()) all += (all.empty() ? "" : ", ") + known;
+    for (const std::string& known : route_names()) all += (all.empty() ? "" : ", ") + known;
     throw InputError("--adapter " + name + ": there is no such adapter; write one of " + all);
   }
-  route.program = *entry;
+  route.kind = name == direct.name ? &direct : &*kind;
   route.create = std::exchange(library.model_create, create_model);
   route.evaluate = library.evaluate;
   route.pose_element = library.pose_element;
   route.assemble = std::exchange(library.assemble, assemble_elements);
   route.layout = library.model_layout;
   route.destroy = std::exchange(library.model_destroy, destroy_model);
-  if (route.program == &direct) return;
-  const std::string file = (fs::path(library.path()).parent_path() / route.program->file).string();
-  route.adapter = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (route.adapter == nullptr)
-    throw JobError(option() + dlerror() + "; build the adapters: cmake --build build");
+  if (route.kind == &direct) return;
   std::string folder = (fs::temp_directory_path() / "ents-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) throw JobError("--adapter: no folder for models: " + folder);
   route.folder = folder;
 }
 
-} // namespace host
+} // namespace adapters
