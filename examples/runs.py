@@ -5,12 +5,12 @@ import base64
 import json
 import pathlib
 import re
-import shutil
 import struct
 import subprocess
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[1]
+BLUE, ORANGE, PALE, GREY, DARK = "#0072b2", "#d55e00", "#56b4e9", "#bbbbbb", "#333333"  # of pictures: Okabe and Ito 2008; exact curves
 
 
 def arguments(document, name):
@@ -63,10 +63,26 @@ def write_result(folder, steps):
     (folder / "result.json").write_text(json.dumps({"steps": [{"exact": step} for step in steps]}, indent=1))
 
 
-def draw(script, picture):
-    """Run gnuplot, if it is there."""
-    if not shutil.which("gnuplot"):
-        print(f"no picture {picture}: gnuplot is not installed")
+def draw(picture, size, *panels, below=False, projection=None):
+    """A picture with matplotlib, if it is there. size: pixels; panels: functions of the axes that they fill, beside or below each other."""
+    try:
+        import matplotlib
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+    except ImportError:
+        print(f"no picture {picture}: matplotlib is not installed (Debian package python3-matplotlib)")
         return
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    pyplot.rcParams.update({"axes.grid": True, "grid.color": "#dddddd", "axes.axisbelow": True, "legend.frameon": False, "font.size": 9})
+    count = (len(panels), 1) if below else (1, len(panels))
+    figure, axes = pyplot.subplots(*count, figsize=[pixels / 100 for pixels in size], layout="constrained", squeeze=False,
+                                   subplot_kw={"projection": projection})
+    figure.get_layout_engine().set(w_pad=0.1, h_pad=0.12)
+    for panel, each in zip(panels, axes.flat):
+        panel(each)
+    figure.savefig(picture, dpi=100)
+    pyplot.close(figure)
     print(picture)
+
+
+def legend_above(axes):
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncols=6, borderaxespad=0.2)

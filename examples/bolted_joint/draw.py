@@ -1,15 +1,29 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""draw.py FOLDER: FOLDER/joint.png of a run of joint.py, by gnuplot: half sections of both meshes, and what each quarter turn of the thread carries."""
+"""draw.py FOLDER: FOLDER/joint.png of a run of joint.py, with matplotlib: half sections of both meshes, and what each quarter turn of the thread
+carries."""
 import json
 import pathlib
-import subprocess
 import sys
 
-from bodies import PARTS
-from joint_parts import TURNS, Joint
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import runs  # noqa: E402
+from bodies import PARTS  # noqa: E402
+from joint_parts import TURNS, Joint  # noqa: E402
 
 GAP = 1.0  # between the halves of the picture
+STEEL, RED = "#2c5f8a", "#b0201c"
+
+
+def thread(joint, offset):
+    """The thread on the plain bolt at the section: x, z."""
+    points = []
+    for k in range(2751):
+        z = joint.threaded[0] + 0.01 * k
+        place = (z - offset + joint.pitch / 2) % joint.pitch - joint.pitch / 2
+        flank = joint.pitch_radius + (joint.pitch / 4 - abs(place)) / joint.tan
+        points.append((GAP + min(joint.diameter / 2, max(joint.root_radius, flank)), min(z, joint.threaded[1])))
+    return points
 
 
 def main():
@@ -20,44 +34,40 @@ def main():
     result = json.loads((folder / "result.json").read_text())
     threads = [name for name in result if name in ("small", "coarse", "fine")][-1]
     own, other = result["enriched"], result[threads]
-    (folder / "quarters.dat").write_text("".join(f"{(i + 0.5) / PARTS} {100 * PARTS * a} {100 * PARTS * b}\n" for i, (a, b) in enumerate(zip(own["parts"], other["parts"]))))
-    (folder / "turns.dat").write_text("".join(f"{i + 0.5} {100 * own['shares'][i]} {100 * other['shares'][i]} {100 * result['yamamoto'][i]}\n" for i in range(TURNS)))
     joint, model = Joint(), json.loads((folder / "enriched/model.json").read_text())["height"]["of"][0]
-    lines = []
-    for k in range(2751):  # the thread on the plain bolt at the section
-        z = joint.threaded[0] + 0.01 * k
-        place = (z - model["offset"] + joint.pitch / 2) % joint.pitch - joint.pitch / 2
-        lines.append(f"{GAP + min(joint.diameter / 2, max(joint.root_radius, joint.pitch_radius + (joint.pitch / 4 - abs(place)) / joint.tan)):.5g} {min(z, joint.threaded[1]):.5g} 0")
-    (folder / "thread.dat").write_text("\n".join(lines) + "\n")
-    script = f"""set terminal pngcairo size 1400,640 font "sans,12" rounded
-set output "{folder}/joint.png"
-set multiplot
-set origin 0,0; set size 0.56,1
-set lmargin at screen 0.01; set rmargin at screen 0.54; set tmargin at screen 0.88; set bmargin at screen 0.03
-unset border; unset tics; set xrange [-21:21]; set yrange [-11.3:20.8]
-set palette defined (0 "#2c5f8a", 0.25 "#8fbcd9", 0.5 "#f7f4dc", 0.75 "#e8923d", 1 "#b0201c"); set cbrange [0:500]
-set colorbox user origin 0.555,0.1 size 0.01,0.7; set cbtics 200 nomirror; set label 4 "von Mises\\n[MPa]" at screen 0.552,0.87 left
-set title "threads as a mesh: {other['nodes']} nodes, {other['seconds']:.0f} s      |      plain cylinders: {own['nodes']} nodes, {own['seconds']:.1f} s" offset 0,0.3
-set label 1 "nut" at -13.5,15.5 center front; set label 2 "plate" at -17,-9 center front; set label 3 "bolt" at -3,19 center front
-set view map; set pm3d corners2color mean
-splot "{folder}/section_{threads}.dat" using 1:2:3 with pm3d notitle, "" using 1:2:(0) with lines lc rgb "#404040" lw 0.3 notitle, \\
-      "{folder}/section_enriched.dat" using ($1 + {GAP}):2:3 with pm3d notitle, "" using ($1 + {GAP}):2:(0) with lines lc rgb "#404040" lw 0.6 notitle, \\
-      "{folder}/thread.dat" using 1:2:(0) with lines lc rgb "#b0201c" lw 1.6 notitle
-unset pm3d
-unset label 1; unset label 2; unset label 3; unset label 4; unset colorbox
-set lmargin at screen 0.665; set rmargin at screen 0.985; set tmargin at screen 0.88; set bmargin at screen 0.12
-set border 3; set xtics nomirror 1; set ytics nomirror; set xrange [0:{TURNS}]; set yrange [0:32]; set grid y lc rgb "#dddddd"
-set title "load along the nut's thread, from the plate on" offset 0,0.5
-set xlabel "turn"; set ylabel "% of the preload per turn"
-set key top right
-plot "{folder}/turns.dat" using 1:3:(0.9) with boxes fs solid 0.25 noborder lc rgb "#2c5f8a" title "turns, threads as a mesh", \\
-     "" using ($1-0.45):2:(0.9):(0) with vectors nohead lw 3 lc rgb "#b0201c" title "turns, plain cylinders", \\
-     "{folder}/quarters.dat" using 1:3 with lines lw 1.5 lc rgb "#2c5f8a" title "quarter turns, threads as a mesh", \\
-     "" using 1:2 with points pt 6 ps 0.9 lw 1.5 lc rgb "#b0201c" title "quarter turns, plain cylinders", \\
-     "{folder}/turns.dat" using 1:4 with points pt 4 ps 1.1 lw 1.5 lc rgb "#555555" title "turns, Yamamoto's theory"
-"""
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
-    print(folder / "joint.png")
+
+    def sections(axes):
+        from matplotlib import collections, colors
+        stress = colors.LinearSegmentedColormap.from_list("stress", [STEEL, "#8fbcd9", "#f7f4dc", "#e8923d", RED])
+        for name, right, width in ((threads, 0, 0.2), ("enriched", GAP, 0.5)):
+            faces = json.loads((folder / f"section_{name}.json").read_text())
+            drawn = axes.add_collection(collections.PolyCollection(
+                [[(x + right, z) for x, z, _ in face] for face in faces], array=[sum(v for _, _, v in face) / len(face) for face in faces], cmap=stress,
+                norm=colors.Normalize(0, 500), edgecolors="#404040", linewidths=width))
+        axes.plot(*zip(*thread(joint, model["offset"])), color=RED, linewidth=1.3)
+        for word, x, z in (("nut", -13.5, 15.5), ("plate", -17, -9), ("bolt", -3, 19)):
+            axes.text(x, z, word, ha="center", va="center", fontsize=11)
+        axes.set(xlim=(-21, 21), ylim=(-11.3, 20.8), aspect="equal")
+        axes.set_title(loc="left", fontsize=9, label=f"threads as a mesh: {other['nodes']} nodes, {other['seconds']:.0f} s      |      "
+                 f"plain cylinders: {own['nodes']} nodes, {own['seconds']:.1f} s")
+        axes.axis("off")
+        axes.figure.colorbar(drawn, ax=axes, shrink=0.8, aspect=50, pad=0.01, ticks=(0, 200, 400)).ax.set_title("von Mises\n[MPa]", fontsize=9)
+
+    def turns(axes):
+        middle, quarters = [i + 0.5 for i in range(TURNS)], [(i + 0.5) / PARTS for i in range(len(own["parts"]))]
+        axes.bar(middle, [100 * x for x in other["shares"][:TURNS]], 0.9, color=STEEL, alpha=0.25, label="turns, threads as a mesh")
+        axes.hlines([100 * x for x in own["shares"][:TURNS]], [x - 0.45 for x in middle], [x + 0.45 for x in middle], color=RED, linewidth=2.5,
+                    label="turns, plain cylinders")
+        axes.plot(quarters, [100 * PARTS * x for x in other["parts"]], color=STEEL, linewidth=1.5, label="quarter turns, threads as a mesh")
+        axes.plot(quarters, [100 * PARTS * x for x in own["parts"]], "o", color=RED, fillstyle="none", label="quarter turns, plain cylinders")
+        axes.plot(middle, [100 * x for x in result["yamamoto"][:TURNS]], "s", color="#555555", fillstyle="none", label="turns, Yamamoto's theory")
+        axes.set(xlim=(0, TURNS), ylim=(0, 32), xlabel="turn", ylabel="% of the preload per turn",
+                 title="load along the nut's thread, from the plate on")
+        axes.grid(False, axis="x")
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.legend(loc="upper right")
+
+    runs.draw(folder / "joint.png", (1400, 640), sections, turns)
     return 0
 
 

@@ -84,7 +84,7 @@ def explicit(name, joint, options):
     result = {"nodes": len(mesh.nodes), **solve(options.ccx, folder, "job")}
     forces = output.contact_forces(folder, "job")
     parts = [[-step[f"PART{i + 1}"][2] for i in range(TURNS * bodies.PARTS)] for step in forces]
-    (options.out / f"section_{name}.dat").write_text(output.section(mesh, output.mises(folder, "job", len(mesh.nodes)), -1))
+    (options.out / f"section_{name}.json").write_text(json.dumps(output.section(mesh, output.mises(folder, "job", len(mesh.nodes)), -1)))
     return judged(result, name, bearings_of(forces), parts)
 
 
@@ -133,7 +133,7 @@ def enriched(name, joint, options, shaft, bore, stiffness):
         axial = [axial[0]] + [f for f in axial[1:-1] for f in (f / 2, f / 2)] + [axial[-1]]
         size = 2 * columns // bodies.PARTS
         parts.append([sum(axial[i:i + size]) for i in range(0, len(axial), size)])
-    (options.out / f"section_{name}.dat").write_text(output.section(mesh, output.mises(job, "joint", len(mesh.nodes)), 1))
+    (options.out / f"section_{name}.json").write_text(json.dumps(output.section(mesh, output.mises(job, "joint", len(mesh.nodes)), 1)))
     return judged(result, name, bearings_of(output.contact_forces(job, "joint")), parts)
 
 

@@ -60,7 +60,7 @@ def mises(folder, job, count):
 
 
 def section(mesh, values, side):
-    """Quadrilaterals of a half section for gnuplot's pm3d: x (side -1: to the left), z, value at each corner."""
+    """Quadrilaterals of a half section: x (side -1: to the left), z, value at each corner."""
     first = set()
     for key, number in mesh.number.items():
         if key[0] in ("bolt", "plate"):
@@ -68,7 +68,7 @@ def section(mesh, values, side):
                 first.add(number)
         elif key[1] == 0:
             first.add(number)
-    faces, out = set(), []
+    faces = set()
     for group in mesh.elements.values():
         for _, nodes in group:
             if len(nodes) == 8:
@@ -83,7 +83,4 @@ def section(mesh, values, side):
     axis = sorted((mesh.nodes[n - 1][2], n) for key, n in mesh.number.items() if key[0] == "bolt" and key[2] == "core" and n in first)
     border = {round(mesh.nodes[n - 1][2], 6): n for key, n in mesh.number.items() if key[0] == "bolt" and key[2] == 0 and key[3] == 0}
     faces |= {(a, b, border[round(high, 6)], border[round(low, 6)]) for (low, a), (high, b) in zip(axis, axis[1:])}
-    for face in sorted(faces):
-        a, b, c, d = (f"{side * math.hypot(*mesh.nodes[n - 1][:2]):.5g} {mesh.nodes[n - 1][2]:.5g} {values[n - 1]:.5g}" for n in face)
-        out.append(f"{a}\n{b}\n\n{d}\n{c}\n\n\n")
-    return "".join(out)
+    return [[[side * math.hypot(*mesh.nodes[n - 1][:2]), mesh.nodes[n - 1][2], values[n - 1]] for n in face] for face in sorted(faces)]

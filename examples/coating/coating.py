@@ -97,15 +97,16 @@ def share(pressure, waves):
 
 def draw(folder, pressure):
     n, mean = len(pressure) - 1, sum(pressure[1:-1]) / (len(pressure) - 2)
-    (folder / "pressure.dat").write_text("".join(f"{i / n} {p}\n" for i, p in enumerate(pressure)))
-    waves = " + ".join(f"{exact(name)} * cos(2 * pi * {WAVES[name][1]} * x)" for name in WAVES)
-    script = f"""set terminal pngcairo size 1000,420 font "sans,12" rounded
-set output "{folder}/coating.png"
-set xlabel "x [mm]"; set ylabel "pressure [MPa]"; set grid lc rgb "#dddddd"; set key above; set samples 4000; set xrange [0:1]
-plot {mean} + {waves} with lines lw 4 lc rgb "#bbbbbb" title "closed form", \
-     "{folder}/pressure.dat" with lines lw 1.3 lc rgb "#0072b2" title "25 elements of the coating, with their texture"
-"""
-    runs.draw(script, folder / "coating.png")
+    places = [k / 4000 for k in range(4001)]
+
+    def panel(axes):
+        axes.plot(places, [mean + sum(exact(name) * math.cos(2 * math.pi * WAVES[name][1] * x) for name in WAVES) for x in places],
+                  color=runs.GREY, linewidth=4, label="closed form")
+        axes.plot([i / n for i in range(n + 1)], pressure, color=runs.BLUE, linewidth=1.3, label="25 elements of the coating, with their texture")
+        axes.set(xlabel="x [mm]", ylabel="pressure [MPa]", xlim=(0, 1))
+        runs.legend_above(axes)
+
+    runs.draw(folder / "coating.png", (1000, 420), panel)
 
 
 def main():

@@ -52,24 +52,23 @@ def quantities(name, rows):
 
 
 def draw(folder, signals):
-    for name, rows in signals.items():
-        (folder / f"{name}.dat").write_text("".join(f"{t} {f} {a}\n" for t, f, a in rows))
-    (folder / "exact.dat").write_text("".join(f"{t / 100} {exact(t / 100)[0]} {exact(t / 100)[1]}\n" for t in range(3001)))
-    arrows = "\n".join(f"set arrow from {x}, graph 0 to {x}, graph 1 nohead dt 2 lc rgb '#999999'" for x in BORDERS)
-    script = f"""set terminal pngcairo size 1100,620 font "sans,12" rounded
-set output "{folder}/drum.png"
-set multiplot layout 2,1
-set lmargin 9; set xrange [0:30]; set grid ytics lc rgb "#dddddd"; set key above; {arrows}
-set ylabel "force [N]"
-plot "{folder}/plain.dat" using 1:2 with lines lw 1.5 lc rgb "#d55e00" title "plain segments", \
-     "{folder}/exact.dat" using 1:2 with lines lw 4 lc rgb "#bbbbbb" title "exact", \
-     "{folder}/bspline.dat" using 1:2 with lines lw 1.5 lc rgb "#0072b2" title "C2 splines"
-unset key; set ylabel "torque / force [mm]"; set xlabel "turn [degrees]; dashed: borders of segments"
-plot "{folder}/plain.dat" using 1:3 with lines lw 1.5 lc rgb "#d55e00" title "plain segments", \
-     "{folder}/exact.dat" using 1:3 with lines lw 4 lc rgb "#bbbbbb" title "exact", \
-     "{folder}/bspline.dat" using 1:3 with lines lw 1.5 lc rgb "#0072b2" title "C2 splines"
-"""
-    runs.draw(script, folder / "drum.png")
+    turns = [t / 100 for t in range(3001)]
+
+    def panel(axes, quantity):
+        def curve(name, color, label):
+            axes.plot([row[0] for row in signals[name]], [row[1 + quantity] for row in signals[name]], color=color, linewidth=1.5, label=label)
+
+        curve("plain", runs.ORANGE, "plain segments")
+        axes.plot(turns, [exact(t)[quantity] for t in turns], color=runs.GREY, linewidth=4, label="exact")
+        curve("bspline", runs.BLUE, "C2 splines")
+        for x in BORDERS:
+            axes.axvline(x, color="#999999", linewidth=1, dashes=(4, 3))
+        axes.set(xlim=(0, 30), ylabel=("force [N]", "torque / force [mm]")[quantity], xlabel=("", "turn [degrees]; dashed: borders of segments")[quantity])
+        axes.grid(False, axis="x")
+        if quantity == 0:
+            runs.legend_above(axes)
+
+    runs.draw(folder / "drum.png", (1100, 620), lambda axes: panel(axes, 0), lambda axes: panel(axes, 1), below=True)
 
 
 def main():

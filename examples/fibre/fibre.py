@@ -46,20 +46,19 @@ def half_width(rows):
 
 
 def draw(folder, steps):
-    plots, curves = [], []
-    for i, rows in enumerate(steps):
-        load = abs(sum(row[2] for row in rows)) / PIECE
-        half, peak = hertz(load)
-        (folder / f"step{i}.dat").write_text("".join(f"{d} {p}\n" for d, p, _ in rows if p > 0))
-        plots.append(f'"{folder}/step{i}.dat" with points pt 7 ps 0.5 lc {i + 1} title "{load:.1f} N per mm"')
-        curves.append(f'abs(x) < {half} ? {peak} * sqrt(1 - x**2 / {half}**2) : 0 with lines lw 1.5 lc rgb "#333333" '
-                      + ("notitle" if curves else 'title "Hertz"'))
-    script = f"""set terminal pngcairo size 1000,480 font "sans,12" rounded
-set output "{folder}/fibre.png"
-set xlabel "place across the fibre [mm]"; set ylabel "pressure [MPa]"; set grid lc rgb "#dddddd"; set samples 1000; set xrange [-0.4:0.4]
-plot {", ".join(plots + curves)}
-"""
-    runs.draw(script, folder / "fibre.png")
+    def panel(axes):
+        for rows in steps:
+            load = abs(sum(row[2] for row in rows)) / PIECE
+            half, peak = hertz(load)
+            axes.plot([d for d, p, _ in rows if p > 0], [p for _, p, _ in rows if p > 0], ".", markersize=5, label=f"{load:.1f} N per mm")
+            angles = [math.pi * k / 200 for k in range(201)]
+            axes.plot([-half * math.cos(a) for a in angles], [peak * math.sin(a) for a in angles], color=runs.DARK, linewidth=1.5,
+                      label="Hertz" if rows is steps[-1] else None)
+        axes.set(xlabel="place across the fibre [mm]", ylabel="pressure [MPa]", xlim=(-0.4, 0.4))
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="upper right")
+
+    runs.draw(folder / "fibre.png", (1000, 480), panel)
 
 
 def main():

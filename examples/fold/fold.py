@@ -13,19 +13,16 @@ import runs  # noqa: E402
 
 
 def draw(folder, steps):
-    plots = []
-    for panel, step in enumerate((0, len(steps) // 2, len(steps))):
+    def panel(axes, title, step):
         points = runs.vtu_points(folder / "whole", max(step, 1), "bulk", displaced=step > 0)
         quads = runs.vtu_values(folder / "whole", max(step, 1), "bulk", "connectivity", "q")
-        loops = [[points[n] for n in (*quads[i:i + 4], quads[i])] for i in range(0, len(quads), 4)]
-        (folder / f"mesh{panel}.dat").write_text("\n".join("".join(f"{p[0]} {p[1]}\n" for p in loop) for loop in loops))
-        plots.append(f'set title "{["as it is", "half way", "pressed"][panel]}"\nplot "{folder}/mesh{panel}.dat" with lines lc rgb "#0072b2" notitle')
-    script = f"""set terminal pngcairo size 1200,240 font "sans,12" rounded
-set output "{folder}/fold.png"
-set multiplot layout 1,3
-set size ratio -1; set xrange [-0.7:4.2]; set yrange [-0.65:0.65]; unset border; unset tics
-""" + "\n".join(plots) + "\n"
-    runs.draw(script, folder / "fold.png")
+        for i in range(0, len(quads), 4):
+            axes.plot(*list(zip(*(points[n] for n in (*quads[i:i + 4], quads[i]))))[:2], color=runs.BLUE, linewidth=1)
+        axes.set(title=title, xlim=(-0.7, 4.2), ylim=(-0.65, 0.65), aspect="equal")
+        axes.axis("off")
+
+    runs.draw(folder / "fold.png", (1200, 240), lambda axes: panel(axes, "as it is", 0), lambda axes: panel(axes, "half way", len(steps) // 2),
+              lambda axes: panel(axes, "pressed", len(steps)))
 
 
 def main():

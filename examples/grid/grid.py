@@ -57,26 +57,28 @@ def loads(step):
 
 
 def draw(folder, steps):
-    plots = []
-    for i, step in enumerate(steps):
-        nodes, total = step["nodes"], 2 * SPACING * step["value"]
-        row = sorted((nodes["position"][3 * k], p) for k, p in enumerate(nodes["pressure"]) if nodes["position"][3 * k + 1] < 1e-3)
-        (folder / f"step{i}.dat").write_text("".join(f"{x} {p}\n" for x, p in row))
-        hertz = []
-        for load, radius, places in zip(exact(total), radii(), ((0, 2, 4), (1, 3))):
-            half = math.sqrt(4 * load * radius / (math.pi * MODULUS))
-            hertz += [(x * SPACING, half, 2 * load / (math.pi * half)) for x in places]
-        (folder / f"hertz{i}.dat").write_text("\n\n".join("".join(
-            f"{x + a * math.sin(t * math.pi / 80)} {p * math.cos(t * math.pi / 80)}\n" for t in range(-40, 41)) for x, a, p in hertz))
-        plots.append(f'"{folder}/hertz{i}.dat" with lines lw 4 lc rgb "#bbbbbb" ' + ('title "exact"' if i == 0 else "notitle"))
-        plots.append(f'"{folder}/step{i}.dat" with lines lw 1.3 lc {i + 1} title "{step["value"]:g} MPa"')
-    script = f"""set terminal pngcairo size 1000,480 font "sans,12" rounded
-set output "{folder}/grid.png"
-set xlabel "place across the wires [mm]"; set ylabel "pressure [MPa]"; set grid lc rgb "#dddddd"; set key above
-set xrange [0.9:2.1]
-plot {", ".join(plots)}
-"""
-    runs.draw(script, folder / "grid.png")
+    angles = [t * math.pi / 80 for t in range(-40, 41)]
+
+    def panel(axes):
+        label = "exact"
+        for step in steps:
+            nodes, total = step["nodes"], 2 * SPACING * step["value"]
+            for load, radius, places in zip(exact(total), radii(), ((0, 2, 4), (1, 3))):
+                half = math.sqrt(4 * load * radius / (math.pi * MODULUS))
+                peak = 2 * load / (math.pi * half)
+                for x in places:
+                    axes.plot([x * SPACING + half * math.sin(a) for a in angles], [peak * math.cos(a) for a in angles], color=runs.GREY, linewidth=4,
+                              label=label)
+                    label = None
+        for step in steps:
+            nodes = step["nodes"]
+            row = sorted((nodes["position"][3 * k], p) for k, p in enumerate(nodes["pressure"]) if nodes["position"][3 * k + 1] < 1e-3)
+            axes.plot(*zip(*row), linewidth=1.3, label=f"{step['value']:g} MPa")
+        axes.set(xlabel="place across the wires [mm]", ylabel="pressure [MPa]", xlim=(0.9, 2.1))
+        axes.set_ylim(bottom=0)
+        runs.legend_above(axes)
+
+    runs.draw(folder / "grid.png", (1000, 480), panel)
 
 
 def main():

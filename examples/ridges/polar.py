@@ -51,27 +51,20 @@ def solve(program, folder, direction, enrichment="full"):
 
 
 def draw(rows, folder):
-    data = folder / "polar.dat"
-    data.write_text("".join(" ".join(str(x) for x in row) + "\n" for row in rows + rows[:1]))
+    closed = rows + rows[:1]
+    angles, degrees = [math.radians(row[0]) for row in closed], range(361)
+
+    def panel(axes, component, color, title, largest):
+        axes.plot([math.radians(k) for k in degrees], [abs(exact(k)[component]) for k in degrees], color=runs.DARK, linewidth=2, label="exact")
+        axes.plot(angles, [abs(row[1 + component]) for row in closed], "o", color=color, markersize=7, label="ONE enriched quad4")
+        axes.plot(angles, [abs(row[5 + component]) for row in closed], "o", color="#777777", fillstyle="none", markersize=6, label="gap only")
+        axes.set(title=title, rlim=(0, largest), xticks=[math.radians(30 * k) for k in range(12)], xticklabels=[])
+        axes.spines["polar"].set_visible(False)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), ncols=3)
+
     picture = folder / "polar.png"
-    curve = "".join(f"{k} {exact(k)[0]} {exact(k)[1]}\n" for k in range(361))
-    (folder / "exact.dat").write_text(curve)
-    script = f"""set terminal pngcairo size 1100,570 font "sans,12" rounded
-set output "{picture}"
-set multiplot layout 1,2
-set polar; set angles degrees; set grid polar 30 lc rgb "#bbbbbb"; unset border; unset xtics; unset ytics; set size square
-set rrange [0:0.45]; set rtics 0.1 font "sans,12"; set key bottom outside center horizontal
-set title "resistance / normal load, by direction of motion"
-plot "{folder}/exact.dat" using 1:2 with lines lw 2 lc rgb "#333333" title "exact", \
-     "{data}" using 1:2 with points pt 7 ps 1.4 lc rgb "#0072b2" title "ONE enriched quad4", \
-     "{data}" using 1:6 with points pt 6 ps 1.2 lc rgb "#777777" title "gap only"
-set rrange [0:0.25]
-set title "size of the side force / normal load"
-plot "{folder}/exact.dat" using 1:(abs($3)) with lines lw 2 lc rgb "#333333" title "exact", \
-     "{data}" using 1:(abs($3)) with points pt 7 ps 1.4 lc rgb "#d55e00" title "ONE enriched quad4", \
-     "{data}" using 1:(abs($7)) with points pt 6 ps 1.2 lc rgb "#777777" title "gap only"
-"""
-    runs.draw(script, picture)
+    runs.draw(picture, (1100, 640), lambda axes: panel(axes, 0, runs.BLUE, "resistance / normal load, by direction of motion", 0.45),
+              lambda axes: panel(axes, 1, runs.ORANGE, "size of the side force / normal load", 0.25), projection="polar")
 
 
 def main():

@@ -33,25 +33,21 @@ def quantities(result, cells):
 
 
 def draw(folder, results):
-    plots = {"area": [], "stiffness": []}
-    for cells, steps in results.items():
-        for name, index in (("area", 1), ("stiffness", 2)):
-            rows = [(s[0], s[index]) for s in steps if len(s) > index]
-            (folder / f"{name}{cells}.dat").write_text("".join(f"{p['value']} {q['value']} {p['exact']} {q['exact']}\n" for p, q in rows))
-            points = f'"{folder}/{name}{cells}.dat" using 1:2 with points pt {4 + 2 * MESHES.index(cells)} ps 1.4 lc {1 + MESHES.index(cells)} title "{cells} x {cells} cells"'
-            plots[name].append(points)
-    for name, what in plots.items():
-        what.insert(0, f'"{folder}/{name}{MESHES[-1]}.dat" using 3:4 with lines lw 3 lc rgb "#999999" title "boundary elements"')
-    script = f"""set terminal pngcairo size 1000,450 font "sans,12" rounded
-set output "{folder}/rough.png"
-set multiplot layout 1,2
-set logscale xy; set xrange [0.06:4]; set grid lc rgb "#dddddd"; set key bottom right; set xlabel "mean pressure [MPa]"
-set ylabel "contact area / area"; set key top left
-plot {", ".join(plots["area"])}
-set ylabel "stiffness [MPa/mm]"; set yrange [150:2000]; set ytics (200, 500, 1000, 2000)
-plot {", ".join(plots["stiffness"])}
-"""
-    runs.draw(script, folder / "rough.png")
+    def panel(axes, index, label):
+        rows = {cells: [(s[0], s[index]) for s in steps if len(s) > index] for cells, steps in results.items()}
+        axes.plot([p["exact"] for p, _ in rows[MESHES[-1]]], [q["exact"] for _, q in rows[MESHES[-1]]], color="#999999", linewidth=3,
+                  label="boundary elements")
+        for cells, marker in zip(rows, "s^ovD"):
+            axes.plot([p["value"] for p, _ in rows[cells]], [q["value"] for _, q in rows[cells]], marker, fillstyle="none", markersize=7,
+                      label=f"{cells} x {cells} cells")
+        axes.set(xscale="log", yscale="log", xlim=(0.06, 4), xlabel="mean pressure [MPa]", ylabel=label)
+        if index == 2:
+            axes.set(ylim=(150, 2000), yticks=(200, 500, 1000, 2000), yticklabels=("200", "500", "1000", "2000"))
+            axes.tick_params(which="minor", labelleft=False)
+        axes.legend(loc="upper left")
+
+    runs.draw(folder / "rough.png", (1000, 450), lambda axes: panel(axes, 1, "contact area / area"),
+              lambda axes: panel(axes, 2, "stiffness [MPa/mm]"))
 
 
 def main():

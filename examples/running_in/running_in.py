@@ -32,21 +32,24 @@ def first_wave(nodes):
 
 def draw(folder, result, slid, rate, amplitude):
     last = len(slid) - 1
-    chosen = [(slid[i], result["steps"][i]["nodes"]) for i in (0, last // 4, last // 2, last)]
-    blocks = ["\n".join(f"{x} {p}" for x, p in sorted(zip(nodes["position"][::2], nodes["pressure"]))) for _, nodes in chosen]
-    (folder / "pressure.dat").write_text("\n\n\n".join(blocks) + "\n")
-    (folder / "amplitude.dat").write_text("".join(f"{s / 1000} {first_wave(step['nodes'])}\n" for s, step in zip(slid, result["steps"])))
-    curves = ", ".join(f'"{folder}/pressure.dat" index {i} with lines lw 2 lc {i + 1} title "{s / 1000:g} m"'
-                       for i, (s, _) in enumerate(chosen))
-    runs.draw(f"""set terminal pngcairo size 1000,420 font "sans,12" rounded
-set output "{folder}/running_in.png"
-set multiplot layout 1,2
-set grid lc rgb "#dddddd"
-set xlabel "place [mm]"; set ylabel "pressure [MPa]"; set key center bottom title "slid"; set xrange [-0.5:0.5]; set yrange [0:*]
-plot {curves}
-set xlabel "slid [m]"; set ylabel "amplitude of the pressure [MPa]"; set key right top notitle; set xrange [0:0.9]; set yrange [0:*]; set samples 300
-plot {amplitude} * exp(-{rate} * 1000 * x) lw 1.5 lc rgb "#333333" title "exact", "{folder}/amplitude.dat" pt 7 lc 1 title "computed"
-""", folder / "running_in.png")
+
+    def pressures(axes):
+        for i in (0, last // 4, last // 2, last):
+            nodes = result["steps"][i]["nodes"]
+            axes.plot(*zip(*sorted(zip(nodes["position"][::2], nodes["pressure"]))), linewidth=2, label=f"{slid[i] / 1000:g} m")
+        axes.set(xlabel="place [mm]", ylabel="pressure [MPa]", xlim=(-0.5, 0.5))
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="lower center", title="slid")
+
+    def amplitudes(axes):
+        metres = [0.9 * k / 300 for k in range(301)]
+        axes.plot(metres, [amplitude * math.exp(-rate * 1000 * s) for s in metres], color=runs.DARK, linewidth=1.5, label="exact")
+        axes.plot([s / 1000 for s in slid], [first_wave(step["nodes"]) for step in result["steps"]], "o", color=runs.BLUE, label="computed")
+        axes.set(xlabel="slid [m]", ylabel="amplitude of the pressure [MPa]", xlim=(0, 0.9))
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="upper right")
+
+    runs.draw(folder / "running_in.png", (1000, 420), pressures, amplitudes)
 
 
 def main():

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""draw.py FOLDER: FOLDER/screw.png of a run with --nodes, by gnuplot: the 16 segments of the screw, the screw itself, and the pressure on the
-flank of the nut after the last step that was solved."""
+"""draw.py FOLDER: FOLDER/screw.png of a run with --nodes, with matplotlib: the 16 segments of the screw, the screw itself, and the pressure on
+the flank of the nut after the last step that was solved."""
 import json
 import math
 import pathlib
-import subprocess
 import sys
 
-from make_nut import M20
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import runs  # noqa: E402
+from make_nut import M20  # noqa: E402
 
 
 def radius(thread, angle, z):
@@ -20,15 +21,19 @@ def radius(thread, angle, z):
 
 
 def grid(rows, columns, low, high, at):
-    lines = []
-    for j in range(rows + 1):
-        z = low + (high - low) * j / rows
-        for i in range(columns + 1):
-            a = 2 * math.pi * i / columns
-            r = at(a, z)
-            lines.append(f"{r * math.cos(a):.5f} {r * math.sin(a):.5f} {z:.5f} {r:.5f}")
-        lines.append("")
-    return "\n".join(lines) + "\n"
+    """x, y, z of a surface about the axis, and its radius, each [rows + 1][columns + 1]."""
+    import numpy as np
+    angle, z = np.meshgrid(np.linspace(0, 2 * math.pi, columns + 1), np.linspace(low, high, rows + 1))
+    r = np.vectorize(at)(angle, z)
+    return r * np.cos(angle), r * np.sin(angle), z, r
+
+
+def stand(axes, title):
+    axes.set(title=title, xlim=(-9, 9), ylim=(-9, 9), zlim=(-4, 14))
+    axes.set_proj_type("ortho")
+    axes.set_box_aspect((1, 1, 1), zoom=1.25)
+    axes.view_init(elev=24, azim=-65)
+    axes.axis("off")
 
 
 def main():
@@ -39,30 +44,26 @@ def main():
     step = json.loads((folder / "result.json").read_text())["steps"][-1]
     if "nodes" not in step:
         sys.exit(f"draw.py: {folder}/result.json has no nodes: run ents-host with --nodes")
-    x, p = step["nodes"]["position"], step["nodes"]["pressure"]
-    (folder / "screw.dat").write_text(grid(330, 90, -4, 14, lambda a, z: radius(M20, a, z)))
-    (folder / "segments.dat").write_text(grid(1, 16, -4, 14, lambda a, z: M20.pitch_radius))
-    # Points that the screw does not hide, seen from the front, a little away from it.
-    shown = [k for k in range(len(p)) if p[k] > 0]
-    (folder / "flank.dat").write_text("".join(f"{x[3 * k]} {x[3 * k + 1]} {x[3 * k + 2]} {p[k]}\n" for k in shown))
-    script = f"""set terminal pngcairo size 1200,430 font "sans,12" rounded
-set output "{folder}/screw.png"
-set multiplot layout 1,3
-set view 66,25,1.5,1; set view equal xyz; unset border; unset tics; unset key; set hidden3d
-set xrange [-11:11]; set yrange [-11:11]; set zrange [-5:15]
-set title "16 segments of the mesh"
-splot "{folder}/segments.dat" using 1:2:3 with lines lc rgb "#555555" lw 1.5
-unset hidden3d
-set pm3d depthorder lighting primary 0.4 specular 0.3; set palette defined (0 "#6d7680", 1 "#c9ced4"); unset colorbox
-set title "with the thread as a height"
-splot "{folder}/screw.dat" using 1:2:3:4 with pm3d
-unset pm3d
-set palette defined (0 "#2c7bb6", 0.5 "#ffffbf", 1 "#d7191c"); set colorbox user origin 0.953,0.25 size 0.01,0.5; set cbtics offset -0.9,0; set cbrange [0:*]
-set title "pressure on the flank of the nut [MPa]"
-splot "{folder}/flank.dat" using 1:2:3:4 with points pt 7 ps 0.8 lc palette
-"""
-    subprocess.run(["gnuplot"], input=script, text=True, check=True)
-    print(folder / "screw.png")
+    places, pressure = step["nodes"]["position"], step["nodes"]["pressure"]
+
+    def segments(axes):
+        axes.plot_wireframe(*grid(1, 16, -4, 14, lambda a, z: M20.pitch_radius)[:3], color="#555555", linewidth=1.2)
+        stand(axes, "16 segments of the mesh")
+
+    def screw(axes):
+        *surface, r = grid(220, 72, -4, 14, lambda a, z: radius(M20, a, z))
+        shade = 0.6 + 0.35 * (r - r.min()) / (r.max() - r.min())
+        axes.plot_surface(*surface, facecolors=shade[..., None] * [1, 1.02, 1.05], rstride=1, cstride=1, linewidth=0, antialiased=False)
+        stand(axes, "with the thread as a height")
+
+    def flank(axes):
+        shown = [k for k, p in enumerate(pressure) if p > 0]
+        drawn = axes.scatter(*([places[3 * k + i] for k in shown] for i in range(3)), c=[pressure[k] for k in shown], s=5, cmap="RdYlBu_r", vmin=0,
+                             depthshade=False)
+        axes.figure.colorbar(drawn, ax=axes, shrink=0.55, aspect=28, pad=0.02)
+        stand(axes, "pressure on the flank of the nut [MPa]")
+
+    runs.draw(folder / "screw.png", (1200, 430), segments, screw, flank, projection="3d")
     return 0
 
 

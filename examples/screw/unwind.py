@@ -47,16 +47,15 @@ def exact(radius, mu):
 
 
 def draw(folder, results):
-    for mu, result in results.items():
-        (folder / f"{mu}.dat").write_text("".join(f"{2 - step['value']} {-step['reference_point']['turns'][2] / (2 * math.pi)}\n"
-                                                  for step in result["steps"]))
-    curves = ", ".join(f'"{folder}/{mu}.dat" with linespoints pt 7 lw 1.5 title "friction {mu}"' for mu in results)
-    runs.draw(f"""set terminal pngcairo size 700,420 font "sans,12" rounded
-set output "{folder}/unwind.png"
-set xlabel "torque that holds the screw, over that without friction"; set ylabel "turns it has unwound"
-set grid lc rgb "#dddddd"; set key left top; set xrange [1:0]; set yrange [-0.05:*]
-plot {curves}
-""", folder / "unwind.png")
+    def panel(axes):
+        for mu, result in results.items():
+            axes.plot([2 - step["value"] for step in result["steps"]],
+                      [-step["reference_point"]["turns"][2] / (2 * math.pi) for step in result["steps"]], "o-", markersize=5, label=f"friction {mu}")
+        axes.set(xlabel="torque that holds the screw, over that without friction", ylabel="turns it has unwound", xlim=(1, 0))
+        axes.set_ylim(bottom=-0.05)
+        axes.legend(loc="upper left")
+
+    runs.draw(folder / "unwind.png", (700, 420), panel)
 
 
 def main():

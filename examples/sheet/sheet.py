@@ -115,34 +115,31 @@ def explicit(scene, folder):
 
 
 def draw(folder, rows):
-    (folder / "force.dat").write_text("".join(" ".join(str(x) for x in row) + "\n" for row in rows))
     middle_step = len(rows) // 2
-    for name in ("strip", "explicit"):
-        points = runs.vtu_points(folder / name, middle_step)
-        (folder / f"{name}.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in points))
+    strip, mesh = (runs.vtu_points(folder / name, middle_step) for name in ("strip", "explicit"))
     ring = runs.vtu_points(folder / "strip", middle_step, "slave")
-    (folder / "ring.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in ring))
     bulk = runs.vtu_points(folder / "strip", middle_step, "bulk", displaced=True)
     columns = len(bulk[:2 * 401]) // 2
     outline = bulk[:columns] + bulk[columns:2 * columns][::-1] + bulk[:1]
-    (folder / "outline.dat").write_text("".join(f"{p[0]} {p[1]}\n" for p in outline))
-    script = f"""set terminal pngcairo size 1100,720 font "sans,12" rounded
-set output "{folder}/sheet.png"
-set multiplot layout 2,1
-set lmargin 9; set size ratio -1; unset border; unset tics; set key at graph 0.42,0.4
-set xrange [-2:160]; set yrange [-45:8]
-plot "{folder}/outline.dat" with filledcurves fc rgb "#dddddd" title "strip of equal stiffness", \
-     "{folder}/explicit.dat" with lines lw 4 lc rgb "#56b4e9" title "mesh of the corrugation", \
-     "{folder}/strip.dat" with lines lw 1.5 lc rgb "#d55e00" title "its height on the strip", \
-     "{folder}/ring.dat" with lines lw 3 lc rgb "#333333" title "indenter"
-set size noratio; set border; set tics; set xrange [*:*]; set yrange [*:*]; set grid lc rgb "#dddddd"; set key default; set key above
-set xlabel "slide [mm]"; set ylabel "force [N]"
-plot "{folder}/force.dat" using 1:5 with lines lw 5 lc rgb "#bbbbbb" title "across, mesh of the corrugation", \
-     "" using 1:3 with lines lw 1.5 lc rgb "#d55e00" title "height on the strip", \
-     "" using 1:4 with lines lw 5 lc rgb "#bbbbbb" title "along, mesh of the corrugation", \
-     "" using 1:2 with lines lw 1.5 lc rgb "#0072b2" title "height on the strip"
-"""
-    runs.draw(script, folder / "sheet.png")
+
+    def shapes(axes):
+        axes.fill(*list(zip(*outline))[:2], color="#dddddd", label="strip of equal stiffness")
+        for points, color, width, label in ((mesh, runs.PALE, 4, "mesh of the corrugation"), (strip, runs.ORANGE, 1.5, "its height on the strip"),
+                                            (ring, runs.DARK, 3, "indenter")):
+            axes.plot(*list(zip(*points))[:2], color=color, linewidth=width, label=label)
+        axes.set(xlim=(-2, 160), ylim=(-45, 8), aspect="equal")
+        axes.axis("off")
+        axes.legend(loc="lower left", bbox_to_anchor=(0.2, 0.05))
+
+    def forces(axes):
+        slide, along, across, mesh_along, mesh_across = zip(*rows)
+        for y, color, width, label in ((mesh_across, runs.GREY, 5, "across, mesh of the corrugation"), (across, runs.ORANGE, 1.5, "height on the strip"),
+                                       (mesh_along, runs.GREY, 5, "along, mesh of the corrugation"), (along, runs.BLUE, 1.5, "height on the strip")):
+            axes.plot(slide, y, color=color, linewidth=width, label=label)
+        axes.set(xlabel="slide [mm]", ylabel="force [N]")
+        runs.legend_above(axes)
+
+    runs.draw(folder / "sheet.png", (1100, 720), shapes, forces, below=True)
 
 
 def main():

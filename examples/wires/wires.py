@@ -7,6 +7,7 @@ surface (the part's "crown"). The other one is rigid, a height on ONE quad4 acro
 
 Exact: crossed cylinders of equal radii touch like a sphere of that radius and a plane, F = 4/3 E* sqrt(R) d^(3/2).
 """
+import math
 import pathlib
 import sys
 
@@ -19,22 +20,29 @@ RADIUS = 1.0  # mm
 
 def draw(folder, result):
     rows = [{q["name"]: q for q in step["exact"]} for step in result["steps"]]
-    (folder / "force.dat").write_text("".join(f"{1e3 * step['approach']} {1e3 * row['force']['value']}\n" for step, row in zip(result["steps"], rows)))
     nodes, peak = result["steps"][-1]["nodes"], rows[-1]["peak pressure"]["exact"]
-    points = [(*nodes["position"][3 * k:3 * k + 2], p) for k, p in enumerate(nodes["pressure"]) if p > 0]
-    (folder / "pressure.dat").write_text("".join(f"{1e3 * x} {1e3 * y} {p}\n" for x, y, p in points))
-    modulus = 1000 / (1 - 0.3**2)
-    radius = 1e3 * rows[-1]["contact radius"]["exact"]
-    script = f"""set terminal pngcairo size 1000,420 font "sans,12" rounded
-set output "{folder}/wires.png"
-set multiplot layout 1,2
-set xlabel "approach [um]"; set ylabel "force [mN]"; set grid lc rgb "#dddddd"; set key right bottom; set xrange [0:*]; set samples 500
-plot 1e3 * 4. / 3 * {modulus} * sqrt({RADIUS}) * (x / 1e3)**1.5 lw 1.5 lc rgb "#333333" title "Hertz", "{folder}/force.dat" pt 7 lc 1 title "computed"
-set xlabel "place from the middle [um]"; set ylabel "pressure [MPa]"; set key right top; set xrange [0:1.15 * {radius}]
-plot {peak} * sqrt(x < {radius} ? 1 - (x / {radius})**2 : 0) lw 1.5 lc rgb "#333333" title "Hertz", \\
-  "{folder}/pressure.dat" using (sqrt($1**2 + $2**2)):3 pt 7 ps 0.5 lc 1 title "nodes, in all directions"
-"""
-    runs.draw(script, folder / "wires.png")
+    points = [(math.hypot(*nodes["position"][3 * k:3 * k + 2]), p) for k, p in enumerate(nodes["pressure"]) if p > 0]
+    modulus, radius = 1000 / (1 - 0.3**2), 1e3 * rows[-1]["contact radius"]["exact"]
+
+    def forces(axes):
+        approach = [1e3 * step["approach"] for step in result["steps"]]
+        places = [1.05 * approach[-1] * k / 500 for k in range(501)]
+        axes.plot(places, [4e3 / 3 * modulus * math.sqrt(RADIUS) * (x / 1e3)**1.5 for x in places], color=runs.DARK, linewidth=1.5, label="Hertz")
+        axes.plot(approach, [1e3 * row["force"]["value"] for row in rows], "o", color=runs.BLUE, label="computed")
+        axes.set(xlabel="approach [um]", ylabel="force [mN]")
+        axes.set_xlim(left=0)
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="lower right")
+
+    def pressures(axes):
+        angles = [math.pi / 2 * k / 200 for k in range(201)]
+        axes.plot([radius * math.sin(a) for a in angles], [peak * math.cos(a) for a in angles], color=runs.DARK, linewidth=1.5, label="Hertz")
+        axes.plot([1e3 * r for r, _ in points], [p for _, p in points], ".", color=runs.BLUE, markersize=5, label="nodes, in all directions")
+        axes.set(xlabel="place from the middle [um]", ylabel="pressure [MPa]", xlim=(0, 1.15 * radius))
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="upper right")
+
+    runs.draw(folder / "wires.png", (1000, 420), forces, pressures)
 
 
 def main():
