@@ -5,21 +5,24 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
 #include <unordered_map>
 
-#include <ents.h>
+#include <ents.hpp>
 
 namespace ents_deck {
 namespace {
 
 using std::string;
 
-struct Destroy {
-  void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
-};
-using Handle = std::unique_ptr<ents_model, Destroy>;
+/// What the library refuses, with what it was asked of.
+template <class Ask> auto as_ours(const string& what, Ask ask) {
+  try {
+    return ask();
+  } catch (const ents::Error& error) {
+    throw Error(what + ": " + error.report.message);
+  }
+}
 
 /// The contact's model for faces of a shape.
 nlohmann::ordered_json text_for(const Contact& contact, Shape shape) {
@@ -28,22 +31,8 @@ nlohmann::ordered_json text_for(const Contact& contact, Shape shape) {
   return out;
 }
 
-Handle model_of(const nlohmann::ordered_json& json) {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  ents_model* model = nullptr;
-  const string text = json.dump();
-  if (ents_model_create(text.data(), static_cast<int64_t>(text.size()), nullptr, nullptr, 0, &model,
-                        &report) != ENTS_OK)
-    throw Error(string("the model: ") + report.message);
-  return Handle(model);
-}
-
-ents_layout layout_of(const ents_model* model) {
-  ents_layout layout{};
-  layout.struct_size = sizeof layout;
-  ents_model_layout(model, &layout, nullptr);
-  return layout;
+ents::Model model_of(const nlohmann::ordered_json& json) {
+  return as_ours("the model", [&] { return ents::Model(json.dump()); });
 }
 
 /// The master surface as the library takes it.
@@ -52,7 +41,7 @@ struct Master {
   std::vector<double> positions, coordinates;
   std::vector<int> faces; ///< [segments] of the contact's master
   std::unordered_map<int, int64_t> index;
-  ents_master_mesh mesh{};
+  ents_master_mesh mesh = ents::make<ents_master_mesh>();
 
   /// The faces of one shape: a model has one.
   Master(const Mesh& deck, const Contact& contact, Shape shape, std::size_t d) {
@@ -65,7 +54,6 @@ struct Master {
       coordinates.insert(coordinates.end(), contact.face_coordinates[f].begin(),
                          contact.face_coordinates[f].end());
     }
-    mesh.struct_size = sizeof mesh;
     mesh.segments = static_cast<int64_t>(faces.size());
     mesh.connectivity = connectivity.data();
     mesh.nodes = static_cast<int64_t>(index.size());
@@ -103,8 +91,7 @@ Model checked_model(nlohmann::ordered_json text, int number, int slave_nodes) {
   if (number > 9999)
     throw Error(
         "the faces meet in more than 9999 different ways, which is as many models as elements can name");
-  const Handle handle = model_of(text);
-  const ents_layout layout = layout_of(handle.get());
+  const ents_layout layout = model_of(text).layout();
   Model out;
   out.number = number;
   out.text = std::move(text);
@@ -130,17 +117,14 @@ constexpr double wanted_samples = 3e4;
 constexpr double counting_jump = 1e-3;
 
 void check(const Mesh& mesh, const Contact& contact, Shape shape, Admissibility& out) {
-  const Handle model = model_of(text_for(contact, shape));
-  const Master master(mesh, contact, shape, static_cast<std::size_t>(layout_of(model.get()).dimension));
-  ents_report report{};
-  report.struct_size = sizeof report;
-  ents_surface_admissibility surface{};
-  surface.struct_size = sizeof surface;
+  const ents::Model model = model_of(text_for(contact, shape));
+  const Master master(mesh, contact, shape, static_cast<std::size_t>(model.layout().dimension));
+  auto surface = ents::make<ents_surface_admissibility>();
   const double per_face = wanted_samples / static_cast<double>(master.faces.size());
   surface.samples = static_cast<int32_t>(
       std::clamp(dimension_of(contact.master) == 2 ? per_face : std::sqrt(per_face), 3.0, 257.0));
-  if (ents_surface_check(model.get(), &master.mesh, &surface, &report) != ENTS_OK)
-    throw Error("the master '" + contact.pair.master + "': " + report.message);
+  as_ours("the master '" + contact.pair.master + "'",
+          [&] { ents::require(ents::linked(), ents_surface_check, model.get(), &master.mesh, &surface); });
   for (const int condition : {ENTS_CHECK_JUMP, ENTS_CHECK_CROSSING, ENTS_CHECK_EDGE})
     if (surface.missing[condition] <= counting_jump * (surface.height_max - surface.height_min))
       surface.violated &= ~(int64_t{1} << condition);
@@ -154,10 +138,10 @@ void check(const Mesh& mesh, const Contact& contact, Shape shape, Admissibility&
 void find(const Mesh& mesh, const Contact& contact, Shape shape, double touch, Findings& out) {
   auto text = text_for(contact, shape);
   text["border"] = 0.5;
-  const Handle model = model_of(text);
+  const ents::Model model = model_of(text);
   text["height"] = nullptr;
-  const Handle plain = model_of(text);
-  const auto d = static_cast<std::size_t>(layout_of(model.get()).dimension);
+  const ents::Model plain = model_of(text);
+  const auto d = static_cast<std::size_t>(model.layout().dimension);
   for (const Patch& patch : contact.patches.list) {
     const Face& face = contact.master.faces[static_cast<std::size_t>(patch.face)];
     if (face.shape != shape) continue;
@@ -167,12 +151,10 @@ void find(const Mesh& mesh, const Contact& contact, Shape shape, double touch, F
       master.insert(master.end(), x.begin(), x.begin() + static_cast<std::ptrdiff_t>(d));
     }
     double xi[2], gap = 0;
-    ents_input input{};
-    input.struct_size = sizeof input;
+    auto input = ents::make<ents_input>();
     input.slave = contact.points[static_cast<std::size_t>(patch.slave)].x.data();
     input.master = master.data();
-    ents_output output{};
-    output.struct_size = sizeof output;
+    auto output = ents::make<ents_output>();
     output.wanted = ENTS_XI;
     output.xi = xi;
     if (ents_evaluate(plain.get(), 0, 1, &input, &output, nullptr) != ENTS_OK) continue;
@@ -218,12 +200,12 @@ bool has_height(const Contact& contact) {
 
 SampledSurface sampled(const Mesh& mesh, const Contact& contact, int n) {
   SampledSurface out;
-  std::map<Shape, Handle> models;
+  std::map<Shape, ents::Model> models;
   const auto d = static_cast<std::size_t>(dimension_of(contact.master));
   for (std::size_t f = 0; f < contact.master.faces.size(); ++f) {
     const Face& face = contact.master.faces[f];
-    Handle& model = models[face.shape];
-    if (!model) model = model_of(text_for(contact, face.shape));
+    if (models.count(face.shape) == 0) models.emplace(face.shape, model_of(text_for(contact, face.shape)));
+    const ents::Model& model = models.at(face.shape);
     std::vector<double> nodes, xi;
     for (const int node : face.nodes) {
       const Point& x = mesh.nodes[static_cast<std::size_t>(node)].x;
@@ -242,8 +224,7 @@ SampledSurface sampled(const Mesh& mesh, const Contact& contact, int n) {
       }
     const auto count = static_cast<std::size_t>(next - first);
     std::vector<double> points(count * d), heights(count);
-    ents_surface surface{};
-    surface.struct_size = sizeof surface;
+    auto surface = ents::make<ents_surface>();
     surface.master = nodes.data();
     surface.surface_coordinates =
         contact.face_coordinates.empty() ? nullptr : contact.face_coordinates[f].data();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-template <class... A> int32_t contact_area(A... a) { return call::in_host(ents_contact_area, a...); }
+template <class... A> int32_t contact_area(A... a) { return call::contact_area(a...); }
 
 /// A slave surface with results at its nodes.
 struct CoarseSurface {

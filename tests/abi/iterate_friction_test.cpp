@@ -61,9 +61,8 @@ struct Motion {
   }
   int32_t iterate(const ents_input& in, const ents_output& out, const ents_system* into) {
     const ents_detection io = detection();
-    return call::in_host(ents_iterate, model.get(), &surface.mesh, tree.data(),
-                         static_cast<int64_t>(tree.size()), int64_t{0}, int64_t{Surface::slaves}, &io, &in,
-                         &out, into, &report);
+    return call::iterate(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()),
+                         int64_t{0}, int64_t{Surface::slaves}, &io, &in, &out, into, &report);
   }
   // The caller moves the states that have to move. Returns how many.
   int moved_by_hand(std::vector<double>& states) {

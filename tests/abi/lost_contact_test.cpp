@@ -329,9 +329,8 @@ TEST(LostContact, IterateEndsBeforeItEvaluates) {
   out.state_end = end.data(), out.state_end_stride = model.layout.state_size;
   ents_report report = new_report();
   const auto iterate = [&] {
-    return call::in_host(ents_iterate, model.get(), &sheet.mesh, tree.tree.data(),
-                         static_cast<int64_t>(tree.tree.size()), int64_t{0}, int64_t{2}, &detection, &in,
-                         &out, nullptr, &report);
+    return call::iterate(model.get(), &sheet.mesh, tree.tree.data(), static_cast<int64_t>(tree.tree.size()),
+                         int64_t{0}, int64_t{2}, &detection, &in, &out, nullptr, &report);
   };
   ASSERT_EQ(iterate(), ENTS_OK) << report.message;
   begin = end;

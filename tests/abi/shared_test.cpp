@@ -53,7 +53,7 @@ TEST(Shared, AStrideOfZeroHasToBeMeant) {
   for (int i = 0; i < Surface::slaves; ++i) values.insert(values.end(), {0.0, 1.0, 1.0});
   right.slave_values = values.data(), right.slave_values_stride = 3;
   const auto assemble = [&](const ents_input& in, int64_t count) {
-    return call::in_host(ents_assemble, model.get(), int64_t{0}, count, &in, nullptr, &made, &report);
+    return call::assemble(model.get(), int64_t{0}, count, &in, nullptr, &made, &report);
   };
   EXPECT_EQ(assemble(right, Surface::slaves), ENTS_OK) << report.message;
   for (const Array& a : arrays) {
@@ -109,9 +109,8 @@ TEST(Shared, StatesAreLeftOutOnPurposeOnly) {
     ents_report report = new_report();
     const auto iterate = [&] {
       std::fill(segment.begin(), segment.end(), -1);
-      return call::in_host(ents_iterate, model.get(), &surface.mesh, tree.data(),
-                           static_cast<int64_t>(tree.size()), int64_t{0}, int64_t{Surface::slaves},
-                           &detection, &in, nullptr, &made, &report);
+      return call::iterate(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()),
+                           int64_t{0}, int64_t{Surface::slaves}, &detection, &in, nullptr, &made, &report);
     };
     EXPECT_EQ(iterate(), law.history ? ENTS_NULL_ARGUMENT : ENTS_OK) << law.contact << report.message;
     if (law.history) {
@@ -143,9 +142,8 @@ TEST(Shared, IterateAsksAsAssembleDoes) {
   out.wanted = ENTS_GAP, out.gap = gap.data(), out.gap_stride = 1;
   ents_report report = new_report();
   const auto iterate = [&] {
-    return call::in_host(ents_iterate, model.get(), &surface.mesh, tree.data(),
-                         static_cast<int64_t>(tree.size()), int64_t{0}, int64_t{Surface::slaves}, &detection,
-                         &in, &out, nullptr, &report);
+    return call::iterate(model.get(), &surface.mesh, tree.data(), static_cast<int64_t>(tree.size()),
+                         int64_t{0}, int64_t{Surface::slaves}, &detection, &in, &out, nullptr, &report);
   };
   EXPECT_EQ(iterate(), ENTS_BAD_COUNT);
   EXPECT_NE(std::strstr(report.message, "ENTS_SHARED_AREA in input.shared"), nullptr) << report.message;

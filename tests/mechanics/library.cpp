@@ -8,29 +8,22 @@ namespace {
 
 std::size_t size(std::int64_t n) { return static_cast<std::size_t>(n); }
 
-void check(std::int32_t status, const ents_report& report) {
-  if (status < 0) throw std::runtime_error(std::string(ents_status_text(status)) + ": " + report.message);
-}
-
 const double* data_or_null(const std::vector<double>& v) { return v.empty() ? nullptr : v.data(); }
 
 } // namespace
 
-Model::Model(const std::string& text) {
-  ents_report report = new_report();
-  ents_model* model = nullptr;
-  const std::int32_t status = ents_model_create(text.data(), static_cast<std::int64_t>(text.size()), nullptr,
-                                                nullptr, 0, &model, &report);
-  handle_.reset(model);
-  if (status != ENTS_OK) throw std::runtime_error(std::string(report.message) + " in " + text);
-  layout_.struct_size = sizeof layout_;
-  check(ents_model_layout(model, &layout_, &report), report);
-}
+Model::Model(const std::string& text)
+    : model_([&]() -> ents::Model {
+        try {
+          return ents::Model(text);
+        } catch (const ents::Error& error) {
+          throw std::runtime_error(std::string(error.what()) + " in " + text);
+        }
+      }()) {}
 
 void Model::evaluate(const Elements& elements, std::int32_t wanted, Results& r) const {
   const std::int64_t n = elements.count, d = dimension(), t = parameters(), m = nodes(), u = dofs();
-  ents_input in{};
-  in.struct_size = sizeof in;
+  auto in = ents::make<ents_input>();
   in.slave = elements.slave.data();
   in.slave_stride = d;
   in.master = elements.master.data();
@@ -42,8 +35,7 @@ void Model::evaluate(const Elements& elements, std::int32_t wanted, Results& r) 
   in.area = data_or_null(elements.area);
   in.area_stride = 1;
 
-  ents_output out{};
-  out.struct_size = sizeof out;
+  auto out = ents::make<ents_output>();
   out.wanted = wanted;
   r.statuses.assign(size(n), ENTS_INTERNAL);
   out.status = r.statuses.data();
@@ -72,9 +64,7 @@ void Model::evaluate(const Elements& elements, std::int32_t wanted, Results& r) 
   want(ENTS_FLAGS, r.flags, 1, out.flags, out.flags_stride);
   want(ENTS_ITERATIONS, r.iterations, 1, out.iterations, out.iterations_stride);
 
-  ents_report report = new_report();
-  r.status = ents_evaluate(handle(), 0, n, &in, &out, &report);
-  check(r.status, report);
+  r.status = ents::call(ents_evaluate, handle(), 0, n, &in, &out).status;
 }
 
 Results Model::evaluate(const Elements& elements, std::int32_t wanted) const {
@@ -90,8 +80,7 @@ SurfacePoints evaluate_surface(const Model& model, const double* master, const d
   for (auto* v : {&points.point, &points.normal, &points.base_point, &points.base_normal})
     v->resize(size(count * d));
   points.height.resize(size(count));
-  ents_surface surface{};
-  surface.struct_size = sizeof surface;
+  auto surface = ents::make<ents_surface>();
   surface.master = master;
   surface.surface_coordinates = surface_coordinates;
   surface.xi = xi.data();
@@ -100,21 +89,16 @@ SurfacePoints evaluate_surface(const Model& model, const double* master, const d
   surface.height = points.height.data();
   surface.base_point = points.base_point.data();
   surface.base_normal = points.base_normal.data();
-  ents_report report = new_report();
-  points.status = ents_surface_evaluate(model.handle(), count, &surface, &report);
-  check(points.status, report);
+  points.status = ents::call(ents_surface_evaluate, model.handle(), count, &surface).status;
   return points;
 }
 
 ents_admissibility check_admissibility(const Model& model, const std::vector<double>& master,
                                        const std::vector<double>& surface_coordinates, int samples) {
-  ents_admissibility result{};
-  result.struct_size = sizeof result;
+  auto result = ents::make<ents_admissibility>();
   result.samples = samples;
-  ents_report report = new_report();
-  const std::int32_t status =
-      ents_model_check(model.handle(), master.data(), data_or_null(surface_coordinates), &result, &report);
-  if (status != ENTS_OK) throw std::runtime_error(report.message);
+  ents::require(ents::linked(), ents_model_check, model.handle(), master.data(),
+                data_or_null(surface_coordinates), &result);
   return result;
 }
 

@@ -1,21 +1,15 @@
-// The library as these tests use it: C++ ownership around ents.h, arrays of elements in, arrays of results
-// out.
+// The library as these tests use it: arrays of elements in, arrays of results out.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "ents.h"
+#include "ents.hpp"
 
 namespace mechanics {
 
-inline ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
+inline ents_report new_report() { return ents::make<ents_report>(); }
 
 // Inputs of `count` elements, one after the other; an array that is empty is not given to the library.
 struct Elements {
@@ -50,22 +44,18 @@ public:
   // Throws std::runtime_error with the library's message when the text is refused.
   explicit Model(const std::string& text);
 
-  int dimension() const { return layout_.dimension; }
-  int nodes() const { return layout_.nodes; }
-  int parameters() const { return layout_.parameters; }
-  int dofs() const { return layout_.dofs; }
-  const ents_model* handle() const { return handle_.get(); }
+  int dimension() const { return model_.layout().dimension; }
+  int nodes() const { return model_.layout().nodes; }
+  int parameters() const { return model_.layout().parameters; }
+  int dofs() const { return model_.layout().dofs; }
+  const ents_model* handle() const { return model_.get(); }
 
   // Throws std::runtime_error on a negative status; recoverable ones are in `statuses`.
   void evaluate(const Elements& elements, std::int32_t wanted, Results& results) const;
   Results evaluate(const Elements& elements, std::int32_t wanted) const;
 
 private:
-  struct Destroy {
-    void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
-  };
-  std::unique_ptr<ents_model, Destroy> handle_;
-  ents_layout layout_{};
+  ents::Model model_;
 };
 
 // Points of one segment's enriched surface.

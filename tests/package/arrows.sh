@@ -1,6 +1,6 @@
 #!/bin/sh
 # arrows.sh ROOT: who may include whom. core knows mechanics and nothing of C, JSON, files or hosts; it is reached through abi only;
-# examples and adapters see ents.h and nothing else of ours.
+# examples and adapters see ents.h, or ents.hpp over it, and nothing else of ours.
 set -eu
 cd "$1"
 bad=0
@@ -26,11 +26,12 @@ forbid() {
 for folder in core abi; do
   [ -n "$(includes $folder)" ] || { echo "no include found below $folder" >&2; exit 1; }
 done
-forbid "core does not know the C ABI or hosts" '["<](.*/)?(ents\.h|(abi|adapters|examples|tests)/.*)[">]' core
+forbid "core does not know the C ABI or hosts" '["<](.*/)?(ents\.h(pp)?|(abi|adapters|examples|tests)/.*)[">]' core
 forbid "core does not know JSON" '["<].*json.*[">]' core
 forbid "core does not read or write" '<(fstream|iostream|ostream|istream|sstream|filesystem|cstdio|stdio\.h|clocale|locale)>' core
 forbid "core takes no lock and starts no thread" '<(thread|mutex|shared_mutex|atomic|future|condition_variable)>' core
 forbid "POSIX is not portable C++" '<(unistd|fcntl|dlfcn|pthread|signal|sys/.*)\.?h?>' core abi
+forbid "ents.hpp is for programs" '["<](.*/)?ents\.hpp[">]' abi
 forbid "abi does not know hosts or tests" '["<](.*/)?(adapters|examples|tests)/.*[">]' abi
 forbid "only abi may see core" '["<](.*/)?core/.*[">]' examples adapters
 forbid "the interface is ents.h" '["<](.*/)?abi/.*\.hpp[">]' examples adapters core
@@ -60,7 +61,7 @@ done
 for folder in examples adapters; do
   includes $folder | grep -oE '"[^"]*"$' | tr -d '"' | sort -u | while read -r header; do
     name=$(basename "$header")
-    [ "$name" = ents.h ] && continue
+    case $name in ents.h | ents.hpp) continue ;; esac
     [ -n "$(find $folder -name "$name")" ] && continue
     # ents-host reads decks by ents-deck's reader.
     [ "$folder $header" = "examples deck/source.hpp" ] && continue

@@ -10,7 +10,7 @@ mkdir -p "$scratch"
 "$cmake" --install "$build" --prefix "$scratch/first" >"$scratch/install.log" || { cat "$scratch/install.log" >&2; exit 1; }
 mv "$scratch/first" "$scratch/prefix"
 
-for file in include/ents.h include/ents.f90 share/ents/model.schema.json share/ents/python/ents/__init__.py; do
+for file in include/ents.h include/ents.hpp include/ents.f90 share/ents/model.schema.json share/ents/python/ents/__init__.py; do
   [ -s "$scratch/prefix/$file" ] || { echo "not installed: $file" >&2; exit 1; }
 done
 for name in libents.so ents.pc ents-config.cmake; do

@@ -5,7 +5,7 @@
 
 #include <cfenv>
 
-#include "ents.h"
+#include "ents.hpp"
 
 namespace call {
 
@@ -20,30 +20,28 @@ public:
   ~HostEnvironment() { fedisableexcept(FE_ALL_EXCEPT); }
 };
 
-template <class Function, class... Arguments> auto in_host(Function function, Arguments... arguments) {
-  [[maybe_unused]] const HostEnvironment host;
-  return function(arguments...);
-}
+template <auto function> struct InHost;
+template <class Result, class... Arguments, Result (*function)(Arguments...)> struct InHost<function> {
+  static Result call(Arguments... arguments) {
+    [[maybe_unused]] const HostEnvironment host;
+    return function(arguments...);
+  }
+};
 
-template <class... A> int32_t check_contract(A... a) { return in_host(ents_check_contract, a...); }
-template <class... A> int32_t height_register(A... a) { return in_host(ents_height_register, a...); }
-template <class... A> int32_t model_create(A... a) { return in_host(ents_model_create, a...); }
-template <class... A> int32_t model_create_from_file(A... a) {
-  return in_host(ents_model_create_from_file, a...);
+#define ENTS_IN_HOST(name) inline constexpr auto name = &InHost<&ents_##name>::call;
+ENTS_FUNCTIONS(ENTS_IN_HOST)
+#undef ENTS_IN_HOST
+
+// The same as a table, for the objects of ents.hpp.
+inline const ents::Library& library() {
+  static const ents::Library table = [] {
+    ents::Library functions;
+#define ENTS_IN_TABLE(name) functions.name = name;
+    ENTS_FUNCTIONS(ENTS_IN_TABLE)
+#undef ENTS_IN_TABLE
+    return functions;
+  }();
+  return table;
 }
-template <class... A> int32_t model_destroy(A... a) { return in_host(ents_model_destroy, a...); }
-template <class... A> int32_t model_layout(A... a) { return in_host(ents_model_layout, a...); }
-template <class... A> int32_t evaluate(A... a) { return in_host(ents_evaluate, a...); }
-template <class... A> int32_t state_init(A... a) { return in_host(ents_state_init, a...); }
-template <class... A> int32_t state_augment(A... a) { return in_host(ents_state_augment, a...); }
-template <class... A> int32_t state_transfer(A... a) { return in_host(ents_state_transfer, a...); }
-template <class... A> int32_t tributary_areas(A... a) { return in_host(ents_tributary_areas, a...); }
-template <class... A> int32_t surface_evaluate(A... a) { return in_host(ents_surface_evaluate, a...); }
-template <class... A> int32_t model_check(A... a) { return in_host(ents_model_check, a...); }
-template <class... A> int32_t surface_check(A... a) { return in_host(ents_surface_check, a...); }
-template <class... A> int32_t tree_size(A... a) { return in_host(ents_tree_size, a...); }
-template <class... A> int32_t tree_build(A... a) { return in_host(ents_tree_build, a...); }
-template <class... A> int32_t tree_refit(A... a) { return in_host(ents_tree_refit, a...); }
-template <class... A> int32_t detect(A... a) { return in_host(ents_detect, a...); }
 
 } // namespace call

@@ -12,11 +12,7 @@
 
 namespace test {
 
-inline ents_report new_report() {
-  ents_report report{};
-  report.struct_size = sizeof report;
-  return report;
-}
+inline ents_report new_report() { return ents::make<ents_report>(); }
 
 // 17 significant digits name a double.
 inline std::string number(double value) {
@@ -25,33 +21,24 @@ inline std::string number(double value) {
   return text;
 }
 
+// A model with its text, called by such a host.
 class Model {
 public:
-  explicit Model(const std::string& text) : text_(text) {
-    ents_report report = new_report();
-    if (call::model_create(text.c_str(), int64_t{-1}, nullptr, nullptr, int64_t{0}, &handle_, &report) !=
-        ENTS_OK)
-      throw std::runtime_error(std::string(report.message) + " in " + text);
-    layout.struct_size = sizeof layout;
-    call::model_layout(get(), &layout, &report);
-  }
-  Model(Model&& other) noexcept
-      : layout(other.layout), text_(std::move(other.text_)), handle_(other.handle_) {
-    other.handle_ = nullptr;
-  }
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
-  Model& operator=(Model&&) = delete;
-  ~Model() { call::model_destroy(&handle_, nullptr); }
-
-  const ents_model* get() const { return handle_; }
+  explicit Model(const std::string& text) : text_(text), model_(made(text)), layout(model_.layout()) {}
+  const ents_model* get() const { return model_.get(); }
   const std::string& text() const { return text_; }
 
-  ents_layout layout{};
-
 private:
+  static ents::Model made(const std::string& text) try {
+    return ents::Model(text, "", {}, call::library());
+  } catch (const ents::Error& error) {
+    throw std::runtime_error(std::string(error.what()) + " in " + text);
+  }
   std::string text_;
-  ents_model* handle_ = nullptr;
+  ents::Model model_;
+
+public:
+  ents_layout layout;
 };
 
 struct Basis {

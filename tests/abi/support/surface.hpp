@@ -133,8 +133,7 @@ struct System {
     out.wanted = state_end ? ENTS_STATE : 0, out.state_end = state_end,
     out.state_end_stride = model.layout.state_size;
     const ents_system system = made(mesh, with_places);
-    return call::in_host(ents_assemble, model.get(), int64_t{0}, int64_t{surface.slaves}, &in, &out, &system,
-                         &report);
+    return call::assemble(model.get(), int64_t{0}, int64_t{surface.slaves}, &in, &out, &system, &report);
   }
   const Model& model;
   const Surface& surface;
