@@ -10,10 +10,10 @@ usage: sh adapters/compare_hosts.sh [--build DIR]
 
 Solves two variants of adapters/block.json, two blocks of triangles, St. Venant-Kirchhoff, finite strain: "bumps", a height on each facet of the master;
 "bumps_friction", the same with friction and a slave that slides over several facets. Hosts:
-ents-host; GetFEM (python3-getfem++), dolfinx with one and two processes (python3-dolfinx-real), FreeFEM (freefem++ libfreefem++-dev), CalculiX
+ents-lab; GetFEM (python3-getfem++), dolfinx with one and two processes (python3-dolfinx-real), FreeFEM (freefem++ libfreefem++-dev), CalculiX
 (its source package, see adapters/calculix/run.sh). A host that is not installed is left out, and the table says so.
 
-exit status: 0 all of them agree; 1 a host failed, or has other forces; 2 wrong command line; 3 only ents-host is here
+exit status: 0 all of them agree; 1 a host failed, or has other forces; 2 wrong command line; 3 only ents-lab is here
 HELP
 }
 
@@ -27,7 +27,7 @@ while [ $# -gt 0 ]; do
   esac
   shift
 done
-[ -f "$build/lib/libents.so" ] && [ -x "$build/bin/ents-host" ] || { echo "compare_hosts.sh: build this project first: sh examples/setup.sh" >&2; exit 1; }
+[ -f "$build/lib/libents.so" ] && [ -x "$build/bin/ents-lab" ] || { echo "compare_hosts.sh: build this project first: sh examples/setup.sh" >&2; exit 1; }
 build=$(cd "$build" && pwd)
 export ENTS_LIBRARY="$build/lib/libents.so"
 python=/usr/bin/python3 # the one that sees Debian's packages
@@ -38,7 +38,7 @@ version() { dpkg-query -W -f='${Version}' "$1" 2>/dev/null | sed 's/^[0-9]*://; 
 failed() { tail -n 20 "$1" >&2; echo "compare_hosts.sh: $2 (whole output: $1)" >&2; exit 1; }
 row() { # name, output, bound
   found=$((found + 1))
-  $python -B "$here/python/block.py" row "$1" "$2" "$out/ents-host/result.json" ${3-} || status=1
+  $python -B "$here/python/block.py" row "$1" "$2" "$out/ents-lab/result.json" ${3-} || status=1
 }
 absent() { echo "| $1 | not installed | | |"; }
 
@@ -60,13 +60,13 @@ for variant in bumps bumps_friction; do
   echo "$variant"
   echo
   # shellcheck disable=SC2086 # the scene is words
-  "$build/bin/ents-host" run $scene --out "$out/ents-host" >"$out/ents-host.txt" 2>&1 || failed "$out/ents-host.txt" "ents-host failed"
-  echo "| host | force on the support, last step | largest difference from ents-host | iterations |"
+  "$build/bin/ents-lab" run $scene --out "$out/ents-lab" >"$out/ents-lab.txt" 2>&1 || failed "$out/ents-lab.txt" "ents-lab failed"
+  echo "| host | force on the support, last step | largest difference from ents-lab | iterations |"
   echo "|---|---|---:|---|"
-  $python - "$out/ents-host/result.json" <<'PYTHON'
+  $python - "$out/ents-lab/result.json" <<'PYTHON'
 import json, sys
 steps = json.load(open(sys.argv[1]))["steps"]
-print(f"| ents-host | {' '.join(f'{-x:.15g}' for x in steps[-1]['contact_force'])} | | {' '.join(str(s['iterations']) for s in steps)} |", flush=True)
+print(f"| ents-lab | {' '.join(f'{-x:.15g}' for x in steps[-1]['contact_force'])} | | {' '.join(str(s['iterations']) for s in steps)} |", flush=True)
 PYTHON
 
   if $python -c 'import getfem, numpy, scipy' 2>/dev/null; then

@@ -140,14 +140,14 @@ def page(rows, scenes):
 
 def main():
     parser = argparse.ArgumentParser(
-        prog="sh examples/gallery.sh", description="Builds ents-host, solves the scenes of examples/gallery.json and compares every result "
+        prog="sh examples/gallery.sh", description="Builds ents-lab, solves the scenes of examples/gallery.json and compares every result "
         "with its exact answer. Writes DIR/gallery.md, the table, DIR/index.html, one page with table and pictures, and the results of each "
         "scene in DIR/SCENE.", epilog="exit status: 0 all bounds are met; 1 one is missed, or a scene was not solved; 2 the command line or "
         "the list is wrong")
     parser.add_argument("scene", nargs="*", help="only these scenes")
     parser.add_argument("--out", type=Path, default=Path("out/gallery"), metavar="DIR", help="default: out/gallery")
     parser.add_argument("--list", type=Path, default=HERE / "gallery.json", metavar="FILE", help="default: examples/gallery.json")
-    parser.add_argument("--host", type=Path, default=HERE.parent / "build/bin/ents-host", metavar="PROGRAM", help="default: build/bin/ents-host")
+    parser.add_argument("--host", type=Path, default=HERE.parent / "build/bin/ents-lab", metavar="PROGRAM", help="default: build/bin/ents-lab")
     parser.add_argument("--readme", action="store_true", help="write the rows into the table of examples/README.md, if all bounds are met")
     options = parser.parse_args()
     try:
@@ -159,7 +159,7 @@ def main():
         if name not in known:
             problem(f"no scene \"{name}\" in {options.list}; there are: {', '.join(known)}")
     if not options.host.is_file():
-        problem(f"no program {options.host}: run sh examples/setup.sh --target ents-host")
+        problem(f"no program {options.host}: run sh examples/setup.sh --target ents-lab")
     chosen = [entry for entry in entries if not options.scene or entry["scene"] in options.scene]
     rows, failures, scenes = [], [], []
     for i, entry in enumerate(chosen):

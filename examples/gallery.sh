@@ -1,8 +1,8 @@
 #!/bin/sh
-# Set up, build ents-host, solve every scene of gallery.json and hold it against its exact answer.
+# Set up, build ents-lab, solve every scene of gallery.json and hold it against its exact answer.
 set -eu
 cd "$(dirname "$0")/.."
 
 case ${1-} in -h | --help) exec /usr/bin/python3 examples/gallery.py --help ;; esac
-sh examples/setup.sh --target ents-host
+sh examples/setup.sh --target ents-lab
 exec /usr/bin/python3 examples/gallery.py "$@"

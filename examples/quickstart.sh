@@ -9,7 +9,7 @@ case ${1-} in
     cat <<'HELP'
 usage: sh examples/quickstart.sh [--deck]
 
-Installs what is missing and builds the library and ents-host in build/ (see sh examples/setup.sh --help), then solves
+Installs what is missing and builds the library and ents-lab in build/ (see sh examples/setup.sh --help), then solves
 examples/rough_afm, a surface measured by atomic force microscopy on ONE contact segment, pressed into an elastic layer. The results go
 to out/rough_afm. With --deck it builds ents-deck, too, which converts CalculiX's and Abaqus's decks.
 
@@ -22,9 +22,9 @@ HELP
 esac
 
 # shellcheck disable=SC2086 # words
-sh examples/setup.sh --target ents-host $deck
-echo "== build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm"
-build/bin/ents-host run examples/rough_afm/scene.json --out out/rough_afm
+sh examples/setup.sh --target ents-lab $deck
+echo "== build/bin/ents-lab run examples/rough_afm/scene.json --out out/rough_afm"
+build/bin/ents-lab run examples/rough_afm/scene.json --out out/rough_afm
 echo "== pictures (each also as .svg); ParaView opens out/rough_afm/result.pvd"
 picture() { [ ! -f "out/rough_afm/$1.png" ] || printf '%-34s %s\n' "out/rough_afm/$1.png" "$2"; }
 picture pressure_map "height of the scan, contact pressure and its difference to boundary elements, last step"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the programs of several runs share: their command line, runs of ents-host, and results as gallery.py reads them."""
+"""What the programs of several runs share: their command line, runs of ents-lab, and results as gallery.py reads them."""
 import argparse
 import base64
 import json
@@ -16,7 +16,7 @@ BLUE, ORANGE, PALE, GREY, DARK = "#0072b2", "#d55e00", "#56b4e9", "#bbbbbb", "#3
 def arguments(document, name):
     """NAME.py [ENTS-HOST] [--out FOLDER]; the folder is there when this returns."""
     parser = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=pathlib.Path, default=TOP / "build/bin/ents-host")
+    parser.add_argument("program", nargs="?", type=pathlib.Path, default=TOP / "build/bin/ents-lab")
     parser.add_argument("--out", default=pathlib.Path("out") / name, type=pathlib.Path)
     found = parser.parse_args()
     found.out.mkdir(parents=True, exist_ok=True)

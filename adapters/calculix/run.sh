@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build ccx with ents from Debian's source package, solve the examples with it and with ents-host, compare.
+# Build ccx with ents from Debian's source package, solve the examples with it and with ents-lab, compare.
 set -eu
 
 usage() {
@@ -94,7 +94,7 @@ if [ "$(cat "$work/optimize" 2>/dev/null)" != "$optimize" ]; then
 fi
 
 # 4. The adapter, the changed routines, and the program.
-targets='ents_calculix ents_abaqus ents-host' needed='lib/libents_calculix.so lib/libents_abaqus.so bin/ents-host'
+targets='ents_calculix ents_abaqus ents-lab' needed='lib/libents_calculix.so lib/libents_abaqus.so bin/ents-lab'
 if [ -n "$only_build" ]; then
   targets=ents_calculix needed=lib/libents_calculix.so
   if [ -f "$root/CMakeLists.txt" ]; then targets="$targets ents-deck" needed="$needed bin/ents-deck"; fi # a clone, no package
@@ -134,7 +134,7 @@ for name in sphere texture friction turned; do for element in U1E U1A; do
     [ $threads -eq 1 ] && mv "$work/$name/job.dat" "$work/$name/one_thread.dat"
     cp "$log" "$work/$name/ccx.log"
   done
-  "$build/bin/ents-host" run "$work/$name/scene.json" --out "$work/$name/host" >"$log" 2>&1 || failed "ents-host failed"
+  "$build/bin/ents-lab" run "$work/$name/scene.json" --out "$work/$name/host" >"$log" 2>&1 || failed "ents-lab failed"
   python3 "$here/example/compare.py" "$work/$name" || status=1
 done; done
 

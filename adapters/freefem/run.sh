@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build FreeFEM's plugin, solve the block problem with it and with ents-host, compare.
+# Build FreeFEM's plugin, solve the block problem with it and with ents-lab, compare.
 set -eu
 
 usage() {
@@ -27,7 +27,7 @@ done
 for program in ff-c++ FreeFem++-nw; do
   command -v $program >/dev/null 2>&1 || { echo "run.sh: no $program here: apt-get install freefem++ libfreefem++-dev"; exit 3; }
 done
-[ -f "$build/lib/libents.so" ] && [ -x "$build/bin/ents-host" ] || { echo "run.sh: build this project first: sh examples/setup.sh" >&2; exit 1; }
+[ -f "$build/lib/libents.so" ] && [ -x "$build/bin/ents-lab" ] || { echo "run.sh: build this project first: sh examples/setup.sh" >&2; exit 1; }
 build=$(cd "$build" && pwd)
 mkdir -p "$build/freefem"
 cd "$build/freefem"
@@ -40,7 +40,7 @@ if [ ! -f ents.so ] || [ -n "$(find "$here" "$here/../../abi/ents.h" -name '*.[h
 fi
 [ -z "$only_build" ] || exit 0
 
-# 1. The same forces as ents-host's, with and without friction.
+# 1. The same forces as ents-lab's, with and without friction.
 solve() { FreeFem++-nw -nw -v 0 "$here/block.edp" "$@"; }
 for variant in textured flat friction bumps_friction; do
   echo "== $variant"
@@ -53,7 +53,7 @@ for variant in textured flat friction bumps_friction; do
   # shellcheck disable=SC2086 # none or one word
   python3 "$here/../python/block.py" model "$here/../block.json" $name >$variant.json
   # shellcheck disable=SC2086 # none or two words
-  "$build/bin/ents-host" run "$here/../block.json" $option --out host_$variant >host.log 2>&1 || failed host.log "ents-host failed"
+  "$build/bin/ents-lab" run "$here/../block.json" $option --out host_$variant >host.log 2>&1 || failed host.log "ents-lab failed"
   # shellcheck disable=SC2086 # words
   solve -model $variant.json $more >$variant.log 2>&1 || failed $variant.log "FreeFEM failed"
   grep '^step' $variant.log

@@ -6,10 +6,10 @@ usage: block.py model SCENE [VARIANT] > ents.json
        block.py compare OUTPUT RESULT
        block.py row NAME OUTPUT RESULT [BOUND]
 
-model    the contact model of a scene of ents-host
+model    the contact model of a scene of ents-lab
 row      the same as a row of a table; other hosts print fewer digits: BOUND, relative to the largest force
 compare  OUTPUT is what a host printed: lines with "iterations N" and "force on the support FX FY", one a step; RESULT is result.json of
-         ents-host for the same scene
+         ents-lab for the same scene
 
 exit status: 0 done; 1 other forces; 2 wrong command line"""
 import argparse
@@ -54,19 +54,19 @@ def variant_of(file, name):
 
 
 def largest_difference(forces, steps):
-    """Forces [step][2] on the support against the steps of ents-host, relative to the largest force."""
+    """Forces [step][2] on the support against the steps of ents-lab, relative to the largest force."""
     if len(forces) != len(steps) or not steps:
-        sys.exit(f"{len(forces)} steps here, {len(steps)} in ents-host")
-    # ents-host tells the force on the slave; by balance that on the support is its negative.
+        sys.exit(f"{len(forces)} steps here, {len(steps)} in ents-lab")
+    # ents-lab tells the force on the slave; by balance that on the support is its negative.
     difference = max(abs(a + b) for mine, step in zip(forces, steps) for a, b in zip(mine, step["contact_force"]))
     return difference / max(abs(b) for step in steps for b in step["contact_force"])
 
 
 def compare(forces, iterations, result, report=print):
-    """forces [step][2] on the support, iterations [step] against result.json of ents-host; SystemExit if they differ."""
+    """forces [step][2] on the support, iterations [step] against result.json of ents-lab; SystemExit if they differ."""
     steps = json.loads(pathlib.Path(result).read_text())["steps"]
     difference = largest_difference(forces, steps)
-    report(f"largest difference from ents-host: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
+    report(f"largest difference from ents-lab: {difference:.1e} of the largest force, bound {SAME_FORCE:.1e}; iterations {sum(iterations)}, "
            f"there {sum(step['iterations'] for step in steps)}")
     if not difference <= SAME_FORCE:
         sys.exit("the forces differ")

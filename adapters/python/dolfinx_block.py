@@ -5,10 +5,10 @@
 usage: dolfinx_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
        mpirun -n 2 python3 -m mpi4py dolfinx_block.py ...
 
-SCENE      a scene of ents-host with two blocks, quad4 or tri3, "neo_hooke" or "st_venant_kirchhoff" materials and "line2", "catmull_rom4" or
+SCENE      a scene of ents-lab with two blocks, quad4 or tri3, "neo_hooke" or "st_venant_kirchhoff" materials and "line2", "catmull_rom4" or
            "bspline4" segments, with friction or without; default: block.json beside this script
 --variant  one of the scene's variants
---compare  result.json that `ents-host run SCENE --out DIR` left in DIR: the forces have to be the same
+--compare  result.json that `ents-lab run SCENE --out DIR` left in DIR: the forces have to be the same
 --refine   N times as many elements in each direction (not with --compare)
 
 A contact element belongs to the process that owns its slave node. Positions of the two surfaces are known to all.
@@ -51,7 +51,7 @@ class Parts:
             number = sum(map(len, nodes)) + np.arange(len(x) * len(y)).reshape(len(y), len(x))
             nodes.append(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2))
             corners = number[:-1, :-1], number[:-1, 1:], number[1:, :-1], number[1:, 1:]
-            self.triangles = part["element"] == "tri3"  # ents-host cuts its cells along the diagonal of corners 0 and 3
+            self.triangles = part["element"] == "tri3"  # ents-lab cuts its cells along the diagonal of corners 0 and 3
             for cell in ((0, 1, 3), (0, 3, 2)) if self.triangles else (range(4),):
                 cells.append(np.stack([corners[c] for c in cell], axis=-1).reshape(-1, len(cell)))
                 self.part += [len(self.names)] * len(cells[-1])
@@ -71,7 +71,7 @@ class Contact:
         chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points up, out of the lower block
         self.surfaces = ents.Contact(
             contact["model"], parts.nodes[self.nodes], chain(0, len(slaves))[:, ::-1], chain(len(slaves), len(masters)), reach=0.25, elements=owned[slaves],
-            surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
+            surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-lab has them
 
     def evaluate(self, displacement):
         """displacement [nodes][2]: R, and K as a sparse matrix."""

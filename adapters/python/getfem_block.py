@@ -4,10 +4,10 @@
 
 usage: getfem_block.py [SCENE] [--variant NAME] [--compare RESULT] [--refine N]
 
-SCENE      a scene of ents-host with two blocks, quad4 or tri3, "neo_hooke" or "st_venant_kirchhoff" materials and "line2", "catmull_rom4" or
+SCENE      a scene of ents-lab with two blocks, quad4 or tri3, "neo_hooke" or "st_venant_kirchhoff" materials and "line2", "catmull_rom4" or
            "bspline4" segments, with friction or without; default: block.json beside this script
 --variant  one of the scene's variants
---compare  result.json that `ents-host run SCENE --out DIR` left in DIR: the forces have to be the same
+--compare  result.json that `ents-lab run SCENE --out DIR` left in DIR: the forces have to be the same
 --refine   N times as many elements in each direction (not with --compare)
 
 exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 GetFEM, NumPy or SciPy is missing (Debian: python3-getfem++ python3-scipy)"""
@@ -44,7 +44,7 @@ class Block:
             self.mesh, rule = gf.Mesh("empty", 2), "IM_TRIANGLE(1)"
             x, y = np.meshgrid(*axes)
             corners = [np.stack([grid[j:j - 1 or None, i:i - 1 or None].ravel() for grid in (x, y)]) for j, i in ((0, 0), (0, 1), (1, 1), (1, 0))]
-            for triangle in ((0, 1, 2), (0, 2, 3)):  # ents-host cuts its cells along this diagonal
+            for triangle in ((0, 1, 2), (0, 2, 3)):  # ents-lab cuts its cells along this diagonal
                 self.mesh.add_convex(gf.GeoTrans("GT_PK(2,1)"), np.stack([corners[c] for c in triangle], axis=1))
         self.fem = gf.MeshFem(self.mesh, 2)
         self.fem.set_classical_fem(1)
@@ -99,7 +99,7 @@ def solve(scene, refine=1, report=print):
     surfaces = ents.Contact(
         contact["model"], np.vstack([blocks[slave_block].nodes[slaves], blocks[master_block].nodes[masters]]), chain(0, len(slaves))[:, ::-1],
         chain(len(slaves), len(masters)), dofs=np.vstack([blocks[slave_block].dofs(slaves), blocks[master_block].dofs(masters)]), rows=size, reach=0.25,
-        surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-host has them
+        surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-lab has them
 
     prescribed = np.zeros(size)
     fixed = np.zeros(size, bool)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! A small finite element program in Fortran: two linear elastic blocks, the upper one slides on the textured surface of the lower
-! one, with friction. It solves scene.json of this folder, which ents-host reads, too; of that file it takes the contact model. The
+! one, with friction. It solves scene.json of this folder, which ents-lab reads, too; of that file it takes the contact model. The
 ! rest is written below.
 !
 ! usage: fortran_host SCENE
@@ -139,7 +139,7 @@ contains
     end do
     close (unit)
     from = index(text, '"model"')
-    if (from == 0) call mistake(file // ' has no key "model": give a scene of ents-host')
+    if (from == 0) call mistake(file // ' has no key "model": give a scene of ents-lab')
     from = from + index(text(from:), "{") - 1
     depth = 0
     do to = from, len(text)

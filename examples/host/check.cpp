@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host check: is this enrichment admissible on this surface, what does it need, and is the slave mesh of
+// ents-lab check: is this enrichment admissible on this surface, what does it need, and is the slave mesh of
 // a scene fine enough for it? The library judges (ents_surface_check) and decides
 // (ents_model_layout), this file prints what they return.
 #include <cmath>

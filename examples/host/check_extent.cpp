@@ -147,7 +147,7 @@ void note_small_maps(const Scene& scene, const std::vector<double>& of_segments)
   const auto directions = static_cast<std::size_t>(scene.dimension - 1);
   const SurfaceExtent extent =
       coverage(scene.contact->model, "/contact/model", scene.file.parent_path(), directions, of_segments);
-  for (const std::string& line : warnings(extent)) std::fprintf(stderr, "ents-host: %s\n", line.c_str());
+  for (const std::string& line : warnings(extent)) std::fprintf(stderr, "ents-lab: %s\n", line.c_str());
 }
 
 Json extent_json(const SurfaceExtent& extent) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface that `ents-host check` looks at: where its segments are.
+// The surface that `ents-lab check` looks at: where its segments are.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The picture of `ents-host check`.
+// The picture of `ents-lab check`.
 #pragma once
 
 #include <filesystem>

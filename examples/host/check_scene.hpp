@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `ents-host check` looks at: a model and the segments that it is on, or a scene, which has both, and a
+// What `ents-lab check` looks at: a model and the segments that it is on, or a scene, which has both, and a
 // slave mesh.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The commands of ents-host. Each returns its exit code: 0 done, 1 the job failed; wrong input is thrown
+// The commands of ents-lab. Each returns its exit code: 0 done, 1 the job failed; wrong input is thrown
 // as InputError and becomes 2.
 #pragma once
 

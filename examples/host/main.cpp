@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host: the command line.
+// ents-lab: the command line.
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -98,16 +98,16 @@ int run_program(int argc, char** argv) {
   using namespace host;
   CLI::App app{"Reference finite element host of ents, enriched node-to-segment contact.\n"
                "An ordinary host: it loads libents.so and knows nothing of it but ents.h.\n",
-               "ents-host"};
+               "ents-lab"};
   app.footer("Exit codes: 0 done, 1 the job failed, 2 the command line or an input file is wrong.\n\n"
              "Examples:\n"
-             "  ents-host run examples/hertz2d/scene.json --out out/hertz2d\n"
-             "  ents-host run examples/westergaard/scene.json --compare\n"
-             "  ents-host variants examples/hertz2d/scene.json\n"
-             "  ents-host verify tests/mechanics/golden/*.json\n"
-             "  ents-host check model.json --mesh master.inp\n"
-             "  ents-host chart --out out/chart\n\n"
-             "ents-host SUBCOMMAND --help says more of each.");
+             "  ents-lab run examples/hertz2d/scene.json --out out/hertz2d\n"
+             "  ents-lab run examples/westergaard/scene.json --compare\n"
+             "  ents-lab variants examples/hertz2d/scene.json\n"
+             "  ents-lab verify tests/mechanics/golden/*.json\n"
+             "  ents-lab check model.json --mesh master.inp\n"
+             "  ents-lab chart --out out/chart\n\n"
+             "ents-lab SUBCOMMAND --help says more of each.");
   app.require_subcommand(1);
   CommonOptions common;
   const auto add_common = [&](CLI::App& command) {
@@ -184,13 +184,13 @@ int run_program(int argc, char** argv) {
                   "disk full leaves the files of the\n"
                   "last whole step, of which checkpoint.json has a checksum.\n\n"
                   "Examples:\n"
-                  "  ents-host run examples/rough_afm/scene.json --out out/rough_afm     a measured surface "
+                  "  ents-lab run examples/rough_afm/scene.json --out out/rough_afm     a measured surface "
                   "on ONE segment\n"
-                  "  ents-host run examples/hertz2d/scene.json --explicit 95             the same with 95 "
+                  "  ents-lab run examples/hertz2d/scene.json --explicit 95             the same with 95 "
                   "plain segments\n"
-                  "  ents-host run examples/westergaard/scene.json --compare             how the two "
+                  "  ents-lab run examples/westergaard/scene.json --compare             how the two "
                   "converge to each other\n"
-                  "  ents-host run examples/hertz3d/scene.json --json | jq .steps[-1].exact");
+                  "  ents-lab run examples/hertz3d/scene.json --json | jq .steps[-1].exact");
 
   VariantsOptions variants;
   CLI::App* variants_app = app.add_subcommand(
@@ -208,7 +208,7 @@ int run_program(int argc, char** argv) {
       "steps Newton's iterations, cuts, and the time. A variant that fails has no penetration; below the "
       "table stands why.\n\n"
       "Example:\n"
-      "  ents-host variants examples/hertz2d/scene.json                      six laws of contact");
+      "  ents-lab variants examples/hertz2d/scene.json                      six laws of contact");
 
   VerifyOptions verify;
   CLI::App* verify_app = app.add_subcommand(
@@ -223,7 +223,7 @@ int run_program(int argc, char** argv) {
                      "Quantities: xi, normal, gap and normal gap, gradients (d_) and Hessians (d2_) with "
                      "respect to the coordinates of the nodes.\n\n"
                      "Example:\n"
-                     "  ents-host verify tests/mechanics/golden/*.json");
+                     "  ents-lab verify tests/mechanics/golden/*.json");
 
   CheckOptions check;
   CLI::App* check_app =
@@ -268,10 +268,10 @@ int run_program(int argc, char** argv) {
       "where: the segment, natural\n"
       "coordinates on it and, for edges and pairs, the other segment. Lengths are the mesh's.\n\n"
       "Examples:\n"
-      "  ents-host check model.json                                        one flat segment of size 2\n"
-      "  ents-host check model.json --mesh surface.json --reach 0.1 --out out/check\n"
-      "  ents-host check scene.json                                        before a run of this scene\n"
-      "  ents-host check model.json --mesh shell.inp --json | jq .conditions");
+      "  ents-lab check model.json                                        one flat segment of size 2\n"
+      "  ents-lab check model.json --mesh surface.json --reach 0.1 --out out/check\n"
+      "  ents-lab check scene.json                                        before a run of this scene\n"
+      "  ents-lab check model.json --mesh shell.inp --json | jq .conditions");
 
   ChartOptions chart;
   CLI::App* chart_app = app.add_subcommand(
@@ -293,7 +293,7 @@ int run_program(int argc, char** argv) {
   add_common(*chart_app);
   chart_app->footer("Exit code 1 if any result is wrong without a status or flag that says so.\n\n"
                     "Example:\n"
-                    "  ents-host chart --out out/chart && xdg-open out/chart/chart.html");
+                    "  ents-lab chart --out out/chart && xdg-open out/chart/chart.html");
 
   for (const char* other : {"--restart", "--cut", "--seed", "--discard", "--last-step", "--nodes"})
     compare->excludes(other); // each mesh is solved in one go, by the library itself
@@ -305,18 +305,18 @@ int run_program(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error); // --help
     if (!app.get_subcommands().empty()) {
       const CLI::App& command = *app.get_subcommands().front();
-      const std::string name = "ents-host " + command.get_name();
+      const std::string name = "ents-lab " + command.get_name();
       std::fprintf(stderr, "%s: %s\n%s --help lists what there is\n", name.c_str(),
                    parse_error(command, error).c_str(), name.c_str());
       return 2;
     }
     if (argc < 2)
-      std::fprintf(stderr, "ents-host: a command is missing; write ents-host with %s\n", command_names);
+      std::fprintf(stderr, "ents-lab: a command is missing; write ents-lab with %s\n", command_names);
     else if (argv[1][0] == '-')
-      std::fprintf(stderr, "ents-host: \"%s\" is not an option here, options follow a command; write %s\n",
+      std::fprintf(stderr, "ents-lab: \"%s\" is not an option here, options follow a command; write %s\n",
                    argv[1], command_names);
     else
-      std::fprintf(stderr, "ents-host: \"%s\" is not a command; write %s\n", argv[1], command_names);
+      std::fprintf(stderr, "ents-lab: \"%s\" is not a command; write %s\n", argv[1], command_names);
     return 2;
   }
   try {
@@ -327,15 +327,15 @@ int run_program(int argc, char** argv) {
     if (chart_app->parsed()) return chart_command(common, chart);
     return check_command(common, check);
   } catch (const InputError& error) {
-    std::fprintf(stderr, "ents-host: %s\n", error.what());
+    std::fprintf(stderr, "ents-lab: %s\n", error.what());
     return 2;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "ents-host: the equations are too large for the machine's memory, or for the "
+    std::fprintf(stderr, "ents-lab: the equations are too large for the machine's memory, or for the "
                          "solver's 32-bit indices; take a coarser mesh (/parts), fewer points "
                          "(/contact/sampling), or fewer segments (--explicit, --compare)\n");
     return 1;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "ents-host: %s\n", error.what());
+    std::fprintf(stderr, "ents-lab: %s\n", error.what());
     return 1;
   }
 }
@@ -347,6 +347,6 @@ int main(int argc, char** argv) {
   const int code = run_program(argc, argv);
   // Answers that never arrived shall not look like success.
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  std::fprintf(stderr, "ents-host: stdout cannot be written: %s\n", std::strerror(errno));
+  std::fprintf(stderr, "ents-lab: stdout cannot be written: %s\n", std::strerror(errno));
   return code == 0 ? 1 : code;
 }

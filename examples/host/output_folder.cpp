@@ -29,7 +29,7 @@ OutputFolder::OutputFolder(const std::filesystem::path& folder) {
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
   throw InputError(
-      name + ": another ents-host is writing into this folder; name another one, or wait until it has ended");
+      name + ": another ents-lab is writing into this folder; name another one, or wait until it has ended");
 }
 
 OutputFolder::~OutputFolder() {

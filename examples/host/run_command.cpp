@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host run: solve a scene, tell, and leave files.
+// ents-lab run: solve a scene, tell, and leave files.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,7 +32,7 @@ void print_report(const Simulation& simulation, const std::vector<StepRecord>& r
   if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
   if (!records.empty() && simulation.resolution().too_coarse() && std::isfinite(records.back().area.fraction))
     std::printf(
-        "\nno bound of the estimated contact is known: the mesh is too coarse for this surface (ents-host "
+        "\nno bound of the estimated contact is known: the mesh is too coarse for this surface (ents-lab "
         "check says what would do)\n");
   const Timings& timings = simulation.timings();
   std::printf("\nwall time %s s: setup %s, bulk %s, contact %s, solver %s\n",
@@ -48,10 +48,10 @@ void print_report(const Simulation& simulation, const std::vector<StepRecord>& r
 void note_ignored(const RunOptions& options, const Scene& scene) {
   const std::size_t steps = scene.steps.size();
   if (options.last_step > static_cast<int>(steps))
-    std::fprintf(stderr, "ents-host: --last-step %d: the scene has %zu %s; the run ends with its last\n",
+    std::fprintf(stderr, "ents-lab: --last-step %d: the scene has %zu %s; the run ends with its last\n",
                  options.last_step, steps, steps == 1 ? "step" : "steps");
   if (options.seed && options.cut != "random")
-    std::fprintf(stderr, "ents-host: --seed %u has no effect: only --cut random draws numbers\n",
+    std::fprintf(stderr, "ents-lab: --seed %u has no effect: only --cut random draws numbers\n",
                  *options.seed);
 }
 
@@ -59,7 +59,7 @@ void note_ignored(const RunOptions& options, const Scene& scene) {
 void note_without_contact(const Scene& scene, const std::vector<StepRecord>& records) {
   const auto touched = [](const StepRecord& record) { return record.contact_fraction > 0; };
   if (!scene.contact || records.empty() || std::any_of(records.begin(), records.end(), touched)) return;
-  std::fprintf(stderr, "ents-host: no slave node was in contact at the end of a step: do the master's normal "
+  std::fprintf(stderr, "ents-lab: no slave node was in contact at the end of a step: do the master's normal "
                        "(order of its nodes) and "
                        "the motion bring the surfaces together?\n");
 }
@@ -68,7 +68,7 @@ void note_without_contact(const Scene& scene, const std::vector<StepRecord>& rec
 void note_resolution(const Simulation& simulation) {
   const Resolution& resolution = simulation.resolution();
   if (resolution.too_coarse())
-    std::fprintf(stderr, "ents-host: warning: %s\n",
+    std::fprintf(stderr, "ents-lab: warning: %s\n",
                  describe(resolution, simulation.scene().units.length).c_str());
 }
 
@@ -96,7 +96,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   note_ignored(options, scene);
   // Before the run, for in its result such a map looks like a master that faces away.
   if (const std::string& mismatch = simulation.exact_axis().mismatch; !mismatch.empty())
-    std::fprintf(stderr, "ents-host: warning: %s; errors against the exact solution mean nothing\n",
+    std::fprintf(stderr, "ents-lab: warning: %s; errors against the exact solution mean nothing\n",
                  mismatch.c_str());
   if (scene.contact) note_small_maps(scene, simulation.contact()->master().surface_coordinates);
   note_resolution(simulation);
@@ -137,7 +137,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   std::fflush(stdout); // before messages on stderr
   note_without_contact(scene, records);
   for (const std::string& message : {failure ? std::string(failure->what()) : std::string(), files.problem()})
-    if (!message.empty()) std::fprintf(stderr, "ents-host: %s\n", message.c_str());
+    if (!message.empty()) std::fprintf(stderr, "ents-lab: %s\n", message.c_str());
   return failure || !files.problem().empty() ? 1 : 0;
 }
 

@@ -60,7 +60,7 @@ void RunFiles::resume(int first) {
   if (whole_ < first - 1)
     std::fprintf(
         stderr,
-        "ents-host: warning: %s does not have all files of step %d, which could not be written or were "
+        "ents-lab: warning: %s does not have all files of step %d, which could not be written or were "
         "deleted; an earlier checkpoint, or none, lets the run write them again\n",
         series_->file().c_str(), whole_ + 1);
   const fs::path file = folder_ / "result.json"; // a run that was stopped has none
@@ -80,7 +80,7 @@ bool RunFiles::attempt(const std::function<void()>& write) {
     const std::string problem = error.what();
     if (std::find(problems_.begin(), problems_.end(), problem) != problems_.end()) return false;
     problems_.push_back(problem);
-    std::fprintf(stderr, "ents-host: %s; the run goes on\n", problem.c_str());
+    std::fprintf(stderr, "ents-lab: %s; the run goes on\n", problem.c_str());
     return false;
   }
 }

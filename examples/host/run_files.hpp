@@ -10,7 +10,7 @@
 
 namespace host {
 
-/// A file that cannot be written does not end the run, which may have taken hours: ents-host prints a message
+/// A file that cannot be written does not end the run, which may have taken hours: ents-lab prints a message
 /// and fails when everything else is done.
 ///
 /// checkpoint.json is that of the last step, checkpoint_before.json the one before it. Once files of the VTU

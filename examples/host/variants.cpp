@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host variants: a scene and its variants side by side.
+// ents-lab variants: a scene and its variants side by side.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -49,7 +49,7 @@ int variants_command(const CommonOptions& common, const VariantsOptions& options
   if (scene.variants.empty())
     throw InputError(
         options.scene.string() +
-        ": the scene has no key \"variants\", so there is nothing to compare; solve it with ents-host run");
+        ": the scene has no key \"variants\", so there is nothing to compare; solve it with ents-lab run");
   const EntsLibrary library(common.library);
   std::vector<VariantRow> rows{solve_variant(scene, "as it is", library)};
   for (const Variant& variant : scene.variants)

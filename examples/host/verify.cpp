@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host verify: golden vectors through the ABI.
+// ents-lab verify: golden vectors through the ABI.
 #include <array>
 #include <cmath>
 #include <cstdio>

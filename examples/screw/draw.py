@@ -43,7 +43,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     step = json.loads((folder / "result.json").read_text())["steps"][-1]
     if "nodes" not in step:
-        sys.exit(f"draw.py: {folder}/result.json has no nodes: run ents-host with --nodes")
+        sys.exit(f"draw.py: {folder}/result.json has no nodes: run ents-lab with --nodes")
     places, pressure = step["nodes"]["position"], step["nodes"]["pressure"]
 
     def segments(axes):

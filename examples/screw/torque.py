@@ -3,7 +3,7 @@
 """torque.py [ENTS-HOST]: torque over preload of five threads at four coefficients of friction, tightened and loosened, and the coefficient below
 which the load turns the screw, against the exact values of a rigid helix. Exit status 1: one differs by more than 1 %.
 
-Each number is a run of ents-host: the preload, then two small turns, until the whole flank slips. All in about five minutes.
+Each number is a run of ents-lab: the preload, then two small turns, until the whole flank slips. All in about five minutes.
 """
 import json
 import math
@@ -58,7 +58,7 @@ def solve(program, folder, thread, mu, sense):
 def main():
     if len(sys.argv) > 2 or sys.argv[1:] in (["-h"], ["--help"]):
         sys.exit(__doc__)
-    program = sys.argv[1] if len(sys.argv) > 1 else str(pathlib.Path(__file__).resolve().parents[2] / "build/bin/ents-host")
+    program = sys.argv[1] if len(sys.argv) > 1 else str(pathlib.Path(__file__).resolve().parents[2] / "build/bin/ents-lab")
     worst = 0.0
     print(f"{'thread':<12}{'friction':>9}  {'tightened':>10}{'exact':>9}{'error':>9}  {'loosened':>10}{'exact':>9}{'error':>9}")
     for thread in THREADS:

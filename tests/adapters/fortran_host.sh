@@ -1,5 +1,5 @@
 #!/bin/sh
-# fortran_host.sh FORTRAN_HOST ENTS_HOST SCENE PYTHON BLOCK_PY OUT: the Fortran host and ents-host find the same forces.
+# fortran_host.sh FORTRAN_HOST ENTS_HOST SCENE PYTHON BLOCK_PY OUT: the Fortran host and ents-lab find the same forces.
 set -eu
 fortran=$1 host=$2 scene=$3 python=$4 compare=$5 out=$6
 if [ ! -x "$fortran" ]; then echo "no Fortran compiler or no LAPACK here (Debian: gfortran liblapack-dev)"; exit 3; fi

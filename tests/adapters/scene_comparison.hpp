@@ -27,13 +27,13 @@ std::string write_scene(const std::string& name, Mesh mesh, const std::filesyste
 std::vector<std::string> scene_adapters();
 
 struct SceneResult {
-  std::string refusal;     ///< what ents-host says if it cannot or will not; else ""
+  std::string refusal;     ///< what ents-lab says if it cannot or will not; else ""
   nlohmann::json steps;    ///< with the fields of the slave nodes, without times
   std::string fingerprint; ///< of displacements, histories and multipliers at the end
   double seconds = 0;
 };
 
-/// @param options  more words for ents-host run
+/// @param options  more words for ents-lab run
 SceneResult run_scene(const std::string& file, const std::string& adapter, const std::string& options = "");
 
 struct Comparison {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// adapters_scene: ents-host run, with the contact through the adapter of another program.
+// adapters_scene: ents-lab run, with the contact through the adapter of another program.
 #include <cstdio>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +9,7 @@
 #include "scene_route.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Solve a scene of ents-host with the contact through the adapter of another program, which is "
+  CLI::App app{"Solve a scene of ents-lab with the contact through the adapter of another program, which is "
                "emulated",
                "adapters_scene"};
   host::CommonOptions common;
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   run.pictures = false;
   std::string adapter, names;
   for (const std::string& name : adapters::route_names()) names += (names.empty() ? "" : ", ") + name;
-  app.add_option("scene", run.scene, "scene file of ents-host run")->required()->type_name("FILE");
+  app.add_option("scene", run.scene, "scene file of ents-lab run")->required()->type_name("FILE");
   app.add_option("--adapter", adapter, names)->required()->type_name("NAME");
   app.add_option("--out", run.out, "folder for result.json and the VTU series")->type_name("DIR");
   app.add_option("--variant", run.variant, "one of the scene's variants");

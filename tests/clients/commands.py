@@ -21,7 +21,7 @@ import time
 
 FOLDERS = ("core", "abi", "adapters", "examples", "tests")
 LONG = {  # a part of a command: why it is not run
-    "ents-host chart": "minutes; host_chart_test runs it with --quick",
+    "ents-lab chart": "minutes; host_chart_test runs it with --quick",
     "mechanics_tests": "tests of this build", "laws_tests": "tests of this build", "host_scenes_test": "tests of this build",
     "host_chart_test": "tests of this build", "host_crash_test": "tests of this build", "promises_test": "tests of this build",
     "host_friction_test": "tests of this build", "adapters_scenes_table": "half an hour",
@@ -37,7 +37,7 @@ LONG = {  # a part of a command: why it is not run
     "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --variant block": "minutes, for the gallery", "ENTS_": "a longer run of a test",
 }
 INSTEAD = {"examples/SCENE/": "examples/hertz2d/", "out/SCENE": "out/hertz2d"}
-STATUS = {"ents-host run examples/chatter/scene.json": 1}  # its README: this scene does not converge
+STATUS = {"ents-lab run examples/chatter/scene.json": 1}  # its README: this scene does not converge
 OTHER_PROGRAMS = {"getfem", "dolfinx", "mpi4py", "petsc4py", "ufl",  # finite element programs: their files say so and end with status 3
                   "sympy"}  # python3 -m ents generate, which names it
 DECK = """*NODE, NSET=NLOW

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """area_bounds.py [ENTS-HOST] [--quick] [--points N]: the estimated contact area and its bound, against known areas.
 
-Every step of scenes whose contact area is known: closed forms (hertz3d, wires), or boundary elements with N points a side (default 512). For each step: |estimate - truth| <= bound, or ents-host gave no bound because the mesh is too coarse for the surface.
+Every step of scenes whose contact area is known: closed forms (hertz3d, wires), or boundary elements with N points a side (default 512). For each step: |estimate - truth| <= bound, or ents-lab gave no bound because the mesh is too coarse for the surface.
 Prints every step, then the table of examples/host/README.md, "Contact area", as Markdown. --quick: the scenes of some seconds, 256 points.
 
 Exit status: 0 every bound holds; 1 one does not, or a scene is not solved; 2 the command line is wrong."""
@@ -54,7 +54,7 @@ def truth_of(step):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", nargs="?", type=pathlib.Path, default=TOP / "build/bin/ents-host")
+    parser.add_argument("program", nargs="?", type=pathlib.Path, default=TOP / "build/bin/ents-lab")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--points", type=int, metavar="N")
     options = parser.parse_args()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of `ents-host chart` in a real browser, as wide as a desk and as a phone: are the charts, their
+// The page of `ents-lab chart` in a real browser, as wide as a desk and as a phone: are the charts, their
 // axes and texts there, and does nothing stick out?
 #include <array>
 #include <cstdio>

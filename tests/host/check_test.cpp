@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host check: exit codes, what is printed, and the picture. What the numbers mean is tested in
+// ents-lab check: exit codes, what is printed, and the picture. What the numbers mean is tested in
 // tests/mechanics.
 #include <gtest/gtest.h>
 

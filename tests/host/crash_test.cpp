@@ -313,7 +313,7 @@ TEST_F(Crash, TwoRunsDoNotWriteIntoOneFolder) {
     const Process second = run(whole_);
     EXPECT_EQ(second.wait(), 2);
     EXPECT_NE(
-        second.text().find("--out: " + whole_.string() + ": another ents-host is writing into this folder"),
+        second.text().find("--out: " + whole_.string() + ": another ents-lab is writing into this folder"),
         std::string::npos)
         << second.text();
     expect_whole(whole_, "beside the second run"); // nothing was removed

@@ -31,7 +31,7 @@ inline ProgramOutput run_in_shell(const std::string& line) {
   return output;
 }
 
-/// ents-host with arguments as typed in a shell.
+/// ents-lab with arguments as typed in a shell.
 inline ProgramOutput ents_host(const std::string& arguments) {
   return run_in_shell("\"" ENTS_HOST "\" " + arguments);
 }

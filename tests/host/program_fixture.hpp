@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host in a folder of its own, with small scenes to run.
+// ents-lab in a folder of its own, with small scenes to run.
 #pragma once
 
 #include <filesystem>

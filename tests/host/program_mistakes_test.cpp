@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that cannot be solved, through ents-host: what is too large, what is no scene, what nothing holds,
+// Scenes that cannot be solved, through ents-lab: what is too large, what is no scene, what nothing holds,
 // maps that cover too little.
 #include <functional>
 
@@ -95,7 +95,7 @@ TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
   EXPECT_EQ(good.text.find("no slave node"), std::string::npos) << good.text;
 }
 
-// Without "length_unit" a map covers a small part of the segment: ents-host warns before the run, whose
+// Without "length_unit" a map covers a small part of the segment: ents-lab warns before the run, whose
 // result looks like that of a master with reversed normals.
 TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
   write_text("profile.txt", "# Channel: z\n# Width: 4 mm\n# Height: 1 mm\n# Value units: m\n"
@@ -110,7 +110,7 @@ TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
     return write("scene.json", json);
   };
   const std::string
-      warning = "ents-host: warning: the map /contact/model/height covers only a part of the segments",
+      warning = "ents-lab: warning: the map /contact/model/height covers only a part of the segments",
       good = scene({{"length_unit", 1e-3}});
   for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
     const ProgramOutput fine = ents_host("run " + good + more);

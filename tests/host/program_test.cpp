@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host as typed in a shell: it names a mistake before hours of work are lost.
+// ents-lab as typed in a shell: it names a mistake before hours of work are lost.
 #include <gtest/gtest.h>
 
 #include "advice.hpp"
@@ -18,33 +18,33 @@ TEST_F(Program, NamesACommandItDoesNotKnow) {
 TEST_F(Program, NamesAnOptionItDoesNotKnowAndTheOneThatWasMeant) {
   const std::string scene = write("small.json", small()), model = write("model.json", {{"segment", "line2"}});
   expect(ents_host("run " + scene + " --outt x"), 2,
-         {"ents-host run: unknown option --outt; did you mean --out?\n"});
+         {"ents-lab run: unknown option --outt; did you mean --out?\n"});
   expect(ents_host("run --no-picture=1 " + scene), 2,
-         {"ents-host run: unknown option --no-picture; did you mean --no-pictures?\n"});
-  expect(ents_host("run --helpp"), 2, {"ents-host run: unknown option --helpp; did you mean --help?\n"});
+         {"ents-lab run: unknown option --no-picture; did you mean --no-pictures?\n"});
+  expect(ents_host("run --helpp"), 2, {"ents-lab run: unknown option --helpp; did you mean --help?\n"});
   expect(ents_host("check " + model + " --colour red"), 2,
-         {"ents-host check: unknown option --colour\n", "ents-host check --help"});
+         {"ents-lab check: unknown option --colour\n", "ents-lab check --help"});
   expect(ents_host("run " + scene + " other.json more.json"), 2,
-         {"ents-host run: unexpected argument \"other.json\"\n"});
-  expect(ents_host("run"), 2, {"ents-host run: scene is required"});
+         {"ents-lab run: unexpected argument \"other.json\"\n"});
+  expect(ents_host("run"), 2, {"ents-lab run: scene is required"});
 }
 
 TEST_F(Program, HelpOfACommandBeginsWithItsNameAndSaysWhatItTells) {
-  expect(ents_host("--help"), 0, {"Usage: ents-host [OPTIONS] SUBCOMMAND\n"});
+  expect(ents_host("--help"), 0, {"Usage: ents-lab [OPTIONS] SUBCOMMAND\n"});
   expect(ents_host("run --help"), 0,
-         {"Usage: ents-host run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps",
+         {"Usage: ents-lab run [OPTIONS] scene\n", "dimension, formulation (2D), materials, parts and steps",
           "abi/model.schema.json", "tangential over normal force is mu / (1 - kappa |g|)",
           "checkpoint_before.json"});
   const ProgramOutput verify = ents_host("verify --help"), variants = ents_host("variants --help");
   expect(verify, 0,
-         {"Usage: ents-host verify [OPTIONS] files...\n",
+         {"Usage: ents-lab verify [OPTIONS] files...\n",
           "Columns: worst relative error of each quantity, gaps relative to the segment's size; exit 1 above "
           "--tolerance"});
   expect(variants, 0,
-         {"Usage: ents-host variants [OPTIONS] scene\n", "The first row, \"as it is\", is the scene",
+         {"Usage: ents-lab variants [OPTIONS] scene\n", "The first row, \"as it is\", is the scene",
           "Columns: "});
   for (const ProgramOutput& output : {verify, variants})
-    EXPECT_EQ(output.text.find("ents-host chart"), std::string::npos) << output.text;
+    EXPECT_EQ(output.text.find("ents-lab chart"), std::string::npos) << output.text;
 }
 
 // The scripts answer by their own names, before they do anything.
@@ -66,7 +66,7 @@ TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
   }
 }
 
-// ents-host names an --out that is no folder before it computes: at the end of a long run it would be too
+// ents-lab names an --out that is no folder before it computes: at the end of a long run it would be too
 // late.
 TEST_F(Program, AnOutputFolderThatCannotBeIsToldFirst) {
   const std::string scene = write("small.json", small()), file = write_text("afile", "");

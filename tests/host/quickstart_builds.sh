@@ -1,5 +1,5 @@
 #!/bin/sh
-# quickstart_builds.sh NINJA BUILD ROOT: what examples/quickstart.sh builds is the library, the reading of decks and ents-host.
+# quickstart_builds.sh NINJA BUILD ROOT: what examples/quickstart.sh builds is the library, the reading of decks and ents-lab.
 set -eu
 target=$(sed -n 's/^sh examples\/setup.sh --target \([a-z-]*\).*/\1/p' "$3/examples/quickstart.sh")
 objects=$("$1" -C "$2" -t commands "$target" | sed -n 's/.* -o \([^ ]*\.o\) .*/\1/p')

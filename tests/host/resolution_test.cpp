@@ -128,7 +128,7 @@ TEST_F(Program, NoBoundIsPrintedOfAMeshThatIsTooCoarse) {
                         as_json = ents_host("run " + scene + " --json"); // the warning comes first
     const bool told = output.text.find("no bound of the estimated contact is known") != std::string::npos;
     EXPECT_EQ(told, cells == 9) << output.text;
-    EXPECT_EQ(output.text.find("ents-host: warning: the shortest wave") == 0, cells == 9) << output.text;
+    EXPECT_EQ(output.text.find("ents-lab: warning: the shortest wave") == 0, cells == 9) << output.text;
     const Json result = Json::parse(as_json.text.substr(as_json.text.find('{')));
     EXPECT_EQ(result.at("resolution").at("too_coarse"), cells == 9);
     EXPECT_EQ(result.at("steps").at(0).at("contact_estimate").at("error").is_null(), cells == 9);

@@ -14,7 +14,7 @@
 
 namespace host::test {
 
-/// libents.so of the build tree, as ents-host finds it.
+/// libents.so of the build tree, as ents-lab finds it.
 inline const EntsLibrary& library() {
   static const EntsLibrary instance;
   return instance;

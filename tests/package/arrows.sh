@@ -48,7 +48,7 @@ for folder in core/*/; do
   case "|$before|" in *"|$(basename "$folder")|"*) ;; *) echo "$folder is not in the order above" >&2; bad=1 ;; esac
 done
 
-# The reader of decks serves ents-deck and ents-host: it knows neither the library nor a host.
+# The reader of decks serves ents-deck and ents-lab: it knows neither the library nor a host.
 reader=$(cd adapters/deck && ls source.?pp spelling.cpp element_types.?pp scopes.?pp mesh.?pp)
 for file in $reader; do
   own=$(grep -oE '^#include "[^"]*"' "adapters/deck/$file" | sed 's/#include "//; s/"//')
@@ -63,7 +63,7 @@ for folder in examples adapters; do
     name=$(basename "$header")
     case $name in ents.h | ents.hpp) continue ;; esac
     [ -n "$(find $folder -name "$name")" ] && continue
-    # ents-host reads decks by ents-deck's reader.
+    # ents-lab reads decks by ents-deck's reader.
     [ "$folder $header" = "examples deck/source.hpp" ] && continue
     echo "$folder includes \"$header\", which is not its own"
   done

@@ -1,9 +1,9 @@
 #!/bin/sh
 # debian.sh CPACK BUILD SCRATCH FIRST SLIDE: the Debian packages of BUILD, installed in a fresh Debian, without the sources and the build.
 #   1. CPack warns if nobody is named as maintainer; lintian, where it is installed, finds no error
-#   2. without a compiler: ents-host solves the scan and draws its picture, the Python module computes the bits of C, Hertz is right
+#   2. without a compiler: ents-lab solves the scan and draws its picture, the Python module computes the bits of C, Hertz is right
 #   3. with compilers: C, C++ (find_package) and Fortran programs, built from libents-dev alone, print what FIRST and SLIDE of BUILD print
-#   4. ents-ccx builds CalculiX with the adapter, and a job of it gives the forces of ents-host
+#   4. ents-ccx builds CalculiX with the adapter, and a job of it gives the forces of ents-lab
 #   5. removed, the packages leave no file
 # Prints the seconds of each. Exit status 3: not run, for this needs root, debootstrap and a network.
 set -eu
@@ -55,11 +55,11 @@ say "the packages, with all that they need: $(since "$begin")"
 
 ! inside sh -c 'command -v cc c++ gfortran' >/dev/null || { echo "debian.sh: there is a compiler, which this is to do without" >&2; exit 1; }
 begin=$(now)
-must inside ents-host run /usr/share/ents/examples/rough_afm/scene.json --out /tmp/out
+must inside ents-lab run /usr/share/ents/examples/rough_afm/scene.json --out /tmp/out
 [ -s "$root/tmp/out/pressure_map.png" ] || { echo "debian.sh: no picture" >&2; exit 1; }
 say "one command to the first picture: $(since "$begin")"
 must inside ents-deck --help
-must inside ents-host check /usr/share/ents/examples/rough_afm/model.json
+must inside ents-lab check /usr/share/ents/examples/rough_afm/model.json
 must inside $install python3-scipy $(cd "$root" && ls packages/python3-ents_*.deb | sed "s|^|/|") # SciPy brings g++
 must inside python3 -m ents doctor
 grep -q '^check  *passed' "$log" || { cat "$log" >&2; exit 1; }
@@ -111,9 +111,9 @@ else
   say "one command to ccx with ents: $(since "$begin")"
   begin=$(now)
   must inside python3 /usr/share/ents/calculix/example/make.py texture U1E /tmp/texture
-  must inside sh -c 'cd /tmp/texture && OMP_NUM_THREADS=1 /tmp/ccx_ents/calculix/ccx_ents job && cp job.dat one_thread.dat && ents-host run scene.json --out host'
+  must inside sh -c 'cd /tmp/texture && OMP_NUM_THREADS=1 /tmp/ccx_ents/calculix/ccx_ents job && cp job.dat one_thread.dat && ents-lab run scene.json --out host'
   must inside python3 /usr/share/ents/calculix/example/compare.py /tmp/texture
-  say "a job in CalculiX, the same forces as ents-host: $(since "$begin")"
+  say "a job in CalculiX, the same forces as ents-lab: $(since "$begin")"
 fi
 
 for package in "$scratch"/packages/*.deb; do dpkg-deb -c "$package" | awk '{ print $6 }'; done | sort -u >"$scratch/files"

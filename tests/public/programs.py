@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows that ents-host and ents-deck run."""
+"""Rows that ents-lab and ents-deck run."""
 import json
 import math
 import pathlib
@@ -26,7 +26,7 @@ def host(check, scene, folder, *options):
     done = subprocess.run([check.programs.host, "run", file, "--nodes", "--no-pictures", "--out", place, *options], capture_output=True, text=True,
                           check=False)
     if done.returncode:
-        raise RuntimeError(f"ents-host run {file.name} {' '.join(options)}: {done.stderr.strip() or done.stdout.strip()}")
+        raise RuntimeError(f"ents-lab run {file.name} {' '.join(options)}: {done.stderr.strip() or done.stdout.strip()}")
     return json.loads((place / "result.json").read_text()), done.stdout + done.stderr
 
 

@@ -6,7 +6,7 @@ usage: run.py [--build FOLDER] [--list | --page | --write] [ROW or GROUP ...]
 
 Without names: all rows. A GROUP is a file of this folder (surfaces, friction ...). The last column is the largest error and its tolerance.
 
-  --build FOLDER  the build tree: bin/ents-host, bin/ents-deck, lib/libents.so [build]
+  --build FOLDER  the build tree: bin/ents-lab, bin/ents-deck, lib/libents.so [build]
   --list          names of groups and rows
   --page          only compare README.md with the rows: each has its line there, and no other has one
   --write         after the run, write what came out into the lines of README.md
@@ -31,7 +31,7 @@ class Programs:
     """Where programs and scratch files are."""
 
     def __init__(self, build, folder):
-        self.host, self.deck, self.ccx = build / "bin/ents-host", build / "bin/ents-deck", build / "calculix/ccx_ents"
+        self.host, self.deck, self.ccx = build / "bin/ents-lab", build / "bin/ents-deck", build / "calculix/ccx_ents"
         self.folder = pathlib.Path(folder)
 
 

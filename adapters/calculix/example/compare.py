@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compare what ccx (job.dat by two threads, one_thread.dat by one) and ents-host (host/) say about the problem in a folder that make.py wrote.
+"""Compare what ccx (job.dat by two threads, one_thread.dat by one) and ents-lab (host/) say about the problem in a folder that make.py wrote.
 
 usage: compare.py FOLDER
 
@@ -65,13 +65,13 @@ def main():
     one_thread, _ = ccx(folder / "one_thread.dat")
     steps = json.loads((folder / "host" / "result.json").read_text())["steps"]
     if not len(forces) == len(displacements) == len(steps):
-        sys.exit(f"{len(forces)} increments in ccx, {len(steps)} in ents-host")
+        sys.exit(f"{len(forces)} increments in ccx, {len(steps)} in ents-lab")
     iterations = {}
     for line in (folder / "job.sta").read_text().splitlines():
         words = line.split()
         if len(words) >= 4 and words[0] == "1":
             iterations[int(words[1])] = int(words[3])
-    print("increment  vertical force: ccx  ents-host         difference: forces  displacements  threads   iterations ccx : host")
+    print("increment  vertical force: ccx  ents-lab         difference: forces  displacements  threads   iterations ccx : host")
     mesh, worst = nodes(folder), 0
     for k, step in enumerate(steps):
         vtu = folder / "host" / f"result_bulk_{k + 1:04d}.vtu"

@@ -31,7 +31,7 @@ def layer(part, first, lines):
     for j in range(ny):
         for i in range(nx):
             a, b, c, d = rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]
-            for triangle in ((a, b, c), (a, c, d)):  # ents-host cuts its cells along this diagonal
+            for triangle in ((a, b, c), (a, c, d)):  # ents-lab cuts its cells along this diagonal
                 lines.append(", ".join(map(str, [element, *triangle, *(n + side for n in triangle)])))
                 element += 1
     return rows, side

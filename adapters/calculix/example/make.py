@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write one problem for CalculiX and for ents-host: a block is pressed by a rigid surface that is nothing but a height on ONE quad4 segment.
+"""Write one problem for CalculiX and for ents-lab: a block is pressed by a rigid surface that is nothing but a height on ONE quad4 segment.
 
 usage: make.py sphere|texture|friction|turned U1E|U1A OUT
 
@@ -9,7 +9,7 @@ turned: a rigid body with a reference node and a node for its turns, one of whic
 OUT/block.inp   mesh, read by both
 OUT/job.inp     ccx: elements U1E, or U1A that run an Abaqus user element; NLGEOM, several increments
 OUT/ents_1.json, OUT/ents_1.txt   their model and areas
-OUT/scene.json  the same for ents-host"""
+OUT/scene.json  the same for ents-lab"""
 import json
 import pathlib
 import sys

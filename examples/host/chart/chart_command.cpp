@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-host chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json,
+// ents-lab chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json,
 // chart.html and the pictures.
 #include <algorithm>
 #include <cstdio>
@@ -213,7 +213,7 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
                 options.out.empty() ? "" : (", " + (options.out / "chart.html").string()).c_str());
   }
   if (wrong > 0 || !covered) {
-    std::fprintf(stderr, "ents-host: chart: there are results that are wrong and not flagged; chart.json "
+    std::fprintf(stderr, "ents-lab: chart: there are results that are wrong and not flagged; chart.json "
                          "(--out) says where\n");
     return 1;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The page of `ents-host chart`: one HTML file with everything in it, to be read without a network.
+// The page of `ents-lab chart`: one HTML file with everything in it, to be read without a network.
 #pragma once
 
 #include <string>

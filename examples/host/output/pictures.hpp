@@ -104,7 +104,7 @@ struct Place {
   bool wrong = true; ///< drawn as an offence, else as a remark
 };
 
-/// The enriched surface of segments for `ents-host check`: a section in 2D, a shaded surface in 3D.
+/// The enriched surface of segments for `ents-lab check`: a section in 2D, a shaded surface in 3D.
 struct Surface {
   std::string title, subtitle;
   std::string unit;  ///< of length
