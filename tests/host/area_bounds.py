@@ -3,7 +3,7 @@
 """area_bounds.py [ENTS-HOST] [--quick] [--points N]: the estimated contact area and its bound, against known areas.
 
 Every step of scenes whose contact area is known: closed forms (hertz3d, wires), or boundary elements with N points a side (default 512). For each step: |estimate - truth| <= bound, or ents-lab gave no bound because the mesh is too coarse for the surface.
-Prints every step, then the table of examples/host/README.md, "Contact area", as Markdown. --quick: the scenes of some seconds, 256 points.
+Prints every step, then the table of examples/laboratory/README.md, "Contact area", as Markdown. --quick: the scenes of some seconds, 256 points.
 
 Exit status: 0 every bound holds; 1 one does not, or a scene is not solved; 2 the command line is wrong."""
 import argparse

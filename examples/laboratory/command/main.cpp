@@ -118,7 +118,7 @@ int run_program(int argc, char** argv) {
 
   RunOptions run;
   CLI::App* run_app = app.add_subcommand("run", "Solve a scene");
-  run_app->add_option("scene", run.scene, "scene file; examples/host/README.md describes its keys")
+  run_app->add_option("scene", run.scene, "scene file; examples/laboratory/README.md describes its keys")
       ->required()
       ->type_name("FILE");
   run_app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file, read and checked. examples/host/README.md describes every key.
+// A scene file, read and checked. examples/laboratory/README.md describes every key.
 #pragma once
 
 #include <algorithm>

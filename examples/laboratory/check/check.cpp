@@ -167,7 +167,7 @@ void print(const Answer& answer, std::size_t segments, bool friction) {
   if (friction && answer.tangent_jumps())
     std::printf("note: the third derivatives of h jump between the cells of a map or thread, and with them "
                 "the exact tangent of friction: "
-                "Newton's iteration does not suffer (examples/host/README.md)\n");
+                "Newton's iteration does not suffer (examples/laboratory/README.md)\n");
   std::size_t failing = 0;
   for (const std::int64_t bits : answer.violations()) failing += bits != 0;
   if (answer.admissible())

@@ -16,7 +16,7 @@
 
 namespace host {
 
-/// The whole run. examples/host/README.md describes the keys.
+/// The whole run. examples/laboratory/README.md describes the keys.
 /// @param nodes    with the fields of every slave node in every step
 /// @param failure  of the step after these; null: the run came to its end
 Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes = false,
