@@ -88,7 +88,7 @@ MasterPoints sample_master(const EntsModel& model, const Press& press, int per_s
 MasterCheck check_master(const EntsModel& model, const Press& press, const MasterPoints& points) {
   MasterCheck worst;
   worst.reach = INFINITY;
-  const EntsLibrary& library = model.library();
+  const ents::Library& library = model.library();
   auto report = ents_struct<ents_report>();
   for (std::int64_t s = 0; s < press.row.segments(); ++s) {
     const std::vector<double> nodes = segment_nodes(press, s), coordinates = segment_coordinates(press, s);

@@ -38,7 +38,7 @@ std::string example_model(const Example& example) {
 
 /// The whole surface, asked once: what ents_surface_check finds violated.
 Sentences asked_first(const EntsModel& model, const Example& example) {
-  const EntsLibrary& library = model.library();
+  const ents::Library& library = model.library();
   auto report = ents_struct<ents_report>();
   auto mesh = ents_struct<ents_master_mesh>();
   mesh.segments = static_cast<std::int64_t>(example.connectivity.size() / 2);
@@ -59,7 +59,7 @@ Sentences asked_first(const EntsModel& model, const Example& example) {
 }
 
 Sentences on_the_way(const EntsModel& model, const Example& example) {
-  const EntsLibrary& library = model.library();
+  const ents::Library& library = model.library();
   auto report = ents_struct<ents_report>();
   const auto require = [&](std::int32_t status) {
     if (status < 0) throw JobError("chart: " + describe(library, status, report));

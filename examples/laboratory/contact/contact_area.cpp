@@ -39,7 +39,7 @@ AreaEstimate estimate_area(const Simulation& simulation, const ContactFields& fi
     }
   const ElementSetup& setup = scene.parts.front().setup;
   const double thickness = setup.formulation == Formulation::axisymmetric ? 0 : setup.thickness;
-  const EntsLibrary& library = contact.master().model->library();
+  const ents::Library& library = contact.master().model->library();
   auto sum = ents_struct<ents_area>();
   for (const auto& [count, name] : {std::pair(2, "line2"), std::pair(3, "tri3"), std::pair(4, "quad4")}) {
     std::vector<std::int64_t> connectivity;

@@ -18,7 +18,7 @@ std::array<double, 3> Contact::spin(const Configuration& at) const {
 }
 
 ents_pose Contact::pose_at(const Configuration& at) const {
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   auto pose = ents_struct<ents_pose>();
   auto report = ents_struct<ents_report>();
   const double* moved = at.displacement.data() + static_cast<std::size_t>(master_.body_node) * d_;
@@ -75,7 +75,7 @@ void Contact::see_from_master(const Configuration& at, std::vector<double>& posi
   if (master_.body_node < 0) return;
   pose_ = pose_at(at);
   auto report = ents_struct<ents_report>();
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   if (library.pose_to_body(static_cast<std::int32_t>(d_), &pose_,
                            static_cast<std::int64_t>(positions.size() / d_), positions.data(),
                            positions.data(), &report) != ENTS_OK)
@@ -83,7 +83,7 @@ void Contact::see_from_master(const Configuration& at, std::vector<double>& posi
 }
 
 void Contact::turn(std::vector<double>& vectors) const {
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   auto report = ents_struct<ents_report>();
   if (library.pose_to_space(static_cast<std::int32_t>(d_), &pose_,
                             static_cast<std::int64_t>(vectors.size() / d_), vectors.data(), vectors.data(),

@@ -101,7 +101,7 @@ std::int32_t Contact::add_elements(const ents_output& out, ents_system system, e
     system.pose = &pose_;
     if (system.body_equations == nullptr) system.body_equations = none;
   }
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   const ents_master_mesh where = mesh();
   const ents_input in = input(where);
   const std::int32_t status = library.assemble(master_.model->get(), 0, count(), &in, &out, &system, &report);

@@ -45,7 +45,7 @@ void Contact::gather(std::int64_t segment, std::vector<double>& positions) const
 
 void Contact::move_history(ents_report& report) {
   if (state_size_ == 0) return;
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   const ents_model* model = master_.model->get();
   auto one = ents_struct<ents_report>();
   const auto check = [&](std::int32_t status) {
@@ -115,7 +115,7 @@ void Contact::find_begin(const std::vector<std::size_t>& points) {
   out.state_end = end.data(), out.state_end_stride = stride(state_size_);
   out.status = status.data(), out.status_stride = 1;
   auto report = ents_struct<ents_report>();
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   if (const std::int32_t failed = library.evaluate(master_.model->get(), 0, stride(n), &in, &out, &report);
       failed < 0)
     throw JobError("contact state: " + describe(library, failed, report));
@@ -140,7 +140,7 @@ double Contact::augment(const Configuration& at, double enough) {
   }
   if (largest <= enough) return largest; // the solution belongs to the multipliers it was found with
   auto report = ents_struct<ents_report>();
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   const std::int32_t status =
       library.state_augment(master_.model->get(), count(), state_in_.data(), stride(state_size_),
                             state_out_.data(), stride(state_size_), &report);
@@ -179,7 +179,7 @@ void Contact::set_worn() {
 
 void Contact::collect_wear() {
   if (!wears() || master_.model->fields().empty()) return;
-  const EntsLibrary& library = master_.model->library();
+  const ents::Library& library = master_.model->library();
   auto& [name, block] = *master_.model->fields().begin();
   const ents_master_mesh where = mesh();
   ents_input in = input(where);

@@ -30,7 +30,7 @@ double reach_of(const ents_master_mesh& mesh, const std::vector<double>& slaves,
 } // namespace
 
 void Detector::move(const ents_master_mesh& mesh) {
-  const EntsLibrary& library = model_->library();
+  const ents::Library& library = model_->library();
   auto report = ents_struct<ents_report>();
   std::int32_t status = ENTS_OK;
   if (tree_.empty()) {
@@ -47,7 +47,7 @@ void Detector::move(const ents_master_mesh& mesh) {
 
 Lost Detector::find(const ents_master_mesh& mesh, const std::vector<double>& slaves,
                     const std::vector<double>& normals, Projections& at) const {
-  const EntsLibrary& library = model_->library();
+  const ents::Library& library = model_->library();
   const auto d = static_cast<std::size_t>(model_->layout().dimension);
   std::vector<std::int32_t> flags(at.segment.size());
   auto detection = ents_struct<ents_detection>();

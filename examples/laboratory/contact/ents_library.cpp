@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 
 #include "error.hpp"
-#include "json_reader.hpp"
 
 namespace host {
 namespace {
@@ -43,98 +42,45 @@ EntsLibrary::EntsLibrary(const fs::path& path) {
     if (!path.empty()) throw InputError("--library: the library cannot be loaded:" + tried);
     throw JobError("libents.so was not found; build it, or name it with --library FILE. Tried:" + tried);
   }
-  const auto find = [this](auto& function, const char* name) {
-    void* symbol = dlsym(handle_, name);
-    if (symbol == nullptr) throw InputError(path_ + " is no ents library: it has no function " + name);
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(symbol);
-  };
   try {
-    find(status_text, "ents_status_text");
-    find(version, "ents_version");
-    find(check_contract, "ents_check_contract");
-    auto report = ents_struct<ents_report>();
-    if (check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report) != ENTS_OK)
-      throw InputError(path_ + " (version " + version() + ") does not serve contract " +
-                       std::to_string(ENTS_CONTRACT_MAJOR) + "." + std::to_string(ENTS_CONTRACT_MINOR) +
-                       ", which this program was built for: " + report.message);
-    find(model_create, "ents_model_create");
-    find(model_create_from_file, "ents_model_create_from_file");
-    find(model_destroy, "ents_model_destroy");
-    find(model_layout, "ents_model_layout");
-    find(model_bind, "ents_model_bind");
-    find(field_size, "ents_field_size");
-    find(field_init, "ents_field_init");
-    find(wear_collect, "ents_wear_collect");
-    find(tree_size, "ents_tree_size");
-    find(tree_build, "ents_tree_build");
-    find(tree_refit, "ents_tree_refit");
-    find(detect, "ents_detect");
-    find(evaluate, "ents_evaluate");
-    find(assemble, "ents_assemble");
-    find(state_init, "ents_state_init");
-    find(state_augment, "ents_state_augment");
-    find(state_transfer, "ents_state_transfer");
-    find(contact_area, "ents_contact_area");
-    find(pose_init, "ents_pose_init");
-    find(pose_move, "ents_pose_move");
-    find(pose_to_body, "ents_pose_to_body");
-    find(pose_to_space, "ents_pose_to_space");
-    find(pose_element, "ents_pose_element");
-    find(sampling_points, "ents_sampling_points");
-    find(smooth_size, "ents_smooth_size");
-    find(smooth, "ents_smooth");
-    find(surface_evaluate, "ents_surface_evaluate");
-    find(model_check, "ents_model_check");
-    find(surface_check, "ents_surface_check");
-  } catch (...) {
+    load([this](const char* name) { return dlsym(handle_, name); });
+  } catch (const ents::Error& error) {
     dlclose(handle_);
-    throw;
+    throw InputError(path_ + " does not serve contract " + std::to_string(ENTS_CONTRACT_MAJOR) + "." +
+                     std::to_string(ENTS_CONTRACT_MINOR) +
+                     ", which this program was built for: " + error.what());
+  } catch (const std::runtime_error& error) {
+    dlclose(handle_);
+    throw InputError(path_ + " is no ents library: " + error.what());
   }
 }
 
 EntsLibrary::~EntsLibrary() { dlclose(handle_); }
 
-std::string describe(const EntsLibrary& library, int32_t status, const ents_report& report) {
-  const std::string text = library.status_text(status), message = report.message;
-  if (message.find(text) != std::string::npos) return message; // of an element: its number, then the text
-  return message.empty() ? text : text + ": " + message;
+namespace {
+
+/// What the library refuses, with the place of the model.
+template <class Make> ents::Model made(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const ents::Error& error) {
+    throw InputError(where + ": " + error.what());
+  }
 }
+
+} // namespace
 
 EntsModel::EntsModel(const EntsLibrary& library, const std::string& text, const fs::path& directory,
                      const std::string& where)
-    : library_(&library) {
-  auto report = ents_struct<ents_report>();
-  const std::string folder = directory.empty() ? "." : directory.string();
-  const int32_t status = library.model_create(text.data(), static_cast<int64_t>(text.size()), folder.c_str(),
-                                              nullptr, 0, &model_, &report);
-  if (status != ENTS_OK) throw InputError(where + ": " + describe(library, status, report));
-  read_layout(where);
-  read_what_changes(text, where);
+    : ents::Model(made(where, [&] {
+        return ents::Model(text, directory.empty() ? "." : directory.string(), {}, library);
+      })) {
+  if (layout().named_parameters > 0 || layout().fields > 0) read_what_changes(Json::parse(text));
 }
 
-EntsModel::EntsModel(const EntsLibrary& library, const fs::path& file) : library_(&library) {
-  auto report = ents_struct<ents_report>();
-  const int32_t status = library.model_create_from_file(file.string().c_str(), &model_, &report);
-  if (status != ENTS_OK) throw InputError(file.string() + ": " + describe(library, status, report));
-  read_layout(file.string());
-  if (layout_.named_parameters > 0 || layout_.fields > 0)
-    read_what_changes(parse_json_file(file).dump(), file.string());
-}
-
-EntsModel::~EntsModel() {
-  auto report = ents_struct<ents_report>();
-  library_->model_destroy(&bound_, &report);
-  library_->model_destroy(&model_, &report);
-}
-
-void EntsModel::read_layout(const std::string& where) {
-  auto report = ents_struct<ents_report>();
-  layout_ = ents_struct<ents_layout>();
-  const int32_t status = library_->model_layout(model_, &layout_, &report);
-  if (status == ENTS_OK) return;
-  const std::string message = describe(*library_, status, report);
-  library_->model_destroy(&model_, &report);
-  throw JobError(where + ": " + message);
+EntsModel::EntsModel(const EntsLibrary& library, const fs::path& file)
+    : ents::Model(made(file.string(), [&] { return ents::Model::from_file(file.string(), library); })) {
+  if (layout().named_parameters > 0 || layout().fields > 0) read_what_changes(parse_json_file(file));
 }
 
 namespace {
@@ -149,47 +95,30 @@ void find_fields(const Json& json, std::vector<std::string>& names) {
 
 } // namespace
 
-void EntsModel::read_what_changes(const std::string& text, const std::string& where) {
-  if (layout_.named_parameters == 0 && layout_.fields == 0) return;
-  const Json json = Json::parse(text);
+void EntsModel::read_what_changes(const Json& json) {
   std::map<std::string, double> sorted;
   if (json.contains("parameters"))
     for (const auto& [name, value] : json.at("parameters").items()) sorted[name] = value.get<double>();
   for (const auto& [name, value] : sorted) parameters_.push_back(name), defaults_.push_back(value);
   std::vector<std::string> names;
   if (json.contains("height")) find_fields(json.at("height"), names);
-  try {
-    auto report = ents_struct<ents_report>();
-    for (const std::string& name : names) {
-      std::int64_t size = 0;
-      std::int32_t status = library_->field_size(model_, name.c_str(), &size, &report);
-      std::vector<double>& block = fields_[name];
-      block.assign(static_cast<std::size_t>(size), 0.0);
-      if (status == ENTS_OK)
-        status = library_->field_init(model_, name.c_str(), nullptr, block.data(), size, &report);
-      if (status != ENTS_OK) throw JobError(where + ": " + describe(*library_, status, report));
-    }
-    bind(defaults_);
-  } catch (...) {
-    auto report = ents_struct<ents_report>();
-    library_->model_destroy(&model_, &report);
-    throw;
-  }
+  for (const std::string& name : names) fields_[name] = field(name);
+  bind(defaults_);
 }
 
 void EntsModel::bind(const std::vector<double>& values) {
   std::vector<ents_data> fields;
   for (const auto& [name, block] : fields_) {
-    auto field = ents_struct<ents_data>();
+    auto field = ents::make<ents_data>();
     field.name = name.c_str();
     field.values = block.data(), field.rows = 1, field.columns = static_cast<std::int64_t>(block.size());
     fields.push_back(field);
   }
-  auto report = ents_struct<ents_report>();
-  const std::int32_t status =
-      library_->model_bind(model_, values.empty() ? nullptr : values.data(), fields.data(),
-                           static_cast<std::int64_t>(fields.size()), &bound_, &report);
-  if (status != ENTS_OK) throw JobError("the model's parameters: " + describe(*library_, status, report));
+  try {
+    ents::Model::bind(values, fields);
+  } catch (const ents::Error& error) {
+    throw JobError(std::string("the model's parameters: ") + error.what());
+  }
 }
 
 SurfaceSample sample_surface(const EntsModel& model, const std::vector<double>& master,
