@@ -21,7 +21,7 @@ CHAPTERS = {  # title in the list of contents: texts
     "Learn": ["abi/manual/theory", "abi/README", "core/README", "abi/manual/reference"],
     "Host programs": ["adapters/README", "adapters/python/README", "abi/manual/python", "adapters/deck/README", "adapters/calculix/README"],
     "Maintain": [".github/CONTRIBUTING", "abi/manual/decisions", "abi/manual/changes", "tests/configurations/README", "abi/manual/cite"],
-    "Examples and evidence": ["examples/README", "examples/laboratory/README", "examples/slide/README", "tests/README", "tests/bench/README"],
+    "Examples and evidence": ["examples/README", "examples/host/README", "examples/laboratory/README", "examples/slide/README", "tests/README", "tests/bench/README"],
 }
 IN_CONTENTS = {"README", *(name for names in CHAPTERS.values() for name in names)}
 REFERENCE = """# Reference: ents.h

@@ -5,7 +5,7 @@
 #   libents-dev   header, source of the Fortran module, files for CMake and pkg-config, JSON Schema, examples/slide
 #   ents-adapters the adapters, in the private folder below; ents-ccx, which builds CalculiX with them
 #   python3-ents  the Python package
-#   ents-tools    ents-lab, ents-deck and the scenes
+#   ents-tools    ents-host, ents-lab, ents-deck and the scenes
 if(NOT PROJECT_IS_TOP_LEVEL OR NOT CMAKE_LIBRARY_ARCHITECTURE OR ENTS_SANITIZE)
   return()
 endif()
@@ -73,8 +73,11 @@ if(TARGET ents-lab)
   install(FILES ${generated}/ents-lab DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
   install(FILES ${generated}/libents.so DESTINATION ${private}/lib COMPONENT ents-tools EXCLUDE_FROM_ALL)
   install(DIRECTORY examples/ DESTINATION share/ents/examples COMPONENT ents-tools EXCLUDE_FROM_ALL FILES_MATCHING
-    REGEX "/[a-z0-9_]+/[a-zA-Z0-9_]+\\.(json|inp|txt)$" PATTERN CMakeLists.txt EXCLUDE PATTERN host EXCLUDE PATTERN fortran_host EXCLUDE PATTERN slide EXCLUDE
+    REGEX "/[a-z0-9_]+/[a-zA-Z0-9_]+\\.(json|inp|txt)$" PATTERN CMakeLists.txt EXCLUDE PATTERN host EXCLUDE PATTERN laboratory EXCLUDE PATTERN fortran_host EXCLUDE PATTERN slide EXCLUDE
     PATTERN bolted_joint EXCLUDE)
+  if(TARGET ents-host)
+    install(TARGETS ents-host RUNTIME DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
+  endif()
   if(TARGET ents-deck)
     install(TARGETS ents-deck RUNTIME DESTINATION bin COMPONENT ents-tools EXCLUDE_FROM_ALL)
     install(CODE "file(RPATH_REMOVE FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin/ents-deck\")" COMPONENT ents-tools EXCLUDE_FROM_ALL)
@@ -155,7 +158,7 @@ ents_describe(ents-adapters science "${same}, ents-tools (= ${PROJECT_VERSION}-$
 ents_describe(python3-ents python "${same}, python3, python3-numpy"
   "This package has the Python module: NumPy arrays in, residuals and SciPy\nmatrices out. Contact joins two surfaces of a finite element program.")
 ents_describe(ents-tools science "${same}"
-  "This package has ents-lab, a small finite element program that solves contact\nscenes, checks whether a height is admissible on a mesh, and draws pictures,\nand ents-deck, which puts contact elements into decks of CalculiX and Abaqus.\nThe scenes lie in /usr/share/ents/examples.")
+  "This package has ents-host, a small finite element program that solves contact\nscenes, ents-lab, which compares them with exact solutions, checks whether a\nheight is admissible on a mesh, and draws pictures, and ents-deck, which puts contact elements into decks of CalculiX and Abaqus.\nThe scenes lie in /usr/share/ents/examples.")
 string(TOUPPER libents${soversion} name)
 set(CPACK_DEBIAN_${name}_PACKAGE_SHLIBDEPS ON)
 file(WRITE ${generated}/shlibs "libents ${soversion} ${same}\n")
@@ -177,7 +180,7 @@ include(CPack)
 add_custom_target(packages
   COMMAND ${CMAKE_CPACK_COMMAND} -G DEB --config ${PROJECT_BINARY_DIR}/CPackConfig.cmake
   WORKING_DIRECTORY ${PROJECT_BINARY_DIR} DEPENDS ents ${adapters} VERBATIM)
-foreach(target ents-lab ents-deck wheel)
+foreach(target ents-host ents-lab ents-deck wheel)
   if(TARGET ${target})
     add_dependencies(packages ${target})
   endif()

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "inp.hpp"
+#include "deck/mesh.hpp"
 #include "json_reader.hpp"
 
 namespace host {
@@ -82,15 +82,15 @@ MasterSurface json_surface(const std::filesystem::path& file, const ents_layout&
 
 /// Elements of the deck that have as many nodes as a segment: lines in the plane, shells in space.
 MasterSurface deck_surface(const std::filesystem::path& file, const ents_layout& layout) {
-  const inp::Deck deck = inp::read(file);
+  const ents_deck::Mesh deck = ents_deck::read_mesh(ents_deck::read_source(file));
   MasterSurface surface = empty_surface(layout);
-  for (const auto& x : deck.coordinates)
-    surface.nodes.insert(surface.nodes.end(), x.begin(), x.begin() + layout.dimension);
-  for (const inp::Element& element : deck.elements)
-    if (inp::dimension(element.shape) == layout.dimension - 1 &&
-        inp::node_count(element.shape) == layout.nodes)
-      surface.connectivity.insert(surface.connectivity.end(), element.nodes.begin(),
-                                  element.nodes.begin() + layout.nodes);
+  for (const ents_deck::Node& node : deck.nodes)
+    surface.nodes.insert(surface.nodes.end(), node.x.begin(), node.x.begin() + layout.dimension);
+  for (std::size_t e = 0; e < deck.elements.size(); ++e)
+    if (const ents_deck::Shape shape = deck.shape(static_cast<int>(e));
+        dimension(shape) == layout.dimension - 1 && node_count(shape) == layout.nodes)
+      surface.connectivity.insert(surface.connectivity.end(), deck.elements[e].nodes.begin(),
+                                  deck.elements[e].nodes.end());
   if (surface.connectivity.empty())
     throw InputError(
         file.string() + ": no element has the " + std::to_string(layout.nodes) +
@@ -132,7 +132,7 @@ MasterSurface read_surface(const std::filesystem::path& file, const std::string&
   if (file.extension() == ".json") return json_surface(file, layout);
   try {
     return deck_surface(file, layout);
-  } catch (const inp::Error& error) {
+  } catch (const ents_deck::Error& error) {
     throw InputError(error.what());
   }
 }

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The equations of a scene: bodies, supports, loads and contact; one linear solution.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bulk.hpp"
+#include "contact.hpp"
+#include "dof_map.hpp"
+#include "scene.hpp"
+#include "solver.hpp"
+#include "sparse_system.hpp"
+
+namespace host {
+
+class Equations {
+public:
+  /// @throws InputError where sets of the scene are not in the mesh, or nothing holds the bodies
+  explicit Equations(const Scene& scene);
+
+  const Scene& scene() const { return *scene_; }
+  const Mesh& mesh() const { return mesh_; }
+  const Bulk& bulk() const { return *bulk_; }
+  const DofMap& dofs() const { return *dofs_; }
+  Contact* contact() { return contact_.get(); } ///< null: the scene has none
+  double slave_area() const;
+  std::string solver_name() const { return solver_->name(); }
+
+  /// Displacements of the supports at the configuration's load factor.
+  void prescribe(Configuration& at) const;
+
+  /// Find the segments; the pattern of the tangent follows them. @return not ok: cut the increment
+  Outcome search(const Configuration& at);
+
+  /// Residual and tangent; the tangent stays in this object.
+  struct State {
+    Outcome outcome;
+    std::vector<double> residual; ///< [dofs] of all nodes: reactions where displacements are prescribed
+    Coupling coupling;            ///< with a rigid master
+    double size = 0;              ///< of the forces present
+  };
+  /// @param jump  [dofs] or empty: adds tangent * jump to the residual, for displacements that are prescribed anew
+  State evaluate(const Configuration& at, const std::vector<double>& jump = {});
+
+  /// Norm of the residual over the size of the forces; with a prescribed force that one, too.
+  double relative_residual(const State& state, const Configuration& at) const;
+
+  /// A step of Newton's iteration from `state`: `at` is moved.
+  /// @param motion_step  of the rigid master, prescribed (control "approach"); else 0
+  /// @return false if the tangent is singular
+  bool solve(const State& state, double motion_step, Configuration& at);
+
+private:
+  void build_mesh();
+  void hold_and_load();
+  const std::vector<int>& nodes_of_set(const std::string& name, const std::string& where) const;
+
+  const Scene* scene_;
+  Mesh mesh_;
+  std::unique_ptr<Bulk> bulk_;
+  std::unique_ptr<DofMap> dofs_;
+  std::unique_ptr<Contact> contact_;
+  struct Prescribed {
+    std::size_t dof;
+    double value;
+    const Path* path;
+  };
+  std::vector<Prescribed> prescribed_;
+  struct Load {
+    std::vector<double> force; ///< [dofs]
+    const Path* path;
+  };
+  std::vector<Load> loads_;
+  std::vector<StencilGroup> stencils_;
+  std::unique_ptr<SparseSystem> system_;
+  std::unique_ptr<LinearSolver> solver_;
+};
+
+} // namespace host

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace host {
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); } // JSON has no NaN
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
+Json step_json(Equations& equations, const Step& step) {
+  const Scene& scene = equations.scene();
+  Json out{
+      {"step", step.number}, {"value", step.value}, {"iterations", step.iterations()}, {"cuts", step.cuts}};
+  out["wall_time"] = step.wall_time;
+  out["increments"] = Json::array();
+  for (const Increment& increment : step.increments)
+    out["increments"].push_back({{"value", increment.value}, {"residuals", increment.residuals}});
+  const Contact* contact = equations.contact();
+  if (contact == nullptr) return out;
+  double closed = 0, peak = 0, gap = 0, gap_area = 0;
+  for (std::size_t k = 0; k < contact->points(); ++k) {
+    const double area = contact->areas()[k];
+    if (step.contact.flags[k] & ENTS_FLAG_CONTACT) closed += area;
+    if (!std::isnan(step.contact.gap[k])) gap += area * step.contact.gap[k], gap_area += area;
+    peak = std::max(peak, step.contact.pressure[k]);
+  }
+  out["approach"] = step.approach, out["force"] = step.force;
+  out["mean_pressure"] = step.force / scene.symmetry_copies / equations.slave_area();
+  out["contact_force"] = step.contact.force;
+  for (Json& component : out["contact_force"]) component = component.get<double>() * scene.symmetry_copies;
+  out["contact_fraction"] = closed / equations.slave_area();
+  out["peak_pressure"] = peak;
+  out["mean_gap"] = number(gap / gap_area);
+  return out;
+}
+
+vtu::Cell vtk_cell(ElementType type) {
+  switch (type) {
+  case ElementType::tri3:
+    return vtu::Cell::triangle;
+  case ElementType::quad4:
+    return vtu::Cell::quad;
+  case ElementType::tet4:
+    return vtu::Cell::tetrahedron;
+  case ElementType::hex8:
+    break;
+  }
+  return vtu::Cell::hexahedron;
+}
+
+vtu::Grid bodies(const Equations& equations, const Configuration& at) {
+  const Mesh& mesh = equations.mesh();
+  vtu::Grid grid;
+  grid.dimension = mesh.dimension;
+  grid.points = mesh.coordinates;
+  for (const ElementGroup& group : mesh.groups) {
+    vtu::Cells& cells = grid.cells.emplace_back();
+    cells.type = vtk_cell(group.type);
+    cells.nodes_per_cell = node_count(group.type);
+    cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
+  }
+  const Scene& scene = equations.scene();
+  grid.point_data.push_back(
+      {with_unit("displacement", scene.unit_of_length), mesh.dimension, at.displacement});
+  grid.point_data.push_back({with_unit("stress", scene.unit_of_pressure), mesh.dimension == 3 ? 6 : 4,
+                             equations.bulk().nodal_stress(at.displacement)});
+  return grid;
+}
+
+vtu::Grid slave_points(const Equations& equations, const ContactResults& r) {
+  const Scene& scene = equations.scene();
+  vtu::Grid grid = vtu::point_cloud(scene.dimension, r.position);
+  grid.point_data.push_back({with_unit("gap", scene.unit_of_length), 1, r.gap});
+  grid.point_data.push_back({with_unit("pressure", scene.unit_of_pressure), 1, r.pressure});
+  grid.point_data.push_back({"normal", scene.dimension, r.normal});
+  grid.point_data.push_back({with_unit("traction", scene.unit_of_pressure), scene.dimension, r.traction});
+  grid.point_data.push_back({with_unit("slip", scene.unit_of_length), 1, r.slip});
+  std::vector<double> status; // 0 open, 1 stick (without friction: closed), 2 slip
+  for (const std::int32_t flags : r.flags)
+    status.push_back((flags & ENTS_FLAG_CONTACT) == 0 ? 0 : (flags & ENTS_FLAG_SLIP) == 0 ? 1 : 2);
+  grid.point_data.push_back({"status", 1, std::move(status)});
+  return grid;
+}
+
+} // namespace
+
+Json result_json(Equations& equations, const std::vector<Step>& steps, const std::string& failure) {
+  const Scene& scene = equations.scene();
+  const Mesh& mesh = equations.mesh();
+  std::size_t elements = 0;
+  for (const ElementGroup& group : mesh.groups) elements += group.size();
+  const Contact* contact = equations.contact();
+  Json result{{"title", scene.title},
+              {"scene", scene.file.string()},
+              {"solver", equations.solver_name()},
+              {"sizes",
+               {{"nodes", mesh.node_count()},
+                {"elements", elements},
+                {"equations", equations.dofs().size()},
+                {"contact_elements", contact ? contact->points() : 0},
+                {"master_segments", contact ? contact->segments() : 0}}},
+              {"failure", failure.empty() ? Json() : Json(failure)}};
+  result["steps"] = Json::array();
+  for (const Step& step : steps) result["steps"].push_back(step_json(equations, step));
+  return result;
+}
+
+void write_step(vtu::Series& series, Equations& equations, const Step& step) {
+  series.add(step.number, step.value, "bulk", bodies(equations, step.at));
+  if (Contact* contact = equations.contact()) {
+    series.add(step.number, step.value, "slave", slave_points(equations, step.contact));
+    vtu::Grid surface;
+    surface.dimension = equations.scene().dimension;
+    surface.point_data.push_back({with_unit("height", equations.scene().unit_of_length), 1, {}});
+    const double segments = static_cast<double>(contact->segments()); // as smooth as some 40 000 cells allow
+    const double divisions = surface.dimension == 2 ? 8000 / segments : std::sqrt(40000 / segments);
+    contact->sample_surface(step.at, static_cast<int>(std::clamp(divisions, 2., 400.)), surface);
+    series.add(step.number, step.value, "surface", surface);
+  }
+  series.write_list();
+}
+
+} // namespace host
