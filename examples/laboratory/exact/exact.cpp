@@ -113,107 +113,147 @@ EdgeBracket edge_bracket(const SurfaceState& state) {
   return bracket;
 }
 
+namespace {
+
+using Quantities = std::vector<Quantity>;
+
+double peak_of(const SurfaceState& state) {
+  return *std::max_element(state.pressure.begin(), state.pressure.end());
+}
+
+Quantities compare_with_hertz_line(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const double modulus = contact_modulus(scene);
+  const UnitNames& units = scene.units;
+  const ElementSetup& setup = scene.parts.front().setup;
+  const HertzLine reference = hertz_line(state.force / setup.thickness, exact.radius, modulus);
+  const EdgeBracket bracket = edge_bracket(state);
+  return {exact_quantity("peak pressure", units.pressure, peak_of(state), reference.peak_pressure),
+          exact_quantity("half-width", units.length, contact_edge(state), reference.half_width),
+          {"last closed node", units.length, bracket.closed},
+          {"first open node", units.length, bracket.open}};
+}
+
+Quantities compare_with_hertz_point(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const double modulus = contact_modulus(scene);
+  const UnitNames& units = scene.units;
+  double area = 0;
+  for (std::size_t k = 0; k < state.area.size(); ++k)
+    if (state.closed[k]) area += state.area[k] * scene.symmetry_copies;
+  const double radius = scene.dimension == 3 ? std::sqrt(area / pi) : contact_edge(state);
+  // The approach is one to points far away, which only a half-space has.
+  const HertzPoint reference = scene.half_space ? hertz_point(state.approach, exact.radius, modulus)
+                                                : hertz_point_under(state.force, exact.radius, modulus);
+  std::vector<Quantity> result{
+      exact_quantity("peak pressure", units.pressure, peak_of(state), reference.peak_pressure),
+      exact_quantity("contact radius", units.length, radius, reference.radius)};
+  if (scene.dimension == 3 && !std::isnan(state.contact_estimate)) {
+    const double all = std::accumulate(state.area.begin(), state.area.end(), 0.) * scene.symmetry_copies;
+    result.push_back(exact_quantity("contact radius, estimated", units.length,
+                                    std::sqrt(state.contact_estimate * all / pi), reference.radius));
+  }
+  if (scene.half_space)
+    result.insert(result.begin(), exact_quantity("force", units.force, state.force, reference.force));
+  return result;
+}
+
+Quantities compare_with_westergaard(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const double modulus = contact_modulus(scene);
+  const UnitNames& units = scene.units;
+  const double full = westergaard_full_contact(exact.amplitude, exact.wavelength, modulus);
+  const double edge = contact_edge(state, exact.wavelength / 2);
+  const EdgeBracket bracket = edge_bracket(state);
+  const double sine = std::sin(pi * edge / exact.wavelength);
+  const double exact_edge = westergaard_half_width(full, state.mean_pressure, 1);
+  double area = 0, gap = 0, off = 0;
+  for (std::size_t k = 0; k < state.area.size(); ++k) {
+    area += state.area[k], gap += state.area[k] * state.gap[k];
+    const double there =
+        westergaard_gap(exact.amplitude, exact_edge * exact.wavelength, state.distance[k], exact.wavelength);
+    off += state.area[k] * squared(state.gap[k] - there);
+  }
+  const double mean_gap = westergaard_mean_gap(exact.amplitude, state.mean_pressure / full);
+  return {exact_quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
+          exact_quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
+          mean_gap > 0.01 * exact.amplitude ? exact_quantity("mean gap", units.length, gap / area, mean_gap)
+                                            : Quantity{"mean gap", units.length, gap / area},
+          {"gap (rms of the difference, of the amplitude)", "", std::sqrt(off / area) / exact.amplitude},
+          {"last closed node / lambda", "", bracket.closed / exact.wavelength},
+          {"first open node / lambda", "", bracket.open / exact.wavelength}};
+}
+
+Quantities compare_with_double_sine(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const double modulus = contact_modulus(scene);
+  const UnitNames& units = scene.units;
+  const double full = double_sine_full_contact(exact.amplitude, exact.wavelength, modulus);
+  std::vector<Quantity> result;
+  result.push_back({"mean pressure / p*", "", state.mean_pressure / full});
+  // In full contact the problem is linear: taking off the smallest pressure everywhere leaves the state in
+  // which the last point is about to come off.
+  if (std::all_of(state.closed.begin(), state.closed.end(), [](char c) { return c != 0; })) {
+    const double smallest = *std::min_element(state.pressure.begin(), state.pressure.end());
+    result.push_back(
+        exact_quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
+  }
+  return result;
+}
+
+Quantities compare_with_worn_cylinder(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const double modulus = contact_modulus(scene);
+  const UnitNames& units = scene.units;
+  const ElementSetup& setup = scene.parts.front().setup;
+  const double k = scene.contact->model.at("contact").at("wear").at("coefficient").get<double>();
+  const double volume = k * state.force * state.slid;
+  const double depth = worn_groove_depth(volume / setup.thickness, exact.radius);
+  const HertzLine elastic = hertz_line(state.force / setup.thickness, exact.radius, modulus);
+  if (!(volume > 0)) return {};
+  std::vector<Quantity> result{exact_quantity("worn volume", cubic(units.length), state.worn_volume, volume)};
+  if (std::sqrt(2 * exact.radius * depth) > 10 * elastic.half_width)
+    result.push_back(exact_quantity("worn depth", units.length, state.worn_depth, depth));
+  return result;
+}
+
+Quantities compare_with_uniform_pressure(const Scene& scene, const SurfaceState& state) {
+  const ExactSpec& exact = scene.exact;
+  const UnitNames& units = scene.units;
+  double squares = 0, area = 0;
+  for (std::size_t k = 0; k < state.pressure.size(); ++k) {
+    squares += state.area[k] * squared(state.pressure[k] / exact.pressure - 1);
+    area += state.area[k];
+  }
+  return {exact_quantity("largest pressure", units.pressure, peak_of(state), exact.pressure),
+          exact_quantity("smallest pressure", units.pressure,
+                         *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
+          {"scatter of the pressure (rms)", "", std::sqrt(squares / area)}};
+}
+
+} // namespace
+
 std::vector<Quantity> compare_with_exact(const Scene& scene, const SurfaceState& state) {
   using Type = ExactSpec::Type;
-  const ExactSpec& exact = scene.exact;
-  if (exact.type == Type::none) return {};
-  const ElementSetup& setup = scene.parts.front().setup;
-  const double modulus = contact_modulus(scene);
-  const double peak = *std::max_element(state.pressure.begin(), state.pressure.end());
-  const UnitNames& units = scene.units;
-  switch (exact.type) {
-  case Type::hertz_line: {
-    const HertzLine reference = hertz_line(state.force / setup.thickness, exact.radius, modulus);
-    const EdgeBracket bracket = edge_bracket(state);
-    return {exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-            exact_quantity("half-width", units.length, contact_edge(state), reference.half_width),
-            {"last closed node", units.length, bracket.closed},
-            {"first open node", units.length, bracket.open}};
-  }
-  case Type::hertz_point: {
-    double area = 0;
-    for (std::size_t k = 0; k < state.area.size(); ++k)
-      if (state.closed[k]) area += state.area[k] * scene.symmetry_copies;
-    const double radius = scene.dimension == 3 ? std::sqrt(area / pi) : contact_edge(state);
-    // The approach is one to points far away, which only a half-space has.
-    const HertzPoint reference = scene.half_space ? hertz_point(state.approach, exact.radius, modulus)
-                                                  : hertz_point_under(state.force, exact.radius, modulus);
-    std::vector<Quantity> result{
-        exact_quantity("peak pressure", units.pressure, peak, reference.peak_pressure),
-        exact_quantity("contact radius", units.length, radius, reference.radius)};
-    if (scene.dimension == 3 && !std::isnan(state.contact_estimate)) {
-      const double all = std::accumulate(state.area.begin(), state.area.end(), 0.) * scene.symmetry_copies;
-      result.push_back(exact_quantity("contact radius, estimated", units.length,
-                                      std::sqrt(state.contact_estimate * all / pi), reference.radius));
-    }
-    if (scene.half_space)
-      result.insert(result.begin(), exact_quantity("force", units.force, state.force, reference.force));
-    return result;
-  }
-  case Type::westergaard: {
-    const double full = westergaard_full_contact(exact.amplitude, exact.wavelength, modulus);
-    const double edge = contact_edge(state, exact.wavelength / 2);
-    const EdgeBracket bracket = edge_bracket(state);
-    const double sine = std::sin(pi * edge / exact.wavelength);
-    const double exact_edge = westergaard_half_width(full, state.mean_pressure, 1);
-    double area = 0, gap = 0, off = 0;
-    for (std::size_t k = 0; k < state.area.size(); ++k) {
-      area += state.area[k], gap += state.area[k] * state.gap[k];
-      const double there = westergaard_gap(exact.amplitude, exact_edge * exact.wavelength, state.distance[k],
-                                           exact.wavelength);
-      off += state.area[k] * squared(state.gap[k] - there);
-    }
-    const double mean_gap = westergaard_mean_gap(exact.amplitude, state.mean_pressure / full);
-    return {exact_quantity("mean pressure / p*", "", state.mean_pressure / full, squared(sine)),
-            exact_quantity("half-width / lambda", "", edge / exact.wavelength, exact_edge),
-            mean_gap > 0.01 * exact.amplitude ? exact_quantity("mean gap", units.length, gap / area, mean_gap)
-                                              : Quantity{"mean gap", units.length, gap / area},
-            {"gap (rms of the difference, of the amplitude)", "", std::sqrt(off / area) / exact.amplitude},
-            {"last closed node / lambda", "", bracket.closed / exact.wavelength},
-            {"first open node / lambda", "", bracket.open / exact.wavelength}};
-  }
-  case Type::double_sine: {
-    const double full = double_sine_full_contact(exact.amplitude, exact.wavelength, modulus);
-    std::vector<Quantity> result;
-    result.push_back({"mean pressure / p*", "", state.mean_pressure / full});
-    // In full contact the problem is linear: taking off the smallest pressure everywhere leaves the state in
-    // which the last point is about to come off.
-    if (std::all_of(state.closed.begin(), state.closed.end(), [](char c) { return c != 0; })) {
-      const double smallest = *std::min_element(state.pressure.begin(), state.pressure.end());
-      result.push_back(
-          exact_quantity("full-contact pressure", units.pressure, state.mean_pressure - smallest, full));
-    }
-    return result;
-  }
-  case Type::worn_cylinder: {
-    const double k = scene.contact->model.at("contact").at("wear").at("coefficient").get<double>();
-    const double volume = k * state.force * state.slid;
-    const double depth = worn_groove_depth(volume / setup.thickness, exact.radius);
-    const HertzLine elastic = hertz_line(state.force / setup.thickness, exact.radius, modulus);
-    if (!(volume > 0)) return {};
-    std::vector<Quantity> result{
-        exact_quantity("worn volume", cubic(units.length), state.worn_volume, volume)};
-    if (std::sqrt(2 * exact.radius * depth) > 10 * elastic.half_width)
-      result.push_back(exact_quantity("worn depth", units.length, state.worn_depth, depth));
-    return result;
-  }
+  switch (scene.exact.type) {
+  case Type::hertz_line:
+    return compare_with_hertz_line(scene, state);
+  case Type::hertz_point:
+    return compare_with_hertz_point(scene, state);
+  case Type::westergaard:
+    return compare_with_westergaard(scene, state);
+  case Type::double_sine:
+    return compare_with_double_sine(scene, state);
+  case Type::worn_cylinder:
+    return compare_with_worn_cylinder(scene, state);
   case Type::cattaneo:
     return compare_with_cattaneo(scene, state);
   case Type::slope:
     return compare_with_slope(scene, state);
   case Type::screw:
     return compare_with_screw(scene, state);
-  case Type::uniform_pressure: {
-    double squares = 0, area = 0;
-    for (std::size_t k = 0; k < state.pressure.size(); ++k) {
-      squares += state.area[k] * squared(state.pressure[k] / exact.pressure - 1);
-      area += state.area[k];
-    }
-    return {exact_quantity("largest pressure", units.pressure, peak, exact.pressure),
-            exact_quantity("smallest pressure", units.pressure,
-                           *std::min_element(state.pressure.begin(), state.pressure.end()), exact.pressure),
-            {"scatter of the pressure (rms)", "", std::sqrt(squares / area)}};
-  }
+  case Type::uniform_pressure:
+    return compare_with_uniform_pressure(scene, state);
   case Type::boundary_elements: // exact_layer.hpp
   case Type::none:
     break;

@@ -131,19 +131,8 @@ void read_steps(const JsonValue& value, Scene& scene) {
   object.finish();
 }
 
-/// @param variant  its name, for messages; empty: the scene as it is
-Scene read(const Json& json, const std::filesystem::path& file, const std::string& variant = {}) {
-  Scene scene;
-  scene.file = file;
-  scene.definition = json;
-  JsonObject object(JsonValue(json, file.string() + ": " + (variant.empty() ? "" : "/variants/" + variant)));
-  scene.title = object.string_or("title", file.parent_path().filename().string());
-  scene.dimension = object.at("dimension").integer(2, 3);
-  ElementSetup common;
-  common.formulation = read_formulation(object, scene.dimension);
-  if (scene.dimension == 2 && common.formulation != Formulation::axisymmetric)
-    common.thickness = object.positive_or("thickness", 1);
-
+/// The keys "materials" and "parts".
+Materials read_bodies(JsonObject& object, Scene& scene, const ElementSetup& common) {
   const Materials materials = read_materials(object.at("materials"));
   for (const JsonValue& item : object.at("parts").items()) {
     scene.parts.push_back(read_part(item, scene, materials, common));
@@ -152,9 +141,14 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
         item.fail("there is a part \"" + scene.parts[i].name + "\" already");
   }
   if (scene.parts.empty()) object.fail("\"parts\" is empty");
+  return materials;
+}
+
+/// The keys "supports", "tractions", "springs", "periodic" and "tied".
+void read_supports_and_loads(JsonObject& object, Scene& scene, Formulation formulation) {
   if (object.has("supports"))
     for (const JsonValue& item : object.at("supports").items())
-      scene.supports.push_back(read_support(item, scene, common.formulation));
+      scene.supports.push_back(read_support(item, scene, formulation));
   if (object.has("tractions"))
     for (const JsonValue& item : object.at("tractions").items()) {
       JsonObject traction(item);
@@ -180,58 +174,56 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
         if (pair.size() != 2) item.fail("a pair of sides is expected");
         sides->push_back({pair[0].string(), pair[1].string(), item.where()});
       }
-  if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
-  scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
-  read_steps(object.at("steps"), scene);
-  read_history(object, scene);
-  if (object.has("half_space")) {
-    const JsonValue value = object.at("half_space");
-    if (scene.dimension != 3 || (scene.control != Control::force && scene.control != Control::mean_pressure))
-      value.fail("the half-space's displacement needs dimension 3 and steps that control force or pressure");
-    JsonObject half_space(value);
-    HalfSpaceSpec spec;
-    spec.where = value.where();
-    for (const JsonValue& item : half_space.at("nodes").items()) spec.nodes.push_back(item.string());
-    spec.point = half_space.at("point").numbers(3);
-    const JsonValue material = half_space.at("material");
-    const auto found = materials.find(material.string());
-    if (found == materials.end()) material.fail("no material \"" + material.string() + "\" in /materials");
-    spec.material = found->second;
-    half_space.finish();
-    scene.half_space = spec;
+}
+
+void read_half_space(const JsonValue& value, const Materials& materials, Scene& scene) {
+  if (scene.dimension != 3 || (scene.control != Control::force && scene.control != Control::mean_pressure))
+    value.fail("the half-space's displacement needs dimension 3 and steps that control force or pressure");
+  JsonObject half_space(value);
+  HalfSpaceSpec spec;
+  spec.where = value.where();
+  for (const JsonValue& item : half_space.at("nodes").items()) spec.nodes.push_back(item.string());
+  spec.point = half_space.at("point").numbers(3);
+  const JsonValue material = half_space.at("material");
+  const auto found = materials.find(material.string());
+  if (found == materials.end()) material.fail("no material \"" + material.string() + "\" in /materials");
+  spec.material = found->second;
+  half_space.finish();
+  scene.half_space = spec;
+}
+
+void read_solver(const JsonValue& value, Scene& scene) {
+  JsonObject solver(value);
+  scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
+  if (!(scene.solver.tolerance < 1))
+    solver.at("tolerance")
+        .fail("a number < 1 is expected: the residual relative to the forces present, 1e-10 say");
+  scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
+  scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
+  scene.solver.segment_choices = solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
+  scene.solver.extrapolate = solver.boolean_or("extrapolate", scene.solver.extrapolate);
+  if (scene.solver.extrapolate && scene.control != Control::load_factor)
+    solver.at("extrapolate").fail("only with steps that control the load factor");
+  scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
+  scene.solver.max_augmentations =
+      solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);
+  if (solver.has("line_search")) {
+    const std::vector<std::string> words = {"when_needed", "always", "never"};
+    const std::string word = solver.at("line_search").word(words);
+    scene.solver.line_search = word == words[0]   ? LineSearch::when_needed
+                               : word == words[1] ? LineSearch::always
+                                                  : LineSearch::never;
   }
-  if (scene.parts.front().layer || scene.parts.back().layer) check_scene_of_layer(scene);
-  if (object.has("exact")) scene.exact = read_exact(object.at("exact"), scene);
+  solver.finish();
+}
+
+/// The keys that change nothing of the solution: words, and what the scene is compared with.
+void read_beside(JsonObject& object, Scene& scene) {
   if (object.has("units")) {
     JsonObject units(object.at("units"));
     scene.units = {units.string_or("length", ""), units.string_or("force", ""),
                    units.string_or("pressure", "")};
     units.finish();
-  }
-  if (object.has("solver")) {
-    JsonObject solver(object.at("solver"));
-    scene.solver.tolerance = solver.positive_or("tolerance", scene.solver.tolerance);
-    if (!(scene.solver.tolerance < 1))
-      solver.at("tolerance")
-          .fail("a number < 1 is expected: the residual relative to the forces present, 1e-10 say");
-    scene.solver.max_iterations = solver.integer_or("max_iterations", 2, 1000, scene.solver.max_iterations);
-    scene.solver.min_step = solver.positive_or("min_step", scene.solver.min_step);
-    scene.solver.segment_choices =
-        solver.integer_or("segment_choices", 1, 1000, scene.solver.segment_choices);
-    scene.solver.extrapolate = solver.boolean_or("extrapolate", scene.solver.extrapolate);
-    if (scene.solver.extrapolate && scene.control != Control::load_factor)
-      solver.at("extrapolate").fail("only with steps that control the load factor");
-    scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
-    scene.solver.max_augmentations =
-        solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);
-    if (solver.has("line_search")) {
-      const std::vector<std::string> words = {"when_needed", "always", "never"};
-      const std::string word = solver.at("line_search").word(words);
-      scene.solver.line_search = word == words[0]   ? LineSearch::when_needed
-                                 : word == words[1] ? LineSearch::always
-                                                    : LineSearch::never;
-    }
-    solver.finish();
   }
   if (object.has("compare")) {
     JsonObject compare(object.at("compare"));
@@ -248,6 +240,32 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
       scene.variants.push_back({name, patch.json()});
     }
   }
+}
+
+/// @param variant  its name, for messages; empty: the scene as it is
+Scene read(const Json& json, const std::filesystem::path& file, const std::string& variant = {}) {
+  Scene scene;
+  scene.file = file;
+  scene.definition = json;
+  JsonObject object(JsonValue(json, file.string() + ": " + (variant.empty() ? "" : "/variants/" + variant)));
+  scene.title = object.string_or("title", file.parent_path().filename().string());
+  scene.dimension = object.at("dimension").integer(2, 3);
+  ElementSetup common;
+  common.formulation = read_formulation(object, scene.dimension);
+  if (scene.dimension == 2 && common.formulation != Formulation::axisymmetric)
+    common.thickness = object.positive_or("thickness", 1);
+
+  const Materials materials = read_bodies(object, scene, common);
+  read_supports_and_loads(object, scene, common.formulation);
+  if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
+  scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
+  read_steps(object.at("steps"), scene);
+  read_history(object, scene);
+  if (object.has("half_space")) read_half_space(object.at("half_space"), materials, scene);
+  if (scene.parts.front().layer || scene.parts.back().layer) check_scene_of_layer(scene);
+  if (object.has("exact")) scene.exact = read_exact(object.at("exact"), scene);
+  if (object.has("solver")) read_solver(object.at("solver"), scene);
+  read_beside(object, scene);
   object.finish();
   return scene;
 }

@@ -120,6 +120,20 @@ double mean_spacing(const Mesh& mesh, const std::vector<Face>& faces) {
   return sum / edges;
 }
 
+/// Adds a value per area of these faces to the dofs of their nodes.
+void add_by_area(const Mesh& mesh, const Scene& scene, const std::string& name, const std::string& where,
+                 const std::vector<double>& value, std::vector<double>& sum) {
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  const std::vector<Face>& faces = find_faces(mesh, name, where + "/faces");
+  const std::vector<int> nodes = nodes_of(faces);
+  const ElementSetup& setup = scene.parts.front().setup;
+  const auto areas =
+      tributary_areas(mesh, faces, nodes, setup.thickness, setup.formulation == Formulation::axisymmetric);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (std::size_t i = 0; i < d; ++i)
+      sum[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * value[i];
+}
+
 /// Of the displacements along a layer, which are zero.
 const Path layer_path;
 
@@ -226,24 +240,13 @@ void Simulation::build_equations() {
         }
       }
   }
-  const auto add_by_area = [&](const std::string& name, const std::string& where,
-                               const std::vector<double>& value, std::vector<double>& sum) {
-    const std::vector<Face>& faces = find_faces(mesh_, name, where + "/faces");
-    const std::vector<int> nodes = nodes_of(faces);
-    const ElementSetup& setup = scene_->parts.front().setup;
-    const auto areas =
-        tributary_areas(mesh_, faces, nodes, setup.thickness, setup.formulation == Formulation::axisymmetric);
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (std::size_t i = 0; i < d; ++i)
-        sum[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * value[i];
-  };
   for (const TractionSpec& traction : scene_->tractions) {
     loads_.push_back({std::vector<double>(total, 0.0), &traction.path});
-    add_by_area(traction.faces, traction.where, traction.value, loads_.back().force);
+    add_by_area(mesh_, *scene_, traction.faces, traction.where, traction.value, loads_.back().force);
   }
   for (const SpringSpec& spring : scene_->springs) {
     springs_.resize(total, 0.0);
-    add_by_area(spring.faces, spring.where, spring.stiffness, springs_);
+    add_by_area(mesh_, *scene_, spring.faces, spring.where, spring.stiffness, springs_);
   }
   if (scene_->contact && scene_->contact->body) {
     const RigidBodySpec& body = *scene_->contact->body;
