@@ -25,6 +25,12 @@ struct Configuration {
   double force = 0; ///< prescribed on the rigid master, of this mesh [F]
 };
 
+/// Areas of the nodes of faces that a pressure on them is shared out by.
+/// @return [nodes of the mesh]
+/// @throws InputError with the library's message
+std::vector<double> node_areas(const Mesh& mesh, const std::vector<Face>& faces, const ElementSetup& setup,
+                               const std::string& where);
+
 /// What became of a call that may ask for a smaller step.
 struct Outcome {
   bool ok = true;

@@ -52,14 +52,26 @@ ents::Model read_model(const Scene& scene) {
 
 } // namespace
 
+std::vector<double> node_areas(const Mesh& mesh, const std::vector<Face>& faces, const ElementSetup& setup,
+                               const std::string& where) {
+  const std::size_t count = corners(faces);
+  const std::vector<std::int64_t> connectivity = connectivity_of(faces, count);
+  const double thickness = setup.formulation == Formulation::axisymmetric ? 0 : setup.thickness;
+  std::vector<double> areas(static_cast<std::size_t>(mesh.node_count()));
+  asked(where, [&] {
+    ents::require(ents::linked(), ents_tributary_areas, facet_name(count), ssize_of(faces.size()),
+                  connectivity.data(), mesh.node_count(), mesh.coordinates.data(), thickness, areas.data());
+  });
+  return areas;
+}
+
 Contact::Contact(const Scene& scene, const Mesh& mesh)
     : bodies_(&mesh), d_(static_cast<std::size_t>(scene.dimension)), model_(read_model(scene)),
       rigid_(!scene.contact->rigid.empty()), direction_(scene.contact->direction) {
   read_slaves(scene, mesh);
   read_master(scene, mesh);
-  rows_.resize(mesh.coordinates.size());
-  std::iota(rows_.begin(), rows_.end(),
-            std::int64_t{0}); // a row for each dof: `equation` of node and component
+  rows_.resize(mesh.coordinates.size()); // each dof is a row of its own
+  std::iota(rows_.begin(), rows_.end(), std::int64_t{0});
   own_force_.assign(rows_.size(), 0.0);
   accepted_.segment.assign(points(), -1);
   accepted_.xi.assign(points() * (d_ - 1), 0.0);
@@ -103,11 +115,7 @@ void Contact::read_slaves(const Scene& scene, const Mesh& mesh) {
     });
     return;
   }
-  std::vector<double> all(static_cast<std::size_t>(mesh.node_count()));
-  asked(contact.slave_where, [&] {
-    ents::require(ents::linked(), ents_tributary_areas, facet_name(count), ssize_of(faces.size()),
-                  connectivity.data(), mesh.node_count(), mesh.coordinates.data(), thickness, all.data());
-  });
+  const std::vector<double> all = node_areas(mesh, faces, setup, contact.slave_where);
   slave_.begin.push_back(0);
   for (const int node : slave_nodes_) { // a combination of one node
     slave_.nodes.push_back(node), slave_.weights.push_back(1);

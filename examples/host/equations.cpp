@@ -67,14 +67,11 @@ void Equations::hold_and_load() {
     const auto faces = mesh_.face_sets.find(traction.faces);
     if (faces == mesh_.face_sets.end())
       throw InputError(traction.where + "/faces: no faces \"" + traction.faces + "\" in the mesh");
-    const std::vector<int> nodes = nodes_of(faces->second);
-    const std::vector<double> areas = tributary_areas(mesh_, faces->second, nodes, setup.thickness,
-                                                      setup.formulation == Formulation::axisymmetric);
+    const std::vector<double> areas = node_areas(mesh_, faces->second, setup, traction.where + "/faces");
     Load& load =
         loads_.emplace_back(Load{std::vector<double>(mesh_.coordinates.size(), 0.0), &traction.path});
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (std::size_t i = 0; i < d; ++i)
-        load.force[static_cast<std::size_t>(nodes[n]) * d + i] += areas[n] * traction.value[i];
+    for (std::size_t dof = 0; dof < load.force.size(); ++dof)
+      load.force[dof] = areas[dof / d] * traction.value[dof % d];
   }
 }
 
