@@ -20,7 +20,8 @@ def main():
                                               (axes[1], "slave", "pressure", "contact pressure [MPa]", "inferno_r")):
         x, y, _ = zip(*vtu_points(folder, step["step"], part))
         values = vtu_values(folder, step["step"], part, array)
-        drawn = axis.tripcolor(x, y, [v or float("nan") for v in values] if part == "slave" else values, cmap=colours, shading="gouraud")
+        low = 1e-3 * max(values) if part == "slave" else None  # nodes that are open stay white
+        drawn = axis.tripcolor(x, y, values, cmap=plt.get_cmap(colours).with_extremes(under="white"), vmin=low, shading="gouraud")
         axis.set(aspect="equal", xlim=(3, 8), ylim=(3, 8), title=title, xlabel="x [um]", ylabel="y [um]")
         figure.colorbar(drawn, ax=axis)
     figure.suptitle(f"{100 * step['contact_fraction']:.1f} % of the nodes in contact at {step['mean_pressure']:.3g} MPa")
