@@ -97,6 +97,14 @@ private:
     fail(s.statement->place, "there is no *INSTANCE, NAME=" + name);
   }
 
+  /// A deck without nodes has a keyword that is misspelled: it was taken for one of another matter.
+  string where_nodes_may_be() const {
+    if (!mesh.nodes.empty() || mesh.source.list.empty()) return "";
+    const Statement& first = mesh.source.list.front();
+    return ", which has no *NODE; it begins with *" + first.keyword + " (" + mesh.source.at(first.place) +
+           ")";
+  }
+
   int find(Place place, const std::vector<Index>& index, string_view field, int instance,
            const string& what) const {
     string_view rest = field;
@@ -107,7 +115,7 @@ private:
                       " number; name a set, or write a whole number from 1");
     const auto found = index[slot(owner)].find(id);
     if (found == index[slot(owner)].end())
-      fail(place, what + " " + string(field) + " is not defined in this deck");
+      fail(place, what + " " + string(field) + " is not defined in this deck" + where_nodes_may_be());
     return found->second;
   }
 

@@ -73,7 +73,9 @@ TEST_F(Program, MistakesInFilesAreNamed) {
          {"empty.inp: no mesh; expected *NODE"});
   expect(ents_host("check " + model + " --mesh " +
                    write_text("typo.inp", "*NOED\n1, 0, 0\n2, 1, 0\n*ELEMENT, TYPE=T2D2\n1, 1, 2\n")),
-         2, {"not understood and skipped: *NOED (", "typo.inp:1)"});
+         2,
+         {"typo.inp:5: node 1 is not defined in this deck, which has no *NODE; it begins with *NOED (",
+          "typo.inp:1)"});
 }
 
 TEST_F(Program, ABodyThatNothingHoldsAndAMasterThatFacesAwayAreTold) {
@@ -109,9 +111,9 @@ TEST_F(Program, AMapThatCoversLessThanTheSegmentsIsAWarning) {
     json["steps"] = {{"control", "approach"}, {"values", {1e-4}}};
     return write("scene.json", json);
   };
-  const std::string
-      warning = "ents-lab: warning: the map /contact/model/height covers only a part of the segments",
-      good = scene({{"length_unit", 1e-3}});
+  const std::string warning =
+                        "ents-lab: warning: the map /contact/model/height covers only a part of the segments",
+                    good = scene({{"length_unit", 1e-3}});
   for (const char* more : {"", " --explicit 8", " --compare 4,8"}) {
     const ProgramOutput fine = ents_host("run " + good + more);
     EXPECT_EQ(fine.text.find(warning), std::string::npos) << fine.text;
