@@ -27,7 +27,7 @@ module ents
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 9
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 10
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -60,6 +60,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_NEEDS_HISTORY = 64
   integer(c_int32_t), parameter :: ENTS_NEEDS_MULTIPLIERS = 128
   integer(c_int32_t), parameter :: ENTS_NEEDS_ONE_BY_ONE = 256
+  integer(c_int32_t), parameter :: ENTS_NEEDS_TEMPERATURES = 512
   integer(c_int32_t), parameter :: ENTS_SHARED_SLAVE = 1
   integer(c_int32_t), parameter :: ENTS_SHARED_SEGMENT = 2
   integer(c_int32_t), parameter :: ENTS_SHARED_AREA = 4
@@ -67,6 +68,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_SHARED_MULTIPLIER = 16
   integer(c_int32_t), parameter :: ENTS_SHARED_NO_STATE = 32
   integer(c_int32_t), parameter :: ENTS_SHARED_SLAVE_VALUES = 64
+  integer(c_int32_t), parameter :: ENTS_SHARED_TEMPERATURE = 128
   integer(c_int32_t), parameter :: ENTS_XI = 1
   integer(c_int32_t), parameter :: ENTS_GAP = 2
   integer(c_int32_t), parameter :: ENTS_NORMAL_GAP = 4
@@ -86,6 +88,9 @@ module ents
   integer(c_int32_t), parameter :: ENTS_TRACTION = 65536
   integer(c_int32_t), parameter :: ENTS_SLIP = 131072
   integer(c_int32_t), parameter :: ENTS_AGE = 262144
+  integer(c_int32_t), parameter :: ENTS_DISSIPATION = 524288
+  integer(c_int32_t), parameter :: ENTS_FRICTION_ENERGY = 1048576
+  integer(c_int32_t), parameter :: ENTS_HEAT = 2097152
   integer(c_int32_t), parameter :: ENTS_FLAG_CONTACT = 1
   integer(c_int32_t), parameter :: ENTS_FLAG_OUTSIDE = 2
   integer(c_int32_t), parameter :: ENTS_FLAG_FAR_SIDE = 4
@@ -134,7 +139,7 @@ module ents
   end type ents_data
 
   type, bind(c) :: ents_layout
-    integer(c_int32_t) :: struct_size = 64 + 1*pointer_bytes
+    integer(c_int32_t) :: struct_size = 72 + 1*pointer_bytes
     integer(c_int32_t) :: dimension = 0
     integer(c_int32_t) :: nodes = 0
     integer(c_int32_t) :: parameters = 0
@@ -151,16 +156,19 @@ module ents
     integer(c_int32_t) :: fields = 0
     integer(c_int32_t) :: worn = 0
     integer(c_int32_t) :: slave_values = 0
+    integer(c_int32_t) :: node_dofs = 0
+    integer(c_int32_t) :: heat = 0
   end type ents_layout
 
   type, bind(c) :: ents_master_mesh
-    integer(c_int32_t) :: struct_size = 24 + 3*pointer_bytes
+    integer(c_int32_t) :: struct_size = 24 + 4*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: segments = 0
     type(c_ptr) :: connectivity = c_null_ptr ! (m, segments), int64
     integer(c_int64_t) :: nodes = 0
     type(c_ptr) :: positions = c_null_ptr ! (d, nodes)
     type(c_ptr) :: surface_coordinates = c_null_ptr ! (d-1, m, segments)
+    type(c_ptr) :: temperature = c_null_ptr ! (nodes)
   end type ents_master_mesh
 
   type, bind(c) :: ents_detection
@@ -181,7 +189,7 @@ module ents
   end type ents_detection
 
   type, bind(c) :: ents_input
-    integer(c_int32_t) :: struct_size = 88 + 12*pointer_bytes
+    integer(c_int32_t) :: struct_size = 112 + 14*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, elements)
     integer(c_int64_t) :: slave_stride = 0
@@ -205,10 +213,15 @@ module ents
     type(c_ptr) :: slave_values = c_null_ptr ! (slave_values, elements)
     integer(c_int64_t) :: slave_values_stride = 0
     type(c_ptr) :: slave_begin = c_null_ptr ! (d, elements)
+    type(c_ptr) :: slave_temperature = c_null_ptr ! (elements)
+    integer(c_int64_t) :: slave_temperature_stride = 0
+    type(c_ptr) :: master_temperature = c_null_ptr ! (m, elements)
+    integer(c_int64_t) :: master_temperature_stride = 0
+    real(c_double) :: time_increment = 0
   end type ents_input
 
   type, bind(c) :: ents_output
-    integer(c_int32_t) :: struct_size = 176 + 20*pointer_bytes
+    integer(c_int32_t) :: struct_size = 200 + 23*pointer_bytes
     integer(c_int32_t) :: wanted = 0
     type(c_ptr) :: status = c_null_ptr ! (elements), int32
     integer(c_int64_t) :: status_stride = 0
@@ -251,6 +264,12 @@ module ents
     integer(c_int64_t) :: slip_stride = 0
     type(c_ptr) :: age = c_null_ptr ! (elements)
     integer(c_int64_t) :: age_stride = 0
+    type(c_ptr) :: dissipation = c_null_ptr ! (elements)
+    integer(c_int64_t) :: dissipation_stride = 0
+    type(c_ptr) :: friction_energy = c_null_ptr ! (elements)
+    integer(c_int64_t) :: friction_energy_stride = 0
+    type(c_ptr) :: heat = c_null_ptr ! (2, elements)
+    integer(c_int64_t) :: heat_stride = 0
   end type ents_output
 
   type, bind(c) :: ents_derivatives
@@ -308,9 +327,9 @@ module ents
     type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
     type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
     integer(c_int64_t) :: slave_nodes = 0
-    type(c_ptr) :: slave_equations = c_null_ptr ! (d, slave_nodes), int64
+    type(c_ptr) :: slave_equations = c_null_ptr ! (node_dofs, slave_nodes), int64
     integer(c_int64_t) :: master_nodes = 0
-    type(c_ptr) :: master_equations = c_null_ptr ! (d, master_nodes), int64
+    type(c_ptr) :: master_equations = c_null_ptr ! (node_dofs, master_nodes), int64
     type(c_ptr) :: multiplier_equations = c_null_ptr ! (multipliers, elements), int64
     integer(c_int64_t) :: rows = 0
     type(c_ptr) :: residual = c_null_ptr ! (rows)

@@ -11,7 +11,7 @@
  * Conventions
  *   - indices are 0-based; every position is a CURRENT position (reference + displacement);
  *   - dofs are node-major: slave node first, then the master nodes of the segment (slave alone when the
- *     model says "master": "rigid"); matrices are column-major;
+ *     model says "master": "rigid"); with "heat" the temperature of a node follows its displacements; matrices are column-major;
  *   - gap > 0 open, gap < 0 penetration; the master normal is the tangent turned by +90 degrees in 2D and
  *     rho_,1 x rho_,2 in 3D;
  *   - residual R = dW/du is the internal force on the host's nodes, tangent K = dR/du;
@@ -93,7 +93,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 9
+#define ENTS_CONTRACT_MINOR 10
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -216,7 +216,7 @@ typedef struct ents_layout {
   int32_t dimension;           /* d: 2 or 3 */
   int32_t nodes;               /* m: master nodes of the segment; of the patch, if the model has one */
   int32_t parameters;          /* d-1: convective coordinates xi; also surface coordinates per master node */
-  int32_t dofs;                /* d (m+1), or d for a rigid master; plus multipliers */
+  int32_t dofs;                /* node_dofs (m+1), or node_dofs for a rigid master; plus multipliers */
   int32_t state_size;          /* per element */
   int32_t symmetric_tangent;   /* 1 if K = K^T always */
   int32_t own_surface_coordinates; /* 1 if the model text carries them */
@@ -232,6 +232,8 @@ typedef struct ents_layout {
                                   master surface that no field has yet [L], see ents_wear_collect; pressure [F/A]; else -1 */
   int32_t slave_values;        /* numbers of ents_input.slave_values: 3, or 4 with a normal law "table" (since contract 1.7;
                                   `reserved` before) */
+  int32_t node_dofs;           /* dofs of a node: d, or d + 1 with heat (since contract 1.10, as what follows) */
+  int32_t heat;                /* 1 if the law has "heat": temperatures are dofs, the last one of each node */
 } ents_layout;
 
 /* What the elements of a model need. ents_model_create decides it from the model's text; what is not needed is not computed. (Results
@@ -250,6 +252,8 @@ typedef struct ents_layout {
                                             the lanes of vector registers. It is set for patches, for laws with multipliers as dofs, and
                                             for segments of more than nine nodes unless the model has the normal projection, a penalty or
                                             power law and the consistent tangent */
+
+#define ENTS_NEEDS_TEMPERATURES (1 << 9) /* "heat": a temperature per node, and elements that are evaluated one by one. Since contract 1.10 */
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
 
@@ -309,6 +313,7 @@ typedef struct ents_master_mesh {
   const double *positions;           /* [nodes][d] current positions, [L], finite */
   const double *surface_coordinates; /* [segments][m][d-1] s of each segment's nodes (per segment, since a node on a seam has
                                         two values); null: those of the model's text, or s = xi if it has none */
+  const double *temperature;         /* [nodes] for a model with "heat", else not read; also of a rigid master. Since contract 1.10 */
 } ents_master_mesh;
 
 /* Detection finds the segment that a slave node is projected on. A tree of boxes around the enriched segments makes the search fast. The
@@ -442,6 +447,12 @@ typedef struct ents_input {
                                         for ways (as detection.slave_begin, with positions_begin), and for states that are still those of ents_state_init, or of slaves that were not within reach:
                                         it evaluates these there first (in positions_begin), so that friction and wear of a slave that touches
                                         within the increment begin at the touch. Since contract 1.8 */
+  const double *slave_temperature;   /* [1] of the slave node, for a model with "heat", finite; needed for residual, tangent and heat. Since contract
+                                        1.10, as what follows */
+  int64_t slave_temperature_stride;
+  const double *master_temperature;  /* [m] of the master nodes, also of a rigid master; with `mesh` null: they come from mesh.temperature */
+  int64_t master_temperature_stride;
+  double time_increment;             /* of this increment, > 0, where the heat of friction, a power, is asked for; else not read */
 } ents_input;
 
 /* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a
@@ -455,6 +466,7 @@ typedef struct ents_input {
 #define ENTS_SHARED_NO_STATE   (1 << 5)  /* state_begin is null although the law has a history (ENTS_NEEDS_HISTORY): it begins with this call.
                                             Without this bit ents_assemble and ents_iterate refuse that (since contract 1.6) */
 #define ENTS_SHARED_SLAVE_VALUES (1 << 6) /* since contract 1.6 */
+#define ENTS_SHARED_TEMPERATURE (1 << 7) /* slave_temperature: all slave nodes have one. Since contract 1.10 */
 
 /* Bits of ents_output.wanted: which results to compute. Other results are not computed, and their arrays are not written. */
 #define ENTS_XI            (1 << 0)  /* xi            [d-1]          natural coordinates of the projection */
@@ -462,14 +474,14 @@ typedef struct ents_input {
 #define ENTS_NORMAL_GAP    (1 << 2)  /* normal_gap    [1]    [L]     (x_s - rho_e) . n_e */
 #define ENTS_NORMAL        (1 << 3)  /* normal        [d]            n_e, unit normal of the enriched surface */
 #define ENTS_POINT         (1 << 4)  /* point         [d]    [L]     rho_e at the projection */
-#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = dofs - multipliers, here and below. These
+#define ENTS_GAP_GRADIENT  (1 << 5)  /* gap_gradient  [n]            dg/du,       eq. (3); n = d (m+1), or d for a rigid master, here and below. These
                                         four hold the scale of a height with "flattening" fixed */
 #define ENTS_GAP_HESSIAN   (1 << 6)  /* gap_hessian   [n][n]         d2g/du2,     eq. (4); [1/L]. Follows the model's "tangent" key */
 #define ENTS_XI_GRADIENT   (1 << 7)  /* xi_gradient   [d-1][n]       dxi/du,      eq. (3); [1/L] */
 #define ENTS_XI_HESSIAN    (1 << 8)  /* xi_hessian    [d-1][n][n]    d2xi/du2, eq. (4); [1/L^2]. Always exact; needs C3 of h with normal projection */
 #define ENTS_ENERGY        (1 << 9)  /* energy        [1]    [F L]   W */
 #define ENTS_PRESSURE      (1 << 10) /* pressure      [1]    [F/A]   -dW/dg / area; > 0 in contact */
-#define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du */
+#define ENTS_RESIDUAL      (1 << 11) /* residual      [dofs] [F]     R = dW/du; of a temperature: the power that leaves the node */
 #define ENTS_TANGENT       (1 << 12) /* tangent       [dofs][tangent_leading_dimension] [F/L]  K = dR/du */
 #define ENTS_STATE         (1 << 13) /* state_end     [state_size]   must not overlap state_begin, but may lie between its blocks */
 #define ENTS_FLAGS         (1 << 14) /* flags         [1] int32: ENTS_FLAG_... */
@@ -477,6 +489,11 @@ typedef struct ents_input {
 #define ENTS_TRACTION      (1 << 16) /* traction      [d]    [F/A]   tangential traction on the master, spatial vector */
 #define ENTS_SLIP          (1 << 17) /* slip          [1]    [L]     accumulated slip of the state, end of increment */
 #define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
+#define ENTS_DISSIPATION   (1 << 19) /* dissipation   [1]    [F L]   what friction dissipates in this increment: the tangential force at its end times the slip
+                                        (backward Euler); 0 without friction. Since contract 1.10, as what follows */
+#define ENTS_FRICTION_ENERGY (1 << 20) /* friction_energy [1] [F L]  stored in the elastic slip of friction at the end; 0 where a multiplier has the force */
+#define ENTS_HEAT          (1 << 21) /* heat          [2]    [power] through the gap, from the slave to the master; made by friction (share of dissipation /
+                                        time_increment, both sides together) */
 
 /* Bits of flags. If the model has "contact", they describe the contact element (in contact or open ...), whichever results are wanted. */
 #define ENTS_FLAG_CONTACT  1   /* the element is closed: it carries pressure, or its gap is exactly that at which the law's contact begins (0) */
@@ -524,6 +541,9 @@ typedef struct ents_output {
   double *traction;      int64_t traction_stride;
   double *slip;          int64_t slip_stride;
   double *age;           int64_t age_stride;
+  double *dissipation;   int64_t dissipation_stride;
+  double *friction_energy; int64_t friction_energy_stride;
+  double *heat;          int64_t heat_stride;
 } ents_output;
 
 /* Evaluate the elements first .. first + count - 1 of the arrays. n elements give the same bits as n calls of one element each.
@@ -858,9 +878,9 @@ typedef struct ents_system {
   const ents_combination *slave;     /* slave points over the host's nodes; null: slave point i is node i */
   const ents_combination *master;    /* nodes of the mesh (control points) over the host's nodes; null: node i is node i */
   int64_t slave_nodes;               /* nodes of the host that slave_equations covers */
-  const int64_t *slave_equations;    /* [slave_nodes][d] row of each dof; -1: prescribed, left out */
+  const int64_t *slave_equations;    /* [slave_nodes][node_dofs] row of each dof; -1: prescribed, left out */
   int64_t master_nodes;
-  const int64_t *master_equations;   /* [master_nodes][d]; not read for a rigid master. May be slave_equations */
+  const int64_t *master_equations;   /* [master_nodes][node_dofs]; not read for a rigid master. May be slave_equations */
   const int64_t *multiplier_equations; /* [elements][multipliers]; needed if the layout has any */
   int64_t rows;
   double *residual;                  /* [rows] R is added; null: not wanted */
@@ -871,7 +891,7 @@ typedef struct ents_system {
                                         are in `values`, and adds faster the next time. Set all to 0 before the first call, and
                                         whenever row_begin or columns change. If an element gets another segment, other nodes
                                         or other equations, the library finds its places again by itself */
-  int64_t places_size;               /* at least d (m+1)^2 + 1 (rigid: d + 1); not used with a `slave` or `master` combination or a pose */
+  int64_t places_size;               /* at least node_dofs (m+1)^2 + 1 (rigid: node_dofs + 1); not used with a `slave` or `master` combination or a pose */
   const ents_pose *pose;             /* of a rigid master that moves, or null: input.slave is in its frame. Since contract 1.6 */
   const int64_t *body_equations;     /* [2D: 3, 3D: 6] rows of the reference point's displacement and of the spin; -1: prescribed, left out */
 } ents_system;

@@ -82,7 +82,8 @@ std::int32_t Assembly::add(const ElementCall& call, std::int64_t e) {
     const std::int32_t status = call.evaluate(e, wanted, report_);
     if ((call_.out->wanted & ENTS_FLAGS) != 0) *at(call_.out->flags, call_.out->flags_stride, e) = flags;
     if (status != ENTS_OK) return status;
-    if ((flags & ENTS_FLAG_CONTACT) == 0 && plan_.multipliers == 0) return ENTS_OK; // nothing but zeros
+    if ((flags & ENTS_FLAG_CONTACT) == 0 && plan_.multipliers == 0 && !plan_.heat)
+      return ENTS_OK; // nothing but zeros
   }
   return equations_.add(e, residual, tangent, false);
 }
@@ -214,7 +215,9 @@ std::int32_t check_shared(const ents_model& model, const ents_input& caller, con
       {"state_begin", "ENTS_SHARED_STATE", ENTS_SHARED_STATE, in.state_begin, in.state_begin_stride},
       {"multiplier", "ENTS_SHARED_MULTIPLIER", ENTS_SHARED_MULTIPLIER, in.multiplier, in.multiplier_stride},
       {"slave_values", "ENTS_SHARED_SLAVE_VALUES", ENTS_SHARED_SLAVE_VALUES, in.slave_values,
-       in.slave_values_stride}};
+       in.slave_values_stride},
+      {"slave_temperature", "ENTS_SHARED_TEMPERATURE", ENTS_SHARED_TEMPERATURE, in.slave_temperature,
+       in.slave_temperature_stride}};
   std::int64_t known = ENTS_SHARED_NO_STATE;
   for (const auto& a : arrays) known |= a.known;
   if ((in.shared & ~known) != 0)
@@ -251,10 +254,6 @@ std::int32_t assemble(const ents_model* model, std::int64_t first, std::int64_t 
   return assembly.add(first, count);
 }
 
-bool is_rigid(const ents_model& model) {
-  return model.plan.dofs == model.plan.dimension + model.plan.multipliers;
-}
-
 // What ents_iterate takes of the caller's input: the rest comes from the detection.
 std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_report* report) {
   if (input.slave || input.master || input.mesh || input.segment || input.start || input.surface_coordinates)
@@ -262,7 +261,7 @@ std::int32_t check_rest(const ents_model& model, const ents_input& input, ents_r
         report, ENTS_BAD_VALUE, -1,
         "input.slave, master, surface_coordinates, start, mesh and segment must be null: ents_iterate "
         "takes them from the detection");
-  if (model.model.law.has_friction() && input.state_begin && !input.positions_begin && !is_rigid(model))
+  if (model.model.law.has_friction() && input.state_begin && !input.positions_begin && !model.plan.rigid)
     return report_status(
         report, ENTS_NULL_ARGUMENT, -1,
         "input.positions_begin is null: with friction, give the positions of the mesh at the "

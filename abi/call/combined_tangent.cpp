@@ -7,9 +7,9 @@ namespace ents {
 
 std::int32_t Equations::add_by_nodes(std::int64_t e, const double* tangent, bool& added) const {
   constexpr int most = 48; // more: one by one
-  const int d = plan_.dimension, count = nodes(), leading = plan_.dofs;
+  const int d = plan_.node_dofs, count = nodes(), leading = plan_.dofs;
   const std::int64_t* equations[most];
-  double weights[max_nodes][most][3];
+  double weights[max_nodes][most][4];
   int found = 0, terms = 0;
   bool fits = true;
   for (int a = 0; a < count; ++a) {
@@ -23,7 +23,7 @@ std::int32_t Equations::add_by_nodes(std::int64_t e, const double* tangent, bool
       }
       if (n == found) {
         equations[found++] = group.equations;
-        for (int b = 0; b < count; ++b) std::fill_n(weights[b][n], 3, 0.0);
+        for (int b = 0; b < count; ++b) std::fill_n(weights[b][n], 4, 0.0);
       }
       for (int i = 0; i < d; ++i) weights[a][n][i] += group.weight_of(i);
       return ENTS_OK;
@@ -33,7 +33,7 @@ std::int32_t Equations::add_by_nodes(std::int64_t e, const double* tangent, bool
   added = fits && terms > 2 * count;
   if (!added) return ENTS_OK;
   for (int n = 0; n < found; ++n) {
-    double column[3][max_dofs]; // of the element's dofs, by the dofs of node n
+    double column[4][max_dofs]; // of the element's dofs, by the dofs of node n
     for (int j = 0; j < d; ++j) {
       std::fill_n(column[j], leading, 0.0);
       for (int a = 0; a < count; ++a)
@@ -41,7 +41,7 @@ std::int32_t Equations::add_by_nodes(std::int64_t e, const double* tangent, bool
           for (int i = 0; i < leading; ++i) column[j][i] += w * tangent[(d * a + j) * leading + i];
     }
     for (int m = 0; m < found; ++m) {
-      double block[9] = {};
+      double block[16] = {};
       for (int a = 0; a < count; ++a)
         for (int i = 0; i < d; ++i)
           for (int j = 0; j < d; ++j) block[d * j + i] += weights[a][m][i] * column[j][d * a + i];

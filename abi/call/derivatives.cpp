@@ -84,6 +84,9 @@ extern "C" int32_t ents_parameter_derivatives(const ents_model* model, int64_t f
     if (model->plan.law.flattening.parameter != 0)
       return ents::report_status(report, ENTS_BAD_VALUE, -1,
                                  "the model has \"flattening\": derivatives by parameters are not available");
+    if (model->plan.heat)
+      return ents::report_status(report, ENTS_BAD_VALUE, -1,
+                                 "the model has \"heat\": derivatives by parameters are not available");
     if (to->product && !to->adjoint)
       return ents::report_status(report, ENTS_NULL_ARGUMENT, -1,
                                  "derivatives.product is given without derivatives.adjoint");

@@ -47,7 +47,7 @@ std::int32_t check_mesh(const ents_master_mesh* caller, const char* name, Master
   if (m->segments > 0 && (!m->connectivity || !m->positions))
     return report_message(report, ENTS_NULL_ARGUMENT, -1, "%s.%s is null", name,
                           m->connectivity ? "positions" : "connectivity");
-  mesh = {m->segments, m->connectivity, m->nodes, m->positions, m->surface_coordinates};
+  mesh = {m->segments, m->connectivity, m->nodes, m->positions, m->surface_coordinates, m->temperature};
   return ENTS_OK;
 }
 

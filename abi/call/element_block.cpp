@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "abi/call/element_block.hpp"
 
+#include <cstddef>
+
 namespace ents {
 
 // Does anyone look at the places of other results?
@@ -10,7 +12,7 @@ ElementBlock element_block_of(const ents_model& model, const ents_input& in, con
                               std::int64_t first) noexcept {
   ElementBlock b;
 #define ENTS_COPY(field, size) b.field = in.field, b.field##_stride = in.field##_stride;
-  ENTS_INPUT_ARRAYS(ENTS_COPY)
+  ENTS_BLOCK_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.first = first;
   b.wanted = block_results_of(model, out.wanted);
@@ -31,7 +33,7 @@ void begin_at_first(ElementBlock& b) noexcept {
     if (data) data += stride * elements;
   };
 #define ENTS_MOVE(field, size) move(b.field, b.field##_stride);
-  ENTS_INPUT_ARRAYS(ENTS_MOVE)
+  ENTS_BLOCK_INPUT_ARRAYS(ENTS_MOVE)
 #undef ENTS_MOVE
 #define ENTS_MOVE(bit, public_name, name, field, type, size) move(b.field, b.field##_stride);
   ENTS_FORCE_RESULTS(ENTS_MOVE)
@@ -47,14 +49,22 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
                    const ents_output* out, const ents_report* report) noexcept {
   constexpr std::int64_t most = std::int64_t{1} << 28;
   if (!model || model->magic != ents_model::live || !in || !out) return false;
-  if (in->struct_size != static_cast<std::int32_t>(sizeof *in) ||
-      out->struct_size != static_cast<std::int32_t>(sizeof *out))
+  // Older structs that have all that is read here: those before heat, whose elements are in no block
+  const auto is_one_of = [](std::int32_t size, std::size_t whole, std::size_t before_heat) {
+    return size == static_cast<std::int32_t>(whole) || size == static_cast<std::int32_t>(before_heat);
+  };
+  if (!is_one_of(in->struct_size, sizeof *in, offsetof(ents_input, slave_temperature)) ||
+      !is_one_of(out->struct_size, sizeof *out,
+                 only_forces(out->wanted) ? offsetof(ents_output, dissipation) : sizeof *out))
     return false;
   if (report && report->struct_size != static_cast<std::int32_t>(sizeof *report)) return false;
   const Plan& plan = model->plan;
   const std::int32_t wanted = out->wanted;
   if (wanted == 0 || block_results_of(*model, wanted) != wanted) return false;
   if (first < 0 || count < 1 || first > most || count > most) return false;
+  if (in->struct_size == static_cast<std::int32_t>(sizeof *in) &&
+      (in->slave_temperature || in->master_temperature))
+    return false; // of a model without heat
   if (in->reserved != 0 || in->mesh || !in->slave || !in->master || !(in->start || in->state_begin))
     return false;
   const bool one = first + count == 1; // its strides are of no meaning
@@ -70,7 +80,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
                      slave_values = in->slave_values ? model->model.law.slave_values() : 0,
                      leading = leading_dimension(*model, *out), tangent = (all - 1) * leading + all;
 #define ENTS_CHECK(field, size) &&shared(in->field, in->field##_stride, size)
-  if (!(leading >= all && leading < most ENTS_INPUT_ARRAYS(ENTS_CHECK))) return false;
+  if (!(leading >= all && leading < most ENTS_BLOCK_INPUT_ARRAYS(ENTS_CHECK))) return false;
 #undef ENTS_CHECK
   if ((in->slave_values && !model->model.law.has_slave_values()) || (multipliers > 0 && !in->multiplier) ||
       (out->status && !one && (out->status_stride < 1 || out->status_stride >= most)))

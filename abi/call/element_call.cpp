@@ -33,7 +33,7 @@ struct Array {
 Array output_array(const ents_model& model, const ents_output& out, int bit_number) noexcept {
   const Plan& plan = model.plan;
   const std::int64_t d = plan.dimension, t = plan.parameters, all = model.sizes.dofs,
-                     n = all - plan.multipliers, states = model.sizes.state,
+                     n = d * (plan.rigid ? 1 : 1 + model.sizes.nodes), states = model.sizes.state,
                      tangent = (all - 1) * leading_dimension(model, out) + all;
   switch (bit_number) {
 #define ENTS_CASE(bit, public_name, name, field, type, size)                                                 \
@@ -67,6 +67,9 @@ std::int32_t check_output(const ents_model& model, std::int64_t first, std::int6
   if ((out.wanted & ~want::all) != 0)
     return report_message(report, ENTS_BAD_MASK, -1, "output.wanted has unknown bits (0x%x)",
                           static_cast<unsigned>(out.wanted & ~want::all));
+  if ((out.wanted & ENTS_HEAT) != 0 && !model.plan.heat)
+    return report_status(report, ENTS_BAD_MASK, -1,
+                         "output.wanted asks for the heat, but the model's \"contact\" has no \"heat\"");
   if ((out.wanted & want::needs_law) != 0 && model.model.law.normal == NormalKind::none)
     return refuse_without_contact("output.wanted asks for energy, pressure, residual or tangent", report);
   if (count == 0) return ENTS_OK;
@@ -114,10 +117,16 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
   if (!in.slave) return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.slave is null");
   if (in.mesh && !in.segment)
     return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.segment is null, but input.mesh is not");
-  if (in.mesh && (in.master || in.surface_coordinates))
+  if (in.mesh && (in.master || in.surface_coordinates || in.master_temperature))
     return report_message(report, ENTS_BAD_VALUE, -1,
                           "input.%s and input.mesh are both given; one must be null",
-                          in.master ? "master" : "surface_coordinates");
+                          in.master                ? "master"
+                          : in.surface_coordinates ? "surface_coordinates"
+                                                   : "master_temperature");
+  if ((in.slave_temperature || in.master_temperature) && !model.plan.heat)
+    return report_message(report, ENTS_BAD_VALUE, -1,
+                          "input.%s_temperature is given, but the model's \"contact\" has no \"heat\"",
+                          in.slave_temperature ? "slave" : "master");
   if (!in.mesh && !in.master)
     return report_status(report, ENTS_NULL_ARGUMENT, -1, "input.master is null (and input.mesh, too)");
   if (in.mesh && !model.model.patch.empty())
@@ -149,6 +158,27 @@ std::int32_t check_input(const ents_model& model, std::int64_t first, std::int64
 
 } // namespace
 
+std::int32_t ElementCall::check_temperatures(ents_report* report) const {
+  if (!plan->heat) return ENTS_OK;
+  const bool of_mesh = in->mesh != nullptr;
+  const struct {
+    const char* name;
+    const double* array;
+  } arrays[] = {{"input.slave_temperature", in->slave_temperature},
+                {of_mesh ? "input.mesh.temperature" : "input.master_temperature",
+                 of_mesh ? mesh.temperature : in->master_temperature}};
+  for (const auto& a : arrays)
+    if (!a.array)
+      return report_message(report, ENTS_NULL_ARGUMENT, -1,
+                            "%s is null, but the model has \"heat\": give the temperatures", a.name);
+  if (plan->law.heat.has_friction && !(in->time_increment > 0.0 && in->time_increment < 1e100))
+    return report_message(report, ENTS_BAD_VALUE, -1,
+                          "input.time_increment = %g; the heat of friction is a power: give the time of the "
+                          "increment, > 0",
+                          in->time_increment);
+  return ENTS_OK;
+}
+
 std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count,
                                const ents_input* input, const ents_output* output, ents_report* report) {
   std::int32_t status = check_handle(handle, report);
@@ -169,7 +199,10 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
     return report_status(
         report, ENTS_BAD_VALUE, -1,
         "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
-  return in->mesh ? check_mesh(in->mesh, "input.mesh", mesh, report) : ENTS_OK;
+  if (in->mesh && (status = check_mesh(in->mesh, "input.mesh", mesh, report)) != ENTS_OK) return status;
+  return (out->wanted & (ENTS_RESIDUAL | ENTS_TANGENT | ENTS_HEAT)) != 0 && count > 0
+             ? check_temperatures(report)
+             : ENTS_OK;
 }
 
 std::int32_t ElementCall::refuse_segment(std::int64_t e, ents_report* report) const {
@@ -262,6 +295,7 @@ ElementInput ElementCall::element(std::int64_t e, const SegmentNodes& nodes) con
 #undef ENTS_ARRAY
   if (in->mesh) element.master = nodes.positions, element.surface_coordinates = nodes.surface_coordinates;
   element.start_first = start_first;
+  element.time_increment = in->time_increment;
   return element;
 }
 

@@ -104,6 +104,9 @@ struct ElementCall {
   std::int64_t segment(std::int64_t e) const { return *at(in->segment, in->segment_stride, e); }
   std::int32_t refuse_segment(std::int64_t e, ents_report* report) const;
 
+  // A model with heat needs temperatures, and where friction heats the time of the increment.
+  std::int32_t check_temperatures(ents_report* report) const;
+
   // nodes: of its segment, if the input has a mesh
   ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;
   // hard: the block kernel has left it

@@ -17,6 +17,7 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
     return report_status(report_, ENTS_BAD_MASK, -1,
                          "output.wanted asks for residual or tangent; ents_assemble adds them to the system");
   if (!call_.in->mesh) return report_status(report_, ENTS_NULL_ARGUMENT, -1, "input.mesh is null");
+  if ((status = call_.check_temperatures(report_)) != ENTS_OK) return status;
   if (s.index_size != 4 && s.index_size != 8)
     return report_message(report_, ENTS_BAD_VALUE, -1, "system.index_size is %d; it must be 4 or 8",
                           s.index_size);
@@ -64,7 +65,7 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
                               "system.multiplier_equations of element %lld is %lld; there are %lld rows",
                               static_cast<long long>(e), static_cast<long long>(equation),
                               static_cast<long long>(s.rows));
-  const std::int64_t places = std::int64_t{plan_.dimension} * nodes() * nodes() + 1;
+  const std::int64_t places = std::int64_t{plan_.node_dofs} * nodes() * nodes() + 1;
   if (s.places && !s.slave && !s.master && s.places_size < places)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.places_size is %lld; at least %lld is needed",
                           static_cast<long long>(s.places_size), static_cast<long long>(places));
@@ -81,6 +82,11 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
 
 std::int32_t Equations::check_body() {
   const ents_system& s = *system_;
+  if (plan_.heat)
+    return report_status(
+        report_, ENTS_BAD_VALUE, -1,
+        "system.pose is given, but the model has \"heat\": a body that moves by a pose has no "
+        "temperature; move the nodes of the mesh instead");
   if (nodes() != 1 || plan_.multipliers > 0)
     return report_message(report_, ENTS_BAD_VALUE, -1, "system.pose is given, but the model %s",
                           plan_.multipliers > 0
@@ -138,11 +144,11 @@ std::int32_t Equations::check_equations(const char* name, const std::int64_t* eq
   if (node < 0 || node >= nodes)
     return report_message(report_, ENTS_BAD_COUNT, -1, "system.%s covers %lld nodes; node %lld is needed",
                           name, static_cast<long long>(nodes), static_cast<long long>(node));
-  for (int i = 0; i < plan_.dimension; ++i)
-    if (equations[node * plan_.dimension + i] >= system_->rows)
+  for (int i = 0; i < plan_.node_dofs; ++i)
+    if (equations[node * plan_.node_dofs + i] >= system_->rows)
       return report_message(
           report_, ENTS_BAD_VALUE, -1, "system.%s of node %lld is %lld; there are %lld rows", name,
-          static_cast<long long>(node), static_cast<long long>(equations[node * plan_.dimension + i]),
+          static_cast<long long>(node), static_cast<long long>(equations[node * plan_.node_dofs + i]),
           static_cast<long long>(system_->rows));
   return ENTS_OK;
 }
@@ -213,7 +219,7 @@ inline const std::int64_t* Equations::known_places(std::int64_t e) const noexcep
 // 0: of a node without equations
 std::int64_t Equations::stamp(std::int64_t e) const noexcept {
   constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u; // odd: its powers are not zero
-  const int d = plan_.dimension, count = nodes();
+  const int d = plan_.node_dofs, count = nodes();
   std::uint64_t sum = static_cast<std::uint64_t>(pattern_.entries) * factor, power = factor * factor;
   const std::int64_t* connectivity =
       count > 1 ? call_.mesh.connectivity + call_.segment(e) * plan_.nodes : nullptr;
@@ -267,7 +273,7 @@ void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
   if (!system_->places || system_->slave || system_->master || system_->pose || plan_.multipliers > 0) return;
   const std::int64_t* places = system_->places + e * system_->places_size;
   if (*places++ >= 0) return;
-  for (int i = 0, count = plan_.dimension * nodes() * nodes(); i < count; ++i) {
+  for (int i = 0, count = plan_.node_dofs * nodes() * nodes(); i < count; ++i) {
     __builtin_prefetch(system_->values + places[i], 1);
     asm volatile(""); // or a compiler takes the whole function for one without effect
   }
@@ -275,7 +281,7 @@ void Equations::fetch([[maybe_unused]] std::int64_t e) const noexcept {
 }
 
 std::int32_t Equations::add_tangent(std::int64_t e, const double* tangent) const {
-  const int d = plan_.dimension, count = nodes();
+  const int d = plan_.node_dofs, count = nodes();
   const std::int64_t segment = call_.segment(e);
   std::int64_t* places = nullptr;
   if (system_->places && !system_->slave && !system_->master && segment >= 0) {
@@ -344,10 +350,12 @@ std::int32_t Equations::add(std::int64_t e, const double* residual, const double
                             bool symmetric) const {
   if (system_->pose) return add_with_body(e, residual, tangent);
   if (const std::int64_t* places = known_places(e)) {
-    if (plan_.dimension == 3)
+    if (plan_.node_dofs == 3)
       add_known<3>(e, places, residual, tangent, symmetric);
-    else
+    else if (plan_.node_dofs == 2)
       add_known<2>(e, places, residual, tangent, symmetric);
+    else
+      add_known<4>(e, places, residual, tangent, symmetric);
     return ENTS_OK;
   }
   std::int32_t status = ENTS_OK;

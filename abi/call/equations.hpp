@@ -12,7 +12,7 @@ namespace ents {
 
 class Equations {
 public:
-  static constexpr int max_nodes = 1 + 16, max_dofs = 3 * max_nodes + 3;
+  static constexpr int max_nodes = 1 + 16, max_dofs = 4 * max_nodes + 3;
 
   Equations(const ElementCall& call, ents_report* report) : call_(call), plan_(*call.plan), report_(report) {}
 
@@ -85,9 +85,7 @@ private:
   template <int D>
   void add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,
                  bool symmetric) const noexcept;
-  int nodes() const {
-    return plan_.dofs == plan_.dimension + plan_.multipliers ? 1 : 1 + plan_.nodes;
-  } // with equations
+  int nodes() const { return plan_.rigid ? 1 : 1 + plan_.nodes; } // with equations
 
   const ElementCall& call_;
   const Plan& plan_;
@@ -102,7 +100,7 @@ private:
 };
 
 template <class F> std::int32_t Equations::for_groups(std::int64_t e, int node, F&& f) const {
-  const int d = plan_.dimension;
+  const int d = plan_.node_dofs;
   const bool is_slave = node == 0;
   const ents_combination* combination =
       is_slave ? (system_->slave ? &slave_ : nullptr) : (system_->master ? &master_ : nullptr);

@@ -53,6 +53,12 @@ std::int32_t ElementCall::evaluate(std::int64_t e, const Wanted& also, ents_repo
   if (also.flags) results.flags = also.flags;
   bool follows = state_follows(e);
   ElementInput input = element(e, nodes);
+  double temperatures[HeatIngredients::most_nodes];
+  if (in->mesh && mesh.temperature) {
+    const std::int64_t* of_segment = mesh.connectivity + segment(e) * plan->nodes;
+    for (int i = 0; i < plan->nodes; ++i) temperatures[i] = mesh.temperature[of_segment[i]];
+    input.master_temperature = temperatures;
+  }
   double without_path[largest_state];
   if (!follows && was_open(e)) { // on another segment: where it was from here is not known
     std::copy_n(input.state_begin, plan->state.size, without_path);

@@ -144,7 +144,8 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.state_size = model->sizes.state;
     const ents::ContactLaw& law = model->plan.law;
     out.symmetric_tangent =
-        !(law.has_friction() || law.wear.on || law.flattening.parameter != 0) || law.symmetrised;
+        !(law.has_friction() || law.wear.on || law.flattening.parameter != 0 || law.heat.on) ||
+        law.symmetrised;
     out.own_surface_coordinates = model->model.own_surface_coordinates;
     out.multipliers = model->plan.multipliers;
     out.friction = law.has_friction();
@@ -155,6 +156,8 @@ int32_t ents_model_layout(const ents_model* model, ents_layout* layout, ents_rep
     out.fields = static_cast<std::int32_t>(model->model.fields.size());
     out.worn = model->plan.state.wear_at;
     out.slave_values = law.slave_values();
+    out.node_dofs = model->plan.node_dofs;
+    out.heat = law.heat.on;
     out.instruction_set = ents::best_block_kernels().instruction_set;
     ents::copy_to_caller(out, layout);
     return ents::report_ok(report);

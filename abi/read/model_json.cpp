@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "abi/read/contact_json.hpp"
 #include "abi/read/height_json.hpp"
 #include "abi/read/json_check.hpp"
 #include "abi/read/json_text.hpp"
 #include "abi/read/json_tree.hpp"
 #include "abi/read/text_file.hpp"
-#include "core/element/flattening.hpp"
-#include "core/law/laws.hpp"
 #include "core/model/binding.hpp"
 
 namespace ents {
@@ -134,189 +133,6 @@ std::vector<NamedParameter> read_parameters(const json& value) {
   return parameters;
 }
 
-// A number of the law, or the name of a parameter
-double read_law_number(const json& object, const std::string& path, const char* key, const Model& model,
-                       std::uint8_t& bound_to, Range range = Range::positive) {
-  const double number =
-      read_bound_double(object.at(key), member(path, key), Range::any, model.parameters, bound_to);
-  if (bound_to == 0) return read_double(object, path, key, range);
-  if (!(number >= least_of(range)))
-    fail(ENTS_BAD_VALUE, member(path, key),
-         "is a parameter whose value is " + shown(number) +
-             (range == Range::positive ? "; it has to be positive" : "; it is not negative"));
-  return number;
-}
-
-// A multiple of 1/2, twice
-std::int32_t read_exponent(const json& normal, const std::string& path, const char* key) {
-  const double exponent = read_double(normal, path, key, Range::positive);
-  if (exponent < 1.0 || exponent > 20.0 || 2.0 * exponent != std::floor(2.0 * exponent))
-    fail(ENTS_BAD_VALUE, member(path, key),
-         "is " + shown(exponent) + ", not one of 1, 1.5, 2, 2.5 .. 20; write one of them");
-  return static_cast<std::int32_t>(2.0 * exponent);
-}
-
-void read_table(const json& normal, const std::string& path, const char* gap_key, const char* pressure_key,
-                Model& model) {
-  constexpr std::size_t most = 1024;
-  const json& gaps = normal.at(gap_key);
-  const std::string at_gap = member(path, gap_key), at_pressure = member(path, pressure_key);
-  check_array(gaps, at_gap, most, "gaps, rising");
-  if (gaps.size() < 2) fail(ENTS_BAD_VALUE, at_gap, "has one number; write 2 to 1024 gaps, rising");
-  const std::vector<double> gap = read_vector(gaps, at_gap, gaps.size(), Range::any, "");
-  const std::vector<double> pressure =
-      read_vector(normal.at(pressure_key), at_pressure, gap.size(), Range::any, "one per gap");
-  for (std::size_t i = 1; i < gap.size(); ++i) {
-    if (!(gap[i] > gap[i - 1]))
-      fail(ENTS_BAD_VALUE, item(at_gap, i),
-           "is " + shown(gap[i]) + ", not above the gap before it; write rising gaps");
-    if (!(pressure[i] < pressure[i - 1]))
-      fail(ENTS_BAD_VALUE, item(at_pressure, i),
-           "is " + shown(pressure[i]) + ", not below the pressure before it; write falling pressures");
-  }
-  if (pressure.back() != 0.0)
-    fail(ENTS_BAD_VALUE, item(at_pressure, gap.size() - 1),
-         "is " + shown(pressure.back()) + "; the last pressure is 0: contact begins at the last gap");
-  model.law_table = make_law_table(gap, pressure);
-  for (const LawTable& point : model.law_table)
-    if (!std::isfinite(point.force + point.stiffness + point.energy))
-      fail(ENTS_BAD_VALUE, at_gap, "has gaps so close to each other that the stiffness is not finite");
-}
-
-// By what the law's table says.
-void read_normal(const json& normal, const std::string& path, Model& model) {
-  std::vector<std::string_view> types, keys{"type"};
-  for (const LawEntry& entry : law_entries) types.push_back(entry.type);
-  const LawEntry& entry = law_entries[read_type(normal, path, types)];
-  const std::span numbers(entry.numbers, static_cast<std::size_t>(entry.count));
-  for (const LawNumber& number : numbers) keys.push_back(number.key);
-  check_keys(normal, path, keys, {});
-  set_normal_law(entry, model.law);
-  const char* gap_key = "";
-  double* to = model.law.number;
-  for (const LawNumber& number : numbers) switch (number.kind) {
-    case LawNumber::positive:
-      *to++ = number.named ? read_law_number(normal, path, number.key, model, model.law_binding.normal)
-                           : read_double(normal, path, number.key, Range::positive);
-      break;
-    case LawNumber::exponent:
-      model.law.twice_exponent = read_exponent(normal, path, number.key);
-      break;
-    case LawNumber::rising:
-      gap_key = number.key;
-      break;
-    case LawNumber::falling:
-      read_table(normal, path, gap_key, number.key, model);
-      break;
-    }
-}
-
-void read_friction(const json& friction, const std::string& path, Model& model) {
-  ContactLaw& law = model.law;
-  const bool rough = read_type(friction, path, {"coulomb", "rough"}) == 1;
-  if (rough) {
-    check_keys(friction, path, {"type", "stiffness"}, {});
-    law.friction = FrictionKind::rough;
-  } else {
-    check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
-    law.friction = FrictionKind::coulomb;
-    law.friction_coefficient = read_law_number(friction, path, "coefficient", model,
-                                               model.law_binding.friction, Range::not_negative);
-    law.shear_limit =
-        friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
-  }
-  law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
-}
-
-void read_wear(const json& wear, const std::string& path, Model& model) {
-  check_keys(wear, path, {"coefficient"}, {"scheme", "slave", "sliding"});
-  Wear& law = model.law.wear;
-  const auto number = [&](const char* key, std::uint8_t& bound_to) {
-    return read_law_number(wear, path, key, model, bound_to, Range::not_negative);
-  };
-  law.on = true;
-  law.coefficient = number("coefficient", model.law_binding.wear);
-  if (wear.contains("sliding")) law.sliding = number("sliding", model.law_binding.sliding);
-  if (wear.contains("scheme")) {
-    constexpr double weights[] = {1.0, 0.5, 0.0};
-    law.implicit = weights[read_choice(wear.at("scheme"), member(path, "scheme"),
-                                       {"implicit", "trapezoidal", "explicit"})];
-  }
-  if (wear.contains("slave")) {
-    law.slave = read_double(wear, path, "slave", Range::any);
-    if (!(law.slave >= 0.0 && law.slave <= 1.0))
-      fail(ENTS_BAD_VALUE, member(path, "slave"),
-           "is " + shown(law.slave) +
-               "; it is the part of the worn depth that the slave surface loses, 0 .. 1");
-  }
-  for (const LawEntry& entry : law_entries)
-    if (entry.kind == model.law.normal && !entry.wears)
-      fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"" + std::string(entry.type) + "\"");
-  if (model.law.multiplier_is_dof())
-    fail(ENTS_BAD_VALUE, path,
-         "needs a normal law whose pressure follows from the gap; write \"penalty\", \"power\", "
-         "\"exponential\" or \"augmented\" as /contact/normal/type");
-}
-
-// Before the height is known: check_flattened() has the rest.
-void read_flattening(const json& value, const std::string& path, Model& model) {
-  check_keys(value, path, {"scale", "pressure"}, {"least"});
-  Flattening& law = model.law.flattening;
-  if (!value.at("scale").is_string())
-    fail(ENTS_BAD_VALUE, member(path, "scale"), "is no name of a parameter that scales a part of the height");
-  const double scale = read_bound_double(value.at("scale"), member(path, "scale"), Range::any,
-                                         model.parameters, law.parameter);
-  if (scale != 1.0)
-    fail(ENTS_BAD_VALUE, member(path, "scale"),
-         "is a parameter whose value is " + shown(scale) + "; write 1, the height without pressure");
-  law.pressure = read_double(value, path, "pressure", Range::positive);
-  if (value.contains("least")) law.least = read_double(value, path, "least", Range::any);
-  if (!(law.least >= 0.0 && law.least < 1.0))
-    fail(ENTS_BAD_VALUE, member(path, "least"),
-         "is " + shown(law.least) +
-             "; it is the part of the height that is left under any pressure, 0 .. < 1");
-  if (model.law.multiplier_is_dof() || model.law.wear.on)
-    fail(ENTS_BAD_VALUE, path,
-         "is not possible with " + std::string(model.law.wear.on ? "\"wear\"" : "multipliers as unknowns"));
-}
-
-void check_flattened(const Model& model) {
-  const std::uint8_t scale = model.law.flattening.parameter;
-  if (scale == 0) return;
-  bool scales = false, elsewhere = false;
-  for (const HeightNode& node : model.height.nodes())
-    for (int i = 0; i < 4; ++i)
-      if (node.kind != HeightKind::map && node.bound_to[i] == scale)
-        (node.kind == HeightKind::constant ? scales : elsewhere) = true;
-  const std::string path = "/contact/flattening/scale";
-  if (!scales || elsewhere)
-    fail(
-        ENTS_BAD_VALUE, path,
-        "has to be the \"by\" of a height {\"type\": \"scale\", \"by\": ..., \"of\": ...}, and nothing else");
-  if (model.height.nodes().size() > most_flattened_nodes)
-    fail(ENTS_BAD_VALUE, path,
-         "is of a height with more than " + std::to_string(most_flattened_nodes) + " parts");
-}
-
-void read_contact(const json& value, Model& model) {
-  const std::string path = "/contact";
-  check_keys(value, path, {"normal"}, {"friction", "symmetrised", "wear", "offset", "flattening"});
-  read_normal(value.at("normal"), member(path, "normal"), model);
-  if (value.contains("friction") && !value.at("friction").is_null())
-    read_friction(value.at("friction"), member(path, "friction"), model);
-  if (value.contains("wear") && !value.at("wear").is_null())
-    read_wear(value.at("wear"), member(path, "wear"), model);
-  if (value.contains("offset") && !value.at("offset").is_null()) {
-    model.law.has_offset = true;
-    model.law.offset = read_bound_double(value.at("offset"), member(path, "offset"), Range::any,
-                                         model.parameters, model.law_binding.offset);
-  }
-  if (value.contains("flattening") && !value.at("flattening").is_null())
-    read_flattening(value.at("flattening"), member(path, "flattening"), model);
-  if (value.contains("symmetrised"))
-    model.law.symmetrised = read_bool(value.at("symmetrised"), member(path, "symmetrised"));
-}
-
 } // namespace
 
 PatchedModel read_model(std::string_view text, const std::filesystem::path& directory,
@@ -337,7 +153,7 @@ PatchedModel read_model(std::string_view text, const std::filesystem::path& dire
     model.surface_coordinates = read_surface_coordinates(root.at("surface_coordinates"), basis, model.patch);
   }
   if (root.contains("projection")) read_projection(root.at("projection"), model);
-  if (root.contains("contact")) read_contact(root.at("contact"), model);
+  if (root.contains("contact")) read_contact(root.at("contact"), "/contact", model);
   if (root.contains("tangent")) {
     constexpr TangentKind kinds[] = {TangentKind::consistent, TangentKind::small_gap,
                                      TangentKind::first_variation};

@@ -9,6 +9,7 @@ namespace ents {
 struct KernelSet {
   ElementKernel element[2];
   FinishKernel finish[2];
+  HeatKernel heat[2];
   RestKernel rest[2];
   SurfaceKernel surface[2];
   TransferKernel transfer[2];

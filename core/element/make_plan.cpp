@@ -2,6 +2,7 @@
 #include "core/element/make_plan.hpp"
 
 #include "core/element/flattening.hpp"
+#include "core/element/heated_element.hpp"
 #include "core/element/kernel_table.hpp"
 #include "core/element/parameter_kernels.hpp"
 #include "core/model/needs.hpp"
@@ -95,12 +96,26 @@ Plan make(const Model& model, bool enriched) {
   plan.parameters = basis.parameters;
   plan.simplex = basis.simplex;
   plan.multipliers = !model.law.multiplier_is_dof() ? 0 : model.law.has_friction() ? 1 + basis.parameters : 1;
-  plan.dofs = plan.dimension * (model.rigid_master ? 1 : basis.nodes + 1) + plan.multipliers;
+  plan.rigid = model.rigid_master;
+  plan.node_dofs = plan.dimension;
+  plan.dofs = plan.dimension * (plan.rigid ? 1 : basis.nodes + 1) + plan.multipliers;
   plan.state = make_state_layout(model);
   if (enriched && model.law.flattening.parameter != 0) {
     plan.unflattened = plan.element;
     plan.element = evaluate_flattened;
     plan.block = nullptr;
+  }
+  if (model.law.heat.on) {
+    plan.law.heat.by_pressure = model.conductance_by_pressure.data();
+    plan.law.heat.pressures = static_cast<std::int32_t>(model.conductance_by_pressure.size());
+    plan.law.heat.by_gap = model.conductance_by_gap.data();
+    plan.law.heat.gaps = static_cast<std::int32_t>(model.conductance_by_gap.size());
+    plan.heat = kernels.heat[enriched];
+    plan.unheated = plan.element, plan.unheated_block = plan.block;
+    plan.element = evaluate_heated;
+    plan.block = nullptr;
+    plan.node_dofs = plan.dimension + 1;
+    plan.dofs += temperatures_of(plan);
   }
   if (plan.block)
     plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);

@@ -79,6 +79,7 @@ template <class Basis, bool Frictional, class Scalar> struct SmallResults {
         block.energy[e * block.energy_stride] =
             touches ? of_slave * (lane(force, k) * g / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
     }
+    if (wanted & (want::dissipation | want::friction_energy)) write_friction_work(plan.law, block, k, e);
     if (wanted & want::iterations)
       block.iterations[e * block.iterations_stride] = static_cast<std::int32_t>(lane(evaluations, k));
     if (wanted & (want::state | want::flags | want::age | want::slip)) write_history(plan, block, k, e);
@@ -106,6 +107,25 @@ private:
     if (!(active >> k & 1) || !(of_slave > 0.0)) return 0.0;
     return (slip >> k & 1 ? lane(limit, k) * lane(raised[a], k) : lane(scale, k) * lane(stretch[a], k)) /
            of_slave;
+  }
+
+  // What slip has dissipated, and what is stored in the elastic slip; a multiplier stores nothing
+  ENTS_INLINE void write_friction_work(const ContactLaw& law, const ElementBlock& block, int k,
+                                       std::int64_t e) const {
+    double dissipated = 0.0, stored = 0.0;
+    if constexpr (Frictional) {
+      const bool slips = slip >> k & 1;
+      if ((active >> k & 1) && law.multiplier == Multiplier::none) {
+        const double stiffness = lane(scale, k), force_left = slips ? lane(limit, k) : lane(norm, k);
+        if (slips) dissipated = slip_dissipation(lane(limit, k), lane(norm, k), stiffness);
+        if (stiffness > 0.0) stored = 0.5 * force_left * (force_left / stiffness);
+      } else if ((active >> k & 1) && slips) {
+        for (int a = 0; a < T; ++a) dissipated += lane(tangential[a], k) * lane(moved[a], k);
+      }
+    }
+    if (block.wanted & want::dissipation) block.dissipation[e * block.dissipation_stride] = dissipated;
+    if (block.wanted & want::friction_energy)
+      block.friction_energy[e * block.friction_energy_stride] = stored;
   }
 
   // Where the anchor is at the end, and how far the slave slipped: the elastic slip that is left belongs to

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "core/law/heat.hpp"
 #include "core/law/normal_kinds.hpp"
 #include "core/numbers/elementary.hpp"
 
@@ -72,6 +73,7 @@ struct ContactLaw {
   double offset = 0.0; // [L] added to the gap that the law sees: > 0 a clearance, < 0 a coating
   Wear wear;
   Flattening flattening;
+  Heat heat;
   LawRates rates;
 
   constexpr bool has_friction() const { return friction != FrictionKind::none; }

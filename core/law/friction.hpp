@@ -29,6 +29,11 @@ template <class S, int T> struct FrictionPlace {
   Truth<S> contact;
 };
 
+// What slip dissipates in an increment: the force that is left, L, times how far the anchor moves
+template <class S> ENTS_INLINE S slip_dissipation(const S& limit, const S& norm, const S& scale) {
+  return limit * ((norm - limit) / scale);
+}
+
 template <class S, int T> struct Friction {
   static constexpr int K = symmetric_size<T>;
   Truth<S> active, slip, at_shear_limit;
@@ -156,5 +161,16 @@ private:
     }
   }
 };
+
+// The same of one element: t_a times what of xi - xi_0 is slip; all of it is where a multiplier has the force.
+template <class S, int T>
+ENTS_INLINE S dissipation_of(const ContactLaw& law, const Friction<S, T>& friction) {
+  S sum(0.0);
+  if (!friction.active || !friction.slip) return sum;
+  if (law.multiplier == Multiplier::none)
+    return slip_dissipation(friction.limit, friction.norm, friction.scale);
+  for (int a = 0; a < T; ++a) sum = sum + friction.force[a] * friction.moved[a];
+  return sum;
+}
 
 } // namespace ents::ENTS_ISA

@@ -125,7 +125,11 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
       !number(model.law_binding.friction, law.friction_coefficient, 0.0) ||
       !number(model.law_binding.wear, law.wear.coefficient, 0.0) ||
       !number(model.law_binding.sliding, law.wear.sliding, 0.0) ||
-      !number(model.law_binding.offset, law.offset, -1e100))
+      !number(model.law_binding.offset, law.offset, -1e100) ||
+      !number(model.law_binding.heat_constant, law.heat.constant, 0.0) ||
+      !number(model.law_binding.heat_coefficient, law.heat.coefficient, 0.0) ||
+      !number(model.law_binding.heat_conductivity, law.heat.conductivity, 0.0) ||
+      !number(model.law_binding.heat_share, law.heat.share, 0.0))
     return Status::bad_value;
   if (const std::uint8_t scale = law.flattening.parameter; scale != 0 && values[which = scale - 1] != 1.0)
     return Status::bad_value;
@@ -160,6 +164,8 @@ Status bind(const Model& model, const Plan& of, const double* parameters, const 
   }
   plan = of;
   law.table = of.law.table, law.table_points = of.law.table_points;
+  law.heat.by_pressure = of.law.heat.by_pressure, law.heat.pressures = of.law.heat.pressures;
+  law.heat.by_gap = of.law.heat.by_gap, law.heat.gaps = of.law.heat.gaps;
   plan.law = law;
   if (plan.height) plan.height = nodes.data();
   plan.height_bound = plan.height ? height_bound(nodes.front()) : 0.0;

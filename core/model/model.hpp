@@ -37,6 +37,7 @@ struct LawBinding {
   std::uint8_t wear = 0;     // coefficient
   std::uint8_t sliding = 0;  // of wear
   std::uint8_t offset = 0;
+  std::uint8_t heat_constant = 0, heat_coefficient = 0, heat_conductivity = 0, heat_share = 0;
 };
 
 struct Model {
@@ -48,6 +49,7 @@ struct Model {
   double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
   ContactLaw law;                  // normal kind `none`: kinematics only
   std::vector<LawTable> law_table; // of a law that is a table
+  std::vector<ConductancePoint> conductance_by_pressure, conductance_by_gap; // of heat
   LawBinding law_binding;
   std::vector<NamedParameter> parameters; // in the order of their names
   std::vector<std::string> fields;

@@ -20,7 +20,8 @@ enum : std::int32_t {
   friction = 1 << 5,
   history = 1 << 6,
   multipliers = 1 << 7,
-  one_by_one = 1 << 8
+  one_by_one = 1 << 8,
+  temperatures = 1 << 9
 };
 }
 
@@ -52,7 +53,8 @@ inline std::int32_t needs_of(const Model& model, const Plan& plan) {
          if_so(!flat, need::curved) |
          if_so(enriched || !flat, need::iteration) | // SurfaceAt::closed_form, and project()
          if_so(!model.rigid_master, need::master) | if_so(law.has_friction(), need::friction) |
-         if_so(has_history(plan), need::history) | if_so(plan.multipliers > 0, need::multipliers);
+         if_so(has_history(plan), need::history) | if_so(plan.multipliers > 0, need::multipliers) |
+         if_so(plan.heat != nullptr, need::temperatures);
 }
 
 } // namespace ents

@@ -95,11 +95,27 @@ struct ProjectedElement {
 // the element kernel.
 using RestKernel = bool (*)(const Plan&, const ElementInput&, const ElementOutput&, const ProjectedElement&);
 
+// What the heat of an element depends on, and its derivatives by the dofs of the mechanics: those of the nodes,
+// then multipliers. See heat_ingredients.hpp.
+struct HeatIngredients {
+  static constexpr int most_nodes = 16, most_dofs = 3 * (1 + most_nodes) + 3;
+  bool contact, outside;
+  double area, gap, pressure;
+  double dissipation;                                   // of friction in the increment, [F L]
+  double shape[most_nodes], shape_slope[2][most_nodes]; // N_i, N_i,a
+  double gap_by[most_dofs], xi_by[2][most_dofs], pressure_by[most_dofs], dissipation_by[most_dofs];
+};
+// xi: of the projection; plan: without the dofs of temperatures
+using HeatKernel = Status (*)(const Plan&, const ElementInput&, const double* xi, HeatIngredients&);
+
 struct Plan {
   ElementKernel element;
   FinishKernel finish;
   RestKernel rest;
-  ElementKernel unflattened;          // of a model with flattening: `element` at given numbers of the height
+  ElementKernel unflattened; // of a model with flattening: `element` at given numbers of the height
+  HeatKernel heat;           // null: the law has no heat
+  ElementKernel unheated;    // of a model with heat: its mechanics, as `unheated_block`
+  BlockKernel unheated_block;
   BlockKernel block;                  // null: this model has no block kernel
   BlockKernel block_without_friction; // of the forces where the coefficient is 0; null: `block` computes them
   std::int32_t block_results;         // of `block`, bits of `want`
@@ -127,6 +143,8 @@ struct Plan {
   double hull_spread;       // of a segment over its nodes: see segment_box
   std::int32_t dimension, nodes, parameters;
   bool simplex;             // xi >= 0, sum xi <= 1
+  bool rigid;               // master: dofs of the slave alone
+  std::int32_t node_dofs;   // of a node: displacements, then with heat its temperature
   std::int32_t multipliers; // dofs after those of the nodes
   std::int32_t dofs;        // with multipliers
   StateLayout state;

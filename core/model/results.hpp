@@ -7,7 +7,7 @@
 
 // X(field, size): inputs. Sizes in numbers, of d, t (surface coordinates), m (nodes of the master), states,
 // multipliers and slave_values.
-#define ENTS_INPUT_ARRAYS(X)                                                                                 \
+#define ENTS_BLOCK_INPUT_ARRAYS(X)                                                                           \
   X(slave, d)                                                                                                \
   X(master, m* d)                                                                                            \
   X(surface_coordinates, m* t)                                                                               \
@@ -16,6 +16,11 @@
   X(state_begin, states)                                                                                     \
   X(multiplier, multipliers)                                                                                 \
   X(slave_values, slave_values)
+// Only elements with heat have these.
+#define ENTS_HEAT_INPUT_ARRAYS(X)                                                                            \
+  X(slave_temperature, 1)                                                                                    \
+  X(master_temperature, m)
+#define ENTS_INPUT_ARRAYS(X) ENTS_BLOCK_INPUT_ARRAYS(X) ENTS_HEAT_INPUT_ARRAYS(X)
 
 // X(bit of `wanted`, its name in the C ABI and here, field, type, size): results. Sizes also of all (dofs), n
 // (those of the nodes) and tangent (entries between the first and the last).
@@ -35,15 +40,19 @@
   X(15, ENTS_ITERATIONS, iterations, iterations, std::int32_t, 1)                                            \
   X(16, ENTS_TRACTION, traction, traction, double, d)                                                        \
   X(17, ENTS_SLIP, slip, slip, double, 1)                                                                    \
-  X(18, ENTS_AGE, age, age, double, 1)
+  X(18, ENTS_AGE, age, age, double, 1)                                                                       \
+  X(19, ENTS_DISSIPATION, dissipation, dissipation, double, 1)                                               \
+  X(20, ENTS_FRICTION_ENERGY, friction_energy, friction_energy, double, 1)
 // Only the element kernel has these.
 #define ENTS_VARIATION_RESULTS(X)                                                                            \
   X(5, ENTS_GAP_GRADIENT, gap_gradient, gap_gradient, double, n)                                             \
   X(6, ENTS_GAP_HESSIAN, gap_hessian, gap_hessian, double, n* n)                                             \
   X(7, ENTS_XI_GRADIENT, xi_gradient, xi_gradient, double, t* n)                                             \
   X(8, ENTS_XI_HESSIAN, xi_hessian, xi_hessian, double, t* n* n)
+// Only elements with heat have these.
+#define ENTS_HEAT_RESULTS(X) X(21, ENTS_HEAT, heat, heat, double, 2)
 #define ENTS_BLOCK_RESULTS(X) ENTS_FORCE_RESULTS(X) ENTS_OTHER_RESULTS(X)
-#define ENTS_RESULTS(X) ENTS_BLOCK_RESULTS(X) ENTS_VARIATION_RESULTS(X)
+#define ENTS_RESULTS(X) ENTS_BLOCK_RESULTS(X) ENTS_VARIATION_RESULTS(X) ENTS_HEAT_RESULTS(X)
 
 namespace ents {
 
@@ -53,11 +62,11 @@ enum : std::int32_t {
 #define ENTS_BIT(bit, public_name, name, field, type, size) name = 1 << bit,
   ENTS_RESULTS(ENTS_BIT)
 #undef ENTS_BIT
-      all = (1 << 19) - 1,
+      all = (1 << 22) - 1,
   forces = residual | tangent,
   kinematics = gap_gradient | gap_hessian | xi_gradient | xi_hessian,
-  block = all & ~kinematics, // what the kernels of many elements have
-  needs_law = energy | pressure | residual | tangent | traction | slip | age,
+  block = all & ~(kinematics | heat), // what the kernels of many elements have
+  needs_law = energy | pressure | residual | tangent | traction | slip | age | dissipation | friction_energy,
   element = needs_law | state,
 };
 } // namespace want
@@ -66,7 +75,8 @@ struct ElementInput {
 #define ENTS_ARRAY(field, size) const double* field;
   ENTS_INPUT_ARRAYS(ENTS_ARRAY) // each but slave and master or null: see ents_input
 #undef ENTS_ARRAY
-  bool start_first = false; // before the history's xi
+  bool start_first = false;    // before the history's xi
+  double time_increment = 0.0; // of heat
 };
 
 struct ElementOutput {
@@ -84,10 +94,10 @@ struct DeferredCopy; // streaming.hpp
 struct ElementBlock {
   static constexpr std::int32_t most = 64;
 #define ENTS_ARRAY(field, size) const double* field;
-  ENTS_INPUT_ARRAYS(ENTS_ARRAY)
+  ENTS_BLOCK_INPUT_ARRAYS(ENTS_ARRAY)
 #undef ENTS_ARRAY
 #define ENTS_STRIDE(field, size) std::int64_t field##_stride;
-  ENTS_INPUT_ARRAYS(ENTS_STRIDE)
+  ENTS_BLOCK_INPUT_ARRAYS(ENTS_STRIDE)
 #undef ENTS_STRIDE
   std::int32_t wanted; // of want::block
 #define ENTS_ARRAY(bit, public_name, name, field, type, size) type* field;
@@ -109,7 +119,7 @@ inline ElementBlock block_of(const ElementInput& in, const ElementOutput& out, c
                              std::int32_t wanted) {
   ElementBlock b{};
 #define ENTS_COPY(field, size) b.field = in.field;
-  ENTS_INPUT_ARRAYS(ENTS_COPY)
+  ENTS_BLOCK_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.start = start, b.start_first = in.start_first;
   b.wanted = wanted;

@@ -15,8 +15,9 @@ struct MasterMesh {
   std::int64_t segments;
   const std::int64_t* connectivity; // [segments][m]
   std::int64_t nodes;
-  const double* positions;           // [nodes][d]
-  const double* surface_coordinates; // [segments][m][T] or null
+  const double* positions;             // [nodes][d]
+  const double* surface_coordinates;   // [segments][m][T] or null
+  const double* temperature = nullptr; // [nodes] or null
 };
 
 // One segment's nodes side by side, as the kernels read them.

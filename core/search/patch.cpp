@@ -11,7 +11,7 @@ namespace ents {
 
 namespace {
 
-constexpr int most_nodes = 1 + 16, most_dofs = 3 * most_nodes;
+constexpr int most_nodes = 1 + 16, most_dofs = 3 * most_nodes, most_of_all = 4 * most_nodes + 3;
 
 // One element: which segment it is on now, and the kernel's results spread over the patch's dofs.
 class PatchElement {
@@ -55,9 +55,16 @@ public:
       if (in_contact())
         for (int t = 0; t < plan_.parameters; ++t) state_begin[StateLayout::xi_at + t] = found.at.xi[t];
     }
-    const ElementInput element = {in_.slave,      nodes.positions, nodes.surface_coordinates,
-                                  found.at.xi,    in_.area,        in_.state_begin ? state_begin : nullptr,
-                                  in_.multiplier, in_.slave_values};
+    ElementInput element = {in_.slave,      nodes.positions,  nodes.surface_coordinates,
+                            found.at.xi,    in_.area,         in_.state_begin ? state_begin : nullptr,
+                            in_.multiplier, in_.slave_values, in_.slave_temperature,
+                            nullptr};
+    double temperatures[most_nodes];
+    if (in_.master_temperature) {
+      for (int i = 0; i < plan_.nodes; ++i) temperatures[i] = in_.master_temperature[node_of(i)];
+      element.master_temperature = temperatures;
+    }
+    element.time_increment = in_.time_increment;
     if (open_) { // what it projects on from behind, ahead of a ridge, is no contact
       std::int32_t flags = 0;
       ElementOutput look{};
@@ -91,7 +98,11 @@ public:
   }
 
 private:
-  bool spreads() const { return plan_.dofs != d_ + plan_.multipliers; } // a rigid master has no dofs
+  bool spreads() const { return !plan_.rigid; } // a rigid master has no dofs
+  // Node of the patch that a node of the segment is
+  int node_of(int node) const {
+    return static_cast<int>(patch_.connectivity[static_cast<std::size_t>(segment_ * plan_.nodes + node)]);
+  }
   std::int64_t before() const { return segment_of_state(plan_, in_.state_begin); }
   // At the begin of the increment. An open slave may be over another segment by now.
   bool in_contact() const { return in_.state_begin && in_.state_begin[StateLayout::history_at] > 1.0; }
@@ -231,28 +242,32 @@ private:
     return plan_.nodes == 4 && (*first == *(last - 1) || std::adjacent_find(first, last) != last);
   }
 
-  // Dof of the patch that a dof of the kernel's element is.
-  int dof(int local) const {
-    const int nodes = plan_.dofs - plan_.multipliers;
-    if (local < d_) return local;
-    if (local >= nodes) return local - nodes + sizes_.dofs - plan_.multipliers;
-    const std::int64_t node =
-        patch_.connectivity[static_cast<std::size_t>(segment_ * plan_.nodes + local / d_ - 1)];
-    return d_ * (1 + static_cast<int>(node)) + local % d_;
+  // Dof of the patch that a dof of the kernel's element is, `own` to a node
+  int dof(int local, int own) const {
+    const int nodes = own * (1 + plan_.nodes);
+    if (local < own) return local;
+    if (local >= nodes) return local - nodes + own * (1 + patch_.nodes);
+    return own * (1 + node_of(local / own - 1)) + local % own;
   }
 
   // A row of the kernel's element to one of the patch: a node at a time
-  template <int D> void spread_row(const double* from, int n, double* to) const {
-    const int master = plan_.dofs - plan_.multipliers;
-    for (int i = 0; i < master; i += D)
-      for (int c = 0; c < D; ++c) to[places_[i] + c] = from[i + c];
+  template <int Own> void spread_row(const double* from, int n, double* to) const {
+    const int master = Own * (1 + plan_.nodes);
+    for (int i = 0; i < master; i += Own)
+      for (int c = 0; c < Own; ++c) to[places_[i] + c] = from[i + c];
     for (int i = master; i < n; ++i) to[places_[i]] = from[i];
   }
   void spread_row(const double* from, int n, double* to) const {
     if (collapsed_)
       for (int i = 0; i < n; ++i) to[places_[i]] += from[i];
+    else if (own_ == 2)
+      spread_row<2>(from, n, to);
     else
-      d_ == 2 ? spread_row<2>(from, n, to) : spread_row<3>(from, n, to);
+      own_ == 3 ? spread_row<3>(from, n, to) : spread_row<4>(from, n, to);
+  }
+  void set_places(int own, int n) {
+    own_ = own;
+    for (int i = 0; i < n; ++i) places_[i] = dof(i, own);
   }
   void spread_vector(const double* from, int n, int all, double* to) const {
     std::fill_n(to, all, 0.0);
@@ -264,9 +279,9 @@ private:
   }
 
   void spread() {
-    for (int i = 0; i < plan_.dofs; ++i) places_[i] = dof(i);
+    const int n = d_ * (1 + plan_.nodes), all = d_ * (1 + patch_.nodes), w = out_.wanted;
     collapsed_ = has_node_twice();
-    const int n = plan_.dofs - plan_.multipliers, all = sizes_.dofs - plan_.multipliers, w = out_.wanted;
+    set_places(d_, n);
     if (w & want::gap_gradient) spread_vector(gap_gradient_, n, all, out_.gap_gradient);
     if (w & want::gap_hessian) spread_matrix(gap_hessian_, n, all, all, out_.gap_hessian);
     for (int t = 0; t < plan_.parameters; ++t) {
@@ -274,6 +289,7 @@ private:
       if (w & want::xi_hessian)
         spread_matrix(xi_hessian_ + t * n * n, n, all, all, out_.xi_hessian + t * all * all);
     }
+    set_places(plan_.node_dofs, plan_.dofs);
     if (w & want::residual) spread_vector(residual_, plan_.dofs, sizes_.dofs, out_.residual);
     if (w & want::tangent)
       spread_matrix(tangent_, plan_.dofs, sizes_.dofs, out_.tangent_leading_dimension, out_.tangent);
@@ -289,19 +305,18 @@ private:
   MasterMesh mesh_;
   std::int64_t segment_ = -1;
   bool open_ = false, collapsed_ = false;
-  std::int32_t places_[most_dofs + 3]; // of dof()
+  int own_ = 0;                      // dofs of a node
+  std::int32_t places_[most_of_all]; // of dof()
   double coordinates_[most_patch_segments * 16 * 2];
   double gap_gradient_[most_dofs], gap_hessian_[most_dofs * most_dofs], xi_gradient_[2 * most_dofs],
-      xi_hessian_[2 * most_dofs * most_dofs], residual_[most_dofs + 3],
-      tangent_[(most_dofs + 3) * (most_dofs + 3)];
+      xi_hessian_[2 * most_dofs * most_dofs], residual_[most_of_all], tangent_[most_of_all * most_of_all];
 };
 
 } // namespace
 
 ElementSizes sizes_of(const Plan& plan, const Patch& patch) {
   if (patch.empty()) return {plan.nodes, plan.dofs, plan.state.size + 1};
-  const bool rigid = plan.dofs == plan.dimension + plan.multipliers;
-  return {patch.nodes, plan.dimension * (rigid ? 1 : 1 + patch.nodes) + plan.multipliers,
+  return {patch.nodes, plan.node_dofs * (plan.rigid ? 1 : 1 + patch.nodes) + plan.multipliers,
           plan.state.size + 1};
 }
 

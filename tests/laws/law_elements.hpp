@@ -19,7 +19,7 @@ using nlohmann::json;
 struct Method {
   std::string name;
   json normal, friction;
-  json wear = nullptr, offset = nullptr, flattening = nullptr;
+  json wear = nullptr, offset = nullptr, flattening = nullptr, heat = nullptr;
 };
 inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
@@ -95,11 +95,31 @@ inline std::vector<Method> methods_with_flattening() {
   }
   return all;
 }
+// Every normal law with heat: through open and closed gaps, and of friction
+inline std::vector<Method> methods_with_heat() {
+  const json heat = {{"conductance", 0.3},
+                     {"power", {{"coefficient", 2.0}, {"pressure", 5.0}, {"exponent", 0.95}}},
+                     {"table", {{"pressures", {0, 1e4}}, {"conductances", {0.5, 2e3}}}},
+                     {"clearance", {{"gaps", {0, 10}}, {"conductances", {1.5, 0}}}},
+                     {"gas", {{"conductivity", 0.1}, {"jump", 0.05}}}};
+  std::vector<Method> all;
+  std::vector<Method> laws = methods();
+  for (const Method& method : methods_with_wear())
+    if (method.name.starts_with("penalty")) laws.push_back(method);
+  for (Method method : laws) {
+    method.name += "_heat";
+    method.heat = heat;
+    if (!method.friction.is_null()) method.heat["friction"] = {{"share", 0.9}, {"slave", 0.3}};
+    all.push_back(method);
+  }
+  return all;
+}
 inline std::vector<Method> all_methods() {
   std::vector<Method> all = methods();
   for (const Method& method : methods_with_wear()) all.push_back(method);
   for (const Method& method : methods_with_offset()) all.push_back(method);
   for (const Method& method : methods_with_flattening()) all.push_back(method);
+  for (const Method& method : methods_with_heat()) all.push_back(method);
   return all;
 }
 
@@ -108,7 +128,7 @@ inline std::vector<Method> all_methods() {
 // wears, of the slave nodes.
 struct LawElements {
   mechanics::Elements at;
-  std::vector<double> state, multiplier, slave_values;
+  std::vector<double> state, multiplier, slave_values, slave_temperature, master_temperature;
   ents_layout layout{};
 };
 
@@ -167,6 +187,12 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
     for (std::size_t k = 0; k < m; ++k)
       e.multiplier[i * m + k] = k == 0 ? random.uniform(0.0, 3.0) : random.uniform(-0.5, 0.5);
   }
+  if (e.layout.heat) {
+    e.slave_temperature.resize(n);
+    e.master_temperature.resize(n * static_cast<std::size_t>(e.layout.nodes));
+    for (double& temperature : e.slave_temperature) temperature = random.uniform(0.0, 2.0);
+    for (double& temperature : e.master_temperature) temperature = random.uniform(0.0, 2.0);
+  }
   return e;
 }
 
@@ -194,6 +220,11 @@ inline ents_input input_of(const LawElements& e, const std::vector<double>& star
   in.state_begin_stride = l.state_size;
   in.multiplier = e.multiplier.data();
   in.multiplier_stride = l.multipliers;
+  if (e.layout.heat) {
+    in.slave_temperature = e.slave_temperature.data(), in.slave_temperature_stride = 1;
+    in.master_temperature = e.master_temperature.data(), in.master_temperature_stride = l.nodes;
+    in.time_increment = 0.1;
+  }
   if (!e.slave_values.empty()) in.slave_values = e.slave_values.data(), in.slave_values_stride = 3;
   return in;
 }
@@ -256,11 +287,8 @@ inline mechanics::Model model_of(const mechanics::Scene& scene, const Method& me
                                  const char* master = "deformable") {
   json text = scene.model();
   text["master"] = master;
-  text["contact"] = {{"normal", method.normal},
-                     {"friction", method.friction},
-                     {"wear", method.wear},
-                     {"offset", method.offset},
-                     {"flattening", method.flattening}};
+  text["contact"] = {{"normal", method.normal}, {"friction", method.friction},     {"wear", method.wear},
+                     {"offset", method.offset}, {"flattening", method.flattening}, {"heat", method.heat}};
   if (!method.flattening.is_null()) {
     const json none = {{"type", "constant"}, {"value", 0.01}};
     text["height"] = {

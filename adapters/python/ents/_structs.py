@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 9
+CONTRACT_MINOR = 10
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 ENDS_QUASI_CUBIC = 2
@@ -66,6 +66,7 @@ class Need(enum.IntFlag):
     HISTORY = 64
     MULTIPLIERS = 128
     ONE_BY_ONE = 256
+    TEMPERATURES = 512
 
 
 class Shared(enum.IntFlag):
@@ -77,6 +78,7 @@ class Shared(enum.IntFlag):
     MULTIPLIER = 16
     NO_STATE = 32
     SLAVE_VALUES = 64
+    TEMPERATURE = 128
 
 
 # Results of elements: bit of `wanted`, type of the numbers, shape (without sizes that are 1).
@@ -100,6 +102,9 @@ RESULTS = {
     "traction": (65536, "float64", ("d",)),
     "slip": (131072, "float64", ()),
     "age": (262144, "float64", ()),
+    "dissipation": (524288, "float64", ()),
+    "friction_energy": (1048576, "float64", ()),
+    "heat": (2097152, "float64", ("2",)),
 }
 QUANTITIES = {name: bit for name, (bit, _, _) in RESULTS.items()}
 
@@ -113,6 +118,8 @@ INPUTS = {
     "state_begin": ("state_size",),
     "multiplier": ("multipliers",),
     "slave_values": ("slave_values",),
+    "slave_temperature": (),
+    "master_temperature": ("m",),
 }
 
 # Places in the arrays of SurfaceAdmissibility.
@@ -159,6 +166,8 @@ class Layout(ctypes.Structure):
         ("fields", ctypes.c_int32),
         ("worn", ctypes.c_int32),
         ("slave_values", ctypes.c_int32),
+        ("node_dofs", ctypes.c_int32),
+        ("heat", ctypes.c_int32),
     ]
 
 
@@ -171,6 +180,7 @@ class MasterMesh(ctypes.Structure):
         ("nodes", ctypes.c_int64),
         ("positions", ctypes.c_void_p),
         ("surface_coordinates", ctypes.c_void_p),
+        ("temperature", ctypes.c_void_p),
     ]
 
 
@@ -219,6 +229,11 @@ class Input(ctypes.Structure):
         ("slave_values", ctypes.c_void_p),
         ("slave_values_stride", ctypes.c_int64),
         ("slave_begin", ctypes.c_void_p),
+        ("slave_temperature", ctypes.c_void_p),
+        ("slave_temperature_stride", ctypes.c_int64),
+        ("master_temperature", ctypes.c_void_p),
+        ("master_temperature_stride", ctypes.c_int64),
+        ("time_increment", ctypes.c_double),
     ]
 
 
@@ -267,6 +282,12 @@ class Output(ctypes.Structure):
         ("slip_stride", ctypes.c_int64),
         ("age", ctypes.c_void_p),
         ("age_stride", ctypes.c_int64),
+        ("dissipation", ctypes.c_void_p),
+        ("dissipation_stride", ctypes.c_int64),
+        ("friction_energy", ctypes.c_void_p),
+        ("friction_energy_stride", ctypes.c_int64),
+        ("heat", ctypes.c_void_p),
+        ("heat_stride", ctypes.c_int64),
     ]
 
 
