@@ -21,7 +21,8 @@ inline LawElements part(const LawElements& e, std::int64_t first, std::int64_t s
     v = std::vector<double>(v.begin() + first * each, v.begin() + (first + size) * each);
   };
   cut(p.at.slave), cut(p.at.master), cut(p.at.surface_coordinates), cut(p.at.start), cut(p.at.area),
-      cut(p.state), cut(p.multiplier), cut(p.slave_values);
+      cut(p.state), cut(p.multiplier), cut(p.slave_values), cut(p.slave_temperature),
+      cut(p.master_temperature);
   p.at.count = size;
   return p;
 }
