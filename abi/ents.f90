@@ -295,6 +295,22 @@ module ents
     real(c_double) :: peak_drop = 0
   end type ents_area
 
+  type, bind(c) :: ents_resultants
+    integer(c_int32_t) :: struct_size = 160
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: normal(3) = 0
+    real(c_double) :: tangential(3) = 0
+    real(c_double) :: moment(3) = 0
+    real(c_double) :: centre(3) = 0
+    real(c_double) :: area = 0
+    real(c_double) :: largest_pressure = 0
+    integer(c_int64_t) :: deepest = 0
+    integer(c_int64_t) :: open = 0
+    integer(c_int64_t) :: contact = 0
+    integer(c_int64_t) :: stick = 0
+    integer(c_int64_t) :: slip = 0
+  end type ents_resultants
+
   type, bind(c) :: ents_combination
     integer(c_int32_t) :: struct_size = 16 + 5*pointer_bytes
     integer(c_int32_t) :: reserved = 0
@@ -395,11 +411,12 @@ module ents
   ! Set all components of a struct to what they are at the start: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
-      init_derivatives, init_area, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, &
-      init_surface_admissibility
+      init_derivatives, init_area, init_resultants, init_combination, init_mirror, init_pose, init_system, init_surface, &
+      init_admissibility, init_surface_admissibility
   end interface ents_init
   private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_derivatives, &
-    init_area, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, init_surface_admissibility
+    init_area, init_resultants, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, &
+    init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -689,6 +706,22 @@ module ents
       integer(c_int32_t) :: status
     end function ents_contact_area
 
+    ! Resultants from the results of ents_evaluate or ents_iterate.
+    function ents_contact_resultants(dimension, count, points, normal, pressure, traction, areas, flags, about, resultants, &
+      report) result(status) bind(c, name="ents_contact_resultants")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_report, ents_resultants
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in) :: points(*), normal(*), pressure(*)
+      type(c_ptr), value :: traction
+      real(c_double), intent(in) :: areas(*)
+      integer(c_int32_t), intent(in) :: flags(*)
+      type(c_ptr), value :: about
+      type(ents_resultants), intent(inout), target :: resultants
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_contact_resultants
+
     ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
     ! with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
@@ -937,6 +970,11 @@ contains
     type(ents_area), intent(out) :: x
     x = ents_area()
   end subroutine init_area
+
+  subroutine init_resultants(x)
+    type(ents_resultants), intent(out) :: x
+    x = ents_resultants()
+  end subroutine init_resultants
 
   subroutine init_combination(x)
     type(ents_combination), intent(out) :: x

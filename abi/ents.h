@@ -693,6 +693,38 @@ ENTS_API int32_t ents_contact_area(const char *facet, int64_t facets, const int6
                                    const double *positions, double thickness, const double *gap, const double *pressure,
                                    double modulus, ents_area *area, ents_report *report);
 
+/* What a pair of surfaces carries together, as it acts on the slave side. */
+typedef struct ents_resultants {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  double normal[3];                  /* [d] sum of p A n_e, [F] */
+  double tangential[3];              /* [d] sum of - A traction, [F] */
+  double moment[3];                  /* about `about`, [F L]; 2D: the first one alone, about the axis out of the plane */
+  double centre[3];                  /* [d] centre of pressure: mean of the points, weighted with p A, [L]; `about` where nothing presses */
+  double area;                       /* areas of the points in contact, [A]: too large together, see ents_contact_area */
+  double largest_pressure;           /* [F/A] */
+  int64_t deepest;                   /* the point that has it, -1: none */
+  int64_t open, contact, stick, slip; /* points; those that stick or slip are among those in contact */
+} ents_resultants;
+
+/* Resultants from the results of ents_evaluate or ents_iterate: forces, moment, area, centre of pressure, and how many points do what.
+ *   dimension  2 or 3
+ *   count      number of points, >= 0
+ *   points     [count][d] where the slave points are, [L]
+ *   normal     [count][d] of ENTS_NORMAL; not read at points that carry no pressure
+ *   pressure   [count] of ENTS_PRESSURE, [F/A]
+ *   traction   [count][d] of ENTS_TRACTION, on the master, or null: no friction
+ *   areas      [count] [A]
+ *   flags      [count] of ENTS_FLAGS
+ *   about      [d] point of the moment, [L]; null: the origin
+ *   resultants out; zero it and set its struct_size
+ * The forces are those of pressure and traction; where a penetration is not small beside the radius of the surface, friction on the slave
+ * is larger than the traction on the master (theory.md, section 5.9), and sums of residuals are exact.
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, BAD_COUNT, BAD_VALUE (dimension), NON_FINITE (the message names array and point). Since contract 1.10. */
+ENTS_API int32_t ents_contact_resultants(int32_t dimension, int64_t count, const double *points, const double *normal,
+                                         const double *pressure, const double *traction, const double *areas, const int32_t *flags,
+                                         const double *about, ents_resultants *resultants, ents_report *report);
+
 /* ---- points inside facets, and assembly -------------------------------------------------------- */
 
 /* Points that are linear combinations of a host's nodes: sampling points inside slave facets, control points of a smoothed

@@ -30,7 +30,8 @@ class ContactResults:
     flags = _result("flags", "[points] see ents.Flag")
     segment = _result("segment", "[points] segment of a point in contact; -1: open")
     points = _result("points", "[points][d] [L] where the slave points are")
-    residual = _result("residual", "[rows] [F] internal force of the last update()")
+    residual = _result("residual", "[rows] [F] internal force of the last update(), and power that leaves the nodes")
+    heat = _result("heat", "[points][2] power through the gap, from slave to master, and made by friction; zeros without \"heat\" in the model")
     positions = property(lambda self: self._positions, doc="[nodes][d] undeformed positions [L], a copy of what was given")
     dofs = property(lambda self: self._dofs, doc="[nodes][d] equation of each displacement, -1: none")
     rows = property(lambda self: self._rows, doc="number of equations")
@@ -44,7 +45,7 @@ class ContactResults:
             if array is not None:
                 array.setflags(write=False)
         self._results: dict[str, Any] = {"gap": np.full(count, np.nan), "pressure": np.zeros(count), "traction": np.zeros((count, d)),
-                                         "flags": np.zeros(count, np.int32), "segment": np.full(count, -1, np.int64), "points": self._slave.at(self._positions)}
+                                         "flags": np.zeros(count, np.int32), "segment": np.full(count, -1, np.int64), "points": self._slave.at(self._positions), "heat": np.zeros((count, 2))}
         for array in self._results.values():
             array.setflags(write=False)
         self._results["residual"], self._matrix = np.zeros(self.rows), None
@@ -55,7 +56,8 @@ class ContactResults:
         segment, flags = result["segment"], result["flags"]
         closed = np.where(flags & Flag.CONTACT != 0, segment, -1)
         kept = {"gap": np.where(segment >= 0, result["gap"], np.nan), "pressure": result["pressure"], "flags": flags, "segment": closed, "points": points,
-                "traction": result["traction"] if "traction" in result else np.zeros(points.shape)}
+                "traction": result["traction"] if "traction" in result else np.zeros(points.shape),
+                "heat": result["heat"] if "heat" in result else np.zeros((len(points), 2))}
         for array in kept.values():
             array.setflags(write=False)
         self._results = {**kept, "residual": residual}
@@ -78,20 +80,39 @@ class ContactResults:
             self._matrix.has_canonical_format = True
         return self._matrix
 
-    @property
-    def energy(self) -> float:
-        """[F L] of the last update(): its derivative by u is the residual where there is no friction; a line search may use it. A
-        frictional point adds the energy of its normal law and of its elastic slip."""
-        if self._pending is None:
-            return 0.0
+    def _more(self) -> dict[str, np.ndarray]:
+        """Results of the last update() that few callers want: of the points that are assembled."""
         if self._energy is None:
             numbers = self._assembly[0]
             of = lambda array: None if array is None else np.ascontiguousarray(array[numbers])
-            found = self.model.iterate(of(self.points), self.tree, self.reach, of(self._searched[0]), of(self._searched[1]), "energy",
-                                       positions_begin=None if self.rigid else self._tree_begin, area=of(self.areas), state=of(self._state_begin),
-                                       slave_values=of(self._slave_values), permitted=Flag.LEFT | Flag.BEHIND_EDGE)
-            self._energy = float(found["energy"].sum())
+            self._energy = self.model.iterate(of(self.points), self.tree, self.reach, of(self._searched[0]), of(self._searched[1]),
+                                              "energy normal" + (" dissipation friction_energy" if self.model.layout.friction else ""),
+                                              positions_begin=None if self.rigid else self._tree_begin, area=of(self.areas), state=of(self._state_begin),
+                                              slave_values=of(self._slave_values), permitted=Flag.LEFT | Flag.BEHIND_EDGE)
         return self._energy
+
+    @property
+    def energy(self) -> float:
+        """[F L] of the normal law in the last update(): its derivative by u is the residual where there is no friction; a line search may use it."""
+        return 0.0 if self._pending is None else float(self._more()["energy"].sum())
+
+    @property
+    def energies(self) -> dict[str, float]:
+        """[F L] in the last update(): "normal", stored in the normal law; "elastic_slip", stored in friction; "dissipated" by friction since the last
+        commit() (the force of the end on the slip of the increment, backward Euler)."""
+        if self._pending is None:
+            return {"normal": 0.0, "elastic_slip": 0.0, "dissipated": 0.0}
+        found = self._more()
+        return {name: float(found[of].sum()) if of in found else 0.0
+                for name, of in (("normal", "energy"), ("elastic_slip", "friction_energy"), ("dissipated", "dissipation"))}
+
+    def resultants(self, about: Any = None) -> dict[str, Any]:
+        """What the pair carries in the last update(), as it acts on the slave side: see Library.contact_resultants. about [d]: point of the moment."""
+        numbers = np.arange(len(self.areas)) if self._pending is None else self._assembly[0]
+        of = lambda array: np.ascontiguousarray(array[numbers])
+        normal = np.zeros((len(numbers), self._positions.shape[1])) if self._pending is None else self._more()["normal"]
+        return self.model.library.contact_resultants(of(self.points), normal, of(self.pressure), of(self.areas), of(self.flags),
+                                                     of(self.traction) if self.model.layout.friction else None, about)
 
     def contact_area(self, modulus: float = 0.0, thickness: float = 1.0) -> dict[str, float]:
         """Area in contact and peak pressure with estimates of their errors, see Library.contact_area; modulus: E / (1 - nu^2). For slave points

@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _combination, _count, _new
-from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Status
+from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Resultants, Status
 
 Combined = Tuple[np.ndarray, ...]  # begin, nodes, weights; with planes of symmetry also reflected, shifts
 FACET_NODES = {"line2": 2, "line3": 3, "tri3": 3, "tri6": 6, "quad4": 4, "quad8": 8, "quad9": 9}
@@ -148,6 +148,25 @@ class Library:
         self.call("contact_area", facet.encode(), len(connectivity), connectivity, len(positions), positions, float(thickness), gap, pressure,
                   float(modulus), area, positive=Error)
         return {name: getattr(area, name) for name, _ in Area._fields_[2:]}
+
+    def contact_resultants(self, points: Any, normal: Any, pressure: Any, areas: Any, flags: Any, traction: Any = None, about: Any = None) -> dict[str, Any]:
+        """What a pair carries, as it acts on the slave side, from results of its points: points, normal, traction (on the master; None: no friction) [n][d],
+        pressure, areas, flags [n]; about [d]: point of the moment, default the origin. A dict with normal, tangential, centre [d], moment (2D: a
+        number, 3D: [3]), area, largest_pressure, deepest (the point that has it, -1: none), open, contact, stick, slip (points)."""
+        points = _array("points", points, (None, None))
+        n, d = points.shape
+        normal = _array("normal", normal, (n, d))
+        traction = None if traction is None else _array("traction", traction, (n, d))
+        pressure, areas = (_array(name, array, (n,)) for name, array in (("pressure", pressure), ("areas", areas)))
+        about = None if about is None else _array("about", about, (d,))
+        flags = np.ascontiguousarray(_array("flags", flags, (n,), np.int64), np.int32)
+        found = _new(Resultants)
+        self.call("contact_resultants", d, n, points, normal, pressure, traction, areas, flags, about, found, positive=Error)
+        result: dict[str, Any] = {name: getattr(found, name) for name, _ in Resultants._fields_[2:]}
+        for name in ("normal", "tangential", "centre"):
+            result[name] = np.array(result[name][:d])
+        result["moment"] = result["moment"][0] if d == 2 else np.array(result["moment"])
+        return result
 
     def sampling_points(self, facet: str, per_direction: int, connectivity: Any, positions: Any, thickness: float = 1.0) -> tuple[Combined, np.ndarray]:
         """Points inside slave facets, that see a texture between the nodes: combinations of the nodes (begin [points + 1], nodes, weights), as of

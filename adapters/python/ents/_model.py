@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ._system import System
 
 SHARED = {"area": Shared.AREA, "state_begin": Shared.STATE, "multiplier": Shared.MULTIPLIER,
-          "slave_values": Shared.SLAVE_VALUES}
+          "slave_values": Shared.SLAVE_VALUES, "slave_temperature": Shared.TEMPERATURE}
 
 
 def _json(model):
@@ -142,7 +142,7 @@ class Model(Varying):
     def _shape(self, extents):
         """Shape of an array of one element, from its extents in ents.h."""
         lay = self.layout
-        sizes = {"d": lay.dimension, "d-1": lay.parameters, "m": lay.nodes, "n": lay.dofs - lay.multipliers, "dofs": lay.dofs,
+        sizes = {"d": lay.dimension, "d-1": lay.parameters, "m": lay.nodes, "n": lay.dimension * ((lay.dofs - lay.multipliers) // lay.node_dofs), "dofs": lay.dofs,
                  "tangent_leading_dimension": lay.dofs, "state_size": lay.state_size, "multipliers": lay.multipliers,
                  "slave_values": lay.slave_values}
         return tuple(sizes[extent] if extent in sizes else int(extent) for extent in extents)
@@ -177,13 +177,15 @@ class Model(Varying):
 
     def evaluate(self, slave: Any, master: Any = None, want: Union[str, list] = "residual tangent", *, tree: Optional[Tree] = None, segment: Any = None,
                  surface_coordinates: Any = None, start: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
-                 slave_values: Any = None, first: int = 0, count: Optional[int] = None, out: Optional[dict] = None) -> dict[str, Any]:
+                 slave_values: Any = None, slave_temperature: Any = None, master_temperature: Any = None, time_increment: float = 0.0, first: int = 0,
+                 count: Optional[int] = None, out: Optional[dict] = None) -> dict[str, Any]:
         """Contact elements, one slave node and one segment each.
 
         slave      [n][d]; master [n][m][d], or [m][d]: the same for all. Or `tree` (Tree) and `segment` [n] (never -1) of its detect
         want       names of QUANTITIES, as one string or a list
         surface_coordinates [m][d-1], start [d-1], area [], state [state_size] (begin of the increment), multiplier [multipliers],
         slave_values [3] (gap offset [L], factors of the wear coefficient and of "sliding"; with a normal law "table" [4], the last one its scale): one for all, or with a leading [n]. A number for start, state or multiplier is that of all their entries
+        slave_temperature [], master_temperature [m] (with `tree`: tree.set_temperature), time_increment: of a model with "heat"
         first, count  evaluates a range of the n (threads that share `out`)
         out        the result of a former call with the same n and `want`, filled again; new arrays else
 
@@ -192,7 +194,9 @@ class Model(Varying):
         """
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, start=start, area=area,
-                                   state_begin=state, multiplier=multiplier, slave_values=slave_values)
+                                   state_begin=state, multiplier=multiplier, slave_values=slave_values, slave_temperature=slave_temperature,
+                                   master_temperature=master_temperature)
+        block.time_increment = time_increment
         result, block_out = self._output(len(slave), want, out)
         first = _count("first", first, 0, len(slave))
         count = len(slave) - first if count is None else _count("count", count, 0, len(slave) - first)
@@ -201,13 +205,15 @@ class Model(Varying):
         return result
 
     def assemble(self, system: System, slave: Any, tree: Tree, segment: Any, want: Union[str, list] = "", *, start: Any = None, area: Any = None,
-                 state: Any = None, multiplier: Any = None, slave_values: Any = None) -> dict[str, Any]:
+                 state: Any = None, multiplier: Any = None, slave_values: Any = None, slave_temperature: Any = None,
+                 time_increment: float = 0.0) -> dict[str, Any]:
         """Residual and tangent are added to `system` (System), by the library. slave [n][d]: positions of the slave points; tree and segment [n]
         as detect gives them (-1: open); the rest as for evaluate. Returns what evaluate does, for all n elements. After an error or a
         recoverable status the system holds a part of the sum."""
         slave = _array("slave", slave, (None, self.layout.dimension))
         given, block = self._input(slave, tree, segment, start=start, area=area, state_begin=state, multiplier=multiplier,
-                                   slave_values=slave_values)
+                                   slave_values=slave_values, slave_temperature=slave_temperature)
+        block.time_increment = time_increment
         result, block_out = self._output(len(slave), want, None)
         report = self._call("assemble", 0, len(slave), block, block_out, system._struct(self, tree, len(slave)), positive=None)
         result.update(step_factor=report.step_factor, message=report.message.decode())
@@ -215,7 +221,8 @@ class Model(Varying):
 
     def iterate(self, slave: Any, tree: Tree, reach: float, segment: Any = None, xi: Any = None, want: Union[str, list] = "", *,
                 system: Optional[System] = None, positions_begin: Any = None, slave_begin: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
-                slave_values: Any = None, slave_normal: Any = None, permitted: int = 0) -> dict[str, Any]:
+                slave_values: Any = None, slave_temperature: Any = None, time_increment: float = 0.0, slave_normal: Any = None,
+                permitted: int = 0) -> dict[str, Any]:
         """Contact of one Newton iteration in one call: `tree.detect`, states moved to the segments that were found, and `assemble` into
         `system` (None: results only).
 
@@ -229,7 +236,9 @@ class Model(Varying):
         slave = _array("slave", slave, (None, self.layout.dimension))
         n, d = len(slave), self.layout.dimension
         self._own_tree(tree)
-        given, block = self._input(slave, None, None, area=area, state_begin=state, multiplier=multiplier, slave_values=slave_values)
+        given, block = self._input(slave, None, None, area=area, state_begin=state, multiplier=multiplier, slave_values=slave_values,
+                                   slave_temperature=slave_temperature)
+        block.time_increment = time_increment
         block.slave, block.slave_stride = None, 0  # the detection has them
         if positions_begin is not None:
             given["begin"] = _array("positions_begin", positions_begin, tree.positions.shape)
@@ -323,10 +332,10 @@ class Model(Varying):
         per_element = lambda name, value: np.ndim(value) > len(self._shape(INPUTS[{"state": "state_begin"}.get(name, name)]))
         own = {name: np.asarray(value)[closed] if per_element(name, value) else value for name, value in inputs.items()}
         result = self.evaluate(slave[closed], None, f"residual tangent {want}", tree=tree, segment=segment[closed], **own)
-        parts = [_array("slave_equations", slave_equations, (len(slave), lay.dimension), np.int64)[closed]]
-        if lay.dofs - lay.multipliers > lay.dimension:
-            of_nodes = _array("master_equations", master_equations, (tree.mesh.nodes, lay.dimension), np.int64)
-            parts.append(of_nodes[tree.connectivity[segment[closed]]].reshape(len(closed), lay.nodes * lay.dimension))
+        parts = [_array("slave_equations", slave_equations, (len(slave), lay.node_dofs), np.int64)[closed]]
+        if lay.dofs - lay.multipliers > lay.node_dofs:
+            of_nodes = _array("master_equations", master_equations, (tree.mesh.nodes, lay.node_dofs), np.int64)
+            parts.append(of_nodes[tree.connectivity[segment[closed]]].reshape(len(closed), lay.nodes * lay.node_dofs))
         if lay.multipliers:
             parts.append(_array("multiplier_equations", multiplier_equations, (len(slave), lay.multipliers), np.int64)[closed])
         equations = np.concatenate(parts, axis=1)

@@ -17,7 +17,7 @@ from ._system import System
 class Rows:
     """Compressed rows with a place for every pair of a slave point and a segment that has been in contact. They grow when another pair closes.
 
-    dofs    [nodes][d] equation of each displacement, -1: none
+    dofs    [nodes][node_dofs] equation of each displacement (and temperature), -1: none
     slave   csr_matrix [points][nodes]: slave points as combinations of nodes; `of_nodes` [points] where each is a node, else None
     master  csr_matrix [nodes of segments][nodes], or None: a rigid master; `smoothed`: its rows are no unit vectors
     beside  [segments][k] neighbours of each segment, -1: none; they get places, too, before a point slides there
@@ -45,7 +45,8 @@ class Rows:
         if not wants_tangent:
             return found
         result = found[0]
-        closed = np.flatnonzero((result["flags"] & Flag.CONTACT != 0) & (result["status"] == 0))
+        adds = result["segment"] >= 0 if self.model.layout.heat else result["flags"] & Flag.CONTACT != 0  # open gaps conduct
+        closed = np.flatnonzero(adds & (result["status"] == 0))
         if not len(closed) or result["status"].any():
             return (*found[:2], (np.zeros(len(self._columns)), self._columns, self._begin))
         self._grow(closed, result["segment"][closed])

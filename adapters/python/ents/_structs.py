@@ -318,6 +318,24 @@ class Area(ctypes.Structure):
     ]
 
 
+class Resultants(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("normal", ctypes.c_double * 3),
+        ("tangential", ctypes.c_double * 3),
+        ("moment", ctypes.c_double * 3),
+        ("centre", ctypes.c_double * 3),
+        ("area", ctypes.c_double),
+        ("largest_pressure", ctypes.c_double),
+        ("deepest", ctypes.c_int64),
+        ("open", ctypes.c_int64),
+        ("contact", ctypes.c_int64),
+        ("stick", ctypes.c_int64),
+        ("slip", ctypes.c_int64),
+    ]
+
+
 class Combination(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_int32),
@@ -439,6 +457,7 @@ STRUCTS = {
     "ents_output": Output,
     "ents_derivatives": Derivatives,
     "ents_area": Area,
+    "ents_resultants": Resultants,
     "ents_combination": Combination,
     "ents_mirror": Mirror,
     "ents_pose": Pose,
@@ -475,6 +494,7 @@ FUNCTIONS = {
     "ents_parameter_derivatives": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_tributary_areas": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_contact_area": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_contact_resultants": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_combine": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),

@@ -42,6 +42,11 @@ class Tree:
         """[nodes][d], current; cannot be written to: call move(positions)."""
         return _frozen(self._positions.view())
 
+    def set_temperature(self, temperature: Any) -> None:
+        """Temperatures [nodes], for a model with "heat"."""
+        self._temperature = _array("temperature", temperature, (len(self._positions),)).copy()
+        self.mesh.temperature = self._temperature.ctypes.data
+
     def __repr__(self) -> str:
         return f"<ents.Tree: {len(self._connectivity)} {self.model.segment} segments over {len(self._positions)} nodes>"
 

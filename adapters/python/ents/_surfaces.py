@@ -126,6 +126,10 @@ class MasterSurface:
         """[points][d] of the segments at the positions `now` [nodes][d]."""
         return self.matrix @ self._images.with_images(now) if self.smoothed else now
 
+    def scalars(self, of_nodes: np.ndarray) -> np.ndarray:
+        """[points] of numbers [nodes] that have no direction."""
+        return self.matrix @ np.r_[of_nodes, of_nodes[self._images.source]] if self.smoothed else of_nodes
+
     def beside(self) -> np.ndarray:
         """[segments][2] the next segments along a line, -1: none. Of surfaces none: they would make matrices three times as large."""
         groups = self.groups
@@ -218,7 +222,8 @@ class _Images:
             return dofs, rows
         import scipy.sparse as sparse
         images = dofs[self.source].copy()
-        across = (self._sign < 0) & (images >= 0)
+        sign = np.hstack([self._sign, np.ones((len(images), images.shape[1] - self._sign.shape[1]))])  # a temperature has none
+        across = (sign < 0) & (images >= 0)
         turned = images[across]
         images[across] = rows + np.arange(len(turned))
         self._condense = sparse.vstack([sparse.identity(rows), sparse.csr_matrix((-np.ones(len(turned)), (np.arange(len(turned)), turned)), (len(turned), rows))], "csr")

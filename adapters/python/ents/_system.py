@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class System:
     """The equations of a host, which Model.assemble adds to.
 
-    slave_equations  [nodes][d] row of each dof, -1: prescribed, left out; master_equations the same of the master's nodes (None: a rigid master)
+    slave_equations  [nodes][node_dofs] row of each dof, -1: prescribed, left out; master_equations the same of the master's nodes (None: a rigid master)
     matrix           compressed rows with sorted columns that has a place for every entry: scipy.sparse.csr_matrix, or what has its indptr,
                      indices and data; None: no tangent is wanted
     rows             number of rows, if there is no matrix
@@ -60,11 +60,11 @@ class System:
                    rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
         if slave is None and len(self.slave_equations) < elements:
             raise Error(Status.BAD_COUNT, f"slave_equations: {len(self.slave_equations)} nodes; there are {elements} slave points")
-        if self.slave_equations.shape[1] != lay.dimension:
-            raise Error(Status.BAD_COUNT, f"slave_equations: wanted are {lay.dimension} of each node")
+        if self.slave_equations.shape[1] != lay.node_dofs:
+            raise Error(Status.BAD_COUNT, f"slave_equations: wanted are {lay.node_dofs} of each node")
         if self.master_equations is not None:
-            if self.master_equations.shape[1] != lay.dimension:
-                raise Error(Status.BAD_COUNT, f"master_equations: wanted are {lay.dimension} of each node")
+            if self.master_equations.shape[1] != lay.node_dofs:
+                raise Error(Status.BAD_COUNT, f"master_equations: wanted are {lay.node_dofs} of each node")
             out.master_nodes, out.master_equations = len(self.master_equations), self.master_equations.ctypes.data
         if lay.multipliers and self.multiplier_equations is not None:
             _array("multiplier_equations", self.multiplier_equations, (elements, lay.multipliers), np.int64)
@@ -90,7 +90,7 @@ class System:
         if len(begin) != len(self.residual) + 1 or begin[-1] > len(columns):
             raise Error(Status.BAD_COUNT, f"matrix: indptr and indices are not those of {len(self.residual)} rows, which the residual has")
         if slave is None and master is None:  # remembers where the entries of each element are
-            size = lay.dimension * (lay.nodes + 1) ** 2 + 1
+            size = lay.node_dofs * (lay.nodes + 1) ** 2 + 1
             of = begin, columns, tree, self.slave_equations, self.master_equations  # kept: another object is never at the same address
             if self._places is None or self._places.shape != (elements, size) or any(a is not b for a, b in zip(of, self._places_of)):
                 self._places, self._places_of = np.zeros((elements, size), np.int64), of

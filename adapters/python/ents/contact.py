@@ -18,6 +18,7 @@ from ._side_pairs import SidePairs, warn_of_deep
 from ._structs import ENDS_STRAIGHT, Flag, Status
 from ._surface import Tree
 from ._surfaces import MasterSurface, SlavePoints
+from ._temperatures import Temperatures
 
 if TYPE_CHECKING:
     import scipy.sparse
@@ -50,7 +51,7 @@ class Contact(ContactResults):
     def __init__(self, model: Union[Model, dict, str, os.PathLike], positions: Any, slave: Any, master: Any, *, master_positions: Any = None,
                  dofs: Any = None, rows: Optional[int] = None, reach: Optional[float] = None, thickness: float = 1.0, sampling: Optional[int] = None,
                  surface_coordinates: Any = None, offset: Any = None, elements: Any = None, ends: int = ENDS_STRAIGHT, leave: bool = False,
-                 mirror: Sequence = (), order: str = "ring") -> None:
+                 mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None) -> None:
         """Slave points on the facets `slave` against the facets `master`.
 
         model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
@@ -63,7 +64,8 @@ class Contact(ContactResults):
         master     the same of the master surface: its normal points out of its body, at the slave. Triangles among quadrilaterals are segments
                    "quad4" with a doubled node
         master_positions     [nodes][d]: the master is no part of the mesh; `master` counts these nodes, and the model is "master": "rigid". See move()
-        dofs       [nodes][d] equation of each displacement, -1: none; default: d * node + component
+        dofs       [nodes][d] equation of each displacement, -1: none; default: d * node + component. A model with "heat" has a temperature beside them,
+                   [nodes][d + 1]; default: (d + 1) * node + component
         rows       number of equations; default: the largest of dofs and one
         reach      [L] a slave point is searched for up to this distance from the master, on both sides; deeper points are errors.
                    Default: the longest edge of both surfaces
@@ -78,6 +80,8 @@ class Contact(ContactResults):
         ends       smoothed masters: ENDS_STRAIGHT, ENDS_REPEATED, ENDS_QUASI_CUBIC or ENDS_QUASI_PARABOLIC, see ents.h; core/README.md: which when
         leave      True: a slave point in contact that is pushed over the end of the master is open from there on; False: CutStep
         mirror     smoothed masters: planes of symmetry, [("x", 0.0), ...], at which the surface goes on as its mirror image does
+        temperature  of a model with "heat": a number or [nodes], the temperatures at u = 0, to which those of u are added; default: 0
+        master_temperature   the same of the nodes of master_positions
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
 
         Errors (ents.Error, with what to write): facets that are on both sides (a surface in contact with itself), that name a node twice, that do not
@@ -89,13 +93,13 @@ class Contact(ContactResults):
         d = model.layout.dimension
         _refuse_models(model)
         self._positions = _frozen(_array("positions", positions, (None, d)).copy())
-        nodes = len(self._positions)
-        self._dofs = _frozen(np.arange(d * nodes).reshape(nodes, d) if dofs is None else _array("dofs", dofs, (nodes, d), np.int64).copy())
+        nodes, own = len(self._positions), model.layout.node_dofs
+        self._dofs = _frozen(np.arange(own * nodes).reshape(nodes, own) if dofs is None else _array("dofs", dofs, (nodes, own), np.int64).copy())
         self._rows = _count("rows", int(self._dofs.max(initial=-1)) + 1 if rows is None else rows)
         if self._dofs.max(initial=-1) >= self._rows or self._dofs.min(initial=-1) < -1:
             raise Error(Status.BAD_VALUE, f"dofs: from {self._dofs.min()} to {self._dofs.max()}; there are {self._rows} rows, from 0, and -1 for none")
         self._own = None if master_positions is None else _array("master_positions", master_positions, (None, d)).copy()
-        self.rigid = model.layout.dofs == d
+        self.rigid = model.layout.dofs == own
         if self._own is not None and not self.rigid:
             raise Error(Status.BAD_VALUE, 'master_positions: a master that is no part of the mesh cannot deform; write "master": "rigid" in the model')
         if order not in ("ring", "tensor"):
@@ -104,6 +108,7 @@ class Contact(ContactResults):
             if array is not None and not np.isfinite(array).all():
                 raise Error(Status.NON_FINITE, f"{name}{np.argwhere(~np.isfinite(array))[0].tolist()} is not finite")
 
+        self._heat = Temperatures(model, nodes, temperature, None if self._own is None else len(self._own), master_temperature)
         self._slave = points = SlavePoints(model, self._positions, slave, sampling, thickness, order)
         self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order)
         self._pairs = SidePairs(points, self._master, self._positions, self._own is None)
@@ -151,10 +156,12 @@ class Contact(ContactResults):
             raise Error(Status.NON_FINITE, f"master_positions{np.argwhere(~np.isfinite(own))[0].tolist()} is not finite")
         self._own = own.copy()
 
-    def update(self, u: Any, tangent: bool = True) -> tuple[np.ndarray, Optional[scipy.sparse.csr_matrix]]:
-        """Search and assemble at the displacements u: [rows], or [nodes][d] where some are no unknowns. Returns residual [rows] (internal force,
-        to be added to that of the bodies) and tangent (csr_matrix; None with tangent=False, as for the trial steps of a line search).
+    def update(self, u: Any, tangent: bool = True, time_increment: Optional[float] = None) -> tuple[np.ndarray, Optional[scipy.sparse.csr_matrix]]:
+        """Search and assemble at the displacements (and temperatures) u: [rows], or [nodes][d or d + 1] where some are no unknowns. Returns residual
+        [rows] (internal force, and power that leaves the nodes, to be added to those of the bodies) and tangent (csr_matrix; None with
+        tangent=False, as for the trial steps of a line search). time_increment: since the last commit(), where friction heats.
         CutStep: take a smaller step from the last commit(); nothing has changed. Error: a mistake."""
+        self._heat.take(time_increment)
         if self._points_begin is None:
             self._begin()
         try:
@@ -172,6 +179,7 @@ class Contact(ContactResults):
     def _begin(self) -> None:
         """The first increment begins in the undeformed configuration: a point that touches there has its friction from there on."""
         self.tree.move(self._tree_begin)
+        self._heat.move(np.zeros(len(self._positions)), self._master, self.tree)
         self._pairs.now = self._positions
         points = self._slave.at(self._positions)
         self._judge(points)
@@ -192,14 +200,16 @@ class Contact(ContactResults):
     def _moved(self, u: Any) -> np.ndarray:
         """Positions [nodes][d] at the displacements u."""
         given = _array("u", u, (None,) * np.ndim(u))
-        if given.shape not in ((self.rows,), self._positions.shape):
-            raise Error(Status.BAD_COUNT, f"u: the shape is {given.shape}, wanted is ({self.rows},) or {self._positions.shape}")
+        if given.shape not in ((self.rows,), self._dofs.shape):
+            raise Error(Status.BAD_COUNT, f"u: the shape is {given.shape}, wanted is ({self.rows},) or {self._dofs.shape}")
         if not np.isfinite(given).all():
             place = np.argwhere(~np.isfinite(given))[0].tolist()
             raise CutStep(Status.NON_FINITE, f"u{place} is {given[tuple(place)]}: a singular matrix, or a step that was much too large?")
-        if given.shape == (self.rows,) and given.shape != self._positions.shape:
+        if given.shape == (self.rows,) and given.shape != self._dofs.shape:
             given = np.where(self._dofs >= 0, given[self._dofs], 0.0) if self.rows else np.zeros(self._dofs.shape)
-        return self._positions + given
+        d = self._positions.shape[1]
+        self._heat.move(given[:, -1], self._master, self.tree)
+        return self._positions + given[:, :d]
 
     def _move_tree(self, now: np.ndarray) -> None:
         try:
@@ -234,8 +244,8 @@ class Contact(ContactResults):
                                            None if self.rigid else self._master.matrix, self._master.smoothed, self._master.beside())
         of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
         found, residual, matrix = self._assembly[1].add(
-            tangent, slave=of(points), reach=self.reach, segment=of(self._hint), xi=of(self._xi), want="state_end gap pressure flags" + (
-                " traction" if self.model.layout.friction else ""), positions_begin=self._tree_begin,
+            tangent, **self._heat.inputs(self._slave, of), slave=of(points), reach=self.reach, segment=of(self._hint), xi=of(self._xi),
+            want="state_end gap pressure flags" + (" traction" if self.model.layout.friction else "") + (" heat" if self._heat.on else ""), positions_begin=self._tree_begin,
             slave_begin=None if self._points_begin is None else of(self._points_begin), area=of(self.areas),
             state=of(self._state_begin), slave_values=of(self._slave_values), slave_normal=of(self._pairs.normals()), permitted=LOST)
         residual, matrix = self._master.condensed(residual, matrix)
