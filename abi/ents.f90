@@ -311,6 +311,14 @@ module ents
     integer(c_int64_t) :: slip = 0
   end type ents_resultants
 
+  type, bind(c) :: ents_suggestion
+    integer(c_int32_t) :: struct_size = 32
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: normal_stiffness = 0
+    real(c_double) :: tangential_stiffness = 0
+    real(c_double) :: time_step = 0
+  end type ents_suggestion
+
   type, bind(c) :: ents_combination
     integer(c_int32_t) :: struct_size = 16 + 5*pointer_bytes
     integer(c_int32_t) :: reserved = 0
@@ -411,12 +419,12 @@ module ents
   ! Set all components of a struct to what they are at the start: call ents_init(input).
   interface ents_init
     module procedure init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, &
-      init_derivatives, init_area, init_resultants, init_combination, init_mirror, init_pose, init_system, init_surface, &
-      init_admissibility, init_surface_admissibility
+      init_derivatives, init_area, init_resultants, init_suggestion, init_combination, init_mirror, init_pose, init_system, &
+      init_surface, init_admissibility, init_surface_admissibility
   end interface ents_init
   private :: init_report, init_data, init_layout, init_master_mesh, init_detection, init_input, init_output, init_derivatives, &
-    init_area, init_resultants, init_combination, init_mirror, init_pose, init_system, init_surface, init_admissibility, &
-    init_surface_admissibility
+    init_area, init_resultants, init_suggestion, init_combination, init_mirror, init_pose, init_system, init_surface, &
+    init_admissibility, init_surface_admissibility
 
   ! A C text as a Fortran one: ents_string(ents_status_text(status)), ents_string(report%message).
   interface ents_string
@@ -722,6 +730,16 @@ module ents
       integer(c_int32_t) :: status
     end function ents_contact_resultants
 
+    ! Stiffness of a penalty from the bodies and the mesh, and the critical time step of an explicit host.
+    function ents_suggest(modulus, spacing, area, slave_mass, master_mass, suggestion, report) result(status) &
+      bind(c, name="ents_suggest")
+      import :: c_double, c_int32_t, ents_report, ents_suggestion
+      real(c_double), value :: modulus, spacing, area, slave_mass, master_mass
+      type(ents_suggestion), intent(inout), target :: suggestion
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_suggest
+
     ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
     ! with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
@@ -975,6 +993,11 @@ contains
     type(ents_resultants), intent(out) :: x
     x = ents_resultants()
   end subroutine init_resultants
+
+  subroutine init_suggestion(x)
+    type(ents_suggestion), intent(out) :: x
+    x = ents_suggestion()
+  end subroutine init_suggestion
 
   subroutine init_combination(x)
     type(ents_combination), intent(out) :: x

@@ -725,6 +725,27 @@ ENTS_API int32_t ents_contact_resultants(int32_t dimension, int64_t count, const
                                          const double *pressure, const double *traction, const double *areas, const int32_t *flags,
                                          const double *about, ents_resultants *resultants, ents_report *report);
 
+/* Numbers to begin with. */
+typedef struct ents_suggestion {
+  int32_t struct_size;
+  int32_t reserved;                  /* 0 */
+  double normal_stiffness;           /* of the penalty, [F/L^3]: 30 modulus / spacing. Residual penetrations are then about 1 % of the deformation over
+                                        one spacing, and Newton's iteration still converges: see "Penalty" in abi/README.md */
+  double tangential_stiffness;       /* of friction, [F/L^3]: the same */
+  double time_step;                  /* of central differences that a slave node and what it presses on stay below with this stiffness: 2 / omega,
+                                        omega^2 = stiffness area (1 / slave_mass + 1 / master_mass); 0 without a mass. The bodies have limits of their own */
+} ents_suggestion;
+
+/* Stiffness of a penalty from the bodies and the mesh, and the critical time step of an explicit host.
+ *   modulus      Young's modulus of the softer body, [F/L^2], > 0
+ *   spacing      distance of the slave points, [L], > 0
+ *   area         tributary area of a slave point, [A]; only read with masses
+ *   slave_mass, master_mass  of a slave point, and of the master there (1 / sum of N_i^2 / m_i), [F T^2 / L]; 0: slave: no time step is asked for; master: rigid
+ *   suggestion   out; zero it and set its struct_size
+ * Errors: NULL_ARGUMENT, STRUCT_SIZE, NON_FINITE, BAD_VALUE (the message names the argument). Since contract 1.10. */
+ENTS_API int32_t ents_suggest(double modulus, double spacing, double area, double slave_mass, double master_mass,
+                              ents_suggestion *suggestion, ents_report *report);
+
 /* ---- points inside facets, and assembly -------------------------------------------------------- */
 
 /* Points that are linear combinations of a host's nodes: sampling points inside slave facets, control points of a smoothed

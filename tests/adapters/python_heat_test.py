@@ -180,6 +180,22 @@ class Heat(unittest.TestCase):
         self.assertLess(abs(got["centre"][0] - 0.5 - got["moment"] / got["normal"][1]), 1e-3)
         self.assertGreater(bars.contact.energies["elastic_slip"], 0.0)
 
+    def test_suggested_numbers(self):
+        # two masses on a spring: central differences are stable up to the suggested step, and not beyond it
+        got = ents.library().suggest(200.0, 0.5, 2.0, 3.0, 5.0)
+        self.assertEqual(got["normal_stiffness"], 30 * 200 / 0.5)
+        self.assertEqual(got["tangential_stiffness"], got["normal_stiffness"])
+        for factor, bounded in ((0.99, True), (1.01, False)):
+            dt, x, before = factor * got["time_step"], np.array([1.0, 0.0]), np.array([1.0, 0.0])
+            for _ in range(2000):
+                force = 2.0 * got["normal_stiffness"] * (x[1] - x[0])
+                x, before = 2 * x - before + dt ** 2 * np.array([force / 3.0, -force / 5.0]), x
+            self.assertEqual(bool(np.abs(x[0] - x[1]) < 1e3), bounded)
+        self.assertEqual(ents.library().suggest(1.0, 1.0)["time_step"], 0.0)
+        with self.assertRaises(ents.Error) as raised:
+            ents.library().suggest(-1.0, 1.0)
+        self.assertIn("modulus = -1", str(raised.exception))
+
     def test_bad_input(self):
         x, slave, master = [[0, 1], [1, 1], [0, 0], [1, 0]], [[1, 0]], [[2, 3]]
         warm = {"segment": "line2", "contact": {"normal": NORMAL, "heat": {"conductance": 1.0}}}

@@ -13,7 +13,7 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _combination, _count, _new
-from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Resultants, Status
+from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Resultants, Status, Suggestion
 
 Combined = Tuple[np.ndarray, ...]  # begin, nodes, weights; with planes of symmetry also reflected, shifts
 FACET_NODES = {"line2": 2, "line3": 3, "tri3": 3, "tri6": 6, "quad4": 4, "quad8": 8, "quad9": 9}
@@ -167,6 +167,13 @@ class Library:
             result[name] = np.array(result[name][:d])
         result["moment"] = result["moment"][0] if d == 2 else np.array(result["moment"])
         return result
+
+    def suggest(self, modulus: float, spacing: float, area: float = 0.0, slave_mass: float = 0.0, master_mass: float = 0.0) -> dict[str, float]:
+        """Numbers to begin with, from Young's modulus of the softer body and the distance of the slave points: normal_stiffness of a penalty,
+        tangential_stiffness of friction; and time_step, the critical one of an explicit host, where area and masses are given (master_mass 0: rigid)."""
+        found = _new(Suggestion)
+        self.call("suggest", float(modulus), float(spacing), float(area), float(slave_mass), float(master_mass), found, positive=Error)
+        return {name: getattr(found, name) for name, _ in Suggestion._fields_[2:]}
 
     def sampling_points(self, facet: str, per_direction: int, connectivity: Any, positions: Any, thickness: float = 1.0) -> tuple[Combined, np.ndarray]:
         """Points inside slave facets, that see a texture between the nodes: combinations of the nodes (begin [points + 1], nodes, weights), as of

@@ -336,6 +336,16 @@ class Resultants(ctypes.Structure):
     ]
 
 
+class Suggestion(ctypes.Structure):
+    _fields_ = [
+        ("struct_size", ctypes.c_int32),
+        ("reserved", ctypes.c_int32),
+        ("normal_stiffness", ctypes.c_double),
+        ("tangential_stiffness", ctypes.c_double),
+        ("time_step", ctypes.c_double),
+    ]
+
+
 class Combination(ctypes.Structure):
     _fields_ = [
         ("struct_size", ctypes.c_int32),
@@ -458,6 +468,7 @@ STRUCTS = {
     "ents_derivatives": Derivatives,
     "ents_area": Area,
     "ents_resultants": Resultants,
+    "ents_suggestion": Suggestion,
     "ents_combination": Combination,
     "ents_mirror": Mirror,
     "ents_pose": Pose,
@@ -495,6 +506,7 @@ FUNCTIONS = {
     "ents_tributary_areas": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_contact_area": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_contact_resultants": (ctypes.c_int32, (ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_suggest": (ctypes.c_int32, (ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_combine": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
