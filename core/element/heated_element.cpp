@@ -23,8 +23,10 @@ Plan mechanics_of(const Plan& plan) {
   return mechanics;
 }
 
-class HeatedElement {
+// D: dimension of the space
+template <int D> class HeatedElement {
 public:
+  static constexpr int T = D - 1;
   HeatedElement(const Plan& plan, const Plan& mechanics, const ElementInput& in)
       : plan_(plan), mechanics_(mechanics), in_(in), heat_(plan.law.heat),
         nodes_(plan.rigid ? 1 : 1 + plan.nodes), n_(mechanics.dofs) {}
@@ -41,9 +43,10 @@ public:
     double master = 0.0;
     for (int i = 0; i < plan_.nodes; ++i) {
       master += at_.shape[i] * in_.master_temperature[i];
-      for (int a = 0; a < plan_.parameters; ++a)
-        slope_[a] += at_.shape_slope[a][i] * in_.master_temperature[i];
+      for (int a = 0; a < T; ++a) slope_[a] += at_.shape_slope[a][i] * in_.master_temperature[i];
     }
+    weight_[0] = 1.0;
+    for (int i = 1; i < nodes_; ++i) weight_[i] = -at_.shape[i - 1];
     difference_ = in_.slave_temperature[0] - master;
     flow_ = at_.area * h_.value * difference_;
     per_work_ = heat_.has_friction ? heat_.share / in_.time_increment : 0.0;
@@ -55,55 +58,76 @@ public:
   double flow() const { return flow_; }
   double rub() const { return rub_; }
 
-  // mechanical: [n] and [n][n] of the mechanics, dofs of the nodes and multipliers
-  void write_residual(const double* mechanical, double* to) const {
-    for (int i = 0; i < n_; ++i) to[place(i)] = mechanical[i];
-    for (int i = 0; i < nodes_; ++i) to[temperature(i)] = weight(i) * power_of(i);
+  // mechanical: [n] and [n][n] of the mechanics, dofs of the nodes and multipliers. Whether their numbers are in
+  // range is known; false: those of the heat are not.
+  bool write_residual(const double* mechanical, double* to) const {
+    spread(mechanical, to);
+    double sum = 0.0;
+    for (int i = 0; i < nodes_; ++i) sum += to[temperature(i)] = weight_[i] * power_of(i);
+    return 0.0 * sum == 0.0;
   }
-  void write_tangent(const double* mechanical, double* to, std::int64_t leading) const {
-    double flow_by[most_dofs], rub_by[most_dofs];
-    for (int j = 0; j < n_ && flows_; ++j) {
-      double along = 0.0; // dT_m by its place
-      for (int a = 0; a < plan_.parameters; ++a) along += slope_[a] * at_.xi_by[a][j];
-      flow_by[j] =
-          at_.area * (difference_ * (h_.by_gap * at_.gap_by[j] + h_.by_pressure * at_.pressure_by[j]) -
-                      h_.value * along);
-      rub_by[j] = per_work_ * at_.dissipation_by[j];
-    }
-    for (int j = 0; j < n_; ++j) {
-      double* const column = to + place(j) * leading;
-      for (int i = 0; i < n_; ++i) column[place(i)] = mechanical[j * n_ + i];
-      for (int i = 0; i < nodes_; ++i) {
-        double& entry = column[temperature(i)];
-        entry = 0.0;
-        if (!flows_) continue;
-        entry = weight(i) * (i == 0 ? flow_by[j] - heat_.slave * rub_by[j]
-                                    : flow_by[j] + (1.0 - heat_.slave) * rub_by[j]);
-        for (int a = 0; a < plan_.parameters && i > 0; ++a)
-          entry -= at_.shape_slope[a][i - 1] * at_.xi_by[a][j] * power_of(i);
+  bool write_tangent(const double* mechanical, double* to, std::int64_t leading) const {
+    const double conducts = at_.area * h_.value;
+    double sum = 0.0, by_slave[most_dofs],
+           by_master[most_dofs]; // of the power that leaves the slave, that enters the master
+    set_variations(by_slave, by_master);
+    double* column = to;
+    for (int j = 0, left = D; j < n_; ++j, column += leading) {
+      if (j < displacements() && left-- == 0) column += leading, left = D - 1; // past a temperature
+      if (j == displacements()) column = to + (j + nodes_) * leading;
+      spread(mechanical + j * n_, column);
+      sum += column[temperature(0)] = by_slave[j];
+      for (int i = 1; i < nodes_; ++i) {
+        double entry = weight_[i] * by_master[j];
+        for (int a = 0; a < T; ++a) entry -= at_.shape_slope[a][i - 1] * at_.xi_by[a][j] * power_of(1);
+        sum += column[temperature(i)] = entry;
       }
     }
-    const double conducts = flows_ ? at_.area * h_.value : 0.0;
     for (int j = 0; j < nodes_; ++j) {
-      double* const column = to + temperature(j) * leading;
-      for (int i = 0; i < n_; ++i) column[place(i)] = 0.0;
-      for (int i = 0; i < nodes_; ++i)
-        column[temperature(i)] = flows_ ? conducts * weight(i) * weight(j) : 0.0;
+      column = to + temperature(j) * leading;
+      std::fill_n(column, plan_.dofs, 0.0);
+      for (int i = 0; i < nodes_; ++i) sum += column[temperature(i)] = conducts * weight_[i] * weight_[j];
+    }
+    return 0.0 * sum == 0.0;
+  }
+  // Nothing flows
+  void write_cold(const double* residual, const double* tangent, double* r, double* k,
+                  std::int64_t leading) const {
+    double column[most_dofs + most_nodes] = {};
+    if (r) std::fill_n(r, plan_.dofs, 0.0), spread(residual, r);
+    for (int j = 0, at = 0; k && j < plan_.dofs; ++j) {
+      const bool warm = j < displacements() + nodes_ && j % (D + 1) == D;
+      std::fill_n(column, plan_.dofs, 0.0);
+      if (!warm) spread(tangent + n_ * at++, column);
+      std::copy_n(column, plan_.dofs, k + j * leading);
     }
   }
+  bool flows() const { return flows_; }
 
 private:
-  // Where a dof of the mechanics, and the temperature of a node, are in the element
-  int place(int dof) const {
-    const int d = plan_.dimension, displacements = d * nodes_;
-    return dof < displacements ? dof / d * (d + 1) + dof % d : dof + nodes_;
+  int displacements() const { return D * nodes_; }
+  int temperature(int node) const { return (D + 1) * node + D; }
+  // Numbers of the mechanics to their places in the element
+  void spread(const double* mechanical, double* to) const {
+    for (int i = 0; i < nodes_; ++i, mechanical += D, to += D + 1)
+      for (int c = 0; c < D; ++c) to[c] = mechanical[c];
+    for (int i = displacements(); i < n_; ++i) *to++ = *mechanical++;
   }
-  int temperature(int node) const { return (plan_.dimension + 1) * node + plan_.dimension; }
-  // 1 of the slave, - N_i of master node i - 1
-  double weight(int node) const { return !flows_ ? 0.0 : node == 0 ? 1.0 : -at_.shape[node - 1]; }
-  // The power whose part weight(node) leaves the node
+  // The power whose part weight_[node] leaves the node
   double power_of(int node) const {
     return node == 0 ? flow_ - heat_.slave * rub_ : flow_ + (1.0 - heat_.slave) * rub_;
+  }
+  void set_variations(double* by_slave, double* by_master) const {
+    const double of_gap = at_.area * difference_ * h_.by_gap,
+                 of_pressure = at_.area * difference_ * h_.by_pressure;
+    for (int j = 0; j < n_; ++j) {
+      double along = 0.0; // dT_m by its place
+      for (int a = 0; a < T; ++a) along += slope_[a] * at_.xi_by[a][j];
+      const double flow =
+          of_gap * at_.gap_by[j] + of_pressure * at_.pressure_by[j] - at_.area * h_.value * along;
+      const double rub = per_work_ * at_.dissipation_by[j];
+      by_slave[j] = flow - heat_.slave * rub, by_master[j] = flow + (1.0 - heat_.slave) * rub;
+    }
   }
 
   const Plan &plan_, &mechanics_;
@@ -112,6 +136,7 @@ private:
   const int nodes_, n_; // with a temperature; dofs of the mechanics
   bool flows_ = false;
   Conductance h_;
+  double weight_[most_nodes]; // 1 of the slave, - N_i of master node i - 1
   double difference_ = 0.0, slope_[2] = {}, flow_ = 0.0, rub_ = 0.0, per_work_ = 0.0;
   HeatIngredients at_;
 };
@@ -122,9 +147,7 @@ bool all_finite(const double* numbers, std::int64_t count) {
   return zero == 0.0; // NaN, too
 }
 
-} // namespace
-
-Status evaluate_heated(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
+template <int D> Status evaluate_in(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
   const Plan mechanics = mechanics_of(plan);
   const std::int32_t heated = want::residual | want::tangent | want::heat;
   ElementOutput own = out;
@@ -133,32 +156,35 @@ Status evaluate_heated(const Plan& plan, const ElementInput& in, const ElementOu
   if (!all_finite(in.slave_temperature, 1) || !all_finite(in.master_temperature, plan.nodes))
     return Status::non_finite;
 
-  const int n = mechanics.dofs, all = plan.dofs;
+  const int n = mechanics.dofs;
   double residual[most_dofs], tangent[most_dofs * most_dofs], xi[2];
   std::int32_t flags = 0;
   own.wanted |= want::xi | want::flags;
   own.residual = residual, own.tangent = tangent, own.tangent_leading_dimension = n;
   own.xi = xi, own.flags = &flags;
   if (const Status status = evaluate_segment(mechanics, in, own); status != Status::ok) return status;
-  HeatedElement element(plan, mechanics, in);
+  HeatedElement<D> element(plan, mechanics, in);
   if (const Status status = element.evaluate(xi, (flags & flag::outside) != 0); status != Status::ok)
     return status;
   double r[most_dofs + most_nodes];
-  if ((out.wanted & want::residual) != 0) {
-    element.write_residual(residual, r);
-    if (!all_finite(r, all)) return Status::out_of_range;
-  }
-  if ((out.wanted & want::tangent) != 0) {
-    const std::int64_t leading = out.tangent_leading_dimension;
-    element.write_tangent(tangent, out.tangent, leading);
-    for (int j = 0; j < all; ++j)
-      if (!all_finite(out.tangent + j * leading, all)) return Status::out_of_range;
-  }
-  if ((out.wanted & want::residual) != 0) std::copy_n(r, all, out.residual);
+  const bool wants_r = (out.wanted & want::residual) != 0, wants_k = (out.wanted & want::tangent) != 0;
+  const std::int64_t leading = out.tangent_leading_dimension;
+  if (!element.flows())
+    element.write_cold(residual, tangent, wants_r ? r : nullptr, wants_k ? out.tangent : nullptr, leading);
+  else if ((wants_r && !element.write_residual(residual, r)) ||
+           (wants_k && !element.write_tangent(tangent, out.tangent, leading)))
+    return Status::out_of_range;
+  if (wants_r) std::copy_n(r, plan.dofs, out.residual);
   if ((out.wanted & want::xi) != 0) std::copy_n(xi, plan.parameters, out.xi);
   if ((out.wanted & want::flags) != 0) *out.flags = flags;
   if ((out.wanted & want::heat) != 0) out.heat[0] = element.flow(), out.heat[1] = element.rub();
   return Status::ok;
+}
+
+} // namespace
+
+Status evaluate_heated(const Plan& plan, const ElementInput& in, const ElementOutput& out) {
+  return plan.dimension == 2 ? evaluate_in<2>(plan, in, out) : evaluate_in<3>(plan, in, out);
 }
 
 } // namespace ents

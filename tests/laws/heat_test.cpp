@@ -280,6 +280,40 @@ TEST(Heat, OfPatchesAndRigidMasters) {
   }
 }
 
+// Beside the segment nothing flows; a multiplier is held at zero there.
+TEST(Heat, NothingFlowsBesideTheSegment) {
+  for (const char* law : {"penalty", "augmented_multiplier"}) {
+    const json normal = {{"type", law}, {"stiffness", eps}};
+    const Handle model = make(
+        {{"segment", "line2"},
+         {"contact", {{"normal", normal}, {"heat", {{"gas", {{"conductivity", 1.0}, {"jump", 0.1}}}}}}}});
+    const ents_layout layout = layout_of(model.get());
+    const int n = layout.dofs, multipliers = layout.multipliers;
+    const double slave[2] = {7.0, 0.1}, master[4] = {-1, 0, 1, 0}, temperature[2] = {1, 2}, start = 0.9,
+                 lambda = 0.5;
+    std::vector<double> residual(static_cast<std::size_t>(n), 9.0),
+        tangent(static_cast<std::size_t>(n * n), 9.0);
+    double heat[2] = {9.0, 9.0};
+    ents_input in{};
+    in.struct_size = sizeof in, in.slave = slave, in.master = master, in.start = &start;
+    in.slave_temperature = temperature, in.master_temperature = temperature;
+    if (multipliers) in.multiplier = &lambda;
+    ents_output out{};
+    out.struct_size = sizeof out, out.wanted = ENTS_RESIDUAL | ENTS_TANGENT | ENTS_HEAT;
+    out.residual = residual.data(), out.tangent = tangent.data(), out.heat = heat;
+    ASSERT_EQ(ents_evaluate(model.get(), 0, 1, &in, &out, nullptr), ENTS_OK);
+    EXPECT_EQ(heat[0], 0.0);
+    EXPECT_EQ(heat[1], 0.0);
+    for (int i = 0; i < n; ++i) {
+      const bool held = i == n - 1 && multipliers == 1;
+      EXPECT_EQ(residual[static_cast<std::size_t>(i)], held ? -lambda / eps : 0.0) << i;
+      for (int j = 0; j < n; ++j)
+        EXPECT_EQ(tangent[static_cast<std::size_t>(j * n + i)], held && j == i ? -1.0 / eps : 0.0)
+            << i << " " << j;
+    }
+  }
+}
+
 // Heat changes no bit of the mechanics.
 TEST(Heat, LeavesTheMechanicsAlone) {
   Random random(5);

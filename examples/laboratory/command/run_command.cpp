@@ -7,6 +7,7 @@
 
 #include "check_extent.hpp"
 #include "commands.hpp"
+#include "conductance.hpp"
 #include "restart.hpp"
 #include "run_files.hpp"
 
@@ -124,6 +125,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     result["steps"].insert(result["steps"].begin(), files.earlier().begin(), files.earlier().end());
   }
   files.finish(result);
+  if (scene.probe > 0 && !options.out.empty()) write_gaps(records, scene.dimension, options.out);
   std::vector<std::string> problems;
   if (!options.out.empty() && options.pictures && !records.empty())
     problems = draw_pictures(simulation, records, options.out);

@@ -67,11 +67,13 @@ Json step_json(const StepRecord& record, bool nodes) {
             {"peak_drop", number(record.area.peak_drop)},
             {"peak_pressure", record.peak_pressure},
             {"mean_gap", number(record.mean_gap)},
+            {"mean_cubed_gap", number(record.mean_cubed_gap)},
             {"penetration", record.penetration},
             {"contact_force", record.contact_force},
             {"iterations", record.iterations()},
             {"cuts", record.cuts},
             {"wall_time", record.wall_time}};
+  if (record.conductance != 0) step["conductance"] = number(record.conductance);
   if (!record.fields.worn.empty())
     step["wear"] = {{"slave_volume", record.worn_slave},
                     {"master_volume", record.worn_master},
@@ -176,6 +178,8 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
     table.column("peak pressure", scene.units.pressure).column("contact", "%", 3);
     table.column("estimated", "%", 3).column("+-", "%", 2).beside();
     table.column("mean gap", scene.units.length);
+    if (scene.probe > 0)
+      table.column("<g^3>", cubic(scene.units.length)).column("h_c / k_s", "1/" + scene.units.length);
     if (wears(records))
       table.column("worn depth", scene.units.length).column("worn volume", cubic(scene.units.length));
   }
@@ -197,6 +201,8 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
     if (scene.contact)
       row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, 100 * record.area.fraction,
                              100 * record.area.error, record.mean_gap});
+    if (scene.contact && scene.probe > 0)
+      row.insert(row.end(), {record.mean_cubed_gap, record.conductance});
     if (wears(records)) row.insert(row.end(), {record.worn_depth, record.worn_slave + record.worn_master});
     const Convergence rate = convergence(record.increments.back().residuals);
     row.insert(row.end(), {static_cast<std::int64_t>(record.iterations()), rate.before, rate.last});

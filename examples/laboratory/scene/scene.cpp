@@ -128,6 +128,14 @@ void read_steps(const JsonValue& value, Scene& scene) {
   if (scene.control == Control::force || scene.control == Control::mean_pressure)
     for (const double step : scene.steps)
       if (!(step > 0)) values.fail("forces and pressures are > 0 in contact");
+  if (object.has("probe")) {
+    const JsonValue probe = object.at("probe");
+    scene.probe = probe.number();
+    if (!(scene.probe > 0 && scene.probe <= 0.1))
+      probe.fail("a part of the load is expected, above 0 and up to 0.1");
+    if (scene.control == Control::load_factor)
+      probe.fail("only steps of a rigid master that is moved have a conductance");
+  }
   object.finish();
 }
 

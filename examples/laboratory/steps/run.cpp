@@ -10,6 +10,7 @@
 #include <random>
 
 #include "advice.hpp"
+#include "conductance.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -133,6 +134,7 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
     record.area = estimate_area(simulation, record.fields);
   }
   record.mean_gap = gap / gap_area;
+  record.mean_cubed_gap = gap_means(record.fields.gap, record.areas).cubed;
   record.worn_slave = contact->worn_slave() * scene.symmetry_copies;
   record.worn_master = contact->worn_master() * scene.symmetry_copies;
   for (const double depth : record.fields.worn) record.worn_depth = std::max(record.worn_depth, depth);
@@ -148,6 +150,19 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
     for (Quantity& q : answer.quantities)
       if (q.name == "contact fraction") q = exact_quantity(q.name, q.unit, record.contact_fraction, q.exact);
   record.exact = std::move(answer.quantities), record.exact_pressure = std::move(answer.pressure);
+}
+
+/// Of a sine, beside its other exact quantities
+void add_exact_conductance(const Scene& scene, StepRecord& record) {
+  if (scene.exact.type != ExactSpec::Type::westergaard) return;
+  const double wave = scene.exact.wavelength, height = scene.exact.amplitude;
+  const double part = record.mean_pressure / westergaard_full_contact(height, wave, contact_modulus(scene));
+  if (!(part < 1)) return;
+  record.exact.push_back(
+      exact_quantity("h_c lambda / k_s", "", record.conductance * wave, westergaard_conductance(part)));
+  record.exact.push_back(exact_quantity("<g^3> / amplitude^3", "",
+                                        record.mean_cubed_gap / (height * height * height),
+                                        westergaard_cubed_gap(part)));
 }
 
 /// Of a rigid body that turns: moment, mean radius of its contact, and which way it turns.
@@ -351,6 +366,12 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
       throw StepFailure(step, error.what(), std::move(records));
     }
     fill_contact_results(simulation, record);
+    if (scene.probe > 0) {
+      Target raised = target_at(1);
+      raised.value *= 1 + scene.probe;
+      record.conductance = incremental_conductance(simulation, record, raised);
+      add_exact_conductance(scene, record);
+    }
     record.wall_time = watch.seconds();
     say(step_line(scene, record));
     if (observer.step_done) observer.step_done(simulation, record);

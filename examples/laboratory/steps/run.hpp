@@ -46,6 +46,8 @@ struct StepRecord {
   double contact_fraction = 0;   ///< area of closed nodes / slave area
   AreaEstimate area;             ///< the same without the error of counting nodes
   double peak_pressure = 0, mean_gap = 0;
+  double mean_cubed_gap = 0; ///< <g^3> over the slave surface, penetrations as 0
+  double conductance = 0;    ///< h_c / k_s [1/L], see incremental_conductance(); 0: not asked for
   double worn_slave = 0, worn_master = 0,
          worn_depth = 0;             ///< volumes, all symmetric copies; deepest slave [L]
   double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
