@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact_pair.hpp"
 
+#include <algorithm>
+
 namespace ents_deck {
 
 using std::string;
@@ -26,6 +28,27 @@ std::vector<ContactPair> contact_pairs(const Mesh& mesh) {
     }
   }
   return out;
+}
+
+void check_elements_stay(const Mesh& mesh, const Side& side) {
+  for (const Statement& s : mesh.source.list) {
+    if (s.keyword != "MODEL CHANGE") continue;
+    for (const Line& line : s.lines)
+      for (const auto field : fields_of(line.text)) {
+        const string name = canonical(field);
+        const auto set = mesh.element_sets.find(name);
+        const auto is_named = [&](const Face& f) {
+          return set == mesh.element_sets.end()
+                     ? canonical(mesh.element_label(f.element)) == name
+                     : std::find(set->second.begin(), set->second.end(), f.element) != set->second.end();
+        };
+        if (std::any_of(side.faces.begin(), side.faces.end(), is_named))
+          mesh.source.fail(line.place, "*MODEL CHANGE of '" + string(field) +
+                                           "', whose faces are in contact ('" + side.name +
+                                           "'): contact elements stay for the whole job; write a "
+                                           "deck for each state");
+      }
+  }
 }
 
 std::vector<string> check_pair(const Mesh& mesh, const ContactPair& pair, Program program) {

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "faces.hpp"
 #include "keywords.hpp"
 #include "mesh.hpp"
 
@@ -60,5 +61,9 @@ struct Motion {
   std::vector<std::string> remarks; ///< of motions that the deck does not tell, a sentence each
 };
 Motion prescribed_motion(const Mesh& mesh);
+
+/// Refuses *MODEL CHANGE of elements whose faces are in contact: contact elements would act on what is removed.
+/// @throws Error
+void check_elements_stay(const Mesh& mesh, const Side& side);
 
 } // namespace ents_deck

@@ -86,6 +86,12 @@ void check_kinds(const Mesh& mesh, const Side& side, Program program) {
       mesh.source.fail(side.place, "'" + side.name +
                                        "' has faces of shells: their contact surface is half a thickness "
                                        "away from their nodes, which a contact element does not know");
+    const string& name = mesh.types[type].name;
+    if (name.find('P', std::min(name.find_first_of("0123456789"), name.size())) != string::npos)
+      mesh.source.fail(side.place,
+                       "'" + side.name + "' has faces of " + name +
+                           ", whose pore pressure goes through the contact in the program itself, "
+                           "which a contact element does not know; leave the pair to the program");
     if (program == Program::calculix &&
         mesh.nodes[static_cast<std::size_t>(face.nodes[0])].instance != no_instance)
       mesh.source.fail(side.place, "ccx has no *PART and *INSTANCE; this deck is Abaqus's: --for abaqus");
@@ -216,6 +222,8 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
   out.pair = pair;
   out.slave = side_of(mesh, pair.slave, pair.line);
   out.master = side_of(mesh, pair.master, pair.line);
+  check_elements_stay(mesh, out.slave);
+  check_elements_stay(mesh, out.master);
   check_kinds(mesh, out.slave, options.program);
   check_kinds(mesh, out.master, options.program);
   if (out.master.faces.empty())
@@ -325,7 +333,7 @@ int dimension_of(const Side& master) { return corner_count(master.faces.at(0).sh
 Job convert(const Options& options) {
   Job job;
   Source source = read_source(options.deck);
-  check_keywords(source, options.program);
+  const std::vector<string> remarks = check_keywords(source, options.program);
   job.mesh = read_mesh(std::move(source));
   ordered_json base = model_file(options.model);
   resolve_files(base, options.model.parent_path());
@@ -364,6 +372,8 @@ Job convert(const Options& options) {
     contact.element_count = job.elements.size() - contact.first_element;
     job.contacts.push_back(std::move(contact));
   }
+  auto& first = job.contacts.at(0).remarks;
+  first.insert(first.end(), remarks.begin(), remarks.end());
   return job;
 }
 

@@ -57,6 +57,7 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
   bool inside = false;
   for (const Statement& s : source.list) {
     if (s.keyword == "STEP") break;
+    if (s.keyword == "MATERIAL") inside = false; // what follows is the material's, damage included
     if (s.keyword == "SURFACE INTERACTION") {
       inside = canonical(s.value("NAME")) == canonical(pair.interaction);
       if (!inside) continue;
@@ -83,9 +84,7 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
       *part = &s;
       continue;
     }
-    for (const char* other :
-         {"CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION", "GAP RADIATION", "COHESIVE BEHAVIOR",
-          "DAMAGE INITIATION", "DAMAGE EVOLUTION", "CONTACT PERMEABILITY"})
+    for (const char* other : keywords_of_interactions())
       if (s.keyword == other)
         source.fail(s.place,
                     "*" + s.keyword +

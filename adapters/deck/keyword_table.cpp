@@ -22,6 +22,12 @@ const char* const of_the_mesh =
     "the gap of a contact element is that of the mesh; move the nodes, or write a constant "
     "\"height\" into a model (--model)";
 const char* const by_itself = "; leave this pair to the program itself, and name the others with --pair";
+const char* const explicit_step =
+    "these are elements of Abaqus/Standard; write *STATIC, or *DYNAMIC without EXPLICIT";
+const char* const no_settings =
+    "contact elements have neither stabilization nor other settings of it; a body that contact alone holds "
+    "needs springs or a prescribed motion";
+const char* const no_output = "it writes nothing of contact elements";
 const char* const small = "contact elements follow large sliding, too";
 const char* const slip =
     "is not used; the tangential stiffness is the \"stiffness\" of \"friction\" in the law";
@@ -36,9 +42,20 @@ std::vector<KeywordRule> shared_rules() {
   for (const char* name : {"HEAT TRANSFER", "COUPLED TEMPERATURE-DISPLACEMENT",
                            "UNCOUPLED TEMPERATURE-DISPLACEMENT", "COUPLED THERMAL-ELECTRICAL"})
     never(name, no_heat);
-  for (const char* name :
-       {"FREQUENCY", "BUCKLE", "COMPLEX FREQUENCY", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "GREEN"})
+  for (const char* name : {"FREQUENCY", "BUCKLE", "COMPLEX FREQUENCY", "MODAL DYNAMIC",
+                           "STEADY STATE DYNAMICS", "GREEN", "RANDOM RESPONSE", "RESPONSE SPECTRUM"})
     never(name, linear);
+  never("PRESSURE PENETRATION", "contact elements know no pressure of a fluid between the surfaces; leave "
+                                "the pair to the program itself");
+  for (const char* name : {"DYNAMIC TEMPERATURE-DISPLACEMENT", "ANNEAL"}) never(name, explicit_step);
+  for (const char* name : {"DIRECT CYCLIC", "STEADY STATE TRANSPORT"})
+    never(name,
+          "friction of contact elements needs increments in their order, with the material at its nodes; "
+          "write *STATIC steps");
+  never("ADAPTIVE MESH",
+        "nodes that move through the material slide for contact elements; leave it out, or leave the "
+        "pair to the program itself");
+  never("DEBOND", "contact elements are not bonded; leave the pair to the program itself");
   never("SUBSTRUCTURE GENERATE",
         "contact elements have no place in a substructure; write *STATIC steps alone");
   for (const char* name : {"CHANGE FRICTION", "CHANGE SURFACE BEHAVIOR", "CHANGE CONTACT TYPE"})
@@ -48,9 +65,19 @@ std::vector<KeywordRule> shared_rules() {
   never("CONTACT",
         "general contact would carry the same surfaces a second time; leave it out of this deck, or write "
         "*CONTACT PAIR");
-  for (const char* name :
-       {"CONTACT DAMPING", "GAP CONDUCTANCE", "GAP HEAT GENERATION", "GAP RADIATION", "COHESIVE BEHAVIOR",
-        "DAMAGE INITIATION", "DAMAGE EVOLUTION", "CONTACT PERMEABILITY"})
+  for (const char* name : {"CONTACT CONTROLS", "CONTACT OUTPUT", "CONTACT PRINT", "CONTACT FILE"})
+    out.push_back({name, Use::no_effect, name[8] == 'C' ? no_settings : no_output, {any}, {}});
+  out.push_back(
+      {"IMPERFECTION", Use::no_effect, "patches and areas are those of the mesh without it", {any}, {}});
+  out.push_back(
+      {"INITIAL CONDITIONS",
+       Use::used,
+       "",
+       {{"TYPE", Use::used, "!CONTACT",
+         "a bonded part of the slave surface is no contact law; leave the pair to the program itself"},
+        any},
+       {}});
+  for (const char* name : keywords_of_interactions())
     out.push_back({name, Use::used, "", {any}, {}}); // refused where an interaction of a pair has them
   return out;
 }
@@ -254,13 +281,7 @@ std::vector<KeywordRule> abaqus_rules() {
         {"direction on the master", Use::refused, "",
          "friction is the same in all directions; leave it out"}}},
       {"STEP", Use::used, "", {{"PERTURBATION", Use::refused, "*", linear}, any}, {}},
-      {"DYNAMIC",
-       Use::used,
-       "",
-       {{"EXPLICIT", Use::refused, "",
-         "these are elements of Abaqus/Standard; write *STATIC, or *DYNAMIC without EXPLICIT"},
-        any},
-       {}},
+      {"DYNAMIC", Use::used, "", {{"EXPLICIT", Use::refused, "", explicit_step}, any}, {}},
       {"STATIC",
        Use::used,
        "",
@@ -280,6 +301,15 @@ std::vector<KeywordRule> together(std::vector<KeywordRule> rules) {
 }
 
 } // namespace
+
+const std::vector<const char*>& keywords_of_interactions() {
+  static const std::vector<const char*> all{
+      "CONTACT DAMPING",      "GAP CONDUCTANCE",    "GAP HEAT GENERATION",        "GAP RADIATION",
+      "COHESIVE BEHAVIOR",    "DAMAGE INITIATION",  "DAMAGE EVOLUTION",           "DAMAGE STABILIZATION",
+      "CONTACT PERMEABILITY", "FRACTURE CRITERION", "GAP ELECTRICAL CONDUCTANCE", "BOND",
+      "NODAL ENERGY RATE"};
+  return all;
+}
 
 const std::vector<KeywordRule>& keyword_rules(Program program) {
   static const std::vector<KeywordRule> calculix = together(calculix_rules()),

@@ -23,6 +23,13 @@ std::size_t distance(const string& a, const string& b) {
   return row[b.size()];
 }
 
+constexpr std::size_t shortest_keyword = 4, shortest_parameter = 3;
+
+/// Abaqus takes "*FRIC" for *FRICTION and "GEN" for GENERATE.
+bool abbreviates(const string& found, const string& name, std::size_t shortest) {
+  return found.size() >= shortest && found.size() < name.size() && name.starts_with(found);
+}
+
 /// A keyword of the table that `found` may be meant for. ccx itself takes "*FRICTIONS" for *FRICTION, and passes over
 /// "*FRICTON" with a warning.
 const KeywordRule* meant(const std::vector<KeywordRule>& rules, const string& found) {
@@ -31,6 +38,7 @@ const KeywordRule* meant(const std::vector<KeywordRule>& rules, const string& fo
   for (const KeywordRule& rule : rules) {
     const string name = canonical(rule.name);
     const bool is_long = name.size() >= 8;
+    if (abbreviates(plain, name, shortest_keyword)) return &rule;
     if ((is_long && plain.starts_with(name)) || distance(plain, name) <= (is_long ? 2U : 1U)) return &rule;
   }
   return nullptr;
@@ -83,6 +91,13 @@ public:
     }
   }
 
+  string without_effect(const Statement& s) const {
+    for (const KeywordRule& rule : rules_)
+      if (rule.name == s.keyword && rule.use == Use::no_effect)
+        return "*" + s.keyword + " (" + source_.at(s.place) + "): " + rule.why;
+    return "";
+  }
+
   std::vector<string> remarks(const Statement& s) const {
     std::vector<string> out;
     for (const KeywordRule& rule : rules_)
@@ -123,15 +138,17 @@ private:
                                 ": correct it or leave it out");
     }
     for (const ParameterRule& p : rule.parameters)
-      if (found->name == "*" && p.name.size() >= 5 && distance(name, canonical(p.name)) <= 2)
+      if (found->name == "*" && (abbreviates(name, canonical(p.name), shortest_parameter) ||
+                                 (p.name.size() >= 5 && distance(name, canonical(p.name)) <= 2)))
         source_.fail(s.place, what + " is not known; is " + p.name + " meant?");
     if (found->use == Use::refused) source_.fail(s.place, what + ": " + found->why);
     if (found->values == "*" && found->name != "*" && value.empty())
       source_.fail(s.place, what + "= has no value; write one");
     if (found->values == "*") return;
-    const auto words = words_of(found->values);
-    if (std::any_of(words.begin(), words.end(),
-                    [&](const string& w) { return canonical(w) == canonical(value); }))
+    const bool others = found->values.starts_with('!');
+    const auto words = words_of(found->values.substr(others ? 1 : 0));
+    if (others != std::any_of(words.begin(), words.end(),
+                              [&](const string& w) { return canonical(w) == canonical(value); }))
       return;
     if (found->values.empty())
       source_.fail(s.place, what + " has no value; write it without '=" + value + "'");
@@ -167,9 +184,14 @@ private:
 
 } // namespace
 
-void check_keywords(const Source& source, Program program) {
+std::vector<string> check_keywords(const Source& source, Program program) {
   const Check check(source, program);
-  for (const Statement& s : source.list) check.statement(s, false);
+  std::vector<string> out;
+  for (const Statement& s : source.list) {
+    check.statement(s, false);
+    if (const string what = check.without_effect(s); !what.empty()) out.push_back(what);
+  }
+  return out;
 }
 
 std::vector<string> check_statement(const Source& source, const Statement& statement, Program program) {

@@ -18,7 +18,8 @@ enum class Use { used, no_effect, refused };
 struct ParameterRule {
   std::string name;
   Use use = Use::used;
-  std::string values; ///< "A|B": one of these, "|A": or none, "*": anything, "": it has no value
+  std::string values; ///< "A|B": one of these, "|A": or none, "*": anything, "": it has no value,
+                      ///< "!A|B": anything but these
   std::string why; ///< of what is refused: the reason and what to write; of what has no effect: what to tell
 };
 
@@ -32,7 +33,7 @@ struct ColumnRule {
 struct KeywordRule {
   std::string name;
   Use use = Use::used;
-  std::string why; ///< of a keyword that is refused as a whole
+  std::string why; ///< of a keyword that is refused as a whole, or that has no effect
   std::vector<ParameterRule> parameters;
   std::vector<ColumnRule>
       columns; ///< of a data line; empty: the columns are checked where the lines are read
@@ -46,7 +47,11 @@ const std::vector<KeywordRule>& keyword_rules(Program program);
 /// Looks at all statements but those of pairs and their interactions.
 /// @throws Error with file and line of the first keyword, parameter, value or number that is refused, or is none that
 /// the table knows; or of a keyword that is spelled almost as one of the table
-void check_keywords(const Source& source, Program program);
+/// @return what the user has to know of keywords without effect, a sentence each
+std::vector<std::string> check_keywords(const Source& source, Program program);
+
+/// Below *SURFACE INTERACTION: physics that no contact element has.
+const std::vector<const char*>& keywords_of_interactions();
 
 /// The same for one statement. @return what the user has to know of parameters without effect, a sentence each
 std::vector<std::string> check_statement(const Source& source, const Statement& statement, Program program);

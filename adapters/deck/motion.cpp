@@ -16,6 +16,7 @@ using std::string;
 
 struct Range {
   double low = 0, high = 0;
+  bool absolute = false; ///< VALUE=ABSOLUTE: the values of an amplitude, whatever the line says
   void add(double value) { low = std::min(low, value), high = std::max(high, value); }
   double width() const { return high - low; }
 };
@@ -26,10 +27,12 @@ std::map<string, Range> amplitudes(const Source& source, std::vector<string>& re
   for (const Statement& s : source.list) {
     if (s.keyword != "AMPLITUDE") continue;
     Range& range = out[canonical(s.value("NAME"))];
+    range.absolute = canonical(s.value("VALUE")) == "ABSOLUTE";
     const string definition = canonical(s.value("DEFINITION"));
     double shift = 0;
     if (s.has("SHIFTY")) parse(s.value("SHIFTY"), shift);
-    if (s.has("USER") || (!definition.empty() && definition != "TABULAR" && definition != "SMOOTHSTEP"))
+    if (s.has("USER") || s.has("INPUT") ||
+        (!definition.empty() && definition != "TABULAR" && definition != "SMOOTHSTEP"))
       remarks.push_back(
           "*AMPLITUDE, NAME=" + s.value("NAME") + " (" + source.at(s.place) +
           "): its values are not in the deck, and it is taken for 1 at most; write --slide if it is more");
@@ -125,7 +128,8 @@ public:
     if (const string type = canonical(s.value("TYPE")); type == "VELOCITY" || type == "ACCELERATION")
       out_.remarks.push_back("*BOUNDARY, TYPE=" + type + " (" + mesh_.source.at(s.place) +
                              "): its displacement is not counted; write --slide");
-    Range factor{0, 1};
+    Range factor;
+    factor.high = 1;
     if (s.has("AMPLITUDE")) {
       const auto found = amplitudes_.find(canonical(s.value("AMPLITUDE")));
       if (found == amplitudes_.end())
@@ -136,9 +140,13 @@ public:
       const auto fields = fields_of(line.text);
       std::int64_t first = 0, last = 0;
       double value = 0;
-      if (fields.size() < 4 || !parse(fields[1], first)) continue; // ENCASTRE ..., or no motion
-      if (!parse(fields[2], last)) last = first;
-      if (!parse(fields[3], value)) continue;
+      if (fields.size() < 2 || !parse(fields[1], first)) continue; // ENCASTRE ...
+      if (fields.size() < 3 || !parse(fields[2], last)) last = first;
+      if (!factor.absolute && (fields.size() < 4 || fields[3].empty())) continue; // no motion
+      if (factor.absolute)
+        value = 1;
+      else if (!parse(fields[3], value))
+        mesh_.source.fail(line.place, "expected a number, found '" + string(fields[3]) + "'");
       for (std::int64_t dof = std::max<std::int64_t>(first, 1); dof <= std::min<std::int64_t>(last, 6); ++dof)
         for (const double f : {factor.low, factor.high})
           drive(fields[0], static_cast<std::size_t>(dof - 1), f * value);

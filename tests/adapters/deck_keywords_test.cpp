@@ -45,6 +45,7 @@ string in_small_letters(string text) {
 /// A value that the rule takes.
 string good_value(const ParameterRule& rule) {
   if (rule.values == "*") return "=X1";
+  if (rule.values.starts_with('!')) return "=X1";
   if (rule.values.empty() || rule.values.front() == '|') return "";
   string out(1, '=');
   return out.append(rule.values, 0, rule.values.find('|'));
@@ -85,6 +86,8 @@ TEST(DeckKeywords, EveryParameterIsTakenOrRefusedHoweverItIsSpelled) {
         expect_refused(program, head + ", " + misspelt(p.name) + good_value(p) + "\n", "is not known");
         if (p.values == "*")
           expect_refused(program, head + ", " + p.name + "\n", "has no value");
+        else if (p.values.starts_with('!'))
+          expect_refused(program, head + ", " + p.name + "=" + p.values.substr(1) + "\n", p.why);
         else
           expect_refused(program, head + ", " + p.name + "=NOSUCHVALUE\n", p.name);
       }
@@ -189,6 +192,74 @@ TEST(DeckKeywords, OfAbaqusAreTranslatedWhereALawHasThem) {
   refused("*FRICTION\n0.2, , 0.\n0.05, , 100.\n", "*FRICTION, contact pressure (entry 3), '100.'");
   refused("*FRICTION, TAUMAX=0\n0.2\n", "TAUMAX=0: expected a stress above 0");
   refused("*FRICTION, USER\n", "a subroutine of your own");
+}
+
+/// Abaqus takes what is written short: "*FRIC", "GEN". Nothing may be lost by it.
+TEST(DeckKeywords, AbbreviationsOfAbaqusAreRefused) {
+  for (const Program program : {Program::calculix, Program::abaqus}) {
+    expect_refused(program, "*FRIC\n", "is *FRICTION meant?");
+    expect_refused(program, "*surface behav\n", "is *SURFACE BEHAVIOR meant?");
+    expect_refused(program, "*NSET, NSET=A, GEN\n", "is GENERATE meant?");
+    expect_refused(program, "*STEP, PERT\n", "is PERTURBATION meant?");
+    expect_taken(program, "*MASS, ELSET=E\n");
+    expect_taken(program, "*GAP, ELSET=E\n");
+  }
+}
+
+TEST(DeckKeywords, WhatContactElementsDoNotHaveIsRefusedOrReported) {
+  Options options;
+  options.program = Program::abaqus;
+  const auto made = [&](const string& changed, const string& by) {
+    return converted(deck(changed, by), options);
+  };
+  const auto refused = [&](const string& changed, const string& by, const char* what) {
+    const string error = error_of([&] { made(changed, by); });
+    EXPECT_NE(error.find(what), string::npos) << by << " -> " << error;
+    EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  };
+  for (const char* name : {"RANDOM RESPONSE", "DIRECT CYCLIC", "STEADY STATE TRANSPORT", "ANNEAL",
+                           "DYNAMIC TEMPERATURE-DISPLACEMENT"})
+    refused("*STATIC", string("*") + name, name);
+  for (const char* name :
+       {"PRESSURE PENETRATION, SLAVE=SLAVE, MASTER=MASTER", "DEBOND, SLAVE=SLAVE, MASTER=MASTER"})
+    refused("*STATIC\n", string("*STATIC\n*") + name + "\n", "contact elements");
+  refused("*STEP", "*INITIAL CONDITIONS, TYPE=CONTACT\nSLAVE, MASTER, NLOW\n*STEP", "bonded part");
+  for (const char* name : {"FRACTURE CRITERION, TYPE=VCCT", "BOND", "GAP ELECTRICAL CONDUCTANCE"})
+    refused("1e6\n", string("1e6\n*") + name + "\n", "cannot be had from contact elements");
+  // Elements below the surfaces stay; others may go.
+  refused("*STATIC\n", "*STATIC\n*MODEL CHANGE, REMOVE\nLOW\n", "whose faces are in contact ('MASTER')");
+  refused("*STATIC\n", "*STATIC\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n101\n", "('SLAVE')");
+  refused("TYPE=C3D8, ELSET=LOW", "TYPE=C3D8RP, ELSET=LOW", "faces of C3D8RP, whose pore pressure");
+
+  // Damage of a material that follows is not that of the interaction.
+  const string damage = "*MATERIAL, NAME=Q\n*DAMAGE INITIATION, CRITERION=DUCTILE\n1.\n*CONTACT PAIR";
+  EXPECT_GT(made("*CONTACT PAIR", damage).elements.size(), 0U);
+  // Without effect: said with file and line.
+  for (const char* name :
+       {"CONTACT CONTROLS, STABILIZE", "CONTACT OUTPUT", "CONTACT PRINT", "CONTACT FILE"}) {
+    const Job job = made("*STATIC\n", string("*STATIC\n*") + name + "\n");
+    const string remark = job.contacts.at(0).remarks.back();
+    EXPECT_TRUE(remark.starts_with("*" + string(name).substr(0, string(name).find(',')) + " (")) << remark;
+    EXPECT_NE(remark.find("deck.inp:"), string::npos) << remark;
+    EXPECT_NE(remark.find("contact elements"), string::npos) << remark;
+  }
+}
+
+TEST(DeckKeywords, MotionsThatTheDeckDoesNotTellAreReported) {
+  const auto motion = [](const string& amplitude, const string& line) {
+    return prescribed_motion(mesh_of(two_blocks() + amplitude + "*STEP\n*STATIC\n" + line));
+  };
+  const Motion file =
+      motion("*AMPLITUDE, NAME=A, INPUT=a.txt\n", "*BOUNDARY, AMPLITUDE=A\nNHIGH, 1, 1, 0.5\n");
+  ASSERT_EQ(file.remarks.size(), 1U);
+  EXPECT_NE(file.remarks[0].find("its values are not in the deck"), string::npos);
+  const string absolute = "*AMPLITUDE, NAME=A, VALUE=ABSOLUTE\n0., 0., 1., 3.\n";
+  for (const char* line : {"NHIGH, 1\n", "NHIGH, 1, 1\n", "NHIGH, 1, 1, 0.5\n"})
+    EXPECT_EQ(motion(absolute, string("*BOUNDARY, AMPLITUDE=A\n") + line).range[0], 3.0) << line;
+  EXPECT_NE(error_of([&] {
+              motion("", "*BOUNDARY\nNHIGH, 1, 1, <slide>\n");
+            }).find("expected a number, found '<slide>'"),
+            string::npos);
 }
 
 TEST(DeckText, Encodings) {
