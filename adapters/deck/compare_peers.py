@@ -159,12 +159,16 @@ def main():
         names = options.decks or MUST_AGREE
     print("differences of U1E from ccx's own contact in the same ccx; U1E : ccx's own\n"
           "deck           displ.     forces     iterations/incr.  seconds        why they differ")
-    ok = True
+    ok, solved, refused, within = True, 0, 0, 0
     for name in names:
         row, difference = compare(name, paths[name], build, out)
         print(row, flush=True)
+        refused += " refused: " in row
+        solved += difference is not None and max(difference) < math.inf
+        within += difference is not None and max(difference) <= LIMIT
         if name in MUST_AGREE:
             ok = ok and difference is not None and max(difference) <= LIMIT
+    print(f"{len(names)} decks: {solved} solved, {within} of them within {LIMIT:.0%}; {refused} refused")
     if not ok:
         print(f"differences above {LIMIT:.0%}", file=sys.stderr)
     return 0 if ok else 1
