@@ -5,7 +5,8 @@
 SCRATCH becomes a folder with links to the folders of ROOT and to BUILD, so that what a command writes stays in it. Every command has
 to end with exit status 0 and to print something. Not run: those that LONG names, with the reason; set-up, installation and
 ctest; usage lines with [options]; programs that are not built, and those that are not installed (exit status 3). Commands of a
-user's own files get those of INSTEAD and FILES. --list prints the commands and the seconds that each has taken.
+user's own files get those of INSTEAD and FILES; runs of FIRST_STEP stop after their first step. Files that a command names exist, also of
+those that are not run. --list prints the commands and the seconds that each has taken.
 
 examples/setup.sh has to install every package that a Python program of examples/ and adapters/ imports, but for those of OTHER_PROGRAMS.
 
@@ -29,6 +30,8 @@ LONG = {  # a part of a command: why it is not run
     "ents-deck run": "adapters.deck_run does, with the ccx that adapters.calculix builds", "joint.py": "bolted_joint_test.py runs it with --quick", "torque.py": "minutes",
     "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "rough_afm/scene.json --out": "package.debian runs it", "gallery.sh": "minutes",
     "setup.sh": "builds", "-m venv": "prints nothing; package.wheel installs into an environment", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
+    "westergaard/scene.json --compare": "that of hertz2d is run; Convergence.Westergaard solves it", "texture/scene.json --compare": "that of hertz2d is run",
+    "theory_test.py": "core.theory", "python/hertz.py": "adapters.python.hertz",
     "wavy3d/scene.json --compare": "minutes", "hertz3d/scene.json --compare": "minutes", "thread/scene.json --compare": "minutes",
     "--variant fine": "a minute of boundary elements; the gallery runs it", "--variant layer": "a minute of boundary elements; LayerBody.* runs some", "variants examples/cattaneo": "a minute; that of hertz2d is run",
     "area_bounds.py": "minutes; host.area_bounds runs it with --quick",
@@ -36,6 +39,7 @@ LONG = {  # a part of a command: why it is not run
     "ridges/polar.py": "24 runs, for the gallery", "sheet/friction.py": "a minute, for the gallery",
     "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --variant block": "minutes, for the gallery", "ENTS_": "a longer run of a test",
 }
+FIRST_STEP = [f"{scene}/scene.json" for scene in ("cattaneo_mindlin", "wear_cylinder", "hertz3d", "ironing", "wavy3d", "westergaard")]  # tests solve all steps
 INSTEAD = {"examples/SCENE/": "examples/hertz2d/", "out/SCENE": "out/hertz2d"}
 STATUS = {"ents-lab run examples/chatter/scene.json": 1}  # its README: this scene does not converge
 OTHER_PROGRAMS = {"getfem", "dolfinx", "mpi4py", "petsc4py", "ufl",  # finite element programs: their files say so and end with status 3
@@ -83,6 +87,12 @@ def commands_of(file):
     found += [re.sub(r"\s+", " ", code) for code in re.findall(r"`([^`]+)`", file.read_text())]
     return [c for c in found if re.match(r"(build/bin/|/usr/bin/python3 |python3 (adapters|examples|tests)/|sh (adapters|examples|tests)/)\S*", c)
             and (" " in c or "_test" in c)]
+
+
+def absent_files(command, root):
+    """Files below the folders of the project that a command names and that are not there."""
+    words = [word for word in re.findall(r"\S+", command) if re.match(rf"({'|'.join(FOLDERS)})/[\w./*-]+$", word)]
+    return [word for word in words if not any(root.glob(word))]
 
 
 def reason_to_leave_out(command, build):
@@ -136,13 +146,16 @@ def main(arguments):
             if command in seen:
                 continue
             seen[command] = readme.relative_to(root)
+            if reason_to_leave_out(command, build) != "a usage line":
+                failed += [f"{seen[command]}: {command}: there is no {file}" for file in absent_files(command, root)]
             reason = reason_to_leave_out(command, build)
             if reason:
                 left_out.setdefault(reason, []).append(command)
                 continue
             begin = time.monotonic()
+            short = " --last-step 1" if "ents-host run" in command and any(scene in command for scene in FIRST_STEP) else ""
             try:
-                done = subprocess.run(command, shell=True, cwd=scratch, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
+                done = subprocess.run(command + short, shell=True, cwd=scratch, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
                                       text=True, timeout=300)
             except subprocess.TimeoutExpired:
                 failed.append(f"{seen[command]}: {command}: more than 300 s")
