@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
+#include <string_view>
 
 namespace test {
 
@@ -19,6 +21,20 @@ constexpr std::int64_t samples(std::int64_t count) { return (count + sample_divi
 /// Is this one of the samples to take?
 template <class Random> bool is_taken(Random& random) {
   return sample_divisor == 1 || random.below(static_cast<int>(sample_divisor)) == 0;
+}
+
+/// The tests that take longest take a fifth of their samples in an ordinary build; with ENTS_TEST_SAMPLES=all in the
+/// environment all of them.
+inline std::int64_t long_divisor() {
+  static const bool all = [] {
+    const char* text = std::getenv("ENTS_TEST_SAMPLES");
+    return text && std::string_view(text) == "all";
+  }();
+  return sample_divisor > 1 || all ? sample_divisor : 5;
+}
+inline std::int64_t long_samples(std::int64_t count) { return (count + long_divisor() - 1) / long_divisor(); }
+template <class Random> bool is_long_taken(Random& random) {
+  return long_divisor() == 1 || random.below(static_cast<int>(long_divisor())) == 0;
 }
 
 } // namespace test

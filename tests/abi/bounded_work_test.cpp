@@ -32,7 +32,7 @@ TEST(BoundedWork, IterationsStayBelowTheirBound) {
   for (const auto& [kind, model_text] : models) {
     const Model model(model_text);
     Results results(model.layout);
-    for (int i = 0; i < samples(60); ++i) {
+    for (int i = 0; i < long_samples(60); ++i) {
       Element e = draw(model, basis(kind.basis), random);
       const double spread = std::pow(10.0, random(-3.0, 4.0)); // near, far and very far slaves
       for (double& x : e[slave]) x += spread * random(-1.0, 1.0);

@@ -233,6 +233,7 @@ TEST(MeshNumbers, AnyEndInAStatus) {
     std::vector<double> tree(static_cast<std::size_t>(size));
     const std::vector<double> good = m.positions;
     for (int repeat = 0; repeat < 4; ++repeat) {
+      if (sample_divisor == 1 && !is_long_taken(random)) continue;
       m.positions = good;
       std::vector<double> node = m.elements[0][test::slave];
       for (int k = repeat % 4; k > 0; --k) {

@@ -61,7 +61,7 @@ std::vector<Job> make_jobs(const std::vector<Model>& models, const std::vector<M
   return jobs;
 }
 
-constexpr int calls = static_cast<int>(samples(50000));
+const int calls = static_cast<int>(long_samples(50000));
 
 TEST(Purity, ShuffledOrderGivesTheSameBits) {
   const std::vector<ModelKind> kinds = all_kinds();

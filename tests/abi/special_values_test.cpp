@@ -103,7 +103,7 @@ TEST(SpecialValues, EachInputScalarInTurn) {
       for (double& scalar : element[i]) {
         const double good = scalar;
         for (const double value : special_values) {
-          if (!is_taken(random)) continue;
+          if (!is_long_taken(random)) continue;
           scalar = value;
           tally.check(model, element, masks[random.below(4)], results);
         }
@@ -118,7 +118,7 @@ TEST(SpecialValues, RandomCorruptions) {
   Random random(20260102);
   Tally tally;
   const std::vector<ModelKind> kinds = all_kinds();
-  while (tally.calls < samples(50000)) {
+  while (tally.calls < long_samples(50000)) {
     const ModelKind& kind = kinds[static_cast<std::size_t>(random.below(static_cast<int>(kinds.size())))];
     const Model model(text(kind));
     Results results(model.layout);
@@ -163,7 +163,7 @@ TEST(SpecialValues, EveryScaleOfLengths) {
     Results results(model.layout);
     const Element unit = draw(model, basis(kind.basis), random);
     for (int exponent = -1080; exponent <= 1020; exponent += 20) {
-      if (!is_taken(random)) continue;
+      if (!is_long_taken(random)) continue;
       Element element = unit;
       for (const int i : {slave, master})
         for (double& v : element[i]) v = std::ldexp(v, exponent);
@@ -186,7 +186,7 @@ TEST(SpecialValues, ExtremeModelsOnStretchedSegments) {
         magnitudes[static_cast<std::size_t>(random.below(static_cast<int>(magnitudes.size())))];
     return number(size * random(0.1, 1.0));
   };
-  for (int repeat = 0; repeat < samples(1000); ++repeat) {
+  for (int repeat = 0; repeat < long_samples(1000); ++repeat) {
     const Basis& b = bases()[static_cast<std::size_t>(random.below(static_cast<int>(bases().size())))];
     const bool line = b.dimension == 2;
     const auto list = [](const std::vector<std::string>& entries) {

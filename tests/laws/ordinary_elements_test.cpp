@@ -42,23 +42,27 @@ void PrintTo(const Case& c, std::ostream* out) {
        << c.tangent << (c.symmetrised ? " symmetrised" : "");
 }
 
-// Every law, on every basis and height; both shadow projections, every kind of tangent.
-std::vector<Case> cases() {
+// Every law, on every basis; both shadow projections, every kind of tangent; heights in turn.
+std::vector<Case> cases(std::size_t round = 0) {
   std::vector<Case> all;
-  for (const std::string& basis : mechanics::all_basis_names())
-    for (const std::string& height : mechanics::height_kinds()) {
-      for (const Method& method : methods())
-        for (const char* master : {"deformable", "rigid"}) all.push_back({basis, height, method, master});
-      for (const Method& method : methods_with_wear()) all.push_back({basis, height, method, "deformable"});
-      for (const std::size_t law : {1u, 9u}) { // penalty and exponential law with Coulomb friction
-        const Method method = methods()[law];
-        for (const char* projection : {"shadow_point", "shadow_direction"})
-          all.push_back({basis, height, method, "deformable", projection});
-        for (const char* tangent : {"small_gap", "first_variation"})
-          all.push_back({basis, height, method, "deformable", "normal", tangent});
-        all.push_back({basis, height, method, "deformable", "normal", "consistent", true});
-      }
+  std::size_t turn = 0, first = round; // each basis begins at another height
+  const auto add = [&](Case c) {
+    for (const std::string& height : heights_in_turn(turn++)) all.push_back(c), all.back().height = height;
+  };
+  for (const std::string& basis : mechanics::all_basis_names()) {
+    turn = first, first += 3;
+    for (const Method& method : methods())
+      for (const char* master : {"deformable", "rigid"}) add({basis, "", method, master});
+    for (const Method& method : methods_with_wear()) add({basis, "", method, "deformable"});
+    for (const std::size_t law : {1u, 9u}) { // penalty and exponential law with Coulomb friction
+      const Method method = methods()[law];
+      for (const char* projection : {"shadow_point", "shadow_direction"})
+        add({basis, "", method, "deformable", projection});
+      for (const char* tangent : {"small_gap", "first_variation"})
+        add({basis, "", method, "deformable", "normal", tangent});
+      add({basis, "", method, "deformable", "normal", "consistent", true});
     }
+  }
   return all;
 }
 
@@ -107,7 +111,7 @@ protected:
     const std::size_t rounds = text ? std::strtoull(text, nullptr, 10) : 1;
     std::map<std::string, std::int64_t> elements;
     for (std::size_t round = 0; round < rounds; ++round)
-      for (const Case& c : cases()) {
+      for (const Case& c : cases(round)) {
         if (HasFatalFailure()) return;
         f(c, draw_mixed(c, round));
         elements[c.method.name] += call_size;

@@ -3,14 +3,24 @@
 #pragma once
 
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "law_elements.hpp"
+#include "samples.hpp"
 
 namespace laws {
 
 inline constexpr std::int64_t call_size = 83; // ten registers of eight, and a remainder
 inline constexpr std::int32_t call_results =
     ENTS_RESIDUAL | ENTS_TANGENT | ENTS_STATE | ENTS_FLAGS | ENTS_GAP | ENTS_PRESSURE;
+
+/// Heights of one basis and law, in turn: none, and one of the others; with ENTS_TEST_SAMPLES=all every height.
+inline std::vector<std::string> heights_in_turn(std::size_t turn) {
+  const std::vector<std::string>& all = mechanics::height_kinds();
+  if (mechanics::long_divisor() == 1) return all;
+  return {all[0], all[1 + turn % (all.size() - 1)]};
+}
 
 // Elements first .. of e as a call of their own.
 inline LawElements part(const LawElements& e, std::int64_t first, std::int64_t size) {

@@ -185,7 +185,7 @@ protected:
 TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   // an element that flattens is ten evaluations, and one with heat is the same mechanics once more
   const bool some = !GetParam().flattening.is_null() || !GetParam().heat.is_null();
-  const std::int64_t goal = mechanics::samples(some ? 20000 : 100000);
+  const std::int64_t goal = mechanics::long_samples(some ? 20000 : 100000);
   Random random(1991);
   int round = 0;
   while (count_.checked < goal && round < 50) {

@@ -102,7 +102,7 @@ protected:
 
 TEST_P(ElementDerivatives, OfEnergyAndResidual) {
   const Basis& basis = basis_named(GetParam());
-  const std::int64_t goal = samples(100000);
+  const std::int64_t goal = long_samples(100000);
   Random random(2011);
   for (const std::string& kind : height_kinds()) {
     count_ = {};

@@ -38,7 +38,7 @@ json draw_deep_texture(Random& random, int parameters) {
 
 std::int64_t slaves_of_each_basis() {
   const char* text = std::getenv("ENTS_TEST_SLAVES");
-  return text ? std::atoll(text) : samples(3000);
+  return text ? std::atoll(text) : long_samples(3000);
 }
 
 class PatchAnswers : public testing::TestWithParam<const char*> {};
