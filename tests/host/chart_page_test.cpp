@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of `ents-lab chart` in a real browser, as wide as a desk and as a phone: are the charts, their
 // axes and texts there, and does nothing stick out?
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -65,6 +67,7 @@ const fs::path& page_folder() {
     const test::ProgramOutput output = test::ents_host(
         "chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + path.string() + "\"");
     EXPECT_EQ(output.exit_code, 0) << output.text;
+    EXPECT_NE(output.text.find("chart: 0 silently wrong"), std::string::npos) << output.text;
     return Cleared{path};
   }();
   return folder.path;
@@ -142,9 +145,48 @@ void expect_charts_at(const std::string& program, int width) {
   }
 }
 
-// One test, because each needs the run of the command: its page on a desk and on a phone, and its picture,
-// which is well-formed to a reader of XML.
-TEST(ChartPage, ShowsItsChartsInABrowser) {
+void expect_data() {
+  const Json data = parse_json_file(page_folder() / "chart.json");
+  EXPECT_EQ(data.at("silently_wrong"), 0);
+  ASSERT_EQ(data.at("wrong_heights").size(), 4u);
+  for (const Json& row : data.at("wrong_heights")) EXPECT_TRUE(row.at("flagged").get<bool>()) << row.dump();
+  for (const Json& map : data.at("stability")) {
+    const std::size_t points = map.at("x").at("values").size() * map.at("y").at("values").size();
+    for (const Json& panel : map.at("panels")) EXPECT_EQ(panel.at("fate").size(), points);
+  }
+  for (const char* name : {"rough_truth", "rough_truth_area"}) { // against boundary elements
+    const auto work = std::find_if(data.at("work_precision").begin(), data.at("work_precision").end(),
+                                   [&](const Json& each) { return each.at("name") == name; });
+    ASSERT_NE(work, data.at("work_precision").end()) << name;
+    std::map<std::string, double> errors;
+    for (const Json& run : work->at("runs"))
+      if (run.contains("error") && run.at("error").is_number())
+        errors[run.at("way").get<std::string>() + ", " + run.at("slave_mesh").get<std::string>() +
+               (run.at("counted").get<bool>() ? ", counted" : "")] = run.at("error").get<double>();
+    EXPECT_EQ(errors.size(), work->at("runs").size()) << work->dump();
+    for (const auto& [way, error] : errors) { // counted on 81 nodes the area is twice the true one and more
+      const double most = way.find(", counted") == std::string::npos ? 1 : 2;
+      EXPECT_TRUE(error > 0 && error < most) << way << ": " << error;
+    }
+    if (std::string(name) == "rough_truth_area") {
+      EXPECT_LT(errors.at("enriched, elastic layer, 1089 slave nodes, layer"),
+                errors.at("enriched, one segment, 81 slave nodes, block"));
+    }
+  }
+}
+
+void expect_one_page() {
+  const std::string page = read(page_folder() / "chart.html");
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  for (const char* outside : {"http:", "https:", "src=", "@import", "url("})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+}
+
+// One test, because each needs the run of the command, of half a minute: its data; a page that needs no network, on a desk and on a
+// phone; and its picture, which is well-formed to a reader of XML.
+TEST(Chart, LeavesDataAndAPageThatABrowserShows) {
+  expect_data();
+  expect_one_page();
   const std::string svg = read(page_folder() / "work_precision.svg");
   EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
   EXPECT_NE(svg.find("CPU time of the whole solve"), std::string::npos);

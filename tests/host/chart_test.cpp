@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stability maps: is the judge right, does it see what is wrong, and is nothing silently wrong?
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +10,6 @@
 #include "chart/master_check.hpp"
 #include "chart/true_curve.hpp"
 #include "chart/true_sheet.hpp"
-#include "program.hpp"
 #include "support.hpp"
 
 namespace host::chart::chart_test {
@@ -171,49 +165,6 @@ TEST(StabilityMaps, AFoldIsSeenFirst) {
   const Outcome outcome = solve(library(), make_press({profile, {}}));
   EXPECT_EQ(outcome.end, End::fold);
   EXPECT_EQ(outcome.iterations, 0);
-}
-
-// The command leaves one page that needs no network, and its data.
-TEST(Chart, LeavesPageAndData) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "ents_chart";
-  const test::ProgramOutput output = test::ents_host(
-      "chart --quick --no-pictures --scenes \"" EXAMPLES "\" --out \"" + folder.string() + "\"");
-  EXPECT_EQ(output.exit_code, 0) << output.text;
-  EXPECT_NE(output.text.find("chart: 0 silently wrong"), std::string::npos) << output.text;
-  const Json data = parse_json_file(folder / "chart.json");
-  EXPECT_EQ(data.at("silently_wrong"), 0);
-  ASSERT_EQ(data.at("wrong_heights").size(), 4u);
-  for (const Json& row : data.at("wrong_heights")) EXPECT_TRUE(row.at("flagged").get<bool>()) << row.dump();
-  for (const Json& map : data.at("stability")) {
-    const std::size_t points = map.at("x").at("values").size() * map.at("y").at("values").size();
-    for (const Json& panel : map.at("panels")) EXPECT_EQ(panel.at("fate").size(), points);
-  }
-  for (const char* name : {"rough_truth", "rough_truth_area"}) { // against boundary elements
-    const auto work = std::find_if(data.at("work_precision").begin(), data.at("work_precision").end(),
-                                   [&](const Json& each) { return each.at("name") == name; });
-    ASSERT_NE(work, data.at("work_precision").end()) << name;
-    std::map<std::string, double> errors;
-    for (const Json& run : work->at("runs"))
-      if (run.contains("error") && run.at("error").is_number())
-        errors[run.at("way").get<std::string>() + ", " + run.at("slave_mesh").get<std::string>() +
-               (run.at("counted").get<bool>() ? ", counted" : "")] = run.at("error").get<double>();
-    EXPECT_EQ(errors.size(), work->at("runs").size()) << work->dump();
-    for (const auto& [way, error] : errors) { // counted on 81 nodes the area is twice the true one and more
-      const double most = way.find(", counted") == std::string::npos ? 1 : 2;
-      EXPECT_TRUE(error > 0 && error < most) << way << ": " << error;
-    }
-    if (std::string(name) == "rough_truth_area") {
-      EXPECT_LT(errors.at("enriched, elastic layer, 1089 slave nodes, layer"),
-                errors.at("enriched, one segment, 81 slave nodes, block"));
-    }
-  }
-  std::ifstream stream(folder / "chart.html");
-  std::stringstream page;
-  page << stream.rdbuf();
-  EXPECT_NE(page.str().find("<svg"), std::string::npos);
-  for (const char* outside : {"http:", "https:", "src=", "@import", "url("})
-    EXPECT_EQ(page.str().find(outside), std::string::npos) << outside;
-  std::filesystem::remove_all(folder);
 }
 
 } // namespace
