@@ -197,7 +197,8 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
           const mechanics::Model model = model_of(scene, GetParam());
           // far and near the border of stick and slip
           check(scene, model,
-                draw(random, scene, model, mechanics::samples(300), random.coin() ? 0.05 : 0.01), random);
+                draw(random, scene, model, mechanics::long_samples(300), random.coin() ? 0.05 : 0.01),
+                random);
         }
   }
   EXPECT_GE(count_.checked, goal);
