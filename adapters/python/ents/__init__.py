@@ -28,9 +28,10 @@ from ._pose import Pose
 from ._surface import Tree
 from ._system import System
 from .contact import Contact
+from ._distributed import DistributedContact, Tangent
 
 __version__: str
-__all__ = ["Contact", "CutStep", "Error", "Library", "Model", "Pose", "System", "Tree", "library",
+__all__ = ["Contact", "CutStep", "DistributedContact", "Error", "Library", "Model", "Pose", "System", "Tangent", "Tree", "library",
            "CONTRACT_MAJOR", "CONTRACT_MINOR", "ENDS_STRAIGHT", "ENDS_REPEATED", "ENDS_QUASI_CUBIC",
            "ENDS_QUASI_PARABOLIC", "Flag", "Need", "Shared", "Status", "QUANTITIES", "CONDITIONS"]
 

@@ -14,6 +14,9 @@ from ._surface import Tree
 from ._surfaces import MasterSurface, SlavePoints
 
 FACING = -0.05  # cosine of the two normals up to which facets face each other: about 93 degrees
+SAME_WAY = ("slave and master facets look the same way: one of the sides is listed in the wrong order. Normals point out of the bodies, at each other "
+            "(2D: to the left of the way from the first node of a facet to the second; 3D: corners counter-clockwise, seen from outside). "
+            "Reverse its facets: facets[:, ::-1]")
 
 
 class SidePairs:
@@ -52,13 +55,10 @@ class SidePairs:
         self.judged = True
         if not (self._cosines(found, tree.positions, segment[found]) > 0.1).all():
             return
-        text = ("slave and master facets look the same way: one of the sides is listed in the wrong order. Normals point out of the bodies, at each other "
-                "(2D: to the left of the way from the first node of a facet to the second; 3D: corners counter-clockwise, seen from outside). "
-                "Reverse its facets: facets[:, ::-1]")
         if self._bodies:
-            raise Error(Status.BAD_VALUE, text)
+            raise Error(Status.BAD_VALUE, SAME_WAY)
         self._sign = -1.0
-        warnings.warn(f"{text}. The master is taken as it is, the slave's order has no effect here", UserWarning, stacklevel=4)
+        warnings.warn(f"{SAME_WAY}. The master is taken as it is, the slave's order has no effect here", UserWarning, stacklevel=4)
 
     def normals(self) -> Optional[np.ndarray]:
         """[points][d] out of the slave's body, for the search; None where they mean nothing, or before the first `judge`."""

@@ -84,7 +84,9 @@ def _three_points(nodes: np.ndarray, positions: np.ndarray) -> tuple[tuple, np.n
 class MasterSurface:
     """Segments [facets][m] over points that are combinations `matrix` of the nodes; of the nodes and their mirror images with planes of symmetry."""
 
-    def __init__(self, model: Model, positions: np.ndarray, master: Any, ends: int, mirror: Sequence, order: str) -> None:
+    def __init__(self, model: Model, positions: np.ndarray, master: Any, ends: int, mirror: Sequence, order: str,
+                 kept: Optional[int] = None) -> None:
+        """kept: the first facets, which become segments; the others are there for smoothing alone. Default: all."""
         import scipy.sparse as sparse
         self.smoothed, self.segment, count, d = model.segment in SMOOTHED, model.segment, *positions.shape
         groups = read_facets("master", master, count, d, order)
@@ -100,9 +102,13 @@ class MasterSurface:
         if self.smoothed:
             all_nodes = count + len(self._images.source)
             segments, (begin, of, weights) = model.library.smooth(shape, model.segment, self._images.facets(nodes), all_nodes, ends)
-            self.segments, self.matrix = segments[:len(nodes)], sparse.csr_matrix((weights, of, begin), (len(begin) - 1, all_nodes))
+            self.segments, self.matrix = segments[:len(nodes)][:kept], sparse.csr_matrix((weights, of, begin), (len(begin) - 1, all_nodes))
         else:
             self.segments, self.matrix = nodes, sparse.identity(count, format="csr")
+            # The library takes the motion of a surface from all of its nodes: other nodes of the program's stand where some of the surface are.
+            used = np.unique(nodes)
+            self._others = np.setdiff1d(np.arange(count), used)
+            self._instead = np.resize(used, len(self._others))
         self.start = self.at(positions)
 
     @staticmethod
@@ -124,7 +130,11 @@ class MasterSurface:
 
     def at(self, now: np.ndarray) -> np.ndarray:
         """[points][d] of the segments at the positions `now` [nodes][d]."""
-        return self.matrix @ self._images.with_images(now) if self.smoothed else now
+        if self.smoothed:
+            return self.matrix @ self._images.with_images(now)
+        now = now.copy()
+        now[self._others] = now[self._instead]
+        return now
 
     def scalars(self, of_nodes: np.ndarray) -> np.ndarray:
         """[points] of numbers [nodes] that have no direction."""
@@ -138,7 +148,8 @@ class MasterSurface:
         ends = groups[0].nodes[:, :2]
         at = np.full((ends.max() + 1, 2), -1, np.int64)  # the segments that begin and end in a node
         at[ends[:, 0], 0] = at[ends[:, 1], 1] = np.arange(len(ends))
-        return np.column_stack([at[ends[:, 0], 1], at[ends[:, 1], 0]])
+        beside = np.column_stack([at[ends[:, 0], 1], at[ends[:, 1], 0]])[:len(self.segments)]
+        return np.where(beside < len(self.segments), beside, -1)
 
     def coordinates(self, given: Any) -> Any:
         """Surface coordinates [segments][m][d-1] from the argument surface_coordinates."""

@@ -48,10 +48,18 @@ class Contact(ContactResults):
     attributes cannot be written to. A Contact can be pickled, copied (copy.deepcopy) and saved (save, load).
     """
 
+    _kept: Optional[int] = None  # master facets that become segments; all
+
+    def __new__(cls, *arguments: Any, comm: Any = None, **options: Any) -> Any:
+        if comm is None:
+            return super().__new__(cls)
+        from ._distributed import DistributedContact
+        return DistributedContact(*arguments, comm=comm, **options)
+
     def __init__(self, model: Union[Model, dict, str, os.PathLike], positions: Any, slave: Any, master: Any, *, master_positions: Any = None,
                  dofs: Any = None, rows: Optional[int] = None, reach: Optional[float] = None, thickness: float = 1.0, sampling: Optional[int] = None,
                  surface_coordinates: Any = None, offset: Any = None, elements: Any = None, ends: int = ENDS_STRAIGHT, leave: bool = False,
-                 mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None) -> None:
+                 mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None, comm: None = None) -> None:
         """Slave points on the facets `slave` against the facets `master`.
 
         model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
@@ -83,12 +91,14 @@ class Contact(ContactResults):
         temperature  of a model with "heat": a number or [nodes], the temperatures at u = 0, to which those of u are added; default: 0
         master_temperature   the same of the nodes of master_positions
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
+        comm       an mpi4py communicator: the surfaces are distributed over its processes. What comes back is an ents.DistributedContact, with
+                   further arguments: help(ents.DistributedContact.__init__)
 
         Errors (ents.Error, with what to write): facets that are on both sides (a surface in contact with itself), that name a node twice, that do not
         exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
         argument of another shape. A slave facet without area is left out with a warning.
         """
-        self._arguments = {name: value if name == "model" else copy.deepcopy(value) for name, value in locals().items() if name != "self"}
+        self._arguments = {name: value if name == "model" else copy.deepcopy(value) for name, value in locals().items() if name not in ("self", "comm")}
         self.model = model = (model if isinstance(model, Model) else Model(model)).with_border(BORDER)
         d = model.layout.dimension
         _refuse_models(model)
@@ -110,7 +120,7 @@ class Contact(ContactResults):
 
         self._heat = Temperatures(model, nodes, temperature, None if self._own is None else len(self._own), master_temperature)
         self._slave = points = SlavePoints(model, self._positions, slave, sampling, thickness, order)
-        self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order)
+        self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order, self._kept)
         self._pairs = SidePairs(points, self._master, self._positions, self._own is None)
         self.tree = Tree(model, self._master.segments, self._master.start, self._master.coordinates(surface_coordinates))
         self.reach = max(points.longest_edge, self._master.longest_edge) if reach is None else reach
