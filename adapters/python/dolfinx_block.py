@@ -11,11 +11,10 @@ SCENE      a scene of ents-lab with two blocks, quad4 or tri3, "neo_hooke" or "s
 --compare  result.json that `ents-lab run SCENE --out DIR` left in DIR: the forces have to be the same
 --refine   N times as many elements in each direction (not with --compare)
 
-A contact element belongs to the process that owns its slave node. Positions of the two surfaces are known to all.
+A contact element belongs to the process that owns its slave node; a process knows the parts of the surfaces near its own ones.
 exit status: 0 done; 1 no convergence, or other forces; 2 wrong command line; 3 a package is missing (Debian: python3-dolfinx-real python3-scipy)"""
 import pathlib
 import sys
-import traceback
 
 import block
 
@@ -61,28 +60,6 @@ class Parts:
         self.nodes, self.cells, self.part = np.concatenate(nodes), np.concatenate(cells), np.array(self.part)
 
 
-class Contact:
-    """Forces and stiffness of the contact elements that this process owns, in dofs of the two surfaces (slave nodes, then master nodes)."""
-
-    def __init__(self, scene, parts, owned):
-        contact = scene["contact"]
-        slaves, masters = parts.sides[contact["slave"]], parts.sides[contact["master"]["faces"]]
-        self.nodes = np.concatenate([slaves, masters])
-        chain = lambda first, n: first + np.column_stack([np.arange(n - 1), np.arange(1, n)])  # left to right: the normal points up, out of the lower block
-        self.surfaces = ents.Contact(
-            contact["model"], parts.nodes[self.nodes], chain(0, len(slaves))[:, ::-1], chain(len(slaves), len(masters)), reach=0.25, elements=owned[slaves],
-            surface_coordinates="x" if "surface_coordinates" in contact["master"] else None, ends=ents.ENDS_REPEATED)  # as ents-lab has them
-
-    def evaluate(self, displacement):
-        """displacement [nodes][2]: R, and K as a sparse matrix."""
-        residual, tangent = self.surfaces.update(displacement)
-        return residual, tangent.tocoo()
-
-    def accept(self):
-        """What the last evaluation found is the begin of the next increment."""
-        self.surfaces.commit()
-
-
 class Host:
     """dolfinx: F and J of SNES."""
 
@@ -114,10 +91,11 @@ class Host:
             mu.x.array[constant.dofmap.cell_dofs(c)] = young / (2 * (1 + nu))
             la.x.array[constant.dofmap.cell_dofs(c)] = young * nu / ((1 + nu) * (1 - 2 * nu))
         self.owned = (self.local >= 0) & (self.local < index.size_local)
-        mine = np.where(self.owned, index.local_range[0] + self.local, -1).astype(np.int64)
-        node = np.empty_like(mine)
-        comm.Allreduce(mine, node, MPI.MAX)
-        self.dofs = (2 * node[:, None] + [0, 1]).astype(PETSc.IntType)  # [input node][2] numbers among all processes
+        local = np.arange(index.size_local + index.num_ghosts, dtype=np.int32)
+        self.dofs = (2 * index.local_to_global(local)[:, None] + [0, 1]).astype(PETSc.IntType)  # [local node][2] numbers among all processes
+        self.input = np.zeros(len(local), np.int64)  # input node of each
+        self.input[self.local[self.local >= 0]] = np.flatnonzero(self.local >= 0)
+        self.owners = np.r_[np.full(index.size_local, comm.rank), index.owners]
 
         f = ufl.Identity(2) + ufl.grad(u)
         if law == "st_venant_kirchhoff":
@@ -137,9 +115,9 @@ class Host:
                     self.loads.append((value, support[axis]))
                     dofs = np.sort(2 * nodes[nodes >= 0] + i).astype(np.int32)
                     self.bcs.append(fem.dirichletbc(value, dofs, space.sub(i)))
-        self.contact = Contact(scene, parts, self.owned)
+        self.contact = self.surfaces(scene, parts, mesh)
         bottom = parts.sides[scene["contact"]["master"]["faces"].split(".")[0] + ".y_min"]
-        self.bottom = self.dofs[bottom][self.owned[bottom]]
+        self.bottom = self.dofs[self.local[bottom[self.owned[bottom]]]]
         self.vector = fem_petsc.create_vector(self.residual)
         self.matrix = fem_petsc.create_matrix(self.jacobian)
         self.matrix.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)  # couplings by contact are outside the pattern
@@ -153,21 +131,25 @@ class Host:
         snes.getKSP().getPC().setType("lu")
         snes.getKSP().getPC().setFactorSolverType("mumps")
 
+    def surfaces(self, scene, parts, mesh):
+        """ents.Contact of the two sides: each process gives the facets of its own cells, and all its nodes."""
+        own = np.isin(np.arange(len(parts.cells)), mesh.topology.original_cell_index[:mesh.topology.index_map(2).size_local])
+        contact = scene["contact"]
+
+        def facets(name):  # left to right: the normal points up, out of the lower block
+            side = parts.sides[name]
+            of = np.isin(parts.cells[own], side)
+            mine = {tuple(sorted(cell[on])) for cell, on in zip(parts.cells[own], of) if on.sum() == 2}
+            chain = [pair for pair in zip(side, side[1:]) if tuple(sorted(pair)) in mine]
+            return self.local[np.array(chain, np.int64).reshape(-1, 2)]
+        return ents.Contact(
+            contact["model"], parts.nodes[self.input], facets(contact["slave"])[:, ::-1], facets(contact["master"]["faces"]), dofs=self.dofs, numbers=self.input,
+            owners=self.owners, comm=self.comm, reach=0.25, surface_coordinates="x" if "surface_coordinates" in contact["master"] else None,
+            ends=ents.ENDS_REPEATED)  # as ents-host has them
+
     def contact_part(self):
-        nodes = self.contact.nodes
-        mine = np.zeros((len(nodes), 2))
-        own = self.owned[nodes]
-        mine[own] = self.u.x.array.reshape(-1, 2)[self.local[nodes[own]]]
-        everywhere = np.empty_like(mine)
-        self.comm.Allreduce(mine, everywhere, MPI.SUM)
-        try:
-            return self.dofs[nodes].ravel(), *self.contact.evaluate(everywhere)
-        except BaseException:
-            if self.comm.size > 1:  # the other processes would wait for this one
-                traceback.print_exc()
-                sys.stderr.flush()
-                self.comm.Abort(1)
-            raise
+        """Of this process: (equations, forces) and the tangent."""
+        return self.contact.update(self.u.x.array)
 
     def forces(self, b):
         """Bulk and contact, without the conditions."""
@@ -177,8 +159,8 @@ class Host:
 
     def add_contact(self, b):
         b.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
-        dofs, r, _ = self.contact_part()
-        b.setValues(dofs, r, PETSc.InsertMode.ADD)
+        (equations, r), _ = self.contact_part()
+        b.setValues(equations, r, PETSc.InsertMode.ADD)
         b.assemble()
 
     def function(self, snes, x, b):
@@ -193,9 +175,8 @@ class Host:
         p.zeroEntries()
         fem_petsc.assemble_matrix(p, self.jacobian, self.bcs)
         p.assemble(PETSc.Mat.AssemblyType.FLUSH)
-        dofs, _, k = self.contact_part()
-        for i, jj, value in zip(k.row, k.col, k.data):
-            p.setValue(dofs[i], dofs[jj], value, PETSc.InsertMode.ADD)
+        _, k = self.contact_part()
+        p.setValuesIJV(k.begin, k.columns, k.values, PETSc.InsertMode.ADD, rowmap=k.rows)
         p.assemble()
 
     def solve(self, steps):
@@ -213,7 +194,7 @@ class Host:
             b = fem_petsc.create_vector(self.residual)
             self.forces(b)
             self.add_contact(b)
-            self.contact.accept()
+            self.contact.commit()
             mine = np.array([b.getValues(self.bottom[:, i]).sum() for i in (0, 1)]) if len(self.bottom) else np.zeros(2)
             force = np.empty(2)
             self.comm.Allreduce(mine, force, MPI.SUM)
