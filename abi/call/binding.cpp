@@ -22,7 +22,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "it has none" : "it has " + text;
 }
 
-std::vector<std::string> parameter_names(const Model& model) {
+std::vector<std::string> parameter_names(const ModelSpec& model) {
   std::vector<std::string> names;
   for (const NamedParameter& parameter : model.parameters) names.push_back(parameter.name);
   return names;

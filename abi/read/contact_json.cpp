@@ -17,7 +17,7 @@ namespace ents {
 
 using nlohmann::json;
 
-double read_law_number(const json& object, const std::string& path, const char* key, const Model& model,
+double read_law_number(const json& object, const std::string& path, const char* key, const ModelSpec& model,
                        std::uint8_t& bound_to, Range range) {
   const double number =
       read_bound_double(object.at(key), member(path, key), Range::any, model.parameters, bound_to);
@@ -41,7 +41,7 @@ std::int32_t read_exponent(const json& normal, const std::string& path, const ch
 }
 
 void read_table(const json& normal, const std::string& path, const char* gap_key, const char* pressure_key,
-                Model& model) {
+                ModelSpec& model) {
   constexpr std::size_t most = 1024;
   const json& gaps = normal.at(gap_key);
   const std::string at_gap = member(path, gap_key), at_pressure = member(path, pressure_key);
@@ -68,7 +68,7 @@ void read_table(const json& normal, const std::string& path, const char* gap_key
 }
 
 // By what the law's table says.
-void read_normal(const json& normal, const std::string& path, Model& model) {
+void read_normal(const json& normal, const std::string& path, ModelSpec& model) {
   std::vector<std::string_view> types, keys{"type"};
   for (const LawEntry& entry : law_entries) types.push_back(entry.type);
   const LawEntry& entry = law_entries[read_type(normal, path, types)];
@@ -95,7 +95,7 @@ void read_normal(const json& normal, const std::string& path, Model& model) {
     }
 }
 
-void read_friction(const json& friction, const std::string& path, Model& model) {
+void read_friction(const json& friction, const std::string& path, ModelSpec& model) {
   ContactLaw& law = model.law;
   const bool rough = read_type(friction, path, {"coulomb", "rough"}) == 1;
   if (rough) {
@@ -112,7 +112,7 @@ void read_friction(const json& friction, const std::string& path, Model& model) 
   law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
 }
 
-void read_wear(const json& wear, const std::string& path, Model& model) {
+void read_wear(const json& wear, const std::string& path, ModelSpec& model) {
   check_keys(wear, path, {"coefficient"}, {"scheme", "slave", "sliding"});
   Wear& law = model.law.wear;
   const auto number = [&](const char* key, std::uint8_t& bound_to) {
@@ -143,7 +143,7 @@ void read_wear(const json& wear, const std::string& path, Model& model) {
 }
 
 // Before the height is known: check_flattened() has the rest.
-void read_flattening(const json& value, const std::string& path, Model& model) {
+void read_flattening(const json& value, const std::string& path, ModelSpec& model) {
   check_keys(value, path, {"scale", "pressure"}, {"least"});
   Flattening& law = model.law.flattening;
   if (!value.at("scale").is_string())
@@ -166,7 +166,7 @@ void read_flattening(const json& value, const std::string& path, Model& model) {
 
 } // namespace
 
-void read_contact(const json& value, const std::string& path, Model& model) {
+void read_contact(const json& value, const std::string& path, ModelSpec& model) {
   check_keys(value, path, {"normal"}, {"friction", "symmetrised", "wear", "offset", "flattening", "heat"});
   read_normal(value.at("normal"), member(path, "normal"), model);
   if (value.contains("friction") && !value.at("friction").is_null())
@@ -186,7 +186,7 @@ void read_contact(const json& value, const std::string& path, Model& model) {
     read_heat(value.at("heat"), member(path, "heat"), model);
 }
 
-void check_flattened(const Model& model) {
+void check_flattened(const ModelSpec& model) {
   const std::uint8_t scale = model.law.flattening.parameter;
   if (scale == 0) return;
   bool scales = false, elsewhere = false;

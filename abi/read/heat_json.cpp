@@ -40,7 +40,7 @@ std::vector<ConductancePoint> read_points(const json& table, const std::string& 
   return points;
 }
 
-void read_power(const json& power, const std::string& path, Model& model) {
+void read_power(const json& power, const std::string& path, ModelSpec& model) {
   Heat& heat = model.law.heat;
   check_keys(power, path, {"coefficient", "pressure", "exponent"}, {});
   heat.coefficient = read_law_number(power, path, "coefficient", model, model.law_binding.heat_coefficient,
@@ -51,7 +51,7 @@ void read_power(const json& power, const std::string& path, Model& model) {
     fail(ENTS_BAD_VALUE, member(path, "exponent"), "is " + shown(heat.exponent) + ", not in 0.1 .. 10");
 }
 
-void read_friction_heat(const json& friction, const std::string& path, Model& model) {
+void read_friction_heat(const json& friction, const std::string& path, ModelSpec& model) {
   Heat& heat = model.law.heat;
   check_keys(friction, path, {}, {"share", "slave"});
   if (!model.law.has_friction())
@@ -69,7 +69,7 @@ void read_friction_heat(const json& friction, const std::string& path, Model& mo
 
 } // namespace
 
-void read_heat(const json& value, const std::string& path, Model& model) {
+void read_heat(const json& value, const std::string& path, ModelSpec& model) {
   Heat& heat = model.law.heat;
   check_keys(value, path, {}, {"conductance", "power", "table", "clearance", "gas", "friction"});
   if (value.empty())

@@ -88,7 +88,7 @@ Patch read_patch(const json& value, const BasisEntry& basis) {
   return patch;
 }
 
-void read_projection(const json& value, Model& model) {
+void read_projection(const json& value, ModelSpec& model) {
   const std::string path = "/projection";
   const auto d = static_cast<std::size_t>(basis_entry(model.basis).parameters) + 1;
   constexpr ProjectionKind kinds[] = {ProjectionKind::normal, ProjectionKind::shadow_point,

@@ -38,7 +38,7 @@ void keep_smaller(Worst& worst, double value, const double* xi) {
 
 // Has rho itself a normal?
 bool has_base_normal(Basis basis, const double* master, const double* xi) {
-  Model model;
+  ModelSpec model;
   model.basis = basis;
   const Plan plan = make_plan(model);
   return plan.surface(plan, master, nullptr, xi, {}) == Status::ok;
@@ -65,7 +65,7 @@ double cosine_of_ray(const Plan& plan, const double* point, const double* normal
   return length > 0.0 ? cosine / std::sqrt(length) : 0.0;
 }
 
-Status check_admissibility(const Model& model, const Plan& plan, const double* master,
+Status check_admissibility(const ModelSpec& model, const Plan& plan, const double* master,
                            const double* surface_coordinates, int samples, Admissibility& result) {
   const double* coordinates = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
   const int n = samples > 0 ? samples : samples_for(plan, coordinates);

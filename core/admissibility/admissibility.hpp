@@ -29,7 +29,7 @@ inline constexpr int most_samples = 4096;
 double cosine_of_ray(const Plan& plan, const double* point, const double* normal);
 
 // samples: 2 .. most_samples per direction, or 0 for as many as the height's features ask for (at most 1025).
-Status check_admissibility(const Model& model, const Plan& plan, const double* master,
+Status check_admissibility(const ModelSpec& model, const Plan& plan, const double* master,
                            const double* surface_coordinates, int samples, Admissibility& result);
 
 } // namespace ents

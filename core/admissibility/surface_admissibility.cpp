@@ -152,7 +152,7 @@ void set_bounds(const SurfaceChecker& c, const SurfaceLimits& limits) {
 
 } // namespace
 
-Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh,
+Status check_surface(const ModelSpec& model, const Plan& plan, const MasterMesh& mesh,
                      const SurfaceLimits& limits, SurfaceAdmissibility& result, std::int64_t& segment) {
   result = {};
   result.height_min = infinity, result.height_max = -infinity;

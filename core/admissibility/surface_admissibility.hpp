@@ -49,7 +49,7 @@ struct SurfaceAdmissibility {
 
 // Allocates: see ents_surface_check. Errors as `gather` and of a plain segment that is degenerate, at
 // `segment`.
-Status check_surface(const Model& model, const Plan& plan, const MasterMesh& mesh,
+Status check_surface(const ModelSpec& model, const Plan& plan, const MasterMesh& mesh,
                      const SurfaceLimits& limits, SurfaceAdmissibility& result, std::int64_t& segment);
 
 } // namespace ents

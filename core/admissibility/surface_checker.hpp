@@ -28,7 +28,7 @@ inline bool place_at(const Plan& plan, const SegmentNodes& nodes, const double* 
 }
 
 struct SurfaceChecker {
-  const Model& model;
+  const ModelSpec& model;
   const Plan& plan;
   const MasterMesh& mesh;
   double size; // of the box around the nodes

@@ -20,7 +20,7 @@ constexpr const KernelSet& (*kernels_of[])() = {ENTS_BASES(ENTS_BASIS)}; // [bas
 
 } // namespace
 
-void set_block_kernels(const Model& model, const BlockKernels& kernels, Plan& plan) {
+void set_block_kernels(const ModelSpec& model, const BlockKernels& kernels, Plan& plan) {
   plan.block = plan.block_without_friction = nullptr;
   if (!kernels.of_basis) return;
   const bool enriched = plan.height != nullptr;
@@ -50,7 +50,7 @@ const BlockKernels& best_block_kernels() {
 namespace {
 
 // What the boxes of a tree depend on, beside the positions.
-double make_surface_stamp(const Model& model) {
+double make_surface_stamp(const ModelSpec& model) {
   Fingerprint print;
   print.add(static_cast<double>(model.basis));
   print.add(model.border);
@@ -59,7 +59,7 @@ double make_surface_stamp(const Model& model) {
   return print.number();
 }
 
-Plan make(const Model& model, bool enriched) {
+Plan make(const ModelSpec& model, bool enriched) {
   const BasisEntry& basis = basis_entry(model.basis);
   const KernelSet& kernels = kernels_of[static_cast<std::int32_t>(model.basis)]();
   Plan plan{};
@@ -125,9 +125,9 @@ Plan make(const Model& model, bool enriched) {
 } // namespace
 
 // A height that is zero everywhere, and stays so, is none: the plain segment, to the last bit.
-Plan make_plan(const Model& model) {
+Plan make_plan(const ModelSpec& model) {
   return make(model, model.height.bound() > 0.0 || model.height.varies());
 }
-Plan make_base_plan(const Model& model) { return make(model, false); }
+Plan make_base_plan(const ModelSpec& model) { return make(model, false); }
 
 } // namespace ents

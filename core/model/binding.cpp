@@ -37,7 +37,7 @@ double bound_everywhere(const ExternalHeight& height) {
 }
 
 // The caller's block of a node that is a field; null: no field. bad_state: the block is not one of it.
-Status block_of_field(const Model& model, const double* const* fields, const HeightNode& node,
+Status block_of_field(const ModelSpec& model, const double* const* fields, const HeightNode& node,
                       const double*& block, std::int32_t& which) {
   block = nullptr;
   if (node.kind != HeightKind::map || node.bound_to[0] == 0) return Status::ok;
@@ -50,7 +50,7 @@ Status block_of_field(const Model& model, const double* const* fields, const Hei
 }
 
 // Writes the caller's numbers into a node. block: of a node that is a field
-void bind_node(const Model& model, const double* parameters, const double* block, HeightNode& node,
+void bind_node(const ModelSpec& model, const double* parameters, const double* block, HeightNode& node,
                double*& values) {
   const auto& to = node.bound_to;
   const auto number = [&](int slot, double& value) {
@@ -97,13 +97,13 @@ void bind_node(const Model& model, const double* parameters, const double* block
 
 } // namespace
 
-BoundHeight make_bound_height(const Model& model) {
+BoundHeight make_bound_height(const ModelSpec& model) {
   std::size_t count = 0;
   for (const HeightNode& node : model.height.nodes()) count += static_cast<std::size_t>(count_values(node));
   return {model.height.nodes(), std::vector<double>(count)};
 }
 
-Status bind(const Model& model, const Plan& of, const double* parameters, const double* const* fields,
+Status bind(const ModelSpec& model, const Plan& of, const double* parameters, const double* const* fields,
             BoundHeight& height, Plan& plan, std::int32_t& which) {
   std::vector<HeightNode>& nodes = height.nodes;
   double values[most_parameters];

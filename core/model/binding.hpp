@@ -17,12 +17,12 @@ struct BoundHeight {
   std::vector<HeightNode> nodes;
   std::vector<double> values; // of formulas and external heights with parameters, one after the other
 };
-BoundHeight make_bound_height(const Model& model);
+BoundHeight make_bound_height(const ModelSpec& model);
 
 // plan: `of`, a plan of the model, with the numbers of the caller. height: of make_bound_height().
 // Statuses: non_finite, bad_value (a number that its law cannot have; `which`: the parameter), bad_state (the
 // field).
-Status bind(const Model& model, const Plan& of, const double* parameters, const double* const* fields,
+Status bind(const ModelSpec& model, const Plan& of, const double* parameters, const double* const* fields,
             BoundHeight& height, Plan& plan, std::int32_t& which);
 
 } // namespace ents

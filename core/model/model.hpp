@@ -40,7 +40,7 @@ struct LawBinding {
   std::uint8_t heat_constant = 0, heat_coefficient = 0, heat_conductivity = 0, heat_share = 0;
 };
 
-struct Model {
+struct ModelSpec {
   Basis basis = Basis::line2;
   Height height;                           // of as many surface coordinates as the basis has parameters
   bool own_surface_coordinates = false;    // else the host's, else s = xi

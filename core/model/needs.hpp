@@ -44,7 +44,7 @@ inline bool has_history(const Plan& plan) {
 }
 
 // All but one_by_one.
-inline std::int32_t needs_of(const Model& model, const Plan& plan) {
+inline std::int32_t needs_of(const ModelSpec& model, const Plan& plan) {
   const bool enriched = plan.height != nullptr, flat = is_flat_basis(model.basis);
   const ContactLaw& law = plan.law;
   const auto if_so = [](bool so, std::int32_t bit) { return so ? bit : 0; };

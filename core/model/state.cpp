@@ -5,7 +5,7 @@
 
 namespace ents {
 
-StateLayout make_state_layout(const Model& model) {
+StateLayout make_state_layout(const ModelSpec& model) {
   const ContactLaw& law = model.law;
   const std::int32_t parameters = basis_entry(model.basis).parameters;
   StateLayout s{-1, -1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};

@@ -7,7 +7,7 @@
 
 namespace ents {
 
-struct Model;
+struct ModelSpec;
 
 // State block of an element: where its parts are; -1: not part of it.
 enum class History : std::int32_t { none = 0, open = 1, stick = 2, slip = 3 }; // stick: also without friction
@@ -31,7 +31,7 @@ struct StateLayout {
   // and that no field has yet [L]; pressure [F/L^2] and projection at the end of the increment before
   static constexpr std::int32_t worn_slave = 0, worn_master = 1, worn_pressure = 2, worn_anchor = 3;
 };
-StateLayout make_state_layout(const Model& model);
+StateLayout make_state_layout(const ModelSpec& model);
 // A block of this layout, with finite numbers and a known history?
 inline bool is_state(const StateLayout& layout, const double* state) {
   double zero = 0.0;

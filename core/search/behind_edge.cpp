@@ -103,7 +103,7 @@ int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, con
   int count = 0;
   bool all = true;
   const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree,
+      BoxTree(plan, mesh.segments), tree,
       [&](const double* box) { return distance_to_box(d, place.base_point, box); }, [&] { return within; },
       [&](std::int64_t segment) {
         if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok)
@@ -163,7 +163,7 @@ bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree
                     const double* slave_normal, double limit, NearestBorder& out) {
   out.at.distance = limit, out.segment = -1;
   const Status status = visit_segments(
-      Tree(plan, mesh.segments), tree,
+      BoxTree(plan, mesh.segments), tree,
       [&](const double* box) { return distance_to_box(plan.dimension, slave, box); },
       [&] { return out.at.distance; },
       [&](std::int64_t segment) {

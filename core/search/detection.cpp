@@ -304,7 +304,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
     return Status::ok;
   };
   const auto rank = [&](const double* box) { return least_rank(plan, slave, ray, box); };
-  const Tree shape(plan, mesh.segments);
+  const BoxTree shape(plan, mesh.segments);
   const Status status = tree ? visit_segments(shape, tree, rank, limit, visit)
                              : visit_nearest_first(plan, mesh, rank, limit, visit);
   if (status != Status::ok) return status;

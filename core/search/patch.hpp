@@ -22,7 +22,7 @@ struct Patch {
 };
 
 // What the reader makes of a model's text.
-struct PatchedModel : Model {
+struct PatchedModel : ModelSpec {
   Patch patch;
 };
 

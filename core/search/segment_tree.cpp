@@ -17,7 +17,7 @@ Status box_of_segment(const Plan& plan, const MasterMesh& mesh, std::int64_t seg
 }
 
 std::int64_t tree_size(const Plan& plan, std::int64_t segments) {
-  return segments > std::int64_t{1} << 40 ? 0 : Tree(plan, segments).size();
+  return segments > std::int64_t{1} << 40 ? 0 : BoxTree(plan, segments).size();
 }
 
 bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
@@ -27,7 +27,7 @@ bool is_tree(const Plan& plan, const MasterMesh& mesh, const double* tree) {
 bool is_tree_of_model(const Plan& plan, const double* tree) { return tree[2] == plan.surface_stamp; }
 
 Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
-  const Tree t(plan, mesh.segments);
+  const BoxTree t(plan, mesh.segments);
   const int d = t.d;
   tree[0] = 0.0; // no tree until all boxes are there
   std::vector<double> centre(static_cast<std::size_t>(t.segments * d));
@@ -65,7 +65,7 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 }
 
 Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment) {
-  const Tree t(plan, mesh.segments);
+  const BoxTree t(plan, mesh.segments);
   const int d = t.d;
   tree[0] = 0.0;
   for (std::int64_t node = 2 * t.leaves() - 1; node > 0; --node) {

@@ -21,11 +21,11 @@ inline constexpr std::int64_t leaf_segments = 4;
 inline constexpr double tree_tag = 1701737592.0; // says that it is a tree, and how it is laid out
 inline constexpr std::int64_t tree_header = 3;
 
-struct Tree {
+struct BoxTree {
   std::int64_t segments;
   int depth = 0;
   int d;
-  Tree(const Plan& plan, std::int64_t count) : segments(count), d(plan.dimension) {
+  BoxTree(const Plan& plan, std::int64_t count) : segments(count), d(plan.dimension) {
     while ((leaf_segments << depth) < segments) ++depth;
   }
   std::int64_t leaves() const { return std::int64_t{1} << depth; }
@@ -43,7 +43,7 @@ struct Tree {
 // A status that is not ok ends it; bad_state: the tree has been written over. Without a tree all segments are
 // visited.
 template <class Rank, class Limit, class Visit>
-Status visit_segments(const Tree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
+Status visit_segments(const BoxTree& t, const double* tree, Rank&& rank, Limit&& limit, Visit&& visit) {
   if (!tree) { // a few segments
     for (std::int64_t s = 0; s < t.segments; ++s)
       if (const Status status = visit(s); status != Status::ok) return status;

@@ -58,7 +58,7 @@ bool may_meet(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
   for (int i = 0; i < plan.dimension; ++i) start[i] = from[i] + motion.mean[i];
   bool meets = false;
   visit_segments(
-      Tree(plan, mesh.segments), tree,
+      BoxTree(plan, mesh.segments), tree,
       [&](const double* box) {
         return passes(start, to, box, motion.rest + reach, plan.dimension) ? 0.0 : 1.0;
       },

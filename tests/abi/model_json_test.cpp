@@ -25,12 +25,12 @@ using ents::testing::verdict;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double pi = 3.14159265358979323846;
 
-double height_1(const Model& model, double s1) {
+double height_1(const ModelSpec& model, double s1) {
   const double s[1] = {s1};
   return ENTS_ISA::evaluate_height(model.height.root(), s).h;
 }
 
-double height_2(const Model& model, double s1, double s2) {
+double height_2(const ModelSpec& model, double s1, double s2) {
   const double s[2] = {s1, s2};
   return ENTS_ISA::evaluate_height(model.height.root(), s).h;
 }
@@ -40,7 +40,7 @@ std::string with_height(const std::string& segment, const std::string& height) {
 }
 
 TEST(ModelJson, TheSegmentAloneIsAModel) {
-  const Model model = read_model(R"({"segment": "quad4"})");
+  const ModelSpec model = read_model(R"({"segment": "quad4"})");
   EXPECT_EQ(model.basis, Basis::quad4);
   EXPECT_TRUE(model.height.none());
   EXPECT_EQ(model.height.dimension(), 2);
@@ -57,7 +57,7 @@ TEST(ModelJson, TheSegmentAloneIsAModel) {
 
 TEST(ModelJson, EveryBasisIsRead) {
   for (const BasisEntry& entry : basis_table) {
-    const Model model = read_model(R"({"segment": ")" + std::string(entry.name) + R"(", "height": null})");
+    const ModelSpec model = read_model(R"({"segment": ")" + std::string(entry.name) + R"(", "height": null})");
     EXPECT_EQ(model.basis, entry.basis);
     EXPECT_EQ(&basis_entry(model.basis), &entry);
     EXPECT_EQ(model.height.dimension(), entry.parameters);
@@ -65,7 +65,7 @@ TEST(ModelJson, EveryBasisIsRead) {
 }
 
 TEST(ModelJson, EveryKeyEndsInItsPlace) {
-  const Model model = read_model(R"({
+  const ModelSpec model = read_model(R"({
     "segment": "line3",
     "height": {"type": "constant", "value": -0.25},
     "surface_coordinates": [[-1.5], [2], [0.5]],
@@ -89,7 +89,7 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
   EXPECT_EQ(model.penetration_limit, 0.125);
   EXPECT_EQ(model.border, 0.0625);
 
-  const Model other = read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
+  const ModelSpec other = read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
     "surface_coordinates": [[1, 2], [3, 4], [5, 6]]})");
   EXPECT_EQ(other.tangent, TangentKind::first_variation);
   EXPECT_FALSE(other.rigid_master);
@@ -136,7 +136,7 @@ TEST(ModelJson, EveryLawEndsInItsPlace) {
 
 TEST(ModelJson, DirectionsOfAnyLengthBecomeUnitVectors) {
   for (const std::string length : {"1", "1e-200", "1e99", "7"}) {
-    const Model model =
+    const ModelSpec model =
         read_model(R"({"segment": "tri3", "projection": {"type": "shadow_direction", "direction": [)" +
                    length + ", -" + length + ", 0]}}");
     // two divisions and a square root
@@ -206,7 +206,7 @@ TEST(ModelJson, HeightsIn3DFollowTheirDefinition) {
 TEST(ModelJson, ThreadIsThatOfIso68) {
   const std::string iso = R"("pitch": 1.5, "flank_angles": [30, 30], "crest": 0.1875, "root": 0.375)";
   const double bound = 16 * eps, H = 1.5 * std::sqrt(0.75); // s is of order 6, flanks have slopes of 1.7
-  const Model grooves =
+  const ModelSpec grooves =
       read_model(with_height("line2", R"({"type": "thread", )" + iso + R"(, "offset": 0.25})"));
   for (const double ridge : {-1.25, 0.25, 6.25}) {
     EXPECT_NEAR(height_1(grooves, ridge), 0.375 * H, bound);
@@ -217,9 +217,9 @@ TEST(ModelJson, ThreadIsThatOfIso68) {
   }
   // it climbs by starts x pitch in a turn, to the left or to the right
   const std::string two = R"({"type": "thread", )" + iso + R"(, "starts": 2, )";
-  const Model right = read_model(with_height("quad4", two + R"("turn": 360})"));
-  const Model left = read_model(with_height("quad4", two + R"("hand": "left"})"));
-  const Model rings = read_model(with_height("quad4", R"({"type": "thread", )" + iso + R"(, "starts": 0})"));
+  const ModelSpec right = read_model(with_height("quad4", two + R"("turn": 360})"));
+  const ModelSpec left = read_model(with_height("quad4", two + R"("hand": "left"})"));
+  const ModelSpec rings = read_model(with_height("quad4", R"({"type": "thread", )" + iso + R"(, "starts": 0})"));
   for (const double axis : {-0.3, 0.1, 0.7})
     for (const double turns : {0.0, 0.3, 0.9}) {
       const double expected = height_1(grooves, axis + 0.25);
@@ -247,11 +247,11 @@ TEST_F(MapFiles, SourcesOfAMapAreTheSame) {
   const NamedData data[] = {{"other", samples, 1, 1}, {"scan", samples, 3, 4}};
   write("plain.txt", "1 2 3 4\n5 7 8 9\n11 12 13 17\n");
   const std::string rest = R"("boundary": "clamped", "size": [3, 1], "origin": [-1, 2], "scale": 0.5})";
-  const Model from_values = read_model(with_height(
+  const ModelSpec from_values = read_model(with_height(
       "quad4", R"({"type": "map", "values": [[1, 2, 3, 4], [5, 7, 8, 9], [11, 12, 13, 17]], )" + rest));
-  const Model from_file =
+  const ModelSpec from_file =
       read_model(with_height("quad4", R"({"type": "map", "file": "plain.txt", )" + rest), directory_);
-  const Model from_data =
+  const ModelSpec from_data =
       read_model(with_height("quad4", R"({"type": "map", "data": "scan", )" + rest), {}, data);
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 4; ++i) {
@@ -268,20 +268,20 @@ TEST_F(MapFiles, UnitsOfAFileBecomeModelUnits) {
         "# Channel: ZSensor\n# Width: 4 um\n# Height: 2 um\n# Value units: nm\n1 2 3 4\n5 7 8 9\n");
   const std::string text =
       R"({"type": "map", "file": "afm.txt", "boundary": "periodic", "length_unit": 1e-6, "scale": 2})";
-  const Model model = read_model(with_height("quad4", text), directory_);
+  const ModelSpec model = read_model(with_height("quad4", text), directory_);
   EXPECT_DOUBLE_EQ(model.height.feature_length(0), 1.0); // 4 um / 4 pixels
   EXPECT_DOUBLE_EQ(model.height.feature_length(1), 1.0);
   EXPECT_NEAR(height_2(model, 2.0, 1.0), 2 * 8e-3, 12 * 27e-3 * eps + 4 * 8e-3 * eps);
 
   // In metres, and clamped: the pixels keep their distance.
-  const Model clamped = read_model(
+  const ModelSpec clamped = read_model(
       with_height("quad4", R"({"type": "map", "file": "afm.txt", "boundary": "clamped"})"), directory_);
   EXPECT_DOUBLE_EQ(clamped.height.feature_length(0), 1e-6);
   EXPECT_DOUBLE_EQ(clamped.height.feature_length(1), 1e-6);
   EXPECT_NEAR(height_2(clamped, 3e-6, 1e-6), 9e-9, 1e-9 * 1000 * eps);
 
   // The model's own size wins over the file's.
-  const Model sized = read_model(
+  const ModelSpec sized = read_model(
       with_height("quad4", R"({"type": "map", "file": "afm.txt", "boundary": "periodic", "size": [8, 6]})"),
       directory_);
   EXPECT_DOUBLE_EQ(sized.height.feature_length(0), 2.0);
@@ -297,8 +297,8 @@ TEST_F(MapFiles, ProfilesAreOneRowOrOneColumn) {
                                                "\"" + rest + "}"),
                       directory_);
   };
-  const Model row = read("row.txt", R"(, "size": [4])"), column = read("column.txt", R"(, "size": [4])");
-  const Model units = read("column_units.txt", R"(, "length_unit": 1e-3)");
+  const ModelSpec row = read("row.txt", R"(, "size": [4])"), column = read("column.txt", R"(, "size": [4])");
+  const ModelSpec units = read("column_units.txt", R"(, "length_unit": 1e-3)");
   EXPECT_DOUBLE_EQ(units.height.feature_length(0), 1.0);
   for (double s = -3.0; s < 6.0; s += 0.31) {
     EXPECT_EQ(height_1(row, s), height_1(column, s));

@@ -18,7 +18,7 @@ char nothing[1] = "";
 int asked = 0;
 
 void expect_numbers() {
-  const ents::Model model = ents::read_model(
+  const ents::ModelSpec model = ents::read_model(
       R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.125, "wave_vector": [2.5e-1]}})");
   const double s[1] = {1.0};
   EXPECT_EQ(ents::ENTS_ISA::evaluate_height(model.height.root(), s).h, 0.125);

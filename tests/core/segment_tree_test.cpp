@@ -46,7 +46,7 @@ protected:
     double least = 1e100;
     found = -1, visited = 0;
     return visit_segments(
-        Tree(plan, mesh.segments), tree.data(),
+        BoxTree(plan, mesh.segments), tree.data(),
         [&](const double* box) { return distance_to_box(2, point, box); }, [&] { return least; },
         [&](std::int64_t s) {
           ++visited;
@@ -89,11 +89,11 @@ TEST_F(SegmentTree, SaysThatItWasWrittenOver) {
   const double point[2] = {0.0, 0.0};
   std::int64_t found = -1;
   int visited = 0;
-  Tree(plan, mesh.segments).order(tree.data())[0] = -7.0;
-  for (std::int64_t node = 1; node < 2 * Tree(plan, mesh.segments).leaves();
+  BoxTree(plan, mesh.segments).order(tree.data())[0] = -7.0;
+  for (std::int64_t node = 1; node < 2 * BoxTree(plan, mesh.segments).leaves();
        ++node) // so that all is looked at
-    std::fill_n(Tree(plan, mesh.segments).box(tree.data(), node), 2, -1e9),
-        std::fill_n(Tree(plan, mesh.segments).box(tree.data(), node) + 2, 2, 1e9);
+    std::fill_n(BoxTree(plan, mesh.segments).box(tree.data(), node), 2, -1e9),
+        std::fill_n(BoxTree(plan, mesh.segments).box(tree.data(), node) + 2, 2, 1e9);
   EXPECT_EQ(nearest(point, found, visited), Status::bad_state);
 }
 

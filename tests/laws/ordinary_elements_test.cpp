@@ -24,7 +24,7 @@ namespace {
 // From now on the model takes the kernels of this instruction set; null: it takes elements one by one.
 void use(const mechanics::Model& model, const ents::BlockKernels* kernels) {
   ents::Plan& plan = const_cast<ents_model*>(model.handle())->plan;
-  const ents::Model& m = model.handle()->model;
+  const ents::ModelSpec& m = model.handle()->model;
   plan.block = plan.block_without_friction = nullptr;
   if (kernels) ents::set_block_kernels(m, *kernels, plan);
   plan.block_results = plan.block ? std::int32_t{ents::want::block} : 0;
