@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -192,6 +193,25 @@ Point face_middle(const Mesh& mesh, const Face& face) {
   return out;
 }
 
+namespace {
+
+/// A name that a surface of nodes and one of faces share means one surface.
+void check_same_nodes(const Mesh& mesh, const std::string& name, const Surface& surface,
+                      const std::vector<Face>& faces) {
+  if (surface.nodes.empty()) return;
+  const std::vector<int> list = nodes_of(faces);
+  const std::set<int> of_faces(list.begin(), list.end()), own(surface.nodes.begin(), surface.nodes.end());
+  std::vector<int> lone;
+  std::set_symmetric_difference(of_faces.begin(), of_faces.end(), own.begin(), own.end(),
+                                std::back_inserter(lone));
+  if (!lone.empty())
+    mesh.source.fail(surface.place, "two surfaces are called '" + name +
+                                        "', one of nodes and one of faces; node " + mesh.node_label(lone[0]) +
+                                        " belongs to one of them alone: give one another name");
+}
+
+} // namespace
+
 Side side_of(const Mesh& mesh, const std::string& name, Place asked_at) {
   const std::string key = canonical(name);
   Side out{name, {}, {}, {}, asked_at};
@@ -206,6 +226,7 @@ Side side_of(const Mesh& mesh, const std::string& name, Place asked_at) {
       out.faces = in_order(boundary_within(mesh, out.nodes));
     } else {
       out.faces = faces_of_surface(mesh, surface->second);
+      check_same_nodes(mesh, name, surface->second, out.faces);
     }
   } else if (elements != mesh.element_sets.end()) {
     out.faces = faces_of_boundary_elements(mesh, elements->second, asked_at);

@@ -282,12 +282,9 @@ private:
     const auto [entry, is_new] =
         mesh.surfaces.try_emplace(prefix(scoped.instance) + canonical(required(s, "NAME")));
     Surface& target = entry->second;
-    if (!is_new && target.of_nodes != (type == "NODE"))
-      fail(s.place, "the surface " + s.value("NAME") + " is of " + (target.of_nodes ? "nodes" : "faces") +
-                        " at " + mesh.source.at(target.place) +
-                        " and of the other kind here: give one of them another name");
+    const bool nodes = type == "NODE";
     if (is_new) target.place = s.place;
-    target.of_nodes = type == "NODE";
+    target.of_nodes = nodes && (is_new || target.of_nodes);
     if (!type.empty() && type != "ELEMENT" && type != "NODE")
       return;                                      // analytical: it has neither faces nor nodes
     if (s.has("COMBINE") || s.has("CROP")) return; // refused if a contact pair uses it: no faces
@@ -298,8 +295,8 @@ private:
         if (!fields[i].empty())
           fail(line.place, "*SURFACE has an entry " + std::to_string(i + 1) + ", '" + string(fields[i]) +
                                "', which means nothing here; expected " +
-                               (target.of_nodes ? "node or node set, area" : "element or element set, face"));
-      if (target.of_nodes)
+                               (nodes ? "node or node set, area" : "element or element set, face"));
+      if (nodes)
         surface_nodes(line, fields, instance, target);
       else
         surface_faces(line, fields, instance, target);

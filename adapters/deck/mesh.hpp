@@ -41,7 +41,7 @@ struct Facet {
 };
 
 struct Surface {
-  bool of_nodes = false; ///< TYPE=NODE
+  bool of_nodes = false; ///< TYPE=NODE alone; ccx takes a surface of nodes and one of faces with one name
   std::vector<Facet> facets;
   std::vector<int> nodes;
   std::vector<double> areas; ///< of nodes, as the data lines give them; 0: not given

@@ -256,5 +256,20 @@ TEST(DeckCoordinates, OfAChainAreItsLength) {
                   1e-14);
 }
 
+// ccx keeps surfaces of nodes and of faces apart, so that both may have one name.
+TEST(DeckGeometry, ASurfaceOfNodesAndOneOfFacesMayShareAName) {
+  const string faces = "*SURFACE, NAME=SLAVE\nETOP, S1\n";
+  const string all = "*NSET, NSET=LOWER, GENERATE\n101, 109\n*SURFACE, NAME=SLAVE, TYPE=NODE\nLOWER\n";
+  const auto points = [](const string& by) {
+    return converted(deck("*SURFACE, NAME=SLAVE\nETOP, S1\n", by)).contacts.at(0).points.size();
+  };
+  EXPECT_EQ(points(all + faces), points(faces));
+  EXPECT_EQ(points(faces + all), points(faces));
+  const string error = error_of([&] { points(faces + "*SURFACE, NAME=SLAVE, TYPE=NODE\n101\n102\n"); });
+  EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  EXPECT_NE(error.find("two surfaces are called 'SLAVE'"), string::npos) << error;
+  EXPECT_NE(error.find("node 103 belongs to one of them alone"), string::npos) << error;
+}
+
 } // namespace
 } // namespace ents_deck::deck_geometry_test
