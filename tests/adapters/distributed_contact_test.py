@@ -192,7 +192,6 @@ class Failures(unittest.TestCase):
         self.each(wrong(positions=part.arguments["positions"] + np.inf), ents.Error, "not finite")
         self.each(wrong(owners=np.full(len(part.nodes), 99)), ents.Error, "owners: from")
         self.each(wrong(numbers=np.zeros(len(part.nodes), int)), ents.Error, "twice")
-        self.each(lambda here: ents.Contact({**model, "segment": "line3"} if here else model, **part.arguments), ents.Error, "line3")
         with self.assertRaises(ents.Error) as caught:
             ents.Contact(model, **{**part.arguments, "slave": part.arguments["slave"][:, ::-1]}).update(np.zeros(part.arguments["positions"].shape))
         self.assertIn("look the same way", str(caught.exception))
@@ -203,6 +202,9 @@ class Failures(unittest.TestCase):
             with self.assertRaises(ents.Error) as caught:
                 ents.Contact({"segment": "line2", "contact": PENALTY}, **part.arguments, reach=1.0 + COMM.rank)
             self.assertIn("give the same on all processes", str(caught.exception))
+            with self.assertRaises(ents.Error) as caught:
+                ents.Contact({"segment": "line3" if COMM.rank else "line2", "contact": PENALTY}, **part.arguments)
+            self.assertIn("differ between processes", str(caught.exception))
 
 
 class Messages(unittest.TestCase):

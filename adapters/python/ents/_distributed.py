@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import zlib
 from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
@@ -97,6 +98,10 @@ class DistributedContact:
                      for k, name in enumerate(("slave", "master"))]
             offset = None if offset is None else float(offset)
         exchange.agree(guard.failure)
+        same = zlib.crc32(repr((model._text, surface_coordinates if isinstance(surface_coordinates, str) else None, thickness, sampling, offset, ends, leave)).encode())
+        low, high = -exchange.largest([-same]), exchange.largest([same])
+        if low[0] != high[0]:
+            raise Error(Status.BAD_VALUE, "model, surface_coordinates, thickness, sampling, offset, ends and leave: they differ between processes, give the same on all")
         self._own = ProcessSurfaces(exchange, model, given, *sides, thickness, sampling, ends)
         self._options = {"surface_coordinates": surface_coordinates if isinstance(surface_coordinates, str) else None, "thickness": thickness,
                          "sampling": sampling, "ends": ends, "leave": leave, "offset": offset}
@@ -266,6 +271,28 @@ class DistributedContact:
             if self._local is not None:
                 self._local.augment()
         self._agree(guard)
+
+    def save(self, file: Union[str, os.PathLike], **more: Any) -> None:
+        """Write this process's part of the history at the last commit() to a file (NumPy's .npz) of its own, and what else is given. No messages."""
+        history = self._history if self._local is None else self._local.history()
+        with open(file, "wb") as stream:
+            np.savez(stream, numbers=self._own.numbers, u_begin=self._u_begin, judged=self._judged, facets=self._table.packed(),
+                     **{name: array for name, array in history._asdict().items() if array is not None}, **more)
+
+    def load(self, file: Union[str, os.PathLike]) -> None:
+        """Take the history of `save` of the same process, of as many processes. Collective."""
+        guard = Guard()
+        with guard, np.load(file, allow_pickle=False) as saved:
+            if not np.array_equal(saved["numbers"], self._own.numbers) or saved["u_begin"].shape != self._u.shape:
+                raise Error(Status.BAD_STATE, f"load: {os.fspath(file)} was saved by a process with other parts of the surfaces")
+            self._history = History(*(saved[name] if name in saved else None for name in History._fields))
+            self._u = self._u_begin = saved["u_begin"]
+            self._table, self._judged = self._own.kind().unpacked(saved["facets"]), bool(saved["judged"])
+        self._agree(guard)
+        self._halo = self._own.halo
+        self._halo.update(self._u)
+        self._halo.begin = self._halo.u.copy()
+        self._local, self._searched, self._begun, self._pending = None, None, self._history.points_begin is not None, False
 
     gap, pressure, traction, flags, segment, points = (property(lambda self, name=name: self._results[name]) for name in RESULTS)
     state = property(lambda self: self._state[self._own.mine], doc="[points][state_size] of the end of the last update(); the last entry counts segments of this process")
