@@ -101,6 +101,19 @@ std::string read_slave_point(const Element& e, Arguments& arguments) {
   return "";
 }
 
+/// The temperatures of a model with heat.
+/// @return what is wrong; "" if nothing
+std::string check_heat(const Element& e, const LoadedModel& model) {
+  if (!model.layout.heat || (e.host->temperatures && e.temperature >= 0)) return "";
+  const std::string text = model.file + " has \"heat\", which takes a temperature in each node; ";
+  if (!e.host->temperatures)
+    return text + "this host's elements carry displacements alone. Remove \"heat\" from \"contact\"" +
+           e.host->heat;
+  const int dofs = e.all_dofs ? e.all_dofs : e.nodes * e.dofs;
+  return text + "the element has " + std::to_string(dofs) + " degrees of freedom at " +
+         std::to_string(e.nodes) + " nodes. " + e.host->heat;
+}
+
 /// The same for a rigid body with a reference node.
 std::string check_body(const Element& e, const Arguments& arguments) {
   const LoadedModel& model = *arguments.model;
@@ -145,6 +158,7 @@ std::string check_sizes(const Element& e, const Arguments& arguments) {
     return model.file + " has multipliers as unknowns, which this host's elements cannot carry. Take another "
                         "contact.normal.type, "
                         "\"augmented\" for one";
+  if (std::string wrong = check_heat(e, model); !wrong.empty()) return wrong;
   const int slave_nodes = arguments.slave_nodes;
   if (arguments.body) return check_body(e, arguments);
   const int needed = slave_nodes + layout.nodes + (layout.multipliers ? 1 : 0);

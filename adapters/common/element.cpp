@@ -25,6 +25,7 @@ void clear(const Element& e) {
     for (int column = 0; column < e.nodes * e.dofs; ++column)
       for (int row = 0; row < e.nodes * e.dofs; ++row) e.tangent(row, column) = 0;
   if (e.energy) *e.energy = 0;
+  if (e.dissipation) *e.dissipation = 0;
 }
 
 void say(Result& result, const Element& e, const std::string& text) {
@@ -51,8 +52,9 @@ Result fail(const Element& e, const std::string& text) {
   return result;
 }
 
-/// Current positions of slave and master nodes, then multipliers. @return all finite
-bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
+/// Current positions of slave and master nodes, then multipliers; with heat, temperatures of slave and master
+/// nodes. @return all finite
+bool gather(const Element& e, const Arguments& arguments, double* unknowns, double* temperatures) {
   const ents_layout& layout = arguments.model->layout;
   const auto current = [&](int i, int node) { return e.position(i, node) + e.moved(i, node); };
   const int slave_nodes = arguments.slave_nodes,
@@ -73,6 +75,12 @@ bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
     *out = e.moved(i, host_nodes);
     finite = finite && std::isfinite(*out);
   }
+  if (!layout.heat) return finite;
+  *temperatures = 0;
+  for (int k = 0; k < slave_nodes; ++k) *temperatures += arguments.weights[k] * e.moved(e.temperature, k);
+  for (int node = 0; node < layout.nodes; ++node)
+    temperatures[1 + node] = e.moved(e.temperature, slave_nodes + node);
+  for (int node = 0; node <= layout.nodes; ++node) finite = finite && std::isfinite(temperatures[node]);
   return finite;
 }
 
@@ -80,14 +88,14 @@ bool gather(const Element& e, const Arguments& arguments, double* unknowns) {
 /// its face in proportion to their weights: all other entries stay zero.
 void scatter(const Element& e, const Arguments& arguments, const double* residual, const double* tangent) {
   const ents_layout& layout = arguments.model->layout;
-  const int of_nodes = layout.dofs - layout.multipliers, d = layout.dimension,
+  const int of_nodes = layout.dofs - layout.multipliers, d = layout.dimension, n = layout.node_dofs,
             slave_nodes = arguments.slave_nodes;
-  const auto copies = [&](int i) { return i < d ? slave_nodes : 1; };
+  const auto copies = [&](int i) { return i < n ? slave_nodes : 1; };
   const auto node = [&](int i, int copy) {
-    return i < d ? copy : slave_nodes + (i < of_nodes ? i / d - 1 : layout.nodes);
+    return i < n ? copy : slave_nodes + (i < of_nodes ? i / n - 1 : layout.nodes);
   };
-  const auto dof = [&](int i) { return i < of_nodes ? i % d : i - of_nodes; };
-  const auto weight = [&](int i, int copy) { return i < d ? arguments.weights[copy] : 1.0; };
+  const auto dof = [&](int i) { return i >= of_nodes ? i - of_nodes : i % n < d ? i % n : e.temperature; };
+  const auto weight = [&](int i, int copy) { return i < n ? arguments.weights[copy] : 1.0; };
   for (int column = 0; column < layout.dofs; ++column)
     for (int c = 0; c < copies(column); ++c) {
       if (e.residual)
@@ -177,6 +185,8 @@ void describe(const Arguments& arguments, Result& result) {
   const ents_layout& layout = arguments.model->layout;
   result.symmetric = layout.symmetric_tangent != 0 && !arguments.body; // finite rotations do not commute
   result.dimension = layout.dimension;
+  result.heat = layout.heat != 0;
+  result.rigid = layout.dofs - layout.multipliers == layout.node_dofs;
   result.state_size =
       layout.state_size + (arguments.body ? body_history(layout.dimension, arguments.turn_node) : 0);
 }
@@ -215,6 +225,7 @@ namespace {
 // Where slave and master are: for the library, and the body's pose.
 struct Place {
   double unknowns[3 * (1 + largest_body_nodes)]; // slave, master nodes (of a body in its frame), multipliers
+  double temperatures[1 + largest_body_nodes];   // slave, master nodes
   Body body;
   bool finite;
 };
@@ -223,7 +234,7 @@ struct Place {
 std::string place(const Element& e, const Arguments& arguments, Place& at) {
   const LoadedModel& model = *arguments.model;
   const int dimension = model.layout.dimension;
-  at.finite = gather(e, arguments, at.unknowns);
+  at.finite = gather(e, arguments, at.unknowns, at.temperatures);
   if (!arguments.body) return "";
   if (std::string wrong = place_body(e, dimension, arguments.slave_nodes, arguments.turn_node,
                                      model.layout.state_size, at.body, at.finite);
@@ -234,7 +245,8 @@ std::string place(const Element& e, const Arguments& arguments, Place& at) {
   return "";
 }
 
-ents_input input_at(const Arguments& arguments, const Place& at, const double* state_begin) {
+ents_input input_at(const Element& e, const Arguments& arguments, const Place& at,
+                    const double* state_begin) {
   const ents_layout& layout = arguments.model->layout;
   ents_input input{};
   input.struct_size = sizeof input;
@@ -245,6 +257,10 @@ ents_input input_at(const Arguments& arguments, const Place& at, const double* s
   input.area = &arguments.area;
   if (arguments.has_offset) input.slave_values = arguments.slave_values;
   input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
+  if (layout.heat) {
+    input.slave_temperature = at.temperatures, input.master_temperature = at.temperatures + 1;
+    input.time_increment = e.time_increment;
+  }
   return input;
 }
 
@@ -257,7 +273,7 @@ bool find_begin(const Element& e, const Arguments& arguments, double* state) {
   Place at;
   if (!place(begin, arguments, at).empty() || !at.finite) return false;
   double there[largest_state];
-  const ents_input input = input_at(arguments, at, state);
+  const ents_input input = input_at(e, arguments, at, state);
   ents_output output{};
   output.struct_size = sizeof output;
   output.wanted = ENTS_STATE;
@@ -277,7 +293,8 @@ Result evaluate(const Element& e) {
 
   Place at;
   double state_begin[largest_state], state_end[largest_state];
-  double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0;
+  double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0, friction_energy = 0,
+                                                                       dissipation = 0;
   if (layout.state_size > 0) begin_state(e, model, state_begin);
   clear(e);
   Result result;
@@ -295,7 +312,7 @@ Result evaluate(const Element& e) {
 
   ents_report report{};
   report.struct_size = sizeof report;
-  ents_input input = input_at(arguments, at, state_begin);
+  ents_input input = input_at(e, arguments, at, state_begin);
   double start[2];
   if (find_start(model, input, start)) input.start = start;
   int32_t flags = 0;
@@ -304,7 +321,8 @@ Result evaluate(const Element& e) {
   ents_output output{};
   output.struct_size = sizeof output;
   output.wanted = ENTS_FLAGS | ENTS_GAP | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) |
-                  (e.energy ? ENTS_ENERGY : 0) | (e.history_end ? ENTS_STATE : 0) |
+                  (e.energy ? ENTS_ENERGY | ENTS_FRICTION_ENERGY : 0) |
+                  (e.dissipation ? ENTS_DISSIPATION : 0) | (e.history_end ? ENTS_STATE : 0) |
                   (checked ? ENTS_NORMAL : 0);
   output.flags = &flags;
   output.gap = &gap;
@@ -312,6 +330,8 @@ Result evaluate(const Element& e) {
   output.residual = residual;
   output.tangent = tangent;
   output.energy = &energy;
+  output.friction_energy = &friction_energy;
+  output.dissipation = &dissipation;
   output.state_end = state_end;
   int32_t status = ents_evaluate(model.model, 0, 1, &input, &output, &report);
   if (status == ENTS_OK && (flags & ENTS_FLAG_NO_BEGIN) && find_begin(e, arguments, state_begin))
@@ -351,7 +371,8 @@ Result evaluate(const Element& e) {
   } else {
     scatter(e, arguments, residual, tangent);
   }
-  if (e.energy) *e.energy = energy;
+  if (e.energy) *e.energy = energy + friction_energy;
+  if (e.dissipation) *e.dissipation = dissipation;
   if (e.history_end)
     for (int i = 0; i < layout.state_size; ++i) e.history_end(i) = state_end[i];
   if (e.history_end && arguments.body)
@@ -359,7 +380,7 @@ Result evaluate(const Element& e) {
   if (checked) {
     char text[512];
     if (result.contact)
-      selfcheck(model.model, layout, input, unknowns, tangent, text, sizeof text);
+      selfcheck(model.model, layout, input, unknowns, at.temperatures, tangent, text, sizeof text);
     else
       say_open((flags & ENTS_FLAG_OUTSIDE) == 0, gap, normal, text, sizeof text);
     say(result, e, text);

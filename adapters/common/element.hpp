@@ -48,6 +48,8 @@ struct Host {
   bool multipliers = true;      ///< its elements can carry them as unknowns
   bool displacements = true;    ///< it passes them; else present positions alone
   bool rotations = false;       ///< its nodes can have rotations as degrees of freedom
+  bool temperatures = false;    ///< and temperatures
+  const char* heat = "";        ///< what to write for a temperature in each node, or where else to go
   int own_history = 0;          ///< variables that it keeps before those of the model
   int options = common_options; ///< those that mean something there
   const char* numbers = "";     ///< what to know of the elements' numbers where one is not in the table
@@ -63,9 +65,12 @@ struct Element {
   const Host* host = nullptr;
   std::int64_t number = -1; ///< the host's; -1: it has none
   bool listed = true;       ///< the number is that of an element, which ents_k.txt may have a line for
-  int nodes = 0; ///< slave (or the nodes of the face that a slave point lies in), master nodes of the
-                 ///< segment, then one for the multipliers if the model has any
-  int dofs = 0;  ///< per node; the reference node of a rigid body may have rotations behind them
+  int nodes = 0;        ///< slave (or the nodes of the face that a slave point lies in), master nodes of the
+                        ///< segment, then one for the multipliers if the model has any
+  int dofs = 0;         ///< per node; the reference node of a rigid body may have rotations behind them
+  int temperature = -1; ///< dof of each node that is its temperature; -1: there is none
+  int all_dofs = 0;     ///< of the element, for messages; 0: nodes * dofs
+  double time_increment = 0;    ///< for the heat of friction, a power
   bool reference_turns = false; ///< it has (body.hpp): 3 rotations, in the plane one, in all arrays of dofs
   int coordinates = 0;          ///< per node
   Grid<const double> position;  ///< (coordinate, node) reference, or current with no displacement, [L]
@@ -91,10 +96,11 @@ struct Element {
   double sign = 1;         ///< of the residual: -1 where the host wants external minus internal
   double tangent_sign = 1; ///< of the tangent
   // Out; null: not wanted. Every entry is written: (nodes * dofs), zero where nothing acts.
-  Grid<double> residual;    ///< (dof, node) [F]
-  Grid<double> tangent;     ///< (row, column), node-major, [F/L]
-  Row<double> history_end;  ///< [history_size] end of the increment
-  double* energy = nullptr; ///< [1] [F L]
+  Grid<double> residual;         ///< (dof, node) [F]; of a temperature: the power that leaves the node
+  Grid<double> tangent;          ///< (row, column), node-major, [F/L]
+  Row<double> history_end;       ///< [history_size] end of the increment
+  double* energy = nullptr;      ///< [1] [F L] stored by normal and tangential law
+  double* dissipation = nullptr; ///< [1] [F L] what friction dissipates in this increment
 };
 
 enum class Outcome {
@@ -112,6 +118,7 @@ struct Result {
   bool beside = false;    ///< open, beside the model's patch and below the surface that goes on there
   double depth = 0;       ///< [L] below it
   int dimension = 0, state_size = 0; ///< of the model, as far as it could be read
+  bool heat = false, rigid = false;  ///< the model has "heat", "master": "rigid"
   char message[1024];                ///< for `cut` and `failed`, and what the selfcheck found; else empty
 };
 

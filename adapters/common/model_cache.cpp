@@ -65,6 +65,9 @@ bool read_body(const std::string& line, const std::string& where, LoadedModel& l
   if (!loaded.rows.empty() || !read_numbers(line.substr(key.size()), x) || x.size() != d)
     throw where + "write body and the " + std::to_string(d) +
         " coordinates of a master node relative to the reference node, before the first element";
+  if (layout.heat)
+    throw where + "a rigid body with a reference node has no temperature: remove \"heat\" from " +
+        loaded.file + ", or take nodes of the mesh as the master";
   if (layout.multipliers || layout.dofs != layout.dimension)
     throw where + (layout.multipliers
                        ? "a rigid body takes no multipliers as unknowns: write another contact.normal.type, "

@@ -21,13 +21,23 @@ double segment_length(const ents_layout& layout, const double* master) {
 } // namespace
 
 bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_input& input, double* unknowns,
-               const double* tangent, char* text, std::size_t size) {
+               double* temperatures, const double* tangent, char* text, std::size_t size) {
   constexpr double steps[3] = {1e-4, 1e-5, 1e-6};
-  const int dofs = layout.dofs, of_nodes = dofs - layout.multipliers,
-            all_nodes = layout.dimension * (layout.nodes + 1);
+  const int dofs = layout.dofs, of_nodes = dofs - layout.multipliers, d = layout.dimension,
+            n = layout.node_dofs, all_nodes = d * (layout.nodes + 1);
+  const auto is_temperature = [&](int i) { return i < of_nodes && i % n >= d; };
+  const auto unknown_of = [&](int i) {
+    return i >= of_nodes ? unknowns + all_nodes + i - of_nodes
+           : i % n < d   ? unknowns + d * (i / n) + i % n
+                         : temperatures + i / n;
+  };
   const double length = segment_length(layout, unknowns + layout.dimension);
-  double largest = 0, errors[3] = {};
-  for (int i = 0; i < dofs * dofs; ++i) largest = std::max(largest, std::abs(tangent[i]));
+  double largest[2][2] = {}, errors[3] = {}; // forces and powers have units of their own
+  const auto scale = [&](int row, int column) -> double& {
+    return largest[is_temperature(row)][is_temperature(column)];
+  };
+  for (int i = 0; i < dofs * dofs; ++i)
+    scale(i % dofs, i / dofs) = std::max(scale(i % dofs, i / dofs), std::abs(tangent[i]));
 
   double residual[2][largest_dofs];
   ents_output output{};
@@ -35,9 +45,10 @@ bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_in
   output.wanted = ENTS_RESIDUAL;
   for (int s = 0; s < 3; ++s)
     for (int column = 0; column < dofs; ++column) {
-      double& unknown = unknowns[column < of_nodes ? column : all_nodes + column - of_nodes];
+      double& unknown = *unknown_of(column);
       const double there = unknown;
-      const double step = steps[s] * (column < of_nodes ? length : std::max(1.0, std::abs(there)));
+      const bool is_place = column < of_nodes && !is_temperature(column);
+      const double step = steps[s] * (is_place ? length : std::max(1.0, std::abs(there)));
       int32_t status = ENTS_OK;
       double ends[2];
       for (int side = 0; side < 2; ++side) {
@@ -52,7 +63,8 @@ bool selfcheck(const ents_model* model, const ents_layout& layout, const ents_in
       }
       for (int row = 0; row < dofs; ++row) {
         const double slope = (residual[1][row] - residual[0][row]) / (ends[1] - ends[0]);
-        errors[s] = std::max(errors[s], std::abs(tangent[row + dofs * column] - slope) / largest);
+        if (const double error = std::abs(tangent[row + dofs * column] - slope); error > 0)
+          errors[s] = std::max(errors[s], error / scale(row, column));
       }
     }
   const bool good = std::min({errors[0], errors[1], errors[2]}) <= 1e-5;

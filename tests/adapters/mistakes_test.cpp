@@ -68,9 +68,12 @@ Ending run(const HostKind& kind, const Elements& elements, const std::vector<dou
 struct Words {
   const char *host, *nodes, *history, *area;
   int options = 57; ///< that it has, a sum
+  const char* heat =
+      "this host's elements carry displacements alone. Remove \"heat\""; ///< what it lacks for it
 };
 constexpr Words words[] = {
-    {"abaqus", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 63},
+    {"abaqus", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 63,
+     "15 degrees of freedom at 5 nodes. Write the degrees of freedom 1, 2, 3, 11"},
     {"abaqus_explicit", "*USER ELEMENT, NODES=5", "*USER ELEMENT, VARIABLES=", "*UEL PROPERTY, entry 2", 61},
     {"calculix", "*USER ELEMENT, NODES=5", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry 2"},
     {"opensees", "with nodes: 5", nullptr, "element entsContact, property 2"},
@@ -202,6 +205,15 @@ TEST_P(Mistakes, MultipliersWhereThereIsNoPlaceForThemAreRefused) {
   };
   for (const char* name : {"quad4_multiplier", "quad4_friction_multiplier"})
     expect(name, with(name), "multipliers as unknowns", "\"augmented\"");
+}
+
+// A temperature per node is an unknown that the elements of most hosts cannot have.
+TEST_P(Mistakes, HeatWithoutTemperaturesIsRefused) {
+  std::ofstream("ents_948.json") << R"({"segment": "quad4", "contact": {"normal": {"type": "penalty",
+    "stiffness": 400}, "heat": {"conductance": 3}}})";
+  expect(
+      "heat", [](Elements& e) { e.model = 948; }, "ents_948.json has \"heat\", which takes a temperature",
+      own().heat);
 }
 
 TEST_P(Mistakes, InTheNumberOfNodesNameTheRightOne) {

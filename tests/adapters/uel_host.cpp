@@ -8,7 +8,7 @@ namespace adapters {
 
 void UelCall::operator()(UelFunction* function) {
   int nprops = static_cast<int>(props.size()), zero = 0, one = 1;
-  double time[2] = {0.5, 1.5}, dtime = 0.5, period = 1, params[3] = {}, adlmag = 0;
+  double time[2] = {0.5, 1.5}, period = 1, params[3] = {}, adlmag = 0;
   std::vector<double> still(static_cast<std::size_t>(ndofel), 0.0),
       predef(2 * static_cast<std::size_t>(nnode));
   du.resize(static_cast<std::size_t>(nrhs * mlvarx), std::numeric_limits<double>::quiet_NaN());

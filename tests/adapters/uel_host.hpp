@@ -37,7 +37,7 @@ struct UelCall {
   Guarded rhs, amatrx, svars, energy;
   std::vector<double> props, coords, u, du;
   std::vector<int> lflags{1, 1, 1, 0, 0, 0, 0};
-  double pnewdt = 1e36;
+  double pnewdt = 1e36, dtime = 0.5;
   bool null_flags = false;
 
   /// Call, and check the guard zones.

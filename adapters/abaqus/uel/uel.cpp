@@ -18,6 +18,9 @@ constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
                     .properties = "*UEL PROPERTY, entry ",
                     .directory = abaqus::job_directory,
                     .rotations = true,
+                    .temperatures = true,
+                    .heat = "Write the degrees of freedom 1, 2, 3, 11 (in the plane 1, 2, 11) for all nodes "
+                            "below *USER ELEMENT",
                     .options = common_options | option_old_displacement | option_negative_tangent,
                     .numbers = abaqus::numbers};
 
@@ -31,6 +34,8 @@ enum class Request {
   mass_and_residual = 6,
   perturbation_output = 100
 };
+
+constexpr int elastic_energy = 1, plastic_energy = 3; ///< in ENERGY, counted from 0
 
 /// MOOSE has numbers of its own there, 0, 4 and 5 for both, stiffness and residual, or passes no LFLAGS.
 Request requested(const int* lflags, bool moose) {
@@ -96,8 +101,9 @@ void fill(double value, double* rhs, double* amatrx, int dofs, int columns, int 
 ENTS_ENTRY(uel, UEL,
            (double* rhs, double* amatrx, double* svars, double* energy, int* ndofel, int* nrhs, int* nsvars,
             double* props, int* nprops, double* coords, int* mcrd, int* nnode, double* u, double* du, double*,
-            double*, int*, double*, double*, int* kstep, int* kinc, int* jelem, double*, int*, int*, double*,
-            double*, int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*, double*)) {
+            double*, int*, double*, double* dtime, int* kstep, int* kinc, int* jelem, double*, int*, int*,
+            double*, double*, int*, int* lflags, int* mlvarx, double*, int*, double* pnewdt, int*, int*,
+            double*)) {
   const int dofs = *ndofel, nodes = *nnode, columns = nrhs && *nrhs > 0 ? *nrhs : 1;
   const int option = options({props}, *nprops);
   const bool moose = option > 0 && (option & option_old_displacement);
@@ -129,6 +135,11 @@ ENTS_ENTRY(uel, UEL,
   e.dofs = nodes > 0 ? (dofs - turns) / nodes : 0;
   e.reference_turns = turns > 0 && dofs == nodes * *mcrd + turns;
   e.coordinates = *mcrd;
+  e.all_dofs = dofs;
+  if (dofs == nodes * (*mcrd + 1)) e.temperature = *mcrd; // 11, behind the displacements
+  // Where no time passes nothing moves, so friction makes no heat: any time will do.
+  const bool increment = request == Request::residual_and_stiffness && !perturbation;
+  e.time_increment = dtime && (increment || *dtime > 0) ? *dtime : 1;
   e.position = {coords, 1, *mcrd};
   e.displacement = {u, 1, e.dofs};
   if (moose) e.increment = {du, 1, e.dofs};
@@ -139,6 +150,7 @@ ENTS_ENTRY(uel, UEL,
   if (e.reference_turns && !perturbation) e.spin = {du + dofs - turns};
   e.history = {svars};
   e.history_size = *nsvars;
+  double dissipation = 0;
   e.sign = -1; // RHS is external minus internal force
   e.tangent_sign = option > 0 && (option & option_negative_tangent) ? -1 : 1;
   if (request != Request::stiffness && !perturbation) e.residual = {rhs, 1, e.dofs};
@@ -147,10 +159,11 @@ ENTS_ENTRY(uel, UEL,
   // MOOSE asks for residual and stiffness in turn, with the history of before each time: the last one stays.
   if ((request == Request::residual_and_stiffness && !perturbation) || moose) {
     e.history_end = {svars};
-    if (energy) e.energy = energy + 1; // elastic strain energy
+    if (energy) e.energy = energy + elastic_energy, e.dissipation = &dissipation;
   }
 
   const Result result = evaluate(e);
+  if (e.dissipation) energy[plastic_energy] += dissipation; // since the begin of the job
   if (result.outcome == Outcome::done) {
     if (result.message[0]) abaqus::tell(abaqus::Severity::information, result.message);
     // About the base state U the forces of the perturbation DU are -K DU.

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Heat through Abaqus: two bars and their contact, heat of friction, and what is refused.
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "abaqus_services.hpp"
+#include "emulated_host.hpp"
+#include "plain_model.hpp"
+#include "uel_host.hpp"
+
+namespace adapters::heat_test {
+namespace {
+
+using Values = std::vector<double>;
+
+/// One contact element at nodes with (x, y, T) each, slave first, then the ends of a line: [9], [9][9] column-major.
+struct Response {
+  Values residual, tangent;
+};
+using Element = std::function<Response(int element, const Values& reference, const Values& unknowns)>;
+
+/// Abaqus/Standard with the degrees of freedom 1, 2, 11.
+UelCall abaqus_call(int model, const Values& reference, const Values& unknowns) {
+  const int nodes = static_cast<int>(reference.size()) / 2;
+  UelCall c(nodes, 3, 30);
+  c.mcrd = 2;
+  c.props = {static_cast<double>(model), 0.6};
+  c.coords = reference;
+  c.u = c.du = unknowns;
+  c.lflags[0] = 72;
+  return c;
+}
+
+Response abaqus(int model, const Values& reference, const Values& unknowns) {
+  UelCall c = abaqus_call(model, reference, unknowns);
+  c();
+  Response r;
+  const auto n = static_cast<std::size_t>(c.ndofel);
+  c.rhs.check_written("RHS", 0, n), c.amatrx.check_written("AMATRX", 0, n * n);
+  for (std::size_t i = 0; i < n; ++i) r.residual.push_back(-c.rhs[i]);
+  for (std::size_t i = 0; i < n * n; ++i) r.tangent.push_back(c.amatrx[i]);
+  return r;
+}
+
+/// Two bars of areas 1.2: a power enters the far end of the upper one, the far end of the lower one has a
+/// temperature. Between them two slave nodes on one segment; a spring presses each down, two hold each master
+/// node.
+struct Bars {
+  static constexpr double area = 1.2, k_up = 3, k_low = 5, length_up = 2, length_low = 0.7, power = 8,
+                          end = 20;
+  // Nodes: 0, 1 slave, 2, 3 master, 4, 5 upper and 6, 7 lower ends: (x, y, T) each.
+  static constexpr int n = 24;
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(n);
+  int iterations = 0;
+
+  /// @return size of the residual, relative to that of its parts
+  double assemble(const Element& contact, Eigen::VectorXd& residual, Eigen::MatrixXd& tangent) const {
+    residual = Eigen::VectorXd::Zero(n), tangent = Eigen::MatrixXd::Zero(n, n);
+    Eigen::VectorXd size = Eigen::VectorXd::Constant(n, 1.0);
+    const auto spring = [&](int dof, double stiffness, double foot) {
+      residual(dof) += stiffness * (unknowns(dof) - foot), tangent(dof, dof) += stiffness;
+      size(dof) += std::abs(stiffness * foot);
+    };
+    for (int node = 0; node < 8; ++node)
+      for (int i = 0; i < 2; ++i) spring(3 * node + i, node < 2 ? 40 : 300, node < 2 && i == 1 ? -0.3 : 0);
+    for (const int node : {6, 7}) spring(3 * node + 2, 1, end);
+    for (const auto& [a, b, c] : {std::array{0, 4, 1}, {1, 5, 1}, {2, 6, 0}, {3, 7, 0}}) {
+      const double s = 0.5 * area * (c ? k_up / length_up : k_low / length_low);
+      const int i = 3 * a + 2, j = 3 * b + 2;
+      const double q = s * (unknowns(i) - unknowns(j));
+      residual(i) += q, residual(j) -= q;
+      tangent(i, i) += s, tangent(j, j) += s, tangent(i, j) -= s, tangent(j, i) -= s;
+    }
+    for (const int node : {4, 5}) residual(3 * node + 2) -= power / 2;
+    for (const int node : {6, 7}) { // prescribed
+      const int i = 3 * node + 2;
+      residual(i) = unknowns(i) - end;
+      tangent.row(i).setZero(), tangent(i, i) = 1;
+    }
+    for (int slave = 0; slave < 2; ++slave) {
+      const int nodes[3] = {slave, 2, 3};
+      Values reference{slave == 0 ? -0.5 : 0.5, 0, -1, 0, 1, 0}, at;
+      for (const int node : nodes)
+        for (int i = 0; i < 3; ++i) at.push_back(unknowns(3 * node + i));
+      const Response r = contact(slave, reference, at);
+      for (std::size_t i = 0; i < 9; ++i) {
+        const int row = 3 * nodes[i / 3] + static_cast<int>(i % 3);
+        residual(row) += r.residual[i];
+        for (std::size_t j = 0; j < 9; ++j)
+          tangent(row, 3 * nodes[j / 3] + static_cast<int>(j % 3)) += r.tangent[i + 9 * j];
+      }
+    }
+    return residual.cwiseQuotient(size).norm();
+  }
+
+  void solve(const Element& contact) {
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd tangent;
+    while (assemble(contact, residual, tangent) > 1e-12) {
+      ASSERT_LT(++iterations, 20);
+      unknowns -= tangent.partialPivLu().solve(residual);
+    }
+  }
+  double resistance(double conductance) const {
+    return length_up / (k_up * area) + length_low / (k_low * area) + 1 / (conductance * area);
+  }
+};
+
+// T_out = T_in + q R, R = sum of L / (k A), and 1 / (h A). The springs and the contact that closes at zero are
+// linear: one iteration.
+TEST(Heat, TwoBarsThroughAbaqusAreExactInOneIteration) {
+  write("ents_811.json", R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 400},
+    "heat": {"conductance": 10}}})");
+  Bars bars;
+  bars.solve([](int, const Values& x, const Values& u) { return abaqus(811, x, u); });
+  const double exact = Bars::end + Bars::power * bars.resistance(10);
+  EXPECT_NEAR(bars.unknowns(14), exact, 1e-10 * exact);
+  EXPECT_NEAR(bars.unknowns(17), exact, 1e-10 * exact);
+  EXPECT_EQ(bars.iterations, 1);
+}
+
+// h = 4 (p / 2)^0.95, p known from the springs: no longer linear.
+TEST(Heat, TwoBarsWithAConductanceOfThePressure) {
+  write("ents_812.json", R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 400},
+    "heat": {"power": {"coefficient": 4, "pressure": 2, "exponent": 0.95}}}})");
+  Bars bars;
+  bars.unknowns(1) = bars.unknowns(4) = -0.01; // the power has no slope where p = 0
+  bars.solve([](int, const Values& x, const Values& u) { return abaqus(812, x, u); });
+  const double force = 0.3 / (1 / 40. + 1 / 240. + 1 / 300.), p = force / 0.6,
+               exact = Bars::end + Bars::power * bars.resistance(4 * std::pow(p / 2, 0.95));
+  EXPECT_NEAR(bars.unknowns(14), exact, 1e-10 * exact);
+  EXPECT_LE(bars.iterations, 3);
+}
+
+constexpr double mu = 0.3, k_t = 80, depth = 0.02, step = 0.05, normal = 0.6 * 100 * depth;
+
+std::string dragged(double slave) {
+  return R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100},
+    "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 80},
+    "heat": {"friction": {"share": 0.9, "slave": )" +
+         std::to_string(slave) + "}}}}";
+}
+
+// A block that is dragged: 0.9 mu N v, split as asked; ENERGY(4) is the sum of what is dissipated, mu N times the
+// way less the elastic slip, and ENERGY(2) what is stored.
+TEST(Heat, ADraggedBlockHeatsAbaqusWithThePowerOfItsFriction) {
+  int model = 814;
+  for (const double share : {0.0, 0.3, 1.0}) {
+    write("ents_" + std::to_string(model) + ".json", dragged(share));
+    const double dtime = 0.1, power = 0.9 * mu * normal * step / dtime;
+    Values history(30), energy(8);
+    for (int i = 0; i < 20; ++i) {
+      const double x = -0.8 + step * i;
+      UelCall c = abaqus_call(model, {-0.8, 0, -1, 0, 1, 0}, {x + 0.8, -depth, 4, 0, 0, 1, 0, 0, 2});
+      c.dtime = dtime;
+      c.du.assign(9, 0.0);
+      c.du[0] = i == 0 ? 0 : step;
+      for (int pass = 0; pass < 2; ++pass) { // an iteration begins from the begin of the increment
+        for (std::size_t k = 0; k < 30; ++k) c.svars[k] = history[k];
+        for (std::size_t k = 0; k < 8; ++k) c.energy[k] = energy[k];
+        c();
+      }
+      for (std::size_t k = 0; k < 30; ++k) history[k] = c.svars[k];
+      for (std::size_t k = 0; k < 8; ++k) energy[k] = c.energy[k];
+      if (i > 2) {
+        EXPECT_NEAR(c.rhs[2] + c.rhs[5] + c.rhs[8], power, 1e-10 * power);
+        EXPECT_NEAR(c.rhs[2], share * power, 1e-10 * power); // no conductance here
+        EXPECT_NEAR(c.rhs[5] * (1 + x), c.rhs[8] * (1 - x), 1e-10 * power);
+      }
+    }
+    const double way = 19 * step - mu * normal / (0.6 * k_t);
+    EXPECT_NEAR(energy[3], mu * normal * way, 1e-10 * energy[3]);
+    EXPECT_NEAR(energy[1], 0.5 * 0.6 * 100 * depth * depth + 0.5 * mu * normal * mu * normal / (0.6 * k_t),
+                1e-12);
+    for (const std::size_t other : {0, 2, 4, 5, 6, 7}) EXPECT_EQ(energy[other], 0);
+    ++model;
+  }
+}
+
+TEST(Heat, SelfcheckLooksAtAllBlocks) {
+  write("ents_817.json",
+        R"({"segment": "line2", "height": {"type": "sine", "amplitude": 0.03, "wave_vector": [0.8]},
+    "contact": {"normal": {"type": "penalty", "stiffness": 100},
+    "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 80},
+    "heat": {"power": {"coefficient": 4, "pressure": 2, "exponent": 0.95}, "friction": {}}}})");
+  abaqus_messages();
+  Values history(30);
+  for (int i = 0; i < 2; ++i) {
+    UelCall c = abaqus_call(817, {-0.3, 0, -1, 0, 1, 0}, {0.1 * i, -0.06, 4, 0, 0, 1, 0, 0, 2});
+    if (i == 1) c.props.push_back(1);
+    c.du.assign(9, 0.0);
+    c.du[0] = 0.1 * i;
+    for (std::size_t k = 0; k < 30; ++k) c.svars[k] = history[k];
+    c();
+    for (std::size_t k = 0; k < 30; ++k) history[k] = c.svars[k];
+  }
+  const std::string text = only_message();
+  EXPECT_NE(text.find("K is the slope of R"), std::string::npos) << text;
+}
+
+TEST(Heat, WhatAbaqusLacksIsNamed) {
+  write("ents_818.json", dragged(0.5));
+  write("ents_819.json", R"({"segment": "line2", "master": "rigid", "contact": {"normal": {"type": "penalty",
+    "stiffness": 400}, "heat": {"conductance": 10}}})");
+  write("ents_819.txt", "body -1 0\nbody 1 0\n");
+  const auto refused = [](int model, const std::function<void(UelCall&)>& make) {
+    abaqus_messages();
+    UelCall c = abaqus_call(model, {-0.3, 0, -1, 0, 1, 0}, {0, -depth, 4, 0, 0, 1, 0, 0, 2});
+    make(c);
+    EXPECT_THROW(c(), HostStopped);
+    return only_message();
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  // One node without 11, one with a spare degree of freedom, no 11 at all
+  for (const int dofs : {8, 10, 6}) {
+    const std::string text = refused(818, [&](UelCall& c) { c.ndofel = dofs; });
+    has(text, ("the element has " + std::to_string(dofs) + " degrees of freedom at 3 nodes").c_str());
+    has(text, "Write the degrees of freedom 1, 2, 3, 11 (in the plane 1, 2, 11)");
+  }
+  has(refused(818, [](UelCall& c) { c.dtime = 0; }), "time_increment");
+  has(refused(819, [](UelCall& c) { c.ndofel = 6, c.nnode = 2; }),
+      "a rigid body with a reference node has no temperature");
+  // Where no time passes and nothing moves: a stiffness alone
+  UelCall c = abaqus_call(818, {-0.3, 0, -1, 0, 1, 0}, {0, -depth, 4, 0, 0, 1, 0, 0, 2});
+  c.lflags[2] = 2, c.dtime = 0;
+  c();
+  EXPECT_NE(c.amatrx[0], 0);
+  // A temperature that is not finite is a diverged iteration.
+  UelCall lost = abaqus_call(818, {-0.3, 0, -1, 0, 1, 0}, {0, -depth, std::nan(""), 0, 0, 1, 0, 0, 2});
+  lost();
+  EXPECT_EQ(lost.pnewdt, 0.5);
+}
+
+} // namespace
+} // namespace adapters::heat_test
