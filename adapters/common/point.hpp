@@ -14,7 +14,9 @@ struct Point {
   int directions = 0; ///< 2 or 3: normal, then tangents
   const double* closing =
       nullptr; ///< [directions] penetration of the face without height (> 0), then slip, [L]
-  const double* change = nullptr; ///< [directions] or null: what of `closing` belongs to this increment
+  const double* change = nullptr;      ///< [directions] or null: what of `closing` belongs to this increment
+  const double* temperature = nullptr; ///< [2] of the point and of the face under it, for models with "heat"
+  double time_increment = 0;
   const double* start = nullptr; ///< [directions-1] surface coordinates of the point where it has not slipped
   Row<const double> properties;
   int property_count = 0;
@@ -25,7 +27,11 @@ struct Point {
       nullptr; ///< [directions] pressure (> 0), then tangential, [F/A]; work-conjugate to `closing`
   double* stiffness = nullptr; ///< [directions][directions] column-major d traction / d closing
   Row<double> history_end;
-  double* energy = nullptr; ///< [1] [F L/A]
+  double* energy = nullptr;              ///< [1] [F L/A] stored
+  double* dissipation = nullptr;         ///< [1] [F L/A] of friction in this increment
+  double* flux = nullptr;                ///< [2] [power/A] into the point and into the face
+  double* flux_by_temperature = nullptr; ///< [2][2] column-major d flux / d temperature
+  double* flux_by_closing = nullptr;     ///< [2][directions] column-major d flux / d closing
 };
 
 Result evaluate(const Point& point);

@@ -42,8 +42,9 @@ struct UinterCall {
 
   int ndir, mcrd = ndir, nstatv = 20, node = 17, linper = 0, lopenclose = -1, nprops = 2;
   Guarded stress{3}, ddsddr{9}, dviscous{9}, dstructural{9}, flux{2}, ddfddt{4}, ddsddt{6}, ddfddr{6},
-      statev{20}, sed{1};
-  double pnewdt = 1e36, rdisp[3] = {}, coords[3] = {}, alocaldir[9], props[3] = {61, 2, 0};
+      statev{20}, sed{1}, sfd{1};
+  double pnewdt = 1e36, rdisp[3] = {}, drdisp[3] = {}, temp[2] = {}, dtime = 1, coords[3] = {}, alocaldir[9],
+         props[3] = {61, 2, 0};
 
   /// Surface coordinates of the point, which has slipped by rdisp since it was there.
   void place(double s1, double s2) {
@@ -60,24 +61,24 @@ struct UinterCall {
     char name[81] = "ENTS                                                                            ";
     if (old)
       old(stress.data(), ddsddr.data(), flux.data(), ddfddt.data(), ddsddt.data(), ddfddr.data(),
-          statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp, still, still, still, still,
-          still, time, &one, name, name, name, props, coords, alocaldir, still, &one, &one, &node, &ndir,
-          &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi, &lprint,
-          80, 80, 80);
+          statev.data(), sed.data(), sfd.data(), still, still, still, &pnewdt, rdisp, drdisp, temp, still,
+          still, still, time, &dtime, name, name, name, props, coords, alocaldir, still, &one, &one, &node,
+          &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper, &lopenclose, &lstate, &lsdi,
+          &lprint, 80, 80, 80);
     else
       now(stress.data(), ddsddr.data(), dviscous.data(), dstructural.data(), flux.data(), ddfddt.data(),
-          ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), still, still, still, still, &pnewdt, rdisp,
-          still, still, still, still, still, time, &one, &one, name, name, name, props, coords, alocaldir,
-          still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step, &linper,
-          &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
+          ddsddt.data(), ddfddr.data(), statev.data(), sed.data(), sfd.data(), still, still, still, &pnewdt,
+          rdisp, drdisp, temp, still, still, still, time, &dtime, &one, name, name, name, props, coords,
+          alocaldir, still, &one, &one, &node, &ndir, &nstatv, &npred, &nprops, &mcrd, &step, &step, &step,
+          &linper, &lopenclose, &lstate, &lsdi, &lprint, 80, 80, 80);
     for (const Guarded* array :
-         {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &dviscous, &dstructural})
+         {&stress, &ddsddr, &flux, &ddfddt, &ddsddt, &ddfddr, &statev, &sed, &sfd, &dviscous, &dstructural})
       array->check_guards("an array");
     const auto d = static_cast<std::size_t>(ndir);
     stress.check_written("STRESS", 0, d), ddsddr.check_written("DDSDDR", 0, d * d),
         flux.check_written("FLUX", 0, 2);
     ddfddt.check_written("DDFDDT", 0, 4), ddsddt.check_written("DDSDDT", 0, 2 * d),
-        ddfddr.check_written("DDFDDR", 0, 2 * d);
+        ddfddr.check_written("DDFDDR", 0, 2 * d), sfd.check_written("SFD", 0, 1);
     if (!old)
       dviscous.check_written("DVISCOUS", 0, d * d), dstructural.check_written("DSTRUCTURAL", 0, d * d);
   }

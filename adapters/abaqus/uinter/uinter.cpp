@@ -19,6 +19,7 @@ constexpr Host host{.nodes = "a model with \"segment\": \"quad4\" (2D: \"line2\"
                     .properties = "*SURFACE INTERACTION, property ",
                     .directory = abaqus::job_directory,
                     .multipliers = false,
+                    .temperatures = true,
                     .own_history = start_size};
 constexpr double no_master = -1e35; // Abaqus: -1e36
 /// Of DEPVAR and PROPERTIES; with the other argument list other things are read in their places.
@@ -62,11 +63,12 @@ std::string wrong_call(int directions, int coordinates, int state_variables, int
 
 ENTS_ENTRY(uinter, UINTER,
            (double* stress, double* ddsddr, UINTER_MATRICES double* flux, double* ddfddt, double* ddsddt,
-            double* ddfddr, double* statev, double* sed, double*, double*, double*, double*, double* pnewdt,
-            double* rdisp, double* drdisp, double*, double*, double*, double*, double*, double*,
-            UINTER_FREQUENCY char*, char*, char*, double* props, double* coords, double* alocaldir, double*,
-            double*, double*, int* node, int* ndir, int* nstatv, int*, int* nprops, int* mcrd, int*, int*,
-            int*, int* linper, int* lopenclose, int*, int*, int*, std::size_t, std::size_t, std::size_t)) {
+            double* ddfddr, double* statev, double* sed, double* sfd, double*, double*, double*,
+            double* pnewdt, double* rdisp, double* drdisp, double* temp, double*, double*, double*, double*,
+            double* dtime, UINTER_FREQUENCY char*, char*, char*, double* props, double* coords,
+            double* alocaldir, double*, double*, double*, int* node, int* ndir, int* nstatv, int*,
+            int* nprops, int* mcrd, int*, int*, int*, int* linper, int* lopenclose, int*, int*, int*,
+            std::size_t, std::size_t, std::size_t)) {
   const int d = *ndir;
   if (const std::string wrong = wrong_call(d, *mcrd, *nstatv, *nprops); !wrong.empty()) {
     abaqus::tell(abaqus::Severity::error, wrong.c_str());
@@ -83,7 +85,7 @@ ENTS_ENTRY(uinter, UINTER,
   std::fill(dviscous, dviscous + d * d, 0.0);
   std::fill(dstructural, dstructural + d * d, 0.0);
 #endif
-  *sed = 0;
+  *sed = *sfd = 0;
 
   Point p;
   p.host = &host;
@@ -91,6 +93,10 @@ ENTS_ENTRY(uinter, UINTER,
   p.directions = d;
   p.closing = rdisp;
   p.change = drdisp;
+  p.temperature = temp;
+  // Where no time passes nothing slips, so friction makes no heat: any time will do.
+  const bool still = std::all_of(drdisp, drdisp + d, [](double moved) { return moved == 0; });
+  p.time_increment = still && !(*dtime > 0) ? 1 : *dtime;
   p.properties = {props};
   p.property_count = *nprops;
   if (*linper == 1) {
@@ -119,10 +125,12 @@ ENTS_ENTRY(uinter, UINTER,
   p.traction = stress;
   p.stiffness = ddsddr;
   p.history_end = {statev + start_size};
-  p.energy = sed;
+  p.energy = sed, p.dissipation = sfd;
+  p.flux = flux, p.flux_by_temperature = ddfddt, p.flux_by_closing = ddfddr;
   const Result result = evaluate(p);
   switch (result.outcome) {
   case Outcome::done:
+    for (int i = 0; i < 4; ++i) ddfddt[i] = -ddfddt[i]; // Abaqus has this one with the opposite sign
     statev[0] = 1;
     std::copy(start, start + 2, statev + 1);
     *lopenclose = result.contact ? 1 : 0;
