@@ -17,8 +17,11 @@ namespace {
 using namespace ents_adapter;
 
 constexpr int property_count = 3; // ccx does not tell a user element how many CONSTANTS there are
-constexpr Host host{"*USER ELEMENT, NODES=", "*DEPVAR ", "*USER SECTION, CONSTANTS=3, entry ",
-                    [] { return std::string(); }};
+constexpr Host host{.nodes = "*USER ELEMENT, NODES=",
+                    .history = "*DEPVAR ",
+                    .properties = "*USER SECTION, CONSTANTS=3, entry ",
+                    .directory = [] { return std::string(); },
+                    .heat = ": ccx assembles rows of temperatures for its own elements alone"};
 
 Element describe(int nelem, const char* label, const double* properties) {
   Element e;

@@ -68,6 +68,10 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
   if (layout_.multipliers > 0)
     throw std::runtime_error(
         "the model has multipliers as unknowns, which a space [P1, P1] has no place for: take \"penalty\"");
+  if (layout_.heat)
+    throw std::runtime_error(
+        "the model has \"heat\", which takes a temperature in each node, and a space [P1, P1] "
+        "has displacements alone: remove \"heat\" from \"contact\"");
 
   if (basis.empty()) {
     segments_ = master_.edges;
