@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// *SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION: the law of contact elements.
-#include "contact_pair.hpp"
+// *SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION: the law of contact elements. Heat:
+// interaction_heat.cpp.
+#include "interaction_heat.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,7 @@ Numbers numbers_of(const Source& source, const Line& line, const std::vector<con
 
 struct Interaction {
   const Statement *self = nullptr, *behaviour = nullptr, *friction = nullptr;
+  std::vector<const Statement*> heat;
 };
 
 /// *SURFACE INTERACTION of the pair, and what follows it up to the next one. ccx takes the first of several with one
@@ -84,15 +86,24 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
       *part = &s;
       continue;
     }
+    if (s.keyword == "GAP CONDUCTANCE" || s.keyword == "GAP HEAT GENERATION") {
+      if (program == Program::calculix)
+        source.fail(s.place, "*" + s.keyword +
+                                 " of this contact cannot be had from contact elements: ccx assembles "
+                                 "temperatures of its own elements alone; leave this pair to ccx");
+      out.heat.push_back(&s);
+      continue;
+    }
     for (const char* other : keywords_of_interactions())
       if (s.keyword == other)
-        source.fail(s.place,
-                    "*" + s.keyword +
-                        " of this contact cannot be had from contact elements (they carry forces alone, "
-                        "without damping, heat or cohesion); leave this pair to the program itself");
+        source.fail(s.place, "*" + s.keyword +
+                                 " of this contact cannot be had from contact elements (they are without "
+                                 "damping, radiation or cohesion); leave this pair to the program itself");
   }
   if (!out.self) source.fail(pair.line, "there is no *SURFACE INTERACTION, NAME=" + pair.interaction);
-  for (const Statement* s : {out.self, out.behaviour, out.friction}) {
+  std::vector<const Statement*> all{out.self, out.behaviour, out.friction};
+  all.insert(all.end(), out.heat.begin(), out.heat.end());
+  for (const Statement* s : all) {
     if (!s) continue;
     const auto more = check_statement(source, *s, program);
     remarks.insert(remarks.end(), more.begin(), more.end());
@@ -335,6 +346,9 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
     if (auto law = friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, out.remarks);
         !law.is_null())
       out.contact["friction"] = std::move(law);
+  if (auto heat = heat_law(mesh.source, parts.heat, out.contact.contains("friction"), out.remarks);
+      !heat.is_null())
+    out.contact["heat"] = std::move(heat);
   return out;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sources: CalculiX CrunchiX 2.20 (surfaceinteractions.f, surfacebehaviors.f, frictions.f, contactpairs.f,
 // surfaces.f and others: what they read); Abaqus Keywords Guide (*SURFACE INTERACTION, *SURFACE BEHAVIOR, *FRICTION,
-// *CONTACT PAIR, *SURFACE, *NSET, *ELSET, *NODE, *ELEMENT).
+// *GAP CONDUCTANCE, *GAP HEAT GENERATION, *CONTACT PAIR, *SURFACE, *NSET, *ELSET, *NODE, *ELEMENT).
 #include "keywords.hpp"
 
 namespace ents_deck {
@@ -12,7 +12,8 @@ using C = ColumnRule;
 
 const P any{"*", Use::no_effect, "*", ""}; ///< programs pass over others, or they concern other things
 const char* const law = "; write the law into a model, \"contact\": {...}, and name it with --model";
-const char* const no_heat = "contact elements conduct no heat; leave the pair to the program itself";
+const char* const no_heat =
+    "contact elements conduct no heat in such a step; leave the pair to the program itself";
 const char* const linear =
     "in a linear step the program keeps no history of contact elements; write *STATIC steps alone";
 const char* const whole_job =
@@ -39,8 +40,8 @@ std::vector<KeywordRule> shared_rules() {
   const auto never = [&](const char* name, const std::string& why) {
     out.push_back({name, Use::refused, why, {}, {}});
   };
-  for (const char* name : {"HEAT TRANSFER", "COUPLED TEMPERATURE-DISPLACEMENT",
-                           "UNCOUPLED TEMPERATURE-DISPLACEMENT", "COUPLED THERMAL-ELECTRICAL"})
+  for (const char* name :
+       {"HEAT TRANSFER", "UNCOUPLED TEMPERATURE-DISPLACEMENT", "COUPLED THERMAL-ELECTRICAL"})
     never(name, no_heat);
   for (const char* name : {"FREQUENCY", "BUCKLE", "COMPLEX FREQUENCY", "MODAL DYNAMIC",
                            "STEADY STATE DYNAMICS", "GREEN", "RANDOM RESPONSE", "RESPONSE SPECTRUM"})
@@ -186,6 +187,9 @@ std::vector<KeywordRule> calculix_rules() {
        "U1E has been verified in *STATIC and *VISCO steps alone; leave the pair to ccx",
        {},
        {}},
+      {"COUPLED TEMPERATURE-DISPLACEMENT", Use::refused, no_heat, {}, {}},
+      {"GAP CONDUCTANCE", Use::used, "", {any}, {}}, // refused where an interaction of a pair has them
+      {"GAP HEAT GENERATION", Use::used, "", {any}, {}},
       model_change("MECHSTRAINTORESIDUAL")};
 }
 
@@ -197,7 +201,18 @@ std::vector<KeywordRule> abaqus_rules() {
       std::string("a coefficient that depends on it is no law of a contact element; write one number, or "
                   "use") +
       " --model with another law";
+  const std::string conductance =
+      std::string("a conductance that depends on it is no law of a contact element; write one table") + law;
   return {
+      {"COUPLED TEMPERATURE-DISPLACEMENT", Use::used, "", {any}, {}},
+      {"GAP CONDUCTANCE",
+       Use::used,
+       "",
+       {{"PRESSURE", Use::used, "", ""},
+        {"USER", Use::refused, "*", std::string("a subroutine of your own gives the conductance") + law},
+        {"DEPENDENCIES", Use::refused, "*", conductance}},
+       {{"conductance"}, {"clearance or pressure"}, {"temperature", Use::refused, "0", conductance}}},
+      {"GAP HEAT GENERATION", Use::used, "", {}, {{"part that becomes heat"}, {"part of the slave"}}, 1},
       {"SURFACE INTERACTION",
        Use::used,
        "",
@@ -294,7 +309,8 @@ std::vector<KeywordRule> abaqus_rules() {
 
 std::vector<KeywordRule> together(std::vector<KeywordRule> rules) {
   for (KeywordRule& rule : rules)
-    for (const char* name : {"SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CONTACT PAIR"})
+    for (const char* name : {"SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CONTACT PAIR",
+                             "GAP CONDUCTANCE", "GAP HEAT GENERATION"})
       rule.of_pair = rule.of_pair || rule.name == name;
   for (auto&& more : {shared_rules(), mesh_rules()}) rules.insert(rules.end(), more.begin(), more.end());
   return rules;
@@ -303,11 +319,17 @@ std::vector<KeywordRule> together(std::vector<KeywordRule> rules) {
 } // namespace
 
 const std::vector<const char*>& keywords_of_interactions() {
-  static const std::vector<const char*> all{
-      "CONTACT DAMPING",      "GAP CONDUCTANCE",    "GAP HEAT GENERATION",        "GAP RADIATION",
-      "COHESIVE BEHAVIOR",    "DAMAGE INITIATION",  "DAMAGE EVOLUTION",           "DAMAGE STABILIZATION",
-      "CONTACT PERMEABILITY", "FRACTURE CRITERION", "GAP ELECTRICAL CONDUCTANCE", "BOND",
-      "NODAL ENERGY RATE"};
+  static const std::vector<const char*> all{"CONTACT DAMPING",
+                                            "GAP RADIATION",
+                                            "COHESIVE BEHAVIOR",
+                                            "DAMAGE INITIATION",
+                                            "DAMAGE EVOLUTION",
+                                            "DAMAGE STABILIZATION",
+                                            "CONTACT PERMEABILITY",
+                                            "FRACTURE CRITERION",
+                                            "GAP ELECTRICAL CONDUCTANCE",
+                                            "BOND",
+                                            "NODAL ENERGY RATE"};
   return all;
 }
 

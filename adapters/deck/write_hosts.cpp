@@ -52,6 +52,24 @@ const Statement& first_statement(const Job& job, const string& keyword, const st
   throw Error(job.mesh.source.files[0].name + ": there is no *" + keyword + ": " + why);
 }
 
+bool has_heat(const Model& model) {
+  const auto contact = model.text.find("contact");
+  return contact != model.text.end() && contact->is_object() && contact->contains("heat") &&
+         !contact->at("heat").is_null();
+}
+
+/// A step that solves for displacements alone has no temperatures for heat of contact elements.
+void check_procedures(const Job& job) {
+  for (const Statement& s : job.mesh.source.list)
+    for (const char* name : {"STATIC", "DYNAMIC", "VISCO"})
+      if (s.keyword == name)
+        job.mesh.source.fail(s.place,
+                             "*" + s.keyword +
+                                 " has no temperatures, and the contact has \"heat\": "
+                                 "write *COUPLED TEMPERATURE-DISPLACEMENT, or leave *GAP CONDUCTANCE "
+                                 "and *GAP HEAT GENERATION (\"heat\" of a model) out");
+}
+
 const char* const heading = "** ents-deck: contact elements\n";
 
 } // namespace
@@ -64,6 +82,9 @@ HostText calculix_text(const Job& job) {
   for (const Model& model : job.models) {
     states = std::max(states, model.state_size);
     const int nodes = model.nodes();
+    if (has_heat(model))
+      throw Error("the model has \"heat\", and ccx assembles temperatures of its own elements alone: leave "
+                  "\"heat\" out of the model, or leave this pair to ccx");
     if (types.count(nodes) != 0) continue;
     const string type = types.empty() ? "U1E" : string("U1E") + static_cast<char>('A' + types.size() - 1);
     types[nodes] = type;
@@ -95,7 +116,9 @@ HostText abaqus_text(const Job& job) {
     out += "*USER ELEMENT, TYPE=" + type + ", NODES=" + std::to_string(model.nodes()) +
            ", COORDINATES=" + std::to_string(d) + ", PROPERTIES=" + std::to_string(properties) +
            ", VARIABLES=" + std::to_string(std::max(model.state_size, 1)) +
-           (model.symmetric ? "" : ", UNSYMM") + "\n" + (d == 2 ? "1, 2\n" : "1, 2, 3\n");
+           (model.symmetric ? "" : ", UNSYMM") + "\n" + (d == 2 ? "1, 2" : "1, 2, 3") +
+           (has_heat(model) ? ", 11\n" : "\n");
+    if (has_heat(model)) check_procedures(job);
     if (!parts) {
       out += "*ELEMENT, TYPE=" + type + ", ELSET=ENTS_" + k + "\n" + element_lines(job, groups[m]);
       out += "*UEL PROPERTY, ELSET=ENTS_" + k + "\n" + k + "., 0., 0.\n";

@@ -176,5 +176,72 @@ TEST(DeckPrograms, TablesHaveTheAreaAndTheWeightsOfEachElement) {
   EXPECT_NEAR(area, 4, 1e-13); // of the slave's face, 2 x 2
 }
 
+// Abaqus conducts k(p) in contact, k(0) of the clearances where there is no table of pressures, and k(g) where it is
+// open.
+TEST(DeckLaw, GapConductanceAndHeatGenerationAreHeat) {
+  const string head = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e6\n", friction = "*FRICTION\n0.2\n",
+               by_gap = "*GAP CONDUCTANCE\n4., 0.\n1., 0.1\n0., 0.3\n",
+               by_pressure = "*GAP CONDUCTANCE, PRESSURE\n1., 0.\n3., 1.\n2., 4.\n";
+  const auto heat = [&](const string& text) {
+    const Law made = law(head + text, Program::abaqus);
+    return made.contact.contains("heat") ? made.contact.at("heat").dump() : "none";
+  };
+  EXPECT_EQ(heat(""), "none");
+  EXPECT_EQ(heat(by_gap),
+            R"({"conductance":4.0,"clearance":{"gaps":[0.0,0.1,0.3],"conductances":[4.0,1.0,0.0]}})");
+  EXPECT_EQ(heat(by_pressure), R"({"table":{"pressures":[0.0,1.0,4.0],"conductances":[1.0,3.0,2.0]}})");
+  EXPECT_EQ(heat(by_gap + by_pressure),
+            R"({"table":{"pressures":[0.0,1.0,4.0],"conductances":[1.0,3.0,2.0]},)"
+            R"("clearance":{"gaps":[0.0,0.1,0.3],"conductances":[4.0,1.0,0.0]}})");
+  EXPECT_EQ(heat(friction + "*GAP HEAT GENERATION\n"), R"({"friction":{"share":1.0,"slave":0.5}})");
+  EXPECT_EQ(heat(friction + "*GAP HEAT GENERATION\n0.9, 0.3\n"), R"({"friction":{"share":0.9,"slave":0.3}})");
+  const auto remark = [&](const string& text) {
+    string all;
+    for (const string& line : law(head + text, Program::abaqus).remarks) all += line + "\n";
+    return all;
+  };
+  EXPECT_NE(remark("*GAP HEAT GENERATION\n").find("has no effect: the contact has no friction"),
+            string::npos);
+  EXPECT_NE(remark(friction + by_gap).find("friction of this contact makes no heat"), string::npos);
+  const auto refused = [&](const string& text, Program program, const char* reason) {
+    const string error = error_of([&] { law(head + text, program); });
+    EXPECT_NE(error.find(reason), string::npos) << error;
+    EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  };
+  for (const string& text : {by_gap, by_pressure, string("*GAP HEAT GENERATION\n")})
+    refused(text, Program::calculix, "ccx assembles temperatures of its own elements alone");
+  refused(by_gap + by_gap, Program::abaqus, "over the clearance is there a second time");
+  refused("*GAP CONDUCTANCE\n4., 0.\n1., 0.1\n", Program::abaqus,
+          "write a line more, with a conductance of 0");
+  refused("*GAP CONDUCTANCE\n4., 0.1\n0., 0.3\n", Program::abaqus, "a table begins at 0 and rises");
+  refused("*GAP CONDUCTANCE\n4.\n", Program::abaqus, "needs two lines");
+  refused("*GAP CONDUCTANCE\n-4., 0.\n0., 0.3\n", Program::abaqus, "the conductance is -4");
+  refused("*GAP CONDUCTANCE\n4., 0., 20.\n0., 0.3, 20.\n", Program::abaqus, "temperature (entry 3), '20.'");
+  refused("*GAP CONDUCTANCE, USER\n", Program::abaqus, "a subroutine of your own");
+  refused("*GAP CONDUCTANCE, PRESURE\n1., 0.\n", Program::abaqus, "is not known");
+  refused(friction + "*GAP HEAT GENERATION\n1.2, 0.3\n", Program::abaqus, "two numbers from 0 to 1");
+  refused("*GAP RADIATION\n1., 0.3\n", Program::abaqus, "without damping, radiation or cohesion");
+}
+
+TEST(DeckLaw, HeatTakesTemperaturesAndTheirSteps) {
+  const string heat = "1e6\n*GAP CONDUCTANCE, PRESSURE\n1., 0.\n3., 1.\n";
+  Options options;
+  options.program = Program::abaqus;
+  const string coupled = deck("1e6\n", heat);
+  string text = coupled;
+  text.replace(text.find("*STATIC"), 7, "*COUPLED TEMPERATURE-DISPLACEMENT");
+  EXPECT_NE(abaqus_text(converted(text, options)).text.find("UNSYMM\n1, 2, 3, 11\n"), string::npos);
+  const string error = error_of([&] { abaqus_text(converted(coupled, options)); });
+  EXPECT_NE(error.find("*STATIC has no temperatures"), string::npos) << error;
+  EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  EXPECT_NE(abaqus_text(converted(deck(), options)).text.find("\n1, 2, 3\n"), string::npos);
+  write("job/heat.json",
+        R"({"contact": {"normal": {"type": "penalty", "stiffness": 1e6}, "heat": {"conductance": 2}}})");
+  Options ccx;
+  ccx.model = "job/heat.json";
+  const string refusal = error_of([&] { calculix_text(converted(deck(), ccx)); });
+  EXPECT_NE(refusal.find("ccx assembles temperatures of its own elements alone"), string::npos) << refusal;
+}
+
 } // namespace
 } // namespace ents_deck::deck_law_test
