@@ -20,6 +20,7 @@ Mutant = collections.namedtuple("Mutant", "what file before after")
 Library = collections.namedtuple("Library", "name sources flags program tests mutants")
 
 HOSTS = "adapters_hosts_test"
+HEAT = "adapters_heat_test"
 
 
 def user_element(file, **texts):
@@ -106,7 +107,7 @@ LIBRARIES = [
                 Mutant("common: tangent transposed", "common/element.cpp", "tangent[row + layout.dofs * column]", "tangent[column + layout.dofs * row]"),
                 Mutant("common: node and dof swapped", "common/element.cpp", "e.residual(dof(column), node(column, c))",
                        "e.residual(dof(column), node(layout.dofs - 1 - column, c))"),
-                Mutant("common: multipliers in another order", "common/element.cpp", "i - of_nodes; };", "layout.dofs - 1 - i; };"),
+                Mutant("common: multipliers in another order", "common/element.cpp", "return i >= of_nodes ? i - of_nodes", "return i >= of_nodes ? layout.dofs - 1 - i"),
                 Mutant("common: master nodes in another order", "common/element.cpp", "*out = current(i, node);",
                        "*out = current(i, node > 0 ? layout.nodes + 1 - node : 0);"),
                 Mutant("common: too little history passes", "common/description.cpp", "if (e.history_size < layout.state_size)", "if (false)"),
@@ -119,6 +120,20 @@ LIBRARIES = [
                                        "  for (int i = 0; i < layout.dofs; ++i)\n    for (int j = 0; j < i; ++j)\n"
                                        "      std::swap(tangent[i + layout.dofs * j], tangent[j + layout.dofs * i]);\n"
                                        "    scatter(e, arguments, residual, tangent);")]),
+    # Temperatures
+    Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp"], [], HEAT, "*", [
+        Mutant("heat: temperature of another node", "common/element.cpp", "e.moved(e.temperature, slave_nodes + node)",
+               "e.moved(e.temperature, slave_nodes + layout.nodes - 1 - node)"),
+        Mutant("heat: one weight for all nodes of a slave point", "common/element.cpp", "arguments.weights[k] * e.moved(e.temperature, k)",
+               "e.moved(e.temperature, k) / slave_nodes"),
+        Mutant("heat: sign of the power", "common/element.cpp", "node(column, c)) = e.sign * weight(column, c) * residual[column]",
+               "node(column, c)) = (dof(column) == e.temperature ? 1 : e.sign) * weight(column, c) * residual[column]"),
+        Mutant("heat: dissipation of the last increment alone", "abaqus/uel/uel.cpp", "energy[plastic_energy] += dissipation",
+               "energy[plastic_energy] = dissipation"),
+        Mutant("heat: DDFDDT with the sign of DDFDDR", "abaqus/uinter/uinter.cpp", "ddfddt[i] = -ddfddt[i]", "ddfddt[i] = ddfddt[i]"),
+        Mutant("heat: temperatures of point and face swapped", "common/point.cpp", "p.temperature[node == 0 ? 0 : 1]",
+               "p.temperature[node == 0 ? 1 : 0]"),
+        Mutant("heat: sign of the closing in DDFDDR", "common/point.cpp", "p.flux_by_closing[i + 2 * j] -= side(j) *", "p.flux_by_closing[i + 2 * j] -=")]),
     # A rigid body with a reference node.
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/body.cpp"], [], HOSTS,
             "RigidBodyElement.*", [
