@@ -34,6 +34,12 @@ class Hosts(unittest.TestCase):
         self.assertIn("NODES=6, COORDINATES=2", lines["Abaqus/Standard, UEL"])
         self.assertFalse({"Abaqus/Explicit", "Abaqus/Standard, UINTER", "LS-DYNA"} & set(lines))
 
+    def test_heat_takes_temperatures(self):
+        for segment, dofs in (("line2", "1, 2, 11"), ("quad4", "1, 2, 3, 11")):
+            lines = dict(_hosts.lines(ents.Model({"segment": segment, "contact": CONTACT | {"heat": {"conductance": 3}}})))
+            self.assertTrue(lines["Abaqus/Standard, UEL"].endswith(", UNSYMM; below it " + dofs), lines)
+            self.assertEqual(set(lines), {"Abaqus/Standard, UEL", "Abaqus/Standard, UINTER", "other hosts"})
+
     def test_command_line(self):
         run = lambda *words: subprocess.run([sys.executable, "-m", "ents", "hosts", *words], capture_output=True, text=True, check=False,
                                             cwd=ADAPTERS / "python")

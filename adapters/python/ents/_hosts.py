@@ -19,9 +19,12 @@ def lines(model, slave_nodes=1):
     d, nodes, states = layout.dimension, slave_nodes + layout.nodes + (layout.multipliers > 0), layout.state_size
     unsymmetric = "" if layout.symmetric_tangent else ", UNSYMM"
     element = f"NODES={nodes}, COORDINATES={d}, PROPERTIES=3, VARIABLES={states}"
-    found = [("Abaqus/Standard, UEL", f"*USER ELEMENT, TYPE=U101, {element}{unsymmetric}")]
+    temperatures = "; below it " + ", ".join(map(str, [*range(1, d + 1), 11])) if layout.heat else ""
+    found = [("Abaqus/Standard, UEL", f"*USER ELEMENT, TYPE=U101, {element}{unsymmetric}{temperatures}")]
     if layout.nodes == 2 * (d - 1) and not layout.multipliers:
         found.append(("Abaqus/Standard, UINTER", f"*SURFACE INTERACTION, NAME=ENTS, USER, DEPVAR={3 + states}, PROPERTIES=3{unsymmetric}"))
+    if layout.heat:
+        return found + [("other hosts", "refused: their elements carry no temperatures")]
     if not layout.multipliers:
         found.append(("Abaqus/Explicit", f"*USER ELEMENT, TYPE=VU101, {element}"))
     found.append(("CalculiX", f"*DEPVAR {states}" + ("" if nodes <= 20 else "; 20 nodes an element is ccx's limit")))
