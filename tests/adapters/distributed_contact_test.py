@@ -195,6 +195,9 @@ class Failures(unittest.TestCase):
         with self.assertRaises(ents.Error) as caught:
             ents.Contact(model, **{**part.arguments, "slave": part.arguments["slave"][:, ::-1]}).update(np.zeros(part.arguments["positions"].shape))
         self.assertIn("look the same way", str(caught.exception))
+        with self.assertRaises(ents.Error) as caught:
+            ents.Contact({"segment": "line2", "contact": {**PENALTY, "heat": {"conductance": 1.0}}}, **part.arguments)
+        self.assertIn("no temperatures yet", str(caught.exception))
 
     def test_reach_is_the_same_everywhere(self):
         if COMM.size > 1:

@@ -81,6 +81,8 @@ class DistributedContact:
         with guard:
             self.model = model = (model if isinstance(model, Model) else Model(model)).with_border(BORDER)
             _refuse_models(model)
+            if model.layout.heat:
+                raise Error(Status.BAD_VALUE, 'model: "heat": distributed surfaces have no temperatures yet; leave out comm, or "heat"')
             if model.segment == "catmull_rom16":
                 raise Error(Status.BAD_VALUE, 'model: "segment": "catmull_rom16" takes regular meshes alone, and the ghosts of a process have ragged borders: write '
                             '"bspline16"')
