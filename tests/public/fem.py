@@ -170,7 +170,7 @@ class Problem:
         r, norm, small = self._residual(load, tolerance)
         norms = [norm]
         for _ in range(most):
-            step = spsolve((self.k + self.contact.tangent)[self.free][:, self.free].tocsc(), r)
+            step = spsolve((self.k + self.contact.tangent)[self.free][:, self.free].tocsc(), r, permc_spec="MMD_AT_PLUS_A")
             r, norm, small = self._along(step, norm, load, tolerance)
             norms.append(norm)
             if small:
