@@ -247,8 +247,8 @@ class Host:
     def newton(self, x):
         """SNES, one iteration at a time while the places of contact change. Returns iterations of Newton and GMRES."""
         newton = krylov = 0
-        while newton < 40:
-            self.function(None, x, self.vector)
+        self.function(None, x, self.vector)
+        while newton < 40:  # the vector holds the forces at x, which a line search has evaluated last
             if self.vector.norm() <= 1e-9 * YOUNG * PRESS:
                 return newton, krylov
             if self.stale:
