@@ -1,6 +1,7 @@
 """mpirun -n P python3 -m mpi4py distributed_contact_test.py FOLDER-OF-ents: ents.Contact(..., comm=comm) against one that knows the whole surfaces.
 The library is the one of the environment's ENTS_LIBRARY. Exit status 3: no NumPy, SciPy or mpi4py here."""
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
@@ -139,6 +140,26 @@ class SameAnswer(unittest.TestCase):
         with self.assertRaises(ents.Error):
             comparison.contact.commit()
         for step in range(1, 4):
+            comparison.update(self, comparison.slide(step))
+            comparison.commit()
+
+
+    def test_restart(self):
+        comparison = Comparison(*CASES["height, friction"], STRIPS)
+        for step in range(3):
+            comparison.update(self, comparison.slide(step))
+            comparison.commit()
+        with tempfile.TemporaryDirectory() as folder:
+            comparison.contact.save(f"{folder}/state.npz")
+            again = Comparison(*CASES["height, friction"], STRIPS)
+            again.contact.load(f"{folder}/state.npz")
+            if COMM.size > 1:
+                other = Comparison(*CASES["height, friction"], SCATTERED)
+                with self.assertRaises(ents.Error) as caught:
+                    other.contact.load(f"{folder}/state.npz")
+                self.assertIn("other parts of the surfaces", str(caught.exception))
+        comparison.contact = again.contact
+        for step in range(3, 5):
             comparison.update(self, comparison.slide(step))
             comparison.commit()
 
