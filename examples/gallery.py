@@ -176,7 +176,7 @@ def main():
         picture = folder / entry["picture"] if "picture" in entry else None
         scenes.append((label(entry), title, picture if picture and picture.is_file() else None))
         if picture and not wrong and not picture.is_file():
-            failures.append(f"{label(entry)}: no picture {picture.name} was drawn; is gnuplot installed?")
+            failures.append(f"{label(entry)}: no picture {picture.name} was drawn; is matplotlib installed (Debian: python3-matplotlib)?")
     (options.out / "gallery.md").write_text(markdown(rows))
     (options.out / "index.html").write_text(page(rows, scenes))
     if options.readme and not failures:

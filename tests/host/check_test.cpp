@@ -10,7 +10,6 @@
 
 #include "check_mesh.hpp"
 #include "ents_library.hpp"
-#include "output/pictures.hpp"
 #include "program.hpp"
 
 namespace host::test::check_test {
@@ -328,15 +327,11 @@ TEST_F(Check, ThePictureMarksTheOffences) {
   const std::string out = " --out " + quoted(folder_ / "out");
   EXPECT_EQ(result(model, "--mesh " + write("sheet.json", sheet) + out, 1).at("failing_segments"),
             Json({0, 1}));
-  const std::string script = content("out/check.gp"), data = content("out/check.dat");
-  EXPECT_NE(script.find("index 0:0 using"), std::string::npos) << script; // the third, which does not fail
-  EXPECT_NE(script.find("index 1:2 using"), std::string::npos) << script;
-  EXPECT_NE(script.find("neighbours meet"), std::string::npos);
-  EXPECT_NE(script.find("3 segments; those in red fail"), std::string::npos);
-  EXPECT_LT(data.find("-1 0 "), data.find("0.1\n")); // drawn first
-  if (pictures::gnuplot_available()) {
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "check.png"));
-  }
+  const Json picture = Json::parse(content("out/pictures.json"))[0];
+  EXPECT_EQ(picture.at("wrong"), Json({true, true, false}));
+  EXPECT_EQ(picture.at("subtitle"), "3 segments");
+  EXPECT_NE(picture.at("places").dump().find("neighbours meet"), std::string::npos) << picture.at("places");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "check.png"));
   // in the plane: a red line beside the dark one
   const Json line = {{"nodes", {{0, 0}, {1, 0}, {2, 0}, {3, 1}}},
                      {"segments", {{0, 1}, {1, 2}, {2, 3}}},
@@ -344,8 +339,9 @@ TEST_F(Check, ThePictureMarksTheOffences) {
   const std::string plane =
       write("plane.json", {{"segment", "line2"}, {"height", {{"type", "constant"}, {"value", 0.1}}}});
   EXPECT_EQ(check(plane, "--mesh " + write("line.json", line) + out).exit_code, 1);
-  EXPECT_NE(content("out/check.gp").find("segments that fail"), std::string::npos);
-  EXPECT_NE(content("out/check.gp").find("segments do not cross"), std::string::npos);
+  const Json section = Json::parse(content("out/pictures.json"))[0];
+  EXPECT_NE(section.at("wrong").dump().find("true"), std::string::npos) << section.at("wrong");
+  EXPECT_NE(section.at("places").dump().find("segments do not cross"), std::string::npos);
 }
 
 } // namespace

@@ -50,7 +50,7 @@ cp "$scratch"/packages/*.deb "$root/packages"
 install='apt-get -qq install -y --no-install-recommends'
 
 begin=$(now)
-must inside $install gnuplot-nox libopenblas0-serial $(cd "$root" && ls packages/libents1_*.deb packages/ents-*.deb | sed "s|^|/|")
+must inside $install python3-matplotlib libopenblas0-serial $(cd "$root" && ls packages/libents1_*.deb packages/ents-*.deb | sed "s|^|/|")
 say "the packages, with all that they need: $(since "$begin")"
 
 ! inside sh -c 'command -v cc c++ gfortran' >/dev/null || { echo "debian.sh: there is a compiler, which this is to do without" >&2; exit 1; }

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ents-lab chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json,
-// chart.html and the pictures.
+// ents-lab chart: solve the maps and the work-precision runs, tell the terminal, leave chart.json, of which
+// chart.py makes chart.html and the pictures.
 #include <algorithm>
 #include <cstdio>
 
-#include "chart/chart_page.hpp"
 #include "chart/map.hpp"
-#include "chart/map_picture.hpp"
 #include "chart/pareto.hpp"
-#include "chart/plot.hpp"
 #include "chart/truth_table.hpp"
 #include "chart/work.hpp"
-#include "chart/work_page.hpp"
+#include "chart/work_json.hpp"
 #include "chart/wrong_heights.hpp"
 #include "commands.hpp"
+#include "output/pictures.hpp"
 #include "output/table.hpp"
 #include "output/text_file.hpp"
 #include "output_folder.hpp"
@@ -61,30 +59,6 @@ std::int64_t count(const Map& map, bool careful, Fate fate) {
   return sum;
 }
 
-constexpr const char* maps_introduction =
-    "<p>One slave node on a spring is pressed into a wavy rigid master and drawn over two borders of its "
-    "segments. Every point of a map is "
-    "such a problem, solved once by each method: surface (explicit plain facets; local enrichment, h = 0 at "
-    "the segments' ends; C1 and C2 "
-    "smoothing) x projection x tangent. The first-variation tangent K = &lambda;' &delta;g "
-    "&delta;g<sup>T</sup> is made by the host from "
-    "ENTS_GAP_GRADIENT. Increments that fail are halved, up to six times.</p>"
-    "<p><b>Solved</b> means solved and right at every increment. The judge has a geometry of its own, "
-    "written from the definitions, and walks "
-    "512 small steps downhill in energy along the path of equilibria: where continuity puts the node, the "
-    "host has to find it, within 1e-5 of a "
-    "segment (at the ends of plain segments: within what the host lets them reach beyond). What the host "
-    "delivers without a status, a flag or a "
-    "failed iteration and lies elsewhere is <b>silently wrong</b>.</p>"
-    "<p>The host is a careful one. It asks ents_model_check first; takes its reach as penetration_limit; "
-    "believes an increment only if the node has moved by at most a quarter of the shortest wave (as long as "
-    "that is "
-    "on the enriched surface) and one segment, if the exact tangent is positive definite, and, where contact "
-    "takes more than a "
-    "quarter of the stiffness away, if two half increments end at the same place; follows a closed node, but "
-    "searches an open one anew; takes ENTS_FLAG_BEHIND_EDGE and ENTS_FLAG_AMBIGUOUS for no answer. The lines "
-    "&quot;no rules&quot; in the tables are the same host without all this.</p>";
-
 /// Where the scenes are: as the user says, or beside the build tree this program lies in, or here.
 std::filesystem::path scenes_folder(const std::filesystem::path& given) {
   std::error_code error;
@@ -124,12 +98,6 @@ std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& op
   return works;
 }
 
-const Work* named(const std::vector<Work>& works, const std::string& name) {
-  for (const Work& work : works)
-    if (work.problem.name == name) return &work;
-  return nullptr;
-}
-
 } // namespace
 
 int chart_command(const CommonOptions& common, const ChartOptions& options) {
@@ -148,9 +116,19 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
       .column("diverged")
       .column("silently wrong")
       .column("unjudged");
-  Json json{
-      {"version", library.version()}, {"work_precision", work_json(works)}, {"stability", Json::array()}};
-  std::string stability = maps_introduction + legend();
+  Json json{{"version", library.version()},
+            {"work_precision", work_json(works)},
+            {"stability", Json::array()},
+            {"ends", Json::array()},
+            {"pictured", Json::array()}};
+  for (const End end : {End::fold, End::edge, End::self_shadow, End::crossing, End::ambiguous, End::behind,
+                        End::jump, End::unstable})
+    json["ends"].push_back(word(end));
+  std::vector<const Work*> pictured;
+  for (const Work& work : works)
+    if (!options.only.empty() || work.problem.name == "wavy3d" || work.problem.name == "elastic_master")
+      pictured.push_back(&work), json["pictured"].push_back(work.problem.name);
+  json["families"] = families_json(pictured);
   std::int64_t wrong = 0;
   for (Map& map : maps) {
     fill(map, library, true);
@@ -161,7 +139,6 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
                  count(map, careful, Fate::unjudged)});
     wrong += count(map, true, Fate::wrong) + count(map, true, Fate::unjudged);
     json["stability"].push_back(map_json(map));
-    stability += map_section(map);
   }
   json["silently_wrong"] = wrong;
   bool covered = true;
@@ -178,23 +155,13 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
 
   if (!options.out.empty()) {
     write_text(options.out / "chart.json", json.dump() + "\n");
-    write_text(options.out / "chart.html",
-               page({{"work", "Speed against accuracy", work_section(works)},
-                     {"stability", "Stability maps", stability},
-                     {"wrong", "Four wrong heights (Fig. 4 of the paper)", wrong_heights_section(heights)}},
-                    library.version()));
-    std::vector<const Work*> pictured{named(works, "wavy3d"), named(works, "elastic_master")};
-    if (!options.only.empty()) {
-      pictured.clear();
-      for (const Work& work : works) pictured.push_back(&work);
-    }
-    write_text(options.out / "work_precision.svg", work_picture(pictured, {Price::segments, Price::time}));
-    if (options.pictures)
-      for (const Map& map : maps)
-        if (const pictures::Outcome outcome = draw(map, options.out); !outcome.problem.empty()) {
-          std::fprintf(stderr, "%s\n", outcome.problem.c_str());
-          break;
-        }
+    for (const auto& [name, text] : {std::pair{"chart.py", pictures::chart_script},
+                                     {"page.html", pictures::page_text},
+                                     {"pictures.py", pictures::pictures_script}})
+      write_text(options.out / name, text);
+    const std::string problem =
+        pictures::run_script(options.out, "chart.py", options.pictures ? "" : "--no-pictures");
+    if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
   }
   if (common.json) {
     std::printf("%s\n", json.dump().c_str());

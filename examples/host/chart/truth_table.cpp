@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include "chart/chart_page.hpp"
 #include "chart/pareto.hpp"
 #include "output/table.hpp"
 
@@ -108,9 +107,7 @@ std::vector<std::string> comparisons(const Work& work) {
   return result;
 }
 
-namespace {
-
-std::string sentence(const Work& work) {
+std::string truth_sentence(const Work& work) {
   const std::vector<MethodPrice> methods = method_prices(work);
   const MethodPrice *fastest = nullptr, *closest = nullptr;
   std::string missed;
@@ -127,43 +124,6 @@ std::string sentence(const Work& work) {
   std::string text = name_of(work, *fastest) + " is the fastest to reach " + percent(work.problem.asked) +
                      ", in " + format_number(fastest->seconds, 2) + " s";
   return text + (missed.empty() ? "; all methods reach it." : ". Not reached here: " + missed + ".");
-}
-
-} // namespace
-
-std::string truth_table(const std::vector<Work>& works) {
-  std::string rows, lines;
-  for (const Work& work : works) {
-    const std::vector<MethodPrice> methods = method_prices(work);
-    bool first = true;
-    for (const MethodPrice& method : methods) {
-      const auto cell = [&](const std::string& text) { rows += "<td>" + escaped(text) + "</td>"; };
-      rows += first ? "<tr class=\"new\">" : "<tr>";
-      cell(first ? work.problem.title : "");
-      cell(first ? percent(work.problem.asked) : "");
-      cell(name_of(work, method));
-      cell(method.reached ? "yes" : "no: " + percent(method.best->error));
-      cell(std::to_string(method.segments));
-      cell(std::to_string(method.dofs));
-      cell(format_number(method.seconds, 2));
-      rows += "</tr>";
-      first = false;
-    }
-    if (const std::string text = sentence(work); !text.empty())
-      lines += "<li><b>" + escaped(work.problem.title) + ":</b> " + escaped(text) + "</li>";
-  }
-  if (rows.empty()) return "";
-  return "<h3 id=\"truth\">Against the truth: what each method needs</h3><p>Closed forms or boundary "
-         "elements, which "
-         "know the whole error: that of master, slave mesh, block and law together. Asked are " +
-         percent(equal_error) + " of the pressure field and " + percent(equal_error_of_area) +
-         " of the contact area. Segments, dofs and seconds: each the least of the runs that reach it; where "
-         "none "
-         "does, those of the run that comes closest, with its error.</p><div "
-         "class=\"wide\"><table><tr><th>scene and "
-         "quantity</th><th>asked</th><th>method</th><th>reached</th><th>segments</th><th>dofs</th><th>solve "
-         "[s]</th></tr>" +
-         rows + "</table></div><ul>" + lines + "</ul>";
 }
 
 Json truth_json(const Work& work) {

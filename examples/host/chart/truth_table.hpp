@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each method needs for the asked error against the truth: a table and sentences, from the runs alone.
+// What each method needs for the asked error against the truth: prices and sentences, from the runs alone.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ std::vector<MethodPrice> method_prices(const Work& work);
 /// shares of block and master. Empty: the work has no such pair.
 std::vector<std::string> comparisons(const Work& work);
 
-/// The chapter of the page.
-std::string truth_table(const std::vector<Work>& works);
+/// Which method is the fastest, and which do not reach the asked error; empty: there is no truth.
+std::string truth_sentence(const Work& work);
 
-/// The same as numbers.
+/// The prices of the methods.
 Json truth_json(const Work& work);
 
 } // namespace host::chart

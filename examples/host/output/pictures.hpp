@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures through gnuplot. Every picture NAME leaves NAME.dat (the numbers, columns with a header), NAME.gp
-// (the script, to be changed and run again by hand), NAME.svg and NAME.png. A machine without gnuplot
-// still gets the first two, and one line that names the missing package.
+// Pictures of a folder: their numbers and words go to pictures.json, and pictures.py beside it draws each as
+// NAME.svg and NAME.png, with matplotlib. Without matplotlib the two files are there all the same, and one
+// line says what to install.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,11 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 namespace host::pictures {
 
-/// What became of a picture. A picture never fails a run.
-struct Outcome {
-  std::vector<std::filesystem::path> files; ///< .svg and .png, if drawn
-  std::string problem;                      ///< empty, or one line for the terminal
-};
-
-/// Not given: gnuplot finds the end of the axis.
+/// Not given: the data say where the axis ends.
 inline constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
 
 struct Axis {
@@ -25,7 +21,7 @@ struct Axis {
   std::string unit;  ///< "MPa"; empty for a ratio
   bool logarithmic = false;
   double min = automatic, max = automatic;
-  double tic_step = 0; ///< distance of the numbers; 0: gnuplot decides
+  double tic_step = 0; ///< distance of the numbers; 0: matplotlib decides
 };
 
 enum class Style {
@@ -65,9 +61,6 @@ struct Chart {
   bool equal_axes = false;   ///< geometry: one unit is as long in x as in y
 };
 
-/// Curves against references; log-log for convergence.
-Outcome draw(const Chart& chart, const std::filesystem::path& directory, const std::string& name);
-
 /// Residual norms per Newton iteration, one curve per load step, semi-logarithmic.
 /// @param steps  [steps][iterations] residual norms, relative to the size of the forces; 0 is left out
 /// @param labels one per step, or empty
@@ -95,8 +88,6 @@ struct Maps {
   std::vector<Map> maps; ///< 1 to 3
 };
 
-Outcome draw(const Maps& maps, const std::filesystem::path& directory, const std::string& name);
-
 /// A place worth a look on a surface.
 struct Place {
   double x = 0, y = 0, z = 0;
@@ -117,9 +108,28 @@ struct Surface {
   std::vector<Place> places;
 };
 
-Outcome draw(const Surface& surface, const std::filesystem::path& directory, const std::string& name);
+/// The pictures of a run, drawn by one call of the script.
+class Pictures {
+public:
+  /// @throws std::invalid_argument if the sizes of arrays do not fit together
+  void add(const std::string& name, const Chart& chart);
+  void add(const std::string& name, const Maps& maps);
+  void add(const std::string& name, const Surface& surface);
 
-/// Is a usable gnuplot on the path? Asked once.
-bool gnuplot_available();
+  /// Write pictures.json and pictures.py into the folder, which is made, and draw.
+  /// @return empty, or one line for the terminal: pictures never fail a run
+  std::string draw(const std::filesystem::path& folder) const;
+
+private:
+  nlohmann::json all_ = nlohmann::json::array();
+};
+
+/// Run a script of a folder with the first Python that has matplotlib: $ENTS_PYTHON, python3, /usr/bin/python3.
+/// @return empty, or one line for the terminal
+std::string run_script(const std::filesystem::path& folder, const std::string& script,
+                       const std::string& option = "");
+
+/// Text of pictures.py, of chart.py, and of the page that the latter fills in.
+extern const char *const pictures_script, *const chart_script, *const page_text;
 
 } // namespace host::pictures

@@ -209,9 +209,9 @@ int check_command(const CommonOptions& common, const CheckOptions& options) {
   }
   if (!options.out.empty()) {
     const bool triangles = is_triangle(subject.text.at("segment").get<std::string>());
-    const pictures::Outcome outcome =
+    const std::string problem =
         draw_check(model, surface, answer.violations(), answer.offences(), triangles, options.out);
-    if (!outcome.problem.empty()) std::fprintf(stderr, "%s\n", outcome.problem.c_str());
+    if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
   }
   return answer.admissible() ? 0 : 1;
 }

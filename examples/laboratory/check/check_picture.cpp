@@ -34,10 +34,10 @@ std::vector<std::size_t> shown(const MasterSurface& surface, const std::vector<p
 
 } // namespace
 
-pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surface,
-                             const std::vector<std::int64_t>& violations,
-                             const std::vector<pictures::Place>& places, bool triangles,
-                             const std::filesystem::path& folder) {
+std::string draw_check(const EntsModel& model, const MasterSurface& surface,
+                       const std::vector<std::int64_t>& violations,
+                       const std::vector<pictures::Place>& places, bool triangles,
+                       const std::filesystem::path& folder) {
   const std::vector<std::size_t> segments = shown(surface, places);
   const double each = most_points_drawn / static_cast<double>(segments.size());
   pictures::Surface picture;
@@ -60,7 +60,9 @@ pictures::Outcome draw_check(const EntsModel& model, const MasterSurface& surfac
     picture.wrong.push_back(violations[s] != 0);
   }
   picture.places = places;
-  return draw(picture, folder, "check");
+  pictures::Pictures drawn;
+  drawn.add("check", picture);
+  return drawn.draw(folder);
 }
 
 } // namespace host

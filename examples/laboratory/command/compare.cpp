@@ -208,7 +208,9 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   if (!options.out.empty()) {
     write_text(options.out / "compare.json", result.dump(2) + "\n");
     write_text(options.out / "compare.md", table.markdown());
-    if (options.pictures) draw_comparison(scene, comparison, options.out);
+    if (options.pictures)
+      if (const std::string problem = draw_comparison(scene, comparison, options.out); !problem.empty())
+        std::fprintf(stderr, "%s\n", problem.c_str());
   }
   if (common.json) {
     std::printf("%s\n", result.dump(2).c_str());

@@ -126,14 +126,14 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
   }
   files.finish(result);
   if (scene.probe > 0 && !options.out.empty()) write_gaps(records, scene.dimension, options.out);
-  std::vector<std::string> problems;
+  std::string problem;
   if (!options.out.empty() && options.pictures && !records.empty())
-    problems = draw_pictures(simulation, records, options.out);
+    problem = draw_pictures(simulation, records, options.out);
   if (common.json) {
     std::printf("%s\n", result.dump(2).c_str());
   } else {
     print_report(simulation, records, failure.get());
-    for (const std::string& problem : problems) std::printf("%s\n", problem.c_str());
+    if (!problem.empty()) std::printf("%s\n", problem.c_str());
     if (!options.out.empty() && files.problem().empty()) std::printf("%s\n", files.names().c_str());
   }
   std::fflush(stdout); // before messages on stderr

@@ -39,16 +39,18 @@ vtu::Grid master_grid(Simulation& simulation);
 std::vector<std::function<void()>> parts_of_step(vtu::Series& series, Simulation& simulation,
                                                  const StepRecord& record);
 
-/// The pictures that draw_pictures and draw_comparison may leave, each as NAME.dat, .gp, .svg and .png.
-inline constexpr std::array picture_names{"residuals", "force",        "traction",
-                                          "pressure",  "westergaard",  "contact_fraction",
+/// The pictures that draw_pictures and draw_comparison may leave, each as NAME.svg and NAME.png.
+inline constexpr std::array picture_names{"residuals", "force",        "torque",      "traction",
+                                          "worn",      "pressure",     "westergaard", "contact_fraction",
                                           "mean_gap",  "pressure_map", "compare"};
 
-/// @return one line per problem (gnuplot missing, ...)
-std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
-                                       const std::filesystem::path& folder);
+/// @return empty, or a line that says why there are none
+std::string draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
+                          const std::filesystem::path& folder);
 
 /// Difference against segments per direction: compare.svg and .png.
-void draw_comparison(const Scene& scene, const Comparison& comparison, const std::filesystem::path& folder);
+/// @return as draw_pictures
+std::string draw_comparison(const Scene& scene, const Comparison& comparison,
+                            const std::filesystem::path& folder);
 
 } // namespace host

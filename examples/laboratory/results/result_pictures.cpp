@@ -324,16 +324,8 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   return maps;
 }
 
-} // namespace
-
-std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
-                                       const std::filesystem::path& folder) {
-  std::vector<std::string> problems;
-  const auto note = [&](const pictures::Outcome& outcome) {
-    if (!outcome.problem.empty() &&
-        std::find(problems.begin(), problems.end(), outcome.problem) == problems.end())
-      problems.push_back(outcome.problem);
-  };
+/// What is drawn of this kind of scene.
+void add_pictures(Simulation& simulation, const std::vector<StepRecord>& records, pictures::Pictures& drawn) {
   std::vector<std::vector<double>> residuals;
   std::vector<std::string> labels;
   const std::size_t every = 1 + records.size() / 13; // of many steps a dozen
@@ -341,40 +333,47 @@ std::vector<std::string> draw_pictures(Simulation& simulation, const std::vector
     residuals.push_back(records[i].increments.back().residuals);
     labels.push_back("step " + std::to_string(records[i].step));
   }
-  note(draw(pictures::residual_history("Newton's iteration", residuals, labels), folder, "residuals"));
-  if (simulation.contact() == nullptr) return problems;
+  drawn.add("residuals", pictures::residual_history("Newton's iteration", residuals, labels));
+  if (simulation.contact() == nullptr) return;
   const ExactSpec::Type type = simulation.scene().exact.type;
   const bool along_line = type != ExactSpec::Type::none && type != ExactSpec::Type::double_sine &&
                           type != ExactSpec::Type::boundary_elements &&
                           type != ExactSpec::Type::worn_cylinder; // the exact pressure
   if (simulation.scene().control == Control::load_factor && records.size() > 1)
-    note(draw(force_history(simulation.scene(), records), folder, "force"));
-  if (type == ExactSpec::Type::screw)
-    note(draw(screw_torque_history(simulation.scene(), records), folder, "torque"));
-  if (type == ExactSpec::Type::slope || type == ExactSpec::Type::screw) return problems;
+    drawn.add("force", force_history(simulation.scene(), records));
+  if (type == ExactSpec::Type::screw) drawn.add("torque", screw_torque_history(simulation.scene(), records));
+  if (type == ExactSpec::Type::slope || type == ExactSpec::Type::screw) return;
   if (type == ExactSpec::Type::cattaneo) {
-    note(draw(partial_slip_profile(simulation, records.back()), folder, "traction"));
-    return problems;
+    drawn.add("traction", partial_slip_profile(simulation, records.back()));
+    return;
   }
   if (simulation.scene().dimension == 2 && !records.back().fields.worn.empty())
-    note(draw(worn_profile(simulation, records), folder, "worn"));
+    drawn.add("worn", worn_profile(simulation, records));
   if ((type == ExactSpec::Type::none || type == ExactSpec::Type::worn_cylinder) &&
       simulation.scene().dimension == 2)
-    note(draw(pressure_along_surface(simulation, records.back()), folder, "pressure"));
-  if (along_line) note(draw(pressure_profile(simulation, records.back()), folder, "pressure"));
-  if (type == ExactSpec::Type::westergaard)
-    note(draw(westergaard_curve(simulation, records), folder, "westergaard"));
-  if (type == ExactSpec::Type::hertz_point) note(draw(force_curve(simulation, records), folder, "force"));
+    drawn.add("pressure", pressure_along_surface(simulation, records.back()));
+  if (along_line) drawn.add("pressure", pressure_profile(simulation, records.back()));
+  if (type == ExactSpec::Type::westergaard) drawn.add("westergaard", westergaard_curve(simulation, records));
+  if (type == ExactSpec::Type::hertz_point) drawn.add("force", force_curve(simulation, records));
   if (simulation.scene().control != Control::load_factor && !along_line) {
-    note(draw(against_pressure(simulation, records, false), folder, "contact_fraction"));
-    note(draw(against_pressure(simulation, records, true), folder, "mean_gap"));
+    drawn.add("contact_fraction", against_pressure(simulation, records, false));
+    drawn.add("mean_gap", against_pressure(simulation, records, true));
     if (const pictures::Maps maps = surface_maps(simulation, records.back()); !maps.maps.empty())
-      note(draw(maps, folder, "pressure_map"));
+      drawn.add("pressure_map", maps);
   }
-  return problems;
 }
 
-void draw_comparison(const Scene& scene, const Comparison& comparison, const std::filesystem::path& folder) {
+} // namespace
+
+std::string draw_pictures(Simulation& simulation, const std::vector<StepRecord>& records,
+                          const std::filesystem::path& folder) {
+  pictures::Pictures drawn;
+  add_pictures(simulation, records, drawn);
+  return drawn.draw(folder);
+}
+
+std::string draw_comparison(const Scene& scene, const Comparison& comparison,
+                            const std::filesystem::path& folder) {
   Chart chart;
   chart.title = "Explicit mesh of plain segments against one enriched segment";
   chart.subtitle = scene.title;
@@ -387,7 +386,9 @@ void draw_comparison(const Scene& scene, const Comparison& comparison, const std
   }
   chart.curves = {curve};
   chart.slope_triangle = 2;
-  draw(chart, folder, "compare");
+  pictures::Pictures drawn;
+  drawn.add("compare", chart);
+  return drawn.draw(folder);
 }
 
 } // namespace host

@@ -50,7 +50,8 @@ void RunFiles::remove_older_run() {
   for (const std::string name : {"result.json", "result.pvd", checkpoint_name, checkpoint_before_name})
     remove(name), remove(name + ".new");
   for (const std::string name : picture_names)
-    for (const char* kind : {".dat", ".gp", ".svg", ".png"}) remove(name + kind);
+    for (const char* kind : {".svg", ".png"}) remove(name + kind);
+  for (const char* name : {"pictures.json", "pictures.py"}) remove(name);
 }
 
 void RunFiles::resume(int first) {

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every kind of picture goes through gnuplot without a complaint and leaves its four files, the data bit for
-// bit.
+// Pictures: the numbers reach pictures.json bit for bit, and the script draws every kind of picture from them
+// without a complaint. What it draws is looked at in pictures_test.py.
 #include "output/pictures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
-#include <map>
 #include <sstream>
-
-#include "output/gnuplot.hpp"
 
 namespace pictures_test {
 namespace {
 
 using namespace host::pictures;
 
-class Pictures : public testing::Test {
+class PicturesTest : public testing::Test {
 protected:
   // a blank and a quote: such folders exist
   const std::filesystem::path folder_ =
@@ -32,15 +30,9 @@ protected:
     text << stream.rdbuf();
     return text.str();
   }
-
-  void expect_drawn(const Outcome& outcome, const std::string& name) const {
-    EXPECT_EQ(outcome.problem, "");
-    ASSERT_EQ(outcome.files.size(), 2u);
-    EXPECT_TRUE(content(name + ".png").starts_with("\x89PNG"));
-    const std::string svg = content(name + ".svg");
-    EXPECT_TRUE(svg.starts_with("<?xml"));
-    EXPECT_NE(svg.find("</svg>"), std::string::npos); // gnuplot came to the end
-    EXPECT_FALSE(std::filesystem::exists(folder_ / (name + ".log")));
+  void expect_drawn(const std::string& name) const {
+    EXPECT_TRUE(content(name + ".png").starts_with("\x89PNG")) << name;
+    EXPECT_NE(content(name + ".svg").find("</svg>"), std::string::npos) << name;
   }
 };
 
@@ -51,106 +43,16 @@ Curve parabola(const std::string& label, double factor) {
   return curve;
 }
 
-TEST_F(Pictures, ChartWithGuides) {
-  Chart chart;
-  chart.title = "rough_afm {pressure} & 'quotes' \\ ~";
-  chart.x = {
+Chart chart() {
+  Chart out;
+  out.title = "rough_afm {pressure} & 'quotes' \\ ~ $p$";
+  out.x = {
       .label = "x", .unit = "mm", .logarithmic = false, .min = automatic, .max = automatic, .tic_step = 0};
-  chart.curves = {parabola("exact", 1), parabola("computed", 1.1)};
-  chart.curves[0].style = Style::exact;
-  chart.guides = {{"half-width a", 0.3, true}, {"limit", 0.2, false}};
-  expect_drawn(draw(chart, folder_, "chart"), "chart");
-  EXPECT_NE(content("chart.svg").find("rough_afm"), std::string::npos); // not read as a subscript
-  for (const double value : chart.curves[1].y)
-    EXPECT_NE(content("chart.dat").find(std::string(" ").append(gnuplot::number(value)) + "\n"),
-              std::string::npos);
-}
-
-TEST_F(Pictures, ConvergenceShowsTheFittedOrder) {
-  Chart chart;
-  chart.x.logarithmic = chart.y.logarithmic = true;
-  chart.curves = {parabola("force", 1)};
-  chart.curves[0].fit_order = true;
-  chart.slope_triangle = 2;
-  expect_drawn(draw(chart, folder_, "order"), "order");
-  EXPECT_NE(content("order.gp").find("force, order 2.00"), std::string::npos);
-}
-
-TEST_F(Pictures, AnErrorOverTheNumberOfSegmentsHasTheSameOrder) {
-  Chart chart;
-  chart.x.logarithmic = chart.y.logarithmic = true;
-  Curve curve;
-  curve.label = "force", curve.fit_order = true;
-  for (const double n : {4., 8., 16., 32.}) curve.x.push_back(n), curve.y.push_back(1 / (n * n));
-  chart.curves = {curve};
-  chart.slope_triangle = 2;
-  expect_drawn(draw(chart, folder_, "falling"), "falling");
-  EXPECT_NE(content("falling.gp").find("force, order 2.00"), std::string::npos);
-}
-
-TEST_F(Pictures, ResidualHistoryNamesAFewOfManySteps) {
-  const std::vector<std::vector<double>> steps(12, {1, 1e-2, 1e-5, 1e-11, 0});
-  const Chart chart = residual_history("residual", steps);
-  int named = 0;
-  for (const Curve& curve : chart.curves) named += curve.label.empty() ? 0 : 1;
-  EXPECT_EQ(chart.curves.size(), 12u);
-  EXPECT_LE(named, 6);
-  expect_drawn(draw(chart, folder_, "newton"), "newton"); // a residual of zero has no logarithm: left out
-}
-
-TEST_F(Pictures, MapsWithBlanksAndAClippedPeak) {
-  Maps maps;
-  maps.title = "pressure";
-  Map map;
-  map.title = "p", map.unit = "MPa", map.columns = 3, map.rows = 2, map.values = {0, 1, 2, 3, 4, 1000};
-  map.blank_zero = true, map.clip = 0.8;
-  Map flat = map;
-  flat.values.assign(6, 7.0), flat.palette = Map::Palette::diverging, flat.blank_zero = false;
-  maps.maps = {map, flat};
-  expect_drawn(draw(maps, folder_, "maps"), "maps");
-  EXPECT_NE(content("maps.gp").find("set cbrange [0:4]"), std::string::npos);
-  EXPECT_NE(content("maps.gp").find("peak 1000"), std::string::npos);
-  maps.maps[0].at_nodes = true; // 3 columns from 0 to 1: pixels of 0.5, the outer ones centred on the border
-  expect_drawn(draw(maps, folder_, "nodes"), "nodes");
-  EXPECT_NE(content("nodes.gp").find("set xrange [-0.25:1.25]"), std::string::npos);
-  EXPECT_NE(content("nodes.gp").find("(0+$1*0.5)"), std::string::npos);
-  maps.maps[0].values.pop_back();
-  EXPECT_THROW(draw(maps, folder_, "maps"), std::invalid_argument);
-}
-
-// Three maps side by side are narrow. Every letter is taken as 0.6 of its height, more than the mean of the
-// font.
-TEST_F(Pictures, NotesUnderMapsDoNotMeet) {
-  Maps maps;
-  maps.title = "pressure";
-  Map map;
-  map.title = "p", map.columns = 3, map.rows = 2, map.values = {-123.4, 1, 2, 3, 4, -1234.5}, map.clip = 0.6;
-  maps.maps = {map, map, map};
-  maps.maps[1].blank_zero = true;
-  expect_drawn(draw(maps, folder_, "notes"), "notes");
-  const std::string script = content("notes.gp");
-  const auto number_after = [&](const char* word, std::size_t from) {
-    return std::stod(script.substr(script.find(word, from) + std::string(word).size()));
-  };
-  const double width = number_after("set terminal svg enhanced size ", 0);
-  std::map<double, std::vector<std::pair<double, double>>> rows; // by height: left and right ends
-  for (std::size_t at = 0; (at = script.find("right font ',10.5'", at)) != std::string::npos; ++at) {
-    const std::size_t line = script.rfind('\n', at) + 1;
-    const std::string words = script.substr(line, script.find("' at ", line) - line);
-    const double letters = static_cast<double>(words.size() - std::string("set label '").size()),
-                 right = width * number_after("' at screen ", line);
-    rows[number_after(", screen ", line)].emplace_back(right - 0.6 * 10.5 * letters, right);
-  }
-  EXPECT_EQ(rows.size(), 2u);
-  for (const auto& [height, notes] : rows) {
-    ASSERT_EQ(notes.size(), 3u);
-    double last = 0;
-    for (const auto& [left, right] : notes) {
-      EXPECT_GT(left, last) << height;
-      last = right;
-    }
-    EXPECT_LE(last, width);
-  }
+  out.curves = {parabola("exact", 1), parabola("computed", 1.1)};
+  out.curves[0].style = Style::exact;
+  out.curves[1].y[2] = automatic; // interrupts the line
+  out.guides = {{"half-width a", 0.3, true}, {"limit", 0.2, false}};
+  return out;
 }
 
 Surface sine_surface(int dimension) {
@@ -167,21 +69,82 @@ Surface sine_surface(int dimension) {
   return surface;
 }
 
-TEST_F(Pictures, SurfaceWithMarkedPlacesInThePlaneAndInSpace) {
-  for (const int dimension : {2, 3}) {
-    const std::string name = "check" + std::to_string(dimension);
-    expect_drawn(draw(sine_surface(dimension), folder_, name), name);
-    EXPECT_NE(content(name + ".svg").find("edge height 0.01 mm"), std::string::npos);
-  }
-  Surface wrong = sine_surface(3);
-  wrong.height.pop_back();
-  EXPECT_THROW(draw(wrong, folder_, "wrong"), std::invalid_argument);
+Maps maps() {
+  Maps out;
+  out.title = "pressure";
+  Map map;
+  map.title = "p", map.unit = "MPa", map.columns = 3, map.rows = 2, map.values = {0, 1, 2, 3, 4, automatic};
+  map.blank_zero = true, map.palette = Map::Palette::diverging;
+  out.maps = {map};
+  return out;
 }
 
-TEST_F(Pictures, AFolderThatCannotBeWrittenIsAProblemAndNoException) {
-  Chart chart;
-  chart.curves = {parabola("p", 1)};
-  EXPECT_NE(draw(chart, "/proc/no", "chart").problem, "");
+TEST_F(PicturesTest, EveryKindIsDrawnFromItsNumbers) {
+  Pictures all;
+  all.add("chart", chart());
+  all.add("newton", residual_history("residual", {{1, 1e-2, 1e-5, 1e-11, 0}}));
+  all.add("maps", maps());
+  all.add("plane", sine_surface(2));
+  all.add("space", sine_surface(3));
+  EXPECT_EQ(all.draw(folder_), "");
+  for (const char* name : {"chart", "newton", "maps", "plane", "space"}) expect_drawn(name);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "pictures.log"));
+  const nlohmann::json data = nlohmann::json::parse(content("pictures.json"));
+  EXPECT_EQ(data[0]["curves"][0]["y"].get<std::vector<double>>(), chart().curves[0].y);
+  EXPECT_TRUE(data[0]["curves"][1]["y"][2].is_null());
+  EXPECT_EQ(data[3]["enriched"].get<std::vector<double>>(), sine_surface(2).enriched);
+  EXPECT_EQ(data[2]["maps"][0]["palette"], "diverging");
+}
+
+TEST_F(PicturesTest, ResidualHistoryNamesAFewOfManySteps) {
+  const std::vector<std::vector<double>> steps(12, {1, 1e-2, 1e-5, 1e-11, 0});
+  const Chart history = residual_history("residual", steps);
+  int named = 0;
+  for (const Curve& curve : history.curves) named += curve.label.empty() ? 0 : 1;
+  EXPECT_EQ(history.curves.size(), 12u);
+  EXPECT_LE(named, 6);
+  EXPECT_TRUE(std::isnan(history.curves[0].y.back())); // a residual of zero has no logarithm: left out
+}
+
+TEST_F(PicturesTest, SizesThatDoNotFitAreRefused) {
+  Pictures all;
+  Chart bad_chart = chart();
+  bad_chart.curves[0].y.pop_back();
+  EXPECT_THROW(all.add("chart", bad_chart), std::invalid_argument);
+  Maps bad_maps = maps();
+  bad_maps.maps[0].values.pop_back();
+  EXPECT_THROW(all.add("maps", bad_maps), std::invalid_argument);
+  Surface bad_surface = sine_surface(3);
+  bad_surface.height.pop_back();
+  EXPECT_THROW(all.add("surface", bad_surface), std::invalid_argument);
+}
+
+TEST_F(PicturesTest, AFolderThatCannotBeWrittenIsAProblemAndNoException) {
+  Pictures all;
+  all.add("chart", chart());
+  EXPECT_NE(all.draw("/proc/no"), "");
+}
+
+TEST_F(PicturesTest, WithoutMatplotlibTheDataAreThereAndTheLineNamesThePackage) {
+  std::filesystem::create_directories(folder_ / "no");
+  std::ofstream(folder_ / "no" / "matplotlib.py") << "raise ImportError\n";
+  setenv("PYTHONPATH", (folder_ / "no").c_str(), 1);
+  Pictures all;
+  all.add("chart", chart());
+  const std::string problem = all.draw(folder_);
+  unsetenv("PYTHONPATH");
+  EXPECT_NE(problem.find("python3-matplotlib"), std::string::npos) << problem;
+  EXPECT_EQ(problem.find('\n'), std::string::npos) << problem;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "chart.png"));
+  EXPECT_EQ(nlohmann::json::parse(content("pictures.json")).size(), 1u);
+  EXPECT_NE(content("pictures.py").find("def main"), std::string::npos);
+}
+
+TEST_F(PicturesTest, WhatAScriptComplainsOfIsTold) {
+  std::filesystem::create_directories(folder_);
+  std::ofstream(folder_ / "broken.py") << "raise ValueError('no such kind')\n";
+  const std::string problem = run_script(folder_, "broken.py");
+  EXPECT_NE(problem.find("broken.py: ValueError: no such kind"), std::string::npos) << problem;
 }
 
 } // namespace
