@@ -86,8 +86,10 @@ protected:
   double area(int element) const { return elements_.area[static_cast<std::size_t>(element)]; }
   /// Constants of a user element: model, area, and what the deck gives besides.
   std::vector<double> constants(int element) const {
-    std::vector<double> values{static_cast<double>(elements_.model), area(element)};
     const std::vector<double>& coordinates = elements_.surface_coordinates;
+    std::vector<double> values;
+    values.reserve(3 + coordinates.size());
+    values.insert(values.end(), {static_cast<double>(elements_.model), area(element)});
     if (elements_.options != 0 || !coordinates.empty()) values.push_back(elements_.options);
     values.insert(values.end(), coordinates.begin(), coordinates.end());
     return values;

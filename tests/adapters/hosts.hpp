@@ -20,7 +20,7 @@ struct HostKind {
   bool multipliers = true; ///< its elements can carry them as unknowns
   bool same_bits = true;   ///< its elements get the positions that the plain interface gets, to the last bit
   // For scenes: what the program calls itself, and what its elements can have.
-  std::string title;
+  std::string title = "";
   int nodes = 0;            ///< the most that an element can have; 0: no limit of the program
   bool coordinates = false; ///< elements can carry surface coordinates, else they are the model's
   bool stiffness = true;    ///< the program asks for one

@@ -18,9 +18,9 @@ void become_layer(Json& scene, const Json& layer, int n) {
 }
 
 /// Boundary elements for all runs and problems: the motions of the master are the same in all of them.
-class Truth {
+class SolvedLayers {
 public:
-  Truth(const EntsLibrary& library, const std::filesystem::path& file, const Json& layer, int points) {
+  SolvedLayers(const EntsLibrary& library, const std::filesystem::path& file, const Json& layer, int points) {
     Json json = layer;
     become_layer(json, layer, 2); // its mesh does not matter
     json["exact"] = {{"type", "boundary_elements"}, {"points", points}};
@@ -99,7 +99,7 @@ Problem truth_problem(const EntsLibrary& library, const std::filesystem::path& s
       return Way{Family::on_facets, 0, 0}; // points instead of nodes are no share of these three
     }
   };
-  const auto truth = std::make_shared<Truth>(library, p.scene, layer, of.points);
+  const auto truth = std::make_shared<SolvedLayers>(library, p.scene, layer, of.points);
   p.truth = "boundary elements, " + std::to_string(of.points) +
             " points a side, hard contact; a node has what the "
             "cells around it carry";
