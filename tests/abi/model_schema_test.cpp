@@ -239,6 +239,18 @@ protected:
                          {{"normal", {{"type", "power"}, {"coefficient", 1}, {"exponent", 2}}},
                           {"wear", {{"coefficient", 1}, {"scheme", scheme}}}}}});
     const json penalty = {{"type", "penalty"}, {"stiffness", 1e5}};
+    const json coulomb = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}};
+    for (const json& heat :
+         std::vector<json>{nullptr,
+                           {{"conductance", "k"}},
+                           {{"power", {{"coefficient", "k"}, {"pressure", 5}, {"exponent", 0.95}}},
+                            {"table", {{"pressures", {0, 1}}, {"conductances", {1, 2}}}},
+                            {"clearance", {{"gaps", {0, 1}}, {"conductances", {1, 0}}}},
+                            {"gas", {{"conductivity", "k"}, {"jump", 0.1}}},
+                            {"friction", {{"share", "k"}, {"slave", 0.3}}}}})
+      result.push_back({{"segment", "tri3"},
+                        {"parameters", {{"k", 1}}},
+                        {"contact", {{"normal", penalty}, {"friction", coulomb}, {"heat", heat}}}});
     for (const json& contact : std::vector<json>{
              {{"normal", penalty},
               {"friction",
@@ -302,6 +314,11 @@ bool depends_on_more(const std::string& message) {
            "a length from pitch / 2048 to pitch / 4",
            "has no angle round the axis", // in 2D
            "twice",
+           "one for each place", // tables of heat, which rise from 0 and may end in 0
+           "not above the number before it",
+           "a table begins at 0",
+           "the last one is 0",
+           "needs friction",                   // heat of it
            "has to be the \"by\" of a height", // what flattening scales
            "is not possible with",
            "the height without pressure",

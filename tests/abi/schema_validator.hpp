@@ -71,6 +71,8 @@ private:
         good = good && (!value.is_number() || value < rule);
       else if (keyword == "multipleOf")
         good = good && (!value.is_number() || std::fmod(value.get<double>(), rule.get<double>()) == 0.0);
+      else if (keyword == "minProperties")
+        good = good && (!value.is_object() || value.size() >= rule.get<std::size_t>());
       else if (keyword == "minItems")
         good = good && (!value.is_array() || value.size() >= rule.get<std::size_t>());
       else if (keyword == "maxItems")
