@@ -129,7 +129,7 @@ Status bind(const ModelSpec& model, const Plan& of, const double* parameters, co
       !number(model.law_binding.heat_constant, law.heat.constant, 0.0) ||
       !number(model.law_binding.heat_coefficient, law.heat.coefficient, 0.0) ||
       !number(model.law_binding.heat_conductivity, law.heat.conductivity, 0.0) ||
-      !number(model.law_binding.heat_share, law.heat.share, 0.0))
+      !number(model.law_binding.heat_share, law.heat.share, 0.0) || law.heat.share > 1.0)
     return Status::bad_value;
   if (const std::uint8_t scale = law.flattening.parameter; scale != 0 && values[which = scale - 1] != 1.0)
     return Status::bad_value;
