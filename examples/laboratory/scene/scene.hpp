@@ -208,7 +208,7 @@ struct Scene {
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
   Control control = Control::load_factor;
   std::vector<double> steps;
-  double probe = 0; ///< part by which each step's load is raised for its incremental conductance; 0: none
+  double probe = 0; ///< part by which each step's load is changed for its incremental conductance; 0: none
   std::vector<HistorySpec> history;
   ExactSpec exact;
   UnitNames units;

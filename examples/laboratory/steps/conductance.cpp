@@ -21,7 +21,8 @@ GapMeans gap_means(const std::vector<double>& gap, const std::vector<double>& ar
   return {sum.gap / area, sum.cubed / area};
 }
 
-double incremental_conductance(Simulation& simulation, const StepRecord& record, const Target& raised) {
+double incremental_conductance(Simulation& simulation, const StepRecord& record, const Target& higher,
+                               const Target& lower) {
   // The mean gap with its penetrations: the penalty is a part of the stiffness.
   const auto mean_gap = [&] {
     const std::vector<double>& gap = simulation.contact()->accepted().gap;
@@ -31,13 +32,16 @@ double incremental_conductance(Simulation& simulation, const StepRecord& record,
     return sum / area;
   };
   const Json here = simulation.checkpoint();
-  const double before = mean_gap(), pressure = simulation.now().force / simulation.contact_area();
-  double result = std::numeric_limits<double>::quiet_NaN();
-  if (simulation.advance(raised).converged)
-    result = (simulation.now().force / simulation.contact_area() - pressure) / (before - mean_gap()) /
-             contact_modulus(simulation.scene());
-  simulation.restore(here);
-  return result;
+  double pressures[2], gaps[2];
+  bool converged = true;
+  for (const int side : {0, 1}) {
+    converged = converged && simulation.advance(side == 0 ? higher : lower).converged;
+    pressures[side] = simulation.now().force / simulation.contact_area();
+    gaps[side] = mean_gap();
+    simulation.restore(here);
+  }
+  return converged ? (pressures[0] - pressures[1]) / (gaps[1] - gaps[0]) / contact_modulus(simulation.scene())
+                   : std::numeric_limits<double>::quiet_NaN();
 }
 
 double westergaard_conductance(double part) { return std::numbers::pi / -std::log(part); }

@@ -367,9 +367,9 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     }
     fill_contact_results(simulation, record);
     if (scene.probe > 0) {
-      Target raised = target_at(1);
-      raised.value *= 1 + scene.probe;
-      record.conductance = incremental_conductance(simulation, record, raised);
+      Target higher = target_at(1), lower = higher;
+      higher.value *= 1 + scene.probe, lower.value *= 1 - scene.probe;
+      record.conductance = incremental_conductance(simulation, record, higher, lower);
       add_exact_conductance(scene, record);
     }
     record.wall_time = watch.seconds();
