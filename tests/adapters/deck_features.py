@@ -220,7 +220,8 @@ FEATURES = {
     "friction_abbreviated": ("*FRICTION", "*FRIC", "is *FRICTION meant?", False),
     "below_damping": (FRICTION, FRICTION + "*CONTACT DAMPING\n0.1\n", "cannot be had", False),
     "below_cohesion": (FRICTION, FRICTION + "*COHESIVE BEHAVIOR\n", "cannot be had", False),
-    "below_heat": (FRICTION, FRICTION + "*GAP CONDUCTANCE\n10., 0.\n", "cannot be had", False),
+    "below_heat": (FRICTION, FRICTION + "*GAP CONDUCTANCE\n10., 0.\n0., 0.1\n", "COUPLED TEMPERATURE-DISPLACEMENT", False),
+    "below_heat_short": (FRICTION, FRICTION + "*GAP CONDUCTANCE\n10., 0.\n", "needs two lines", False),
     "below_current": (FRICTION, FRICTION + "*GAP ELECTRICAL CONDUCTANCE\n10., 0.\n", "cannot be had", False),
     "below_crack": (FRICTION, FRICTION + "*FRACTURE CRITERION, TYPE=VCCT\n1., 1., 1., 1.\n", "cannot be had", False),
     # gaps, initial state
@@ -244,7 +245,7 @@ FEATURES = {
     "step_spectrum": (STATIC, "*RESPONSE SPECTRUM\n", "linear step", False),
     "step_cyclic": (STATIC, "*DIRECT CYCLIC\n0.1, 1.\n", "increments in their order", False),
     "step_rolling": (STATIC, "*STEADY STATE TRANSPORT\n0.1, 1.\n", "increments in their order", False),
-    "step_heat": (STATIC, "*COUPLED TEMPERATURE-DISPLACEMENT\n0.1, 1.\n", "conduct no heat", False),
+    "step_heat": (STATIC, "*COUPLED TEMPERATURE-DISPLACEMENT\n0.1, 1.\n", "", False),
     "step_geostatic": (STATIC, "*GEOSTATIC\n0.1, 1.\n", "", False),
     "step_controls": (STATIC, STATIC + "*CONTACT CONTROLS, STABILIZE\n", "", False),
     "step_output": (STATIC, STATIC + "*OUTPUT, FIELD\n*CONTACT OUTPUT\nCSTRESS\n", "", False),

@@ -43,7 +43,7 @@ struct OutputArray {
   double* ents_output::*pointer;
   int64_t ents_output::*stride;
 };
-inline constexpr int output_count = 17;
+inline constexpr int output_count = 19;
 inline constexpr OutputArray outputs[output_count] = {
     {ENTS_XI, "xi", &ents_output::xi, &ents_output::xi_stride},
     {ENTS_GAP, "gap", &ents_output::gap, &ents_output::gap_stride},
@@ -62,17 +62,21 @@ inline constexpr OutputArray outputs[output_count] = {
     {ENTS_TRACTION, "traction", &ents_output::traction, &ents_output::traction_stride},
     {ENTS_SLIP, "slip", &ents_output::slip, &ents_output::slip_stride},
     {ENTS_AGE, "age", &ents_output::age, &ents_output::age_stride},
+    {ENTS_DISSIPATION, "dissipation", &ents_output::dissipation, &ents_output::dissipation_stride},
+    {ENTS_FRICTION_ENERGY, "friction_energy", &ents_output::friction_energy,
+     &ents_output::friction_energy_stride},
 };
 inline std::size_t size_of_output(const ents_layout& l, int index) {
   const int all = l.dofs, n = all - l.multipliers, t = l.parameters, d = l.dimension;
   const int sizes[output_count] = {
-      t, 1, 1, d, d, n, n * n, t * n, t * n * n, 1, 1, all, all * all, l.state_size, d, 1, 1};
+      t, 1, 1, d, d, n, n * n, t * n, t * n * n, 1, 1, all, all * all, l.state_size, d, 1, 1, 1, 1};
   return static_cast<std::size_t>(sizes[index]);
 }
 
-inline constexpr int32_t want_all = (1 << 19) - 1;
+inline constexpr int32_t want_all = (1 << 21) - 1; // all but ENTS_HEAT
 inline constexpr int32_t want_element = ENTS_ENERGY | ENTS_PRESSURE | ENTS_RESIDUAL | ENTS_TANGENT |
-                                        ENTS_STATE | ENTS_TRACTION | ENTS_SLIP | ENTS_AGE;
+                                        ENTS_STATE | ENTS_TRACTION | ENTS_SLIP | ENTS_AGE | ENTS_DISSIPATION |
+                                        ENTS_FRICTION_ENERGY;
 // What an element outside its segment has, too.
 inline constexpr int32_t want_values =
     ENTS_XI | ENTS_GAP | ENTS_NORMAL_GAP | ENTS_NORMAL | ENTS_POINT | ENTS_FLAGS | ENTS_ITERATIONS;
