@@ -34,7 +34,7 @@ public:
     }
     if (point.contact) set_pressure();
     out_.dissipation = 0.0;
-    if (at_.friction.active && plan_.law.has_friction_force()) set_dissipation();
+    if (plan_.law.heat.has_friction && at_.friction.active && at_.friction.slip) set_dissipation();
   }
 
 private:
@@ -101,7 +101,6 @@ private:
       const Dual<double> d = dissipation_along(i);
       out_.dissipation = d.v, by[i] = d.d;
     }
-    if (out_.dissipation == 0.0) return; // it sticks
     const auto& s = at_.point.projector.s;
     Vec<double, D> covector[T];
     for (int a = 0; a < T; ++a) { // A_ab = rho_e,a . rho_e,b

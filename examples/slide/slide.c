@@ -32,12 +32,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < n; i++) x[i][0] = 1 + 0.3 * i, x[i][1] = 0.1, segment[i] = -1;
   memcpy(x_begin, x, sizeof x);
 
-  ents_master_mesh mesh = {.struct_size = sizeof mesh,
-                           .segments = segments,
-                           .connectivity = ends[0],
-                           .nodes = segments + 1,
-                           .positions = nodes[0],
-                           .surface_coordinates = s[0]};
+  ents_master_mesh mesh = {sizeof mesh, 0, segments, ends[0], segments + 1, nodes[0], s[0], NULL};
   check(ents_tree_size(model, segments, &size, &report));
   double* tree = malloc((size_t)size * sizeof *tree);
   check(ents_tree_build(model, &mesh, tree, size, &report));

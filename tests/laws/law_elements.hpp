@@ -119,7 +119,6 @@ inline std::vector<Method> all_methods() {
   for (const Method& method : methods_with_wear()) all.push_back(method);
   for (const Method& method : methods_with_offset()) all.push_back(method);
   for (const Method& method : methods_with_flattening()) all.push_back(method);
-  for (const Method& method : methods_with_heat()) all.push_back(method);
   return all;
 }
 
