@@ -119,7 +119,7 @@ def not_in_setup(root):
             if isinstance(node, ast.ImportFrom) and node.level == 0:
                 names = [node.module]
             for name in sorted({name.split(".")[0] for name in names} - own - OTHER_PROGRAMS - sys.stdlib_module_names):
-                if f"python3-{name}" not in packages:
+                if f"python3-{ {'mpl_toolkits': 'matplotlib'}.get(name, name)}" not in packages:
                     missing.append(f"{file.relative_to(root)}:{node.lineno}: imports {name}, which examples/setup.sh does not install")
     return missing
 

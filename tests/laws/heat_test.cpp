@@ -394,6 +394,18 @@ TEST(Heat, NamesWhatIsWrong) {
   for (const double share : {-0.1, 1.1})
     EXPECT_EQ(ents_model_bind(named.get(), &share, nullptr, 0, &bound, nullptr), ENTS_BAD_VALUE) << share;
   EXPECT_EQ(bound, nullptr);
+  const double share = 0.25;
+  EXPECT_EQ(ents_model_bind(named.get(), &share, nullptr, 0, &bound, nullptr), ENTS_OK);
+  const Handle owned(bound);
+  Point quarter(text_of({{"friction", {{"share", 0.25}}}}, coulomb)),
+      whole(text_of({{"friction", json::object()}}, coulomb));
+  for (Point* point : {&quarter, &whole})
+    for (const double x : {0.0, 0.1}) {
+      ASSERT_EQ(point->evaluate(x, -0.02), ENTS_OK);
+      point->commit();
+    }
+  EXPECT_GT(whole.heat[1], 0.0);
+  EXPECT_NEAR(quarter.heat[1], 0.25 * whole.heat[1], 1e-15);
   const Handle cold = make(text_of(nullptr, coulomb));
   ents_report report = mechanics::new_report();
   EXPECT_EQ(ents_evaluate(cold.get(), 0, 1, &in, &out, &report), ENTS_BAD_VALUE);

@@ -1,4 +1,4 @@
-// Golden vectors of elements with heat (golden/heat.py): powers and all their derivatives.
+// Golden vectors of elements with heat (golden/heat/heat.py): powers and all their derivatives.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ std::vector<double> numbers(const json& nested) {
 
 TEST(GoldenHeat, PowersAndTheirDerivatives) {
   constexpr double tolerance = 1e-12; // the reference has 16 digits; the projection's condition is up to 10
-  std::ifstream file(std::string(ENTS_GOLDEN_DIRECTORY) + "/heat.json");
+  std::ifstream file(std::string(ENTS_GOLDEN_DIRECTORY) + "/heat/heat.json");
   const json cases = json::parse(file);
   double worst = 0.0;
   int rubbing = 0, open = 0;
