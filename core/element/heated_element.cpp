@@ -75,7 +75,7 @@ public:
     for (int j = 0, left = D; j < n_; ++j, column += leading) {
       if (j < displacements() && left-- == 0) column += leading, left = D - 1; // past a temperature
       if (j == displacements()) column = to + (j + nodes_) * leading;
-      spread(mechanical + j * n_, column);
+      spread(mechanical + std::int64_t{j} * n_, column);
       sum += column[temperature(0)] = by_slave[j];
       for (int i = 1; i < nodes_; ++i) {
         double entry = weight_[i] * by_master[j];
@@ -98,7 +98,7 @@ public:
     for (int j = 0, at = 0; k && j < plan_.dofs; ++j) {
       const bool warm = j < displacements() + nodes_ && j % (D + 1) == D;
       std::fill_n(column, plan_.dofs, 0.0);
-      if (!warm) spread(tangent + n_ * at++, column);
+      if (!warm) spread(tangent + std::int64_t{n_} * at++, column);
       std::copy_n(column, plan_.dofs, k + j * leading);
     }
   }

@@ -32,7 +32,7 @@ double incremental_conductance(Simulation& simulation, const StepRecord& record,
     return sum / area;
   };
   const Json here = simulation.checkpoint();
-  double pressures[2], gaps[2];
+  double pressures[2] = {}, gaps[2] = {};
   bool converged = true;
   for (const int side : {0, 1}) {
     converged = converged && simulation.advance(side == 0 ? higher : lower).converged;

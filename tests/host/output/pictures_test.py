@@ -11,7 +11,7 @@ import sys
 import unittest
 
 HOST = pathlib.Path(sys.argv.pop(1))
-sys.path[:0] = [str(HOST / "output"), str(HOST / "chart")]
+sys.path[:0] = [str(HOST / "output"), str(HOST.parent / "laboratory" / "chart")]
 sys.dont_write_bytecode = True
 import pictures  # noqa: E402
 import chart  # noqa: E402

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draw the charts of ents-host chart: python3 chart.py [--no-pictures] [FOLDER], of its own folder by default.
+"""Draw the charts of ents-lab chart: python3 chart.py [--no-pictures] [FOLDER], of its own folder by default.
 
 Of FOLDER/chart.json it makes chart.html, one page with everything in it, to be read without a network; work_precision.svg;
 and stability_NAME.svg and .png. Exit status 3: there is no matplotlib.
@@ -31,7 +31,7 @@ WRONG, UNJUDGED, DIVERGED = "#d00000", "#c77dff", "#8d8d8d"
 
 
 def number(value, digits=2):
-    """As the tables of ents-host: fixed from 1e-3 to 1e6, else with an exponent."""
+    """As the tables of ents-lab: fixed from 1e-3 to 1e6, else with an exponent."""
     if value == 0 or not math.isfinite(value):
         return f"{value:g}"
     value = float(f"{value:.{digits - 1}e}")
