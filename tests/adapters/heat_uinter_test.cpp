@@ -145,7 +145,9 @@ TEST(HeatOfAPoint, WhatItLacksIsNamed) {
   EXPECT_THROW(rigid(), HostStopped);
   const std::string text = only_message();
   EXPECT_NE(text.find("remove \"master\""), std::string::npos) << text;
-  UinterCall time = point(2, 825, 0.01, 4, 1);
+  write("ents_829.json", R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100},
+    "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 80}, "heat": {"friction": {}}}})");
+  UinterCall time = point(2, 829, 0.01, 4, 1);
   time.drdisp[1] = 0.01, time.dtime = 0;
   EXPECT_THROW(time(), HostStopped);
   const std::string words = only_message();
