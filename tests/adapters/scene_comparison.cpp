@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
+#include <random>
 #include <stdexcept>
 
 namespace adapters {
@@ -122,9 +124,10 @@ std::string write_scene(const std::string& name, Mesh mesh, const fs::path& fold
 }
 
 SceneResult run_scene(const std::string& file, const std::string& adapter, const std::string& options) {
-  const std::string errors = file + "." + adapter + ".errors";
+  const fs::path errors =
+      fs::temp_directory_path() / ("ents-scene-" + std::to_string(std::random_device{}()) + ".errors");
   const std::string command = "\"" ENTS_SCENE_HOST "\" \"" + file + "\" --json --nodes --adapter " + adapter +
-                              " " + options + " 2>\"" + errors + "\"";
+                              " " + options + " 2>\"" + errors.string() + "\"";
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   std::string text;
@@ -132,9 +135,13 @@ SceneResult run_scene(const std::string& file, const std::string& adapter, const
   while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe))
     text.append(part.data(), size);
   SceneResult result;
-  if (const int status = pclose(pipe); status != 0) {
-    std::ifstream in(errors);
-    result.refusal.assign(std::istreambuf_iterator<char>(in), {});
+  const int status = pclose(pipe);
+  std::ifstream in(errors);
+  const std::string said(std::istreambuf_iterator<char>(in), {});
+  in.close();
+  fs::remove(errors);
+  if (status != 0) {
+    result.refusal = said;
     if (result.refusal.empty())
       throw std::runtime_error(command + ": ended with status " + std::to_string(status));
     return result;
