@@ -40,7 +40,8 @@ template <class T> struct View {
   View() = default;
   View(T* data, int64_t size) : first(data), count(size) {}
   template <class Container> View(Container& from) : View(from.data(), static_cast<int64_t>(from.size())) {}
-  template <class Container> View(const Container& from) : View(from.data(), static_cast<int64_t>(from.size())) {}
+  template <class Container>
+  View(const Container& from) : View(from.data(), static_cast<int64_t>(from.size())) {}
   T* data() const { return count > 0 ? first : nullptr; }
   int64_t size() const { return count; }
 };
@@ -52,13 +53,16 @@ struct Error : std::runtime_error {
 };
 
 /// Every function of ents.h, without its prefix.
-#define ENTS_FUNCTIONS(X)                                                                                                 \
-  X(status_text) X(version) X(check_contract) X(height_register) X(model_create) X(model_create_from_file)                \
-  X(model_destroy) X(model_layout) X(model_bind) X(parameter_place) X(field_size) X(field_init) X(field_sample)           \
-  X(tree_size) X(tree_build) X(tree_refit) X(detect) X(evaluate) X(state_init) X(state_augment) X(state_transfer)         \
-  X(wear_collect) X(parameter_derivatives) X(tributary_areas) X(contact_area) X(combine) X(sampling_points)               \
-  X(smooth_size) X(smooth) X(smooth_mirrored_size) X(smooth_mirrored) X(pose_init) X(pose_move) X(pose_to_body)           \
-  X(pose_to_space) X(pose_element) X(assemble) X(iterate) X(surface_evaluate) X(model_check) X(surface_check)
+#define ENTS_FUNCTIONS(X)                                                                                    \
+  X(status_text)                                                                                             \
+  X(version) X(check_contract) X(height_register) X(model_create) X(model_create_from_file) X(model_destroy) \
+      X(model_layout) X(model_bind) X(parameter_place) X(field_size) X(field_init) X(field_sample)           \
+          X(tree_size) X(tree_build) X(tree_refit) X(detect) X(evaluate) X(state_init) X(state_augment)      \
+              X(state_transfer) X(wear_collect) X(parameter_derivatives) X(tributary_areas) X(contact_area)  \
+                  X(combine) X(sampling_points) X(smooth_size) X(smooth) X(smooth_mirrored_size)             \
+                      X(smooth_mirrored) X(pose_init) X(pose_move) X(pose_to_body) X(pose_to_space)          \
+                          X(pose_element) X(assemble) X(iterate) X(surface_evaluate) X(model_check)          \
+                              X(surface_check)
 
 /// The addresses of these functions: those that the program is linked with, or those of a library that it has loaded.
 struct Library {
@@ -70,9 +74,11 @@ struct Library {
   /// @param find  address of a function by its name, `void* find(const char* name)`, as dlsym; null: there is none
   /// @throws std::runtime_error that names the function that is missing; Error if the library does not serve this header
   template <class Find> void load(Find find) {
-    check_contract = reinterpret_cast<decltype(check_contract)>(found(find("ents_check_contract"), "ents_check_contract"));
+    check_contract =
+        reinterpret_cast<decltype(check_contract)>(found(find("ents_check_contract"), "ents_check_contract"));
     ents_report report = make<ents_report>();
-    if (check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report) != ENTS_OK) throw Error(report, report.message);
+    if (check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report) != ENTS_OK)
+      throw Error(report, report.message);
 #define ENTS_LOAD(name) name = reinterpret_cast<decltype(name)>(found(find("ents_" #name), "ents_" #name));
     ENTS_FUNCTIONS(ENTS_LOAD)
 #undef ENTS_LOAD

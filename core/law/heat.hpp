@@ -26,8 +26,8 @@ struct Heat {
   double constant = 0.0;
   double coefficient = 0.0, pressure = 1.0, exponent = 1.0; // of the power
   double conductivity = 0.0, jump = 1.0;                    // of the gas; jump [L]
-  double share = 0.0; // of what friction dissipates that becomes heat
-  double slave = 0.5; // of this heat that enters the slave side
+  double share = 0.0;                                       // of what friction dissipates that becomes heat
+  double slave = 0.5;                                       // of this heat that enters the slave side
   bool has_friction = false;
   const ConductancePoint *by_pressure = nullptr, *by_gap = nullptr; // of a plan: tables that its model has
   std::int32_t pressures = 0, gaps = 0;                             // their points

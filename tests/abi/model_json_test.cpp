@@ -57,7 +57,8 @@ TEST(ModelJson, TheSegmentAloneIsAModel) {
 
 TEST(ModelJson, EveryBasisIsRead) {
   for (const BasisEntry& entry : basis_table) {
-    const ModelSpec model = read_model(R"({"segment": ")" + std::string(entry.name) + R"(", "height": null})");
+    const ModelSpec model =
+        read_model(R"({"segment": ")" + std::string(entry.name) + R"(", "height": null})");
     EXPECT_EQ(model.basis, entry.basis);
     EXPECT_EQ(&basis_entry(model.basis), &entry);
     EXPECT_EQ(model.height.dimension(), entry.parameters);
@@ -89,7 +90,8 @@ TEST(ModelJson, EveryKeyEndsInItsPlace) {
   EXPECT_EQ(model.penetration_limit, 0.125);
   EXPECT_EQ(model.border, 0.0625);
 
-  const ModelSpec other = read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
+  const ModelSpec other =
+      read_model(R"({"segment": "tri3", "tangent": "first_variation", "master": "deformable",
     "surface_coordinates": [[1, 2], [3, 4], [5, 6]]})");
   EXPECT_EQ(other.tangent, TangentKind::first_variation);
   EXPECT_FALSE(other.rigid_master);
@@ -219,7 +221,8 @@ TEST(ModelJson, ThreadIsThatOfIso68) {
   const std::string two = R"({"type": "thread", )" + iso + R"(, "starts": 2, )";
   const ModelSpec right = read_model(with_height("quad4", two + R"("turn": 360})"));
   const ModelSpec left = read_model(with_height("quad4", two + R"("hand": "left"})"));
-  const ModelSpec rings = read_model(with_height("quad4", R"({"type": "thread", )" + iso + R"(, "starts": 0})"));
+  const ModelSpec rings =
+      read_model(with_height("quad4", R"({"type": "thread", )" + iso + R"(, "starts": 0})"));
   for (const double axis : {-0.3, 0.1, 0.7})
     for (const double turns : {0.0, 0.3, 0.9}) {
       const double expected = height_1(grooves, axis + 0.25);

@@ -22,7 +22,7 @@ void check_adapter(const host::Scene& scene, const std::string& name);
 
 /// Put the adapter of this name between `library` and its users. Models that are made later are written for
 /// it as ents_k.json into a folder of their own, which is removed when the program ends.
-/// @throws InputError for a name that is none; later InputError for a model that elements of that program cannot
+/// @throws InputError for an unknown name; the route throws it later for a model that the elements of that program cannot
 ///         have, JobError where the program would end the job
 void install_adapter(host::EntsLibrary& library, const std::string& name);
 

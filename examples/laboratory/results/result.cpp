@@ -201,8 +201,7 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
     if (scene.contact)
       row.insert(row.end(), {record.peak_pressure, 100 * record.contact_fraction, 100 * record.area.fraction,
                              100 * record.area.error, record.mean_gap});
-    if (scene.contact && scene.probe > 0)
-      row.insert(row.end(), {record.mean_cubed_gap, record.conductance});
+    if (scene.contact && scene.probe > 0) row.insert(row.end(), {record.mean_cubed_gap, record.conductance});
     if (wears(records)) row.insert(row.end(), {record.worn_depth, record.worn_slave + record.worn_master});
     const Convergence rate = convergence(record.increments.back().residuals);
     row.insert(row.end(), {static_cast<std::int64_t>(record.iterations()), rate.before, rate.last});
