@@ -112,7 +112,7 @@ TEST_F(Program, ACoarseBlockUnderAScanIsToldBeforeTheRun) {
           "or the element \"layer\" takes the place of the mesh, with nodes at most 0.0391 um apart"});
   expect(ents_host("check " + scene + " --variant \"cut off\""), 0, {"fine enough"});
   expect(ents_host("check " + scene + " --variant no"), 2,
-         {"no variant \"no\" in /variants; there are: block, fine"});
+         {"no variant \"no\" in /variants; there are: conductance, block, fine"});
   const std::string model = write("model.json", {{"segment", "line2"}});
   expect(ents_host("check " + scene + " --mesh " + model), 2, {"--mesh: this is a scene"});
   expect(ents_host("check " + model + " --variant block"), 2, {"--variant: this is a model"});
