@@ -27,7 +27,7 @@ module ents
   ! Pass ENTS_CONTRACT_MAJOR and ENTS_CONTRACT_MINOR to ents_check_contract. ENTS_CHECK_... are counted from 0:
   ! value(ENTS_CHECK_FOLD + 1).
   integer(c_int32_t), parameter :: ENTS_CONTRACT_MAJOR = 1
-  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 10
+  integer(c_int32_t), parameter :: ENTS_CONTRACT_MINOR = 11
   integer(c_int32_t), parameter :: ENTS_OK = 0
   integer(c_int32_t), parameter :: ENTS_NO_PROJECTION = 1
   integer(c_int32_t), parameter :: ENTS_SINGULAR_PROJECTION = 2
@@ -320,7 +320,7 @@ module ents
   end type ents_suggestion
 
   type, bind(c) :: ents_combination
-    integer(c_int32_t) :: struct_size = 16 + 5*pointer_bytes
+    integer(c_int32_t) :: struct_size = 16 + 7*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     integer(c_int64_t) :: points = 0
     type(c_ptr) :: begin = c_null_ptr ! (points + 1), int64
@@ -328,6 +328,8 @@ module ents
     type(c_ptr) :: weights = c_null_ptr ! (begin[points])
     type(c_ptr) :: reflected = c_null_ptr ! (begin[points]), int32
     type(c_ptr) :: shifts = c_null_ptr ! (d, points)
+    type(c_ptr) :: heights = c_null_ptr ! (points)
+    type(c_ptr) :: slopes = c_null_ptr ! (d-1, begin[points])
   end type ents_combination
 
   type, bind(c) :: ents_mirror
@@ -346,7 +348,7 @@ module ents
   end type ents_pose
 
   type, bind(c) :: ents_system
-    integer(c_int32_t) :: struct_size = 40 + 12*pointer_bytes
+    integer(c_int32_t) :: struct_size = 40 + 13*pointer_bytes
     integer(c_int32_t) :: index_size = 0
     type(c_ptr) :: slave = c_null_ptr ! c_loc of an ents_combination
     type(c_ptr) :: master = c_null_ptr ! c_loc of an ents_combination
@@ -364,6 +366,7 @@ module ents
     integer(c_int64_t) :: places_size = 0
     type(c_ptr) :: pose = c_null_ptr ! c_loc of an ents_pose
     type(c_ptr) :: body_equations = c_null_ptr ! (2D: 3, 3D: 6), int64
+    type(c_ptr) :: slave_positions = c_null_ptr ! (d, slave_nodes)
   end type ents_system
 
   type, bind(c) :: ents_surface
@@ -741,7 +744,7 @@ module ents
     end function ents_suggest
 
     ! Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
-    ! with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
+    ! with `reflected`, `shifts` or `heights` these are positions, and surface coordinates are components of the points.
     function ents_combine(combination, dimension, nodes, positions, points, report) result(status) bind(c, name="ents_combine")
       import :: c_double, c_int32_t, c_int64_t, ents_combination, ents_report
       type(ents_combination), intent(in), target :: combination
@@ -770,6 +773,18 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_sampling_points
+
+    ! A slave surface that is enriched, too.
+    function ents_raise_points(surface, points, coordinates, heights, slopes, report) result(status) &
+      bind(c, name="ents_raise_points")
+      import :: c_double, c_int32_t, c_ptr, ents_combination, ents_report
+      type(c_ptr), value :: surface
+      type(ents_combination), intent(in), target :: points
+      type(c_ptr), value :: coordinates
+      real(c_double), intent(inout) :: heights(*), slopes(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_raise_points
 
     ! A smoothed master surface over ordinary facets.
     function ents_smooth_size(facet, basis, ends, facets, connectivity, nodes, points, terms, report) result(status) &

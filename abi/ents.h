@@ -93,7 +93,7 @@ extern "C" {
 /* What this header promises (the contract) and what implements it (the library) are numbered apart. A
  * library serves every header with the same contract major and an equal or smaller contract minor. */
 #define ENTS_CONTRACT_MAJOR 1
-#define ENTS_CONTRACT_MINOR 10
+#define ENTS_CONTRACT_MINOR 11
 
 /* Status values; pinned, never renumbered.
  *   0            done
@@ -760,10 +760,14 @@ typedef struct ents_combination {
   const int32_t *reflected;          /* [begin[points]] or null: bits 1, 2, 4: X[nodes[j]] counts with its component x, y, z
                                         reversed, as the image of the node in a plane normal to that axis. Since contract 1.8 */
   const double *shifts;              /* [points][d] or null: added to x_i, [L]. Since contract 1.8 */
+  const double *heights;             /* [points] or null: x_i is raised by so much along the unit normal of its facet, which turns with the
+                                        facet's nodes, [L]: see ents_raise_points. Since contract 1.11 */
+  const double *slopes;              /* [begin[points]][d-1] derivatives of the weights by the facet's natural coordinates; needed with
+                                        heights, which `reflected` and the points of a master do not have. Since contract 1.11 */
 } ents_combination;
 
 /* Positions of the points from those of the host's nodes; or any other numbers that are given per node (surface coordinates);
- * with `reflected` or `shifts` these are positions, and surface coordinates are components of the points.
+ * with `reflected`, `shifts` or `heights` these are positions, and surface coordinates are components of the points.
  *   dimension  numbers per node: 1, 2 or 3
  *   positions  [nodes][d] of the host's nodes, [L], finite
  *   points     [points][d] out */
@@ -785,6 +789,24 @@ ENTS_API int32_t ents_combine(const ents_combination *combination, int32_t dimen
 ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, int64_t facets, const int64_t *connectivity,
                                       int64_t nodes, const double *positions, double thickness, int64_t *begin,
                                       int64_t *point_nodes, double *weights, double *areas, ents_report *report);
+
+/* A slave surface that is enriched, too: its points are x = sum N_i X_i + h n, n the unit normal of the slave facet. h is that of the point,
+ * for its surface coordinates do not change; n turns with the nodes of the facet, and so x is no linear combination of them. ents_combine
+ * gives x, and ents_assemble and ents_iterate put residual and tangent on the nodes with the exact first and second derivatives of x: the
+ * tangent stays symmetric without friction, forces and moments of both sides balance.
+ *   surface      a model whose "height" is that of the slave's facets (a bound one, if it has parameters or fields). All else in it but d is
+ *                not read: any segment of the same dimension will do. The slave's normal points out of its body, as a master's does
+ *   points       the points inside their facets, as ents_sampling_points makes them: each over the 2 or 3 nodes of a line, 3, 4, 6, 8 or 9
+ *                of a face, with the facet's shape functions as weights. Its heights and slopes are not read
+ *   coordinates  [begin[points]][d-1] surface coordinates of the nodes of each point's facet; null: natural coordinates of the facet
+ *   heights      [points] out, [L]
+ *   slopes       [begin[points]][d-1] out
+ * Put both into the combination, and the current positions of the nodes into ents_system.slave_positions.
+ * Wear: what the state has as depth lost by the slave is subtracted from heights by the host, or stays in the state.
+ * Errors: those of a combination; NULL_ARGUMENT; NON_FINITE (a coordinate, or a height that is not defined there); BAD_VALUE (weights that are
+ * no shape functions of a facet, as those of slave nodes: report.element is the point). Since contract 1.11. */
+ENTS_API int32_t ents_raise_points(const ents_model *surface, const ents_combination *points, const double *coordinates, double *heights,
+                                   double *slopes, ents_report *report);
 
 /* What stands beyond a free end or border, x_0 on it, x_1, x_2, x_3 the nodes inside; and what the control points are. */
 #define ENTS_ENDS_STRAIGHT 0        /* 2 x_0 - x_1; control points are the nodes */
@@ -947,6 +969,8 @@ typedef struct ents_system {
   int64_t places_size;               /* at least node_dofs (m+1)^2 + 1 (rigid: node_dofs + 1); not used with a `slave` or `master` combination or a pose */
   const ents_pose *pose;             /* of a rigid master that moves, or null: input.slave is in its frame. Since contract 1.6 */
   const int64_t *body_equations;     /* [2D: 3, 3D: 6] rows of the reference point's displacement and of the spin; -1: prescribed, left out */
+  const double *slave_positions;     /* [slave_nodes][d] current positions of the host's nodes, [L], where `slave` has heights: input.slave is
+                                        made of them by ents_combine; else not read. Since contract 1.11 */
 } ents_system;
 
 /* Evaluate the elements first .. first + count - 1 and add their residuals and tangents to the host's equations.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "abi/call/handle.hpp"
+#include "core/slave/raised_point.hpp"
 
 namespace ents {
 
@@ -11,6 +12,10 @@ std::int32_t check_combination(const ents_combination* caller, const char* name,
                                ents_report* report) noexcept;
 std::int32_t check_combined_point(const ents_combination& c, const char* name, std::int64_t point,
                                   std::int64_t nodes, ents_report* report) noexcept;
+
+// The place of a point that has a height, shifts not added, and its derivatives by its nodes, whose indices are checked.
+std::int32_t raise_point(const ents_combination& c, const char* name, std::int64_t point, int dimension,
+                         const double* positions, RaisedPoint& raised, ents_report* report) noexcept;
 
 // Says why a facet has no area: DEGENERATE_SEGMENT.
 std::int32_t refuse_facet(const BasisEntry& entry, std::int64_t facet, const std::int64_t* connectivity,

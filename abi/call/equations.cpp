@@ -53,6 +53,13 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
     return report_message(report_, ENTS_BAD_COUNT, -1,
                           "system.slave has %lld points; the elements end at %lld",
                           static_cast<long long>(slave_.points), static_cast<long long>(first + count));
+  if (s.slave && slave_.heights && !s.slave_positions && count > 0)
+    return report_status(
+        report_, ENTS_NULL_ARGUMENT, -1,
+        "system.slave_positions is null, but system.slave has heights: their normals turn with these nodes");
+  if (s.master && master_.heights)
+    return report_status(report_, ENTS_BAD_VALUE, -1,
+                         "system.master has heights: the height of a master is its model's, \"height\"");
   if (s.master && master_.points < call_.mesh.nodes)
     return report_message(report_, ENTS_BAD_COUNT, -1,
                           "system.master has %lld points; the mesh has %lld nodes",
@@ -348,6 +355,7 @@ std::int32_t Equations::add_with_body(std::int64_t e, const double* residual, co
 
 std::int32_t Equations::add(std::int64_t e, const double* residual, const double* tangent,
                             bool symmetric) const {
+  if (system_->slave && slave_.heights && call_.segment(e) >= 0) return add_raised(e, residual, tangent);
   if (system_->pose) return add_with_body(e, residual, tangent);
   if (const std::int64_t* places = known_places(e)) {
     if (plan_.node_dofs == 3)

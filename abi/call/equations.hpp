@@ -81,6 +81,12 @@ private:
   std::int32_t add_block(std::int64_t e, const Group& row, const Group& column, const double* tangent,
                          int leading, std::int64_t* place) const;
   std::int32_t add_with_body(std::int64_t e, const double* residual, const double* tangent) const;
+  // Of a slave point with a height: `others` calls a function with every group that is not the slave's.
+  template <class Others>
+  std::int32_t add_raised(std::int64_t e, const double* residual, const double* tangent, int leading,
+                          Others&& others) const;
+  std::int32_t add_raised(std::int64_t e, const double* residual, const double* tangent) const;
+  std::int32_t raise(std::int64_t e, RaisedPoint& point) const;
   const std::int64_t* known_places(std::int64_t e) const noexcept;
   template <int D>
   void add_known(std::int64_t e, const std::int64_t* places, const double* residual, const double* tangent,

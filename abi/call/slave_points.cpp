@@ -27,6 +27,13 @@ std::int32_t check_combination(const ents_combination* caller, const char* name,
   if (out.points > 0 && out.begin[0] != 0)
     return report_message(report, ENTS_BAD_VALUE, -1, "%s.begin[0] is %lld; it must be 0", name,
                           static_cast<long long>(out.begin[0]));
+  if (out.heights && out.reflected)
+    return report_message(
+        report, ENTS_BAD_VALUE, -1,
+        "%s has heights and reflected: points that are raised are combinations of real nodes", name);
+  if (out.points > 0 && out.heights && !out.slopes)
+    return report_message(report, ENTS_NULL_ARGUMENT, -1,
+                          "%s.slopes is null, but heights is not: ents_raise_points makes both", name);
   return ENTS_OK;
 }
 
@@ -175,6 +182,9 @@ int32_t ents_combine(const ents_combination* combination, int32_t dimension, int
     if (dimension < 1 || dimension > 3)
       return report_message(report, ENTS_BAD_VALUE, -1, "argument 'dimension' is %d; it must be 1, 2 or 3",
                             dimension);
+    if (c.heights && dimension == 1)
+      return report_status(report, ENTS_BAD_VALUE, -1,
+                           "argument 'dimension' is 1, but combination.heights raises positions: 2 or 3");
     if (c.points > 0 && (!positions || !points))
       return report_message(report, ENTS_NULL_ARGUMENT, -1, "argument '%s' is null",
                             positions ? "points" : "positions");
@@ -187,6 +197,12 @@ int32_t ents_combine(const ents_combination* combination, int32_t dimension, int
           const bool reversed = c.reflected && (c.reflected[j] >> k & 1) != 0;
           sum[k] += (reversed ? -c.weights[j] : c.weights[j]) * positions[c.nodes[j] * dimension + k];
         }
+      if (c.heights) {
+        RaisedPoint raised;
+        if ((status = raise_point(c, "combination", i, dimension, positions, raised, report)) != ENTS_OK)
+          return status;
+        std::copy(raised.place, raised.place + dimension, sum);
+      }
       for (int k = 0; c.shifts && k < dimension; ++k) sum[k] += c.shifts[i * dimension + k];
       if (first_non_finite(sum, dimension) >= 0)
         return report_message(report, ENTS_NON_FINITE, i,

@@ -19,6 +19,57 @@ LINE, QUAD = ({"segment": segment, "contact": PENALTY} for segment in ("line2", 
 PLANE = [[-1, -1, 0], [3, -1, 0], [3, 3, 0], [-1, 3, 0]]
 
 
+def rough_pair(**options):
+    """Facets of 3 x 3 quadrilaterals over 4 x 4, both bent at random and rough, in touch. Returns the contact and a generator of random numbers."""
+    rng = np.random.default_rng(1)
+
+    def grid(n, low, high):
+        x = np.linspace(low, high, n + 1)
+        nodes = np.array([[a, b, 0] for b in x for a in x])
+        return nodes, np.array([[j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i] for j in range(n) for i in range(n)])
+    (below, master), (above, slave) = grid(4, -0.1, 1.1), grid(3, 0.0, 1.0)
+    x = np.vstack([below, above])
+    x += rng.uniform(-1, 1, x.shape) * [0.02, 0.02, 0.01]
+    model = {"segment": "quad4", "height": {"type": "sine", "amplitude": 0.02, "wave_vector": [2, 1]},
+             "contact": {"normal": {"type": "penalty", "stiffness": 100}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 50}}}
+    return ents.Contact(model, x, slave[:, ::-1] + len(below), master, reach=0.3, surface_coordinates="xy", **options), rng
+
+
+class BothSidesRough(unittest.TestCase):
+    WAVE = {"type": "sine", "amplitude": 0.03, "wave_vector": [1, 2]}
+
+    def test_tangent_and_balance(self):
+        """Friction included. The stencil's error is 1e-20 times a fifth derivative, its rounding 1e-16 / 1e-5."""
+        contact, rng = rough_pair(slave_height=self.WAVE, slave_surface_coordinates="xy")
+        self.assertEqual(len(contact.areas), 36)  # sampling 2
+        u = np.zeros(contact.rows)
+        contact.update(u)
+        contact.commit()
+        u, v, t = rng.uniform(-1e-3, 1e-3, contact.rows), rng.uniform(-1, 1, contact.rows), 1e-5
+        residual, tangent = contact.update(u)
+        self.assertGreater((contact.pressure > 0).sum(), 10)
+        ahead = [contact.update(u + k * t * v, tangent=False)[0] for k in (-2, -1, 1, 2)]
+        slope = (8 * (ahead[2] - ahead[1]) - (ahead[3] - ahead[0])) / (12 * t)
+        self.assertLess(np.abs(slope - tangent @ v).max(), 1e-10 * np.abs(tangent).max())
+        self.assertLess(np.abs(residual.reshape(-1, 3).sum(axis=0)).max(), 1e-14)
+
+    def test_places(self):
+        """Heights are added along the normals of the facets; a constant one is an offset of both the place and the gap."""
+        flat, raised = (rough_pair(sampling=3, **options)[0] for options in ({}, {"slave_height": {"type": "constant", "value": 0.01}}))
+        for contact in (flat, raised):
+            contact.update(np.zeros(contact.rows))
+        np.testing.assert_allclose(np.linalg.norm(raised.points - flat.points, axis=1), 0.01, atol=1e-15)
+        self.assertTrue((raised.points[:, 2] < flat.points[:, 2]).all())
+
+    def test_refusals(self):
+        for words, options in (("sampling: 0", {"sampling": 0}), ('"x"; wanted are 2 of x, y, z', {"slave_surface_coordinates": "x"}),
+                               ("in 2D, the model is in 3D", {"slave_height": ents.Model({"segment": "line2"})}),
+                               ("slave_height is not", {"slave_height": None, "slave_surface_coordinates": "xy"})):
+            with self.assertRaises(ents.Error) as caught:
+                rough_pair(**{"slave_height": self.WAVE, **options})
+            self.assertIn(words, str(caught.exception))
+
+
 class Refused(unittest.TestCase):
     def caught(self, words, call, kind=ents.Error):
         with self.assertRaises(kind) as caught:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import operator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -104,7 +104,20 @@ def _frozen(array: np.ndarray) -> np.ndarray:
     return array
 
 
+class Raised(NamedTuple):
+    """Slave points above their facets, as Library.raise_points makes them: begin [points + 1], nodes and weights of each, heights [points] [L], and
+    slopes [len(nodes)][d-1] of the weights."""
+    begin: np.ndarray
+    nodes: np.ndarray
+    weights: np.ndarray
+    heights: np.ndarray
+    slopes: np.ndarray
+
+
 def _combination(combination):
+    raised = combination if isinstance(combination, Raised) else None
+    if raised is not None:
+        combination = raised[:3]
     try:
         begin, of, weights, *mirrored = combination
         if len(mirrored) not in (0, 2):
@@ -122,5 +135,10 @@ def _combination(combination):
         reflected = _array("combination: reflected", mirrored[0], of.shape, np.int32)
         shifts = _array("combination: shifts", mirrored[1], (len(begin) - 1, None))
         block.reflected, block.shifts = reflected.ctypes.data, shifts.ctypes.data
-    block.arrays = begin, of, weights, reflected, shifts  # they live as long as the addresses
+    heights = slopes = None
+    if raised is not None:
+        heights = _array("combination: heights", raised.heights, (len(begin) - 1,))
+        slopes = _array("combination: slopes", raised.slopes, (len(of), None))
+        block.heights, block.slopes = heights.ctypes.data, slopes.ctypes.data
+    block.arrays = begin, of, weights, reflected, shifts, heights, slopes  # they live as long as the addresses
     return block

@@ -12,7 +12,7 @@ from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._arrays import CutStep, Error, _array, _combination, _count, _new
+from ._arrays import CutStep, Error, Raised, _array, _combination, _count, _new
 from ._structs import CONTRACT_MAJOR, CONTRACT_MINOR, ENDS_STRAIGHT, FUNCTIONS, Area, Mirror, Report, Resultants, Status, Suggestion
 
 Combined = Tuple[np.ndarray, ...]  # begin, nodes, weights; with planes of symmetry also reflected, shifts
@@ -188,6 +188,19 @@ class Library:
                   begin, of, weights, areas, positive=Error)
         return (begin, of, weights), areas
 
+    def raise_points(self, surface: Any, points: Combined, coordinates: Any = None) -> Raised:
+        """Slave points inside facets, as of `sampling_points`, above them by the "height" of the Model `surface`: x = sum N_i X_i + h n. coordinates
+        [len(nodes)][d-1]: surface coordinates of the nodes of each point's facet; default: natural coordinates. The result takes the place
+        of the combination in `combine` and System(slave=...)."""
+        block = _combination(points)
+        begin, of, weights = block.arrays[:3]
+        d = surface.layout.dimension
+        if coordinates is not None:
+            coordinates = _array("coordinates", coordinates, (len(of), d - 1))
+        heights, slopes = np.zeros(len(begin) - 1), np.zeros((len(of), d - 1))
+        self.call("raise_points", surface._handle, block, coordinates, heights, slopes, positive=Error)
+        return Raised(begin, of, weights, heights, slopes)
+
     def smooth(self, facet: str, basis: str, connectivity: Any, nodes: int, ends: int = ENDS_STRAIGHT, mirror: Sequence = (),
                positions: Any = None) -> tuple[np.ndarray, Combined]:
         """A smoothed master surface over facets, "line2" with basis "bspline4", say (table in ents.h): segments [facets][m] of control points,
@@ -223,9 +236,13 @@ class Library:
         return segments, (begin, of, weights, *more)
 
     def combine(self, combination: Combined, values: Any) -> np.ndarray:
-        """What `smooth` gave, applied to values [nodes][1 .. 3] (positions, surface coordinates)."""
+        """What `smooth`, `sampling_points` or `raise_points` gave, applied to values [nodes][1 .. 3] (positions; of the first two surface coordinates, too)."""
         values, block = _array("values", values, (None, None)), _combination(combination)
-        if len(combination) > 3 and values.shape[1] != np.shape(combination[4])[1]:
+        if isinstance(combination, Raised):
+            if values.shape[1] != combination.slopes.shape[1] + 1:
+                raise Error(Status.BAD_COUNT, f"values: {values.shape[1]} numbers per node; points that are raised are made of positions "
+                            f"[nodes][{combination.slopes.shape[1] + 1}]")
+        elif len(combination) > 3 and values.shape[1] != np.shape(combination[4])[1]:
             raise Error(Status.BAD_COUNT, f"values: {values.shape[1]} numbers per node; images in planes of symmetry are those of positions "
                         f"[nodes][{np.shape(combination[4])[1]}]: take surface coordinates from the points' positions")
         points = np.zeros((block.points, values.shape[1]))

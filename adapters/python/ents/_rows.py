@@ -18,20 +18,25 @@ class Rows:
     """Compressed rows with a place for every pair of a slave point and a segment that has been in contact. They grow when another pair closes.
 
     dofs    [nodes][node_dofs] equation of each displacement (and temperature), -1: none
-    slave   csr_matrix [points][nodes]: slave points as combinations of nodes; `of_nodes` [points] where each is a node, else None
+    slave   csr_matrix [points][nodes]: slave points as combinations of nodes; `of_nodes` [points] where each is a node, else None; `parts`: the
+            combination as System takes it
     master  csr_matrix [nodes of segments][nodes], or None: a rigid master; `smoothed`: its rows are no unit vectors
     beside  [segments][k] neighbours of each segment, -1: none; they get places, too, before a point slides there
     """
 
-    def __init__(self, model: Model, tree: Tree, dofs: np.ndarray, rows: int, slave: Any, of_nodes: Optional[np.ndarray], master: Any, smoothed: bool,
+    def __init__(self, model: Model, tree: Tree, dofs: np.ndarray, rows: int, slave: Any, parts: Any, of_nodes: Optional[np.ndarray], master: Any, smoothed: bool,
                  beside: np.ndarray) -> None:
         self.model, self.tree, self.count = model, tree, rows
         self._dofs, self._slave, self._master, self._beside = dofs, slave, master, beside
-        parts = lambda matrix: (matrix.indptr, matrix.indices, matrix.data)
-        self._system = System(dofs if of_nodes is None else dofs[of_nodes], None if master is None else dofs, rows=rows,
-                              slave=parts(slave) if of_nodes is None else None, master=parts(master) if smoothed and master is not None else None)
+        self._system = System(dofs if of_nodes is None else dofs[of_nodes], None if master is None else dofs, rows=rows, slave=parts if of_nodes is None else None,
+                              master=(master.indptr, master.indices, master.data) if smoothed and master is not None else None)
         self._keys = np.zeros(0, np.int64)
         self._begin, self._columns = np.zeros(rows + 1, np.int32), np.zeros(0, np.int32)
+
+    def place(self, positions: np.ndarray) -> None:
+        """The current positions [nodes][d], for slave points above their facets."""
+        images = np.zeros((len(self._dofs) - len(positions), positions.shape[1]))  # of nodes of the master
+        self._system.slave_positions = np.vstack([positions, images])
 
     def add(self, wants_tangent: bool, **inputs: Any) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
         """Model.iterate with these inputs. Returns its result, the residual [rows], and the tangent (data, indices, indptr)."""

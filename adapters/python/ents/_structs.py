@@ -4,7 +4,7 @@ import ctypes
 import enum
 
 CONTRACT_MAJOR = 1
-CONTRACT_MINOR = 10
+CONTRACT_MINOR = 11
 ENDS_STRAIGHT = 0
 ENDS_REPEATED = 1
 ENDS_QUASI_CUBIC = 2
@@ -356,6 +356,8 @@ class Combination(ctypes.Structure):
         ("weights", ctypes.c_void_p),
         ("reflected", ctypes.c_void_p),
         ("shifts", ctypes.c_void_p),
+        ("heights", ctypes.c_void_p),
+        ("slopes", ctypes.c_void_p),
     ]
 
 
@@ -398,6 +400,7 @@ class System(ctypes.Structure):
         ("places_size", ctypes.c_int64),
         ("pose", ctypes.c_void_p),
         ("body_equations", ctypes.c_void_p),
+        ("slave_positions", ctypes.c_void_p),
     ]
 
 
@@ -509,6 +512,7 @@ FUNCTIONS = {
     "ents_suggest": (ctypes.c_int32, (ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_combine": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_sampling_points": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_raise_points": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_smooth_mirrored_size": (ctypes.c_int32, (ctypes.c_char_p, ctypes.c_char_p, ctypes.c_int32, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),

@@ -6,7 +6,7 @@ from typing import Any, Optional, Sequence
 
 import numpy as np
 
-from ._arrays import Error, _count
+from ._arrays import Error, Raised, _array, _count
 from ._model import Model
 from ._sides import INSIDE, area_vectors, longest_edge, read_facets, refuse_crossed, reversed_pair, without_area
 from ._structs import Status
@@ -15,8 +15,23 @@ SMOOTHED = {"catmull_rom4": (1, 2), "bspline4": (1, 2), "catmull_rom16": (5, 6, 
 """Smoothed bases, and the points of a segment near the corners of its facet."""
 
 
+def slave_model(model: Model, height: Any) -> Optional[Model]:
+    """The model with the height of a slave surface from the argument slave_height: a dict, or a Model."""
+    if height is None:
+        return None
+    d = model.layout.dimension
+    surface = height if isinstance(height, Model) else Model({"segment": "line2" if d == 2 else "quad4", "height": height}, model._data, model._directory,
+                                                             model.library)
+    if surface.layout.dimension != d:
+        raise Error(Status.BAD_VALUE, f"slave_height: it is of a surface in {surface.layout.dimension}D, the model is in {d}D")
+    return surface
+
+
 class SlavePoints:
-    """Slave points: nodes (`nodes` [points]), or points inside the facets (`nodes` None). `matrix` [points][nodes] makes them of the nodes."""
+    """Slave points: nodes (`nodes` [points]), or points inside the facets (`nodes` None). `matrix` [points][nodes] makes them of the nodes; `raised`:
+    they lie above their facets."""
+
+    raised: Optional[Raised] = None
 
     def __init__(self, model: Model, positions: np.ndarray, slave: Any, sampling: Optional[int], thickness: float, order: str) -> None:
         import scipy.sparse as sparse
@@ -54,8 +69,36 @@ class SlavePoints:
     def _numbers(self) -> np.ndarray:
         return np.sort(np.concatenate([group.numbers for group in self.groups]))
 
+    def raise_by(self, surface: Optional[Model], given: Any, positions: np.ndarray) -> None:
+        """The points lie above their facets by the height of the model `surface`, in surface coordinates as MasterSurface.coordinates takes them, or
+        [nodes][d-1]; without a model they do not."""
+        if surface is None:
+            if given is not None:
+                raise Error(Status.BAD_VALUE, "slave_surface_coordinates is given, but slave_height is not")
+            return
+        d = positions.shape[1]
+        if isinstance(given, str):
+            if len(given) != d - 1 or not set(given) <= set("xyz"[:d]):
+                raise Error(Status.BAD_VALUE, f'slave_surface_coordinates: "{given}"; wanted are {d - 1} of {", ".join("xyz"[:d])}')
+            given = positions[:, ["xyz".index(axis) for axis in given]]
+        if given is not None:
+            given = _array("slave_surface_coordinates", given, (len(positions), d - 1))[self.matrix.indices]
+        self._library = surface.library
+        self.raised = self._library.raise_points(surface, (self.matrix.indptr, self.matrix.indices, self.matrix.data), given)
+
+    def parts(self, numbers: np.ndarray) -> Any:
+        """These points as a combination of the nodes."""
+        matrix = self.matrix[numbers]
+        if self.raised is None:
+            return matrix.indptr, matrix.indices, matrix.data
+        first = self.matrix.indptr[numbers]
+        entries = np.arange(matrix.nnz) + np.repeat(first - matrix.indptr[:-1], np.diff(matrix.indptr))
+        return Raised(matrix.indptr, matrix.indices, matrix.data, self.raised.heights[numbers], self.raised.slopes[entries])
+
     def at(self, now: np.ndarray) -> np.ndarray:
         """[points][d] at the positions `now` [nodes][d]."""
+        if self.raised is not None:
+            return self._library.combine(self.raised, now)
         return now[self.nodes] if self.nodes is not None else self.matrix @ now
 
     def normals(self, now: np.ndarray, points: np.ndarray) -> np.ndarray:

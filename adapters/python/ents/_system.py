@@ -22,7 +22,8 @@ class System:
     matrix           compressed rows with sorted columns that has a place for every entry: scipy.sparse.csr_matrix, or what has its indptr,
                      indices and data; None: no tangent is wanted
     rows             number of rows, if there is no matrix
-    slave, master    combinations (begin, nodes, weights) if slave points or master nodes are not the host's nodes: sampling_points, smooth
+    slave, master    combinations (begin, nodes, weights) if slave points or master nodes are not the host's nodes: sampling_points, smooth. Of a slave
+                     surface that is enriched, too, what Library.raise_points returns; .slave_positions [nodes][d], current, has to be set then
     multiplier_equations [n][multipliers]
     pose, body_equations ents.Pose of a rigid master that moves, and the rows [2D: 3, 3D: 6] of its displacement and spin, -1: prescribed. The
                      slave points that are given to assemble are then pose.to_body(positions)
@@ -42,6 +43,7 @@ class System:
         self.residual = np.zeros(len(matrix.indptr) - 1 if matrix is not None else _count("rows", rows))
         self._combinations = [None if points is None else _combination(points) for points in (slave, master)]
         self._places, self._places_of = None, ()
+        self.slave_positions: Any = None
 
     def __repr__(self) -> str:
         entries = "no matrix" if self.matrix is None else f"a matrix of {len(self.matrix.data)} entries"
@@ -58,6 +60,9 @@ class System:
         slave, master = (None if points is None else ctypes.addressof(points) for points in self._combinations)
         out = _new(_structs.System, slave=slave, master=master, slave_nodes=len(self.slave_equations), slave_equations=self.slave_equations.ctypes.data,
                    rows=len(self.residual), residual=self.residual.ctypes.data, index_size=8)
+        if self.slave_positions is not None:
+            positions = _array("slave_positions", self.slave_positions, (len(self.slave_equations), lay.dimension))
+            out.slave_positions, out.of_positions = positions.ctypes.data, positions  # lives as long as the struct
         if slave is None and len(self.slave_equations) < elements:
             raise Error(Status.BAD_COUNT, f"slave_equations: {len(self.slave_equations)} nodes; there are {elements} slave points")
         if self.slave_equations.shape[1] != lay.node_dofs:

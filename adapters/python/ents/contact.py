@@ -17,7 +17,7 @@ from ._rows import Rows
 from ._side_pairs import SidePairs, warn_of_deep
 from ._structs import ENDS_STRAIGHT, Flag, Status
 from ._surface import Tree
-from ._surfaces import MasterSurface, SlavePoints
+from ._surfaces import MasterSurface, SlavePoints, slave_model
 from ._temperatures import Temperatures
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ class Contact(ContactResults):
     def __init__(self, model: Union[Model, dict, str, os.PathLike], positions: Any, slave: Any, master: Any, *, master_positions: Any = None,
                  dofs: Any = None, rows: Optional[int] = None, reach: Optional[float] = None, thickness: float = 1.0, sampling: Optional[int] = None,
                  surface_coordinates: Any = None, offset: Any = None, elements: Any = None, ends: int = ENDS_STRAIGHT, leave: bool = False,
-                 mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None, comm: None = None) -> None:
+                 mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None, slave_height: Any = None,
+                 slave_surface_coordinates: Any = None, comm: None = None) -> None:
         """Slave points on the facets `slave` against the facets `master`.
 
         model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
@@ -90,6 +91,10 @@ class Contact(ContactResults):
         mirror     smoothed masters: planes of symmetry, [("x", 0.0), ...], at which the surface goes on as its mirror image does
         temperature  of a model with "heat": a number or [nodes], the temperatures at u = 0, to which those of u are added; default: 0
         master_temperature   the same of the nodes of master_positions
+        slave_height  the slave is rough, too: a height as a model's (dict), or an ents.Model with that height (bound, say). Slave points lie so much
+                   above their facets, along normals that turn with them. sampling is 2 or what is given; 0 is refused
+        slave_surface_coordinates  in which slave_height is given: "x" (3D: "xy" ...), undeformed coordinates; or [nodes][d-1]; default: natural
+                   coordinates of the facets
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
         comm       an mpi4py communicator: the surfaces are distributed over its processes. What comes back is an ents.DistributedContact, with
                    further arguments: help(ents.DistributedContact.__init__)
@@ -119,7 +124,12 @@ class Contact(ContactResults):
                 raise Error(Status.NON_FINITE, f"{name}{np.argwhere(~np.isfinite(array))[0].tolist()} is not finite")
 
         self._heat = Temperatures(model, nodes, temperature, None if self._own is None else len(self._own), master_temperature)
-        self._slave = points = SlavePoints(model, self._positions, slave, sampling, thickness, order)
+        rough = slave_model(model, slave_height)
+        self._slave = points = SlavePoints(model, self._positions, slave, 2 if sampling is None and rough is not None else sampling, thickness, order)
+        if rough is not None and not points.sampling:
+            raise Error(Status.BAD_VALUE, "sampling: 0 puts the slave points on nodes, which have no facet of their own to be raised above; write 1 or more, or "
+                        "leave out slave_height")
+        points.raise_by(rough, slave_surface_coordinates, self._positions)
         self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order, self._kept)
         self._pairs = SidePairs(points, self._master, self._positions, self._own is None)
         self.tree = Tree(model, self._master.segments, self._master.start, self._master.coordinates(surface_coordinates))
@@ -250,8 +260,10 @@ class Contact(ContactResults):
         if self._assembly is None or not np.array_equal(self._assembly[0], numbers):
             slave, of_nodes = self._slave.matrix[numbers], None if self._slave.nodes is None else self._slave.nodes[numbers]
             dofs, rows = self._master.equations(self._dofs, self.rows)
-            self._assembly = numbers, Rows(self.model, self.tree, dofs, rows, self._master.widened(slave), of_nodes,
+            self._assembly = numbers, Rows(self.model, self.tree, dofs, rows, self._master.widened(slave), self._slave.parts(numbers), of_nodes,
                                            None if self.rigid else self._master.matrix, self._master.smoothed, self._master.beside())
+        if self._slave.raised is not None:
+            self._assembly[1].place(self._pairs.now)
         of = lambda array: array if array is None or len(numbers) == len(array) else np.ascontiguousarray(array[numbers])
         found, residual, matrix = self._assembly[1].add(
             tangent, **self._heat.inputs(self._slave, of), slave=of(points), reach=self.reach, segment=of(self._hint), xi=of(self._xi),

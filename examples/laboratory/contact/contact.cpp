@@ -170,6 +170,7 @@ double Contact::multiplier_scale(std::size_t index) const {
 }
 
 std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<double>& displacement) const {
+  if (!points_.heights.empty()) return raised_position(k, displacement);
   std::array<double, 3> position = points_.place(k, *mesh_);
   const std::array<double, 3> moved = points_.combine(k, displacement, d_);
   for (std::size_t i = 0; i < d_; ++i) position[i] += moved[i];
@@ -184,6 +185,36 @@ void Contact::place(const Configuration& at) {
   master_positions_ = master_points(at.displacement);
 }
 
+std::vector<double> Contact::nodes_at(const std::vector<double>& displacement) const {
+  std::vector<double> nodes = mesh_->coordinates;
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += displacement[i];
+  return nodes;
+}
+
+std::array<double, 3> Contact::raised_position(std::size_t k, const std::vector<double>& displacement) const {
+  const std::size_t q = points_.nodes_per_point;
+  std::vector<double> face; // [q][d]: of its face alone
+  std::vector<std::int64_t> nodes;
+  for (std::size_t a = 0; a < q; ++a) {
+    const std::size_t node = static_cast<std::size_t>(points_.nodes[k * q + a]);
+    nodes.push_back(static_cast<std::int64_t>(a));
+    for (std::size_t i = 0; i < d_; ++i)
+      face.push_back(mesh_->coordinates[node * d_ + i] + displacement[node * d_ + i]);
+  }
+  const std::array<std::int64_t, 2> begin{0, stride(q)};
+  auto point = ents_struct<ents_combination>();
+  point.points = 1, point.begin = begin.data(), point.nodes = nodes.data(),
+  point.weights = &points_.weights[k * q];
+  point.heights = &points_.heights[k], point.slopes = &points_.slopes[k * q * parameters_];
+  std::array<double, 3> position{};
+  const ents::Library& library = master_.model->library();
+  auto report = ents_struct<ents_report>();
+  const std::int32_t status = library.combine(&point, static_cast<std::int32_t>(d_), stride(q), face.data(),
+                                              position.data(), &report);
+  if (status != ENTS_OK) throw JobError("slave_height: " + describe(library, status, report));
+  return position;
+}
+
 std::vector<double> Contact::slave_points(const Configuration& at) {
   std::vector<double> positions(points_.size() * d_);
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -194,8 +225,7 @@ std::vector<double> Contact::slave_points(const Configuration& at) {
 
 std::vector<double> Contact::master_points(const std::vector<double>& displacement) const {
   if (master_.rigid) return master_.positions;
-  std::vector<double> nodes = mesh_->coordinates;
-  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] += displacement[i];
+  std::vector<double> nodes = nodes_at(displacement);
   if (!master_.net) return nodes;
   master_.net->check_held(displacement);
   return master_.net->positions(nodes);

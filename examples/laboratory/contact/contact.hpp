@@ -3,6 +3,7 @@
 // faces.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,6 +53,8 @@ struct CutSpec {
   std::vector<Face> faces;
   SlaveGeometry geometry;
   int per_direction = 0; ///< 0: the slave points are given and stay
+  std::function<void(SlavePoints&)>
+      raise; ///< puts the points of a cut above their faces, if these have a height
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.
@@ -219,6 +222,10 @@ private:
   void see_from_master(const Configuration& at, std::vector<double>& positions);
   /// Positions of the slave points, of a rigid master that moves in its frame
   std::vector<double> slave_points(const Configuration& at);
+  /// Of a point above its face.
+  std::array<double, 3> raised_position(std::size_t slave, const std::vector<double>& displacement) const;
+  /// Positions of the mesh's nodes [nodes][d].
+  std::vector<double> nodes_at(const std::vector<double>& displacement) const;
   /// Out of the slave's body in these points, [points][d] of any length, as the master sees them; empty: a sheet
   /// between bodies has slaves on both sides
   std::vector<double> slave_normals(const Configuration& at);

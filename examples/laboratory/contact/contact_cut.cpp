@@ -29,8 +29,7 @@ SegmentCorners Contact::segment_corners() const {
 
 std::vector<double> Contact::slave_normals(const Configuration& at) {
   if (has_two_sides_) return {}; // a sheet has slaves on both
-  std::vector<double> positions = mesh_->coordinates, result;
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += at.displacement[i];
+  std::vector<double> positions = nodes_at(at.displacement), result;
   see_from_master(at, positions);
   const auto owner = [&](int node) { return static_cast<std::size_t>(dofs_->representative(node)); };
   std::vector<Eigen::Vector3d> of_nodes(positions.size() / d_, Eigen::Vector3d::Zero());
@@ -58,10 +57,12 @@ std::vector<double> Contact::slave_normals(const Configuration& at) {
 
 SlavePoints Contact::cut(const Configuration& at) {
   bind(at);
-  std::vector<double> positions = mesh_->coordinates;
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += at.displacement[i];
+  std::vector<double> positions = nodes_at(at.displacement);
   see_from_master(at, positions);
-  return cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry);
+  SlavePoints points =
+      cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry);
+  if (cut_.raise) cut_.raise(points);
+  return points;
 }
 
 bool Contact::cut_again(const Configuration& begin) {

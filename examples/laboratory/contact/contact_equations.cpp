@@ -9,7 +9,7 @@ namespace host {
 
 void Contact::number_unknowns() {
   dof_equations_.assign(dofs(), -1);
-  for (auto* list : {&body_equations_, &point_begin_, &slave_equations_}) list->clear();
+  for (auto* list : {&body_equations_, &slave_equations_}) list->clear();
   unknowns_.clear();
   const auto add_node = [&](std::int64_t node) {
     for (std::size_t dof = static_cast<std::size_t>(node) * d_, i = 0; i < d_; ++i, ++dof)
@@ -50,8 +50,6 @@ void Contact::number_unknowns() {
     unknowns_.push_back(dofs() + j);
   }
   signs_.resize(unknowns_.size(), 1.0);
-  for (std::size_t k = 0; k <= points_.size(); ++k)
-    point_begin_.push_back(stride(k * points_.nodes_per_point));
   for (const std::int64_t node : point_nodes_)
     for (std::size_t i = 0; i < d_; ++i)
       slave_equations_.push_back(dof_equations_[static_cast<std::size_t>(node) * d_ + i]);
@@ -121,6 +119,11 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     out.wanted |= ENTS_STATE;
     out.state_end = state_out_.data(), out.state_end_stride = stride(state_size_);
   }
+  std::vector<double> nodes;
+  if (!points_.heights.empty()) {
+    nodes = nodes_at(at.displacement);
+    if (master_.body_node < 0) see_from_master(at, nodes); // with a pose positions are in space
+  }
   auto points = ents_struct<ents_combination>();
   auto system = ents_struct<ents_system>();
   system.index_size = sizeof(int);
@@ -130,10 +133,9 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     if (!master_.net)
       system.places = places_.data(), system.places_size = stride(places_.size() / points_.size());
   } else {
-    points.points = count();
-    points.begin = point_begin_.data(), points.nodes = point_nodes_.data(),
-    points.weights = points_.weights.data();
+    points = points_.combination(point_begin_, point_nodes_);
     system.slave = &points;
+    if (!nodes.empty()) system.slave_positions = nodes.data();
   }
   auto net = ents_struct<ents_combination>();
   set_master(system, net, master_equations_);

@@ -36,6 +36,9 @@ std::vector<OwnElements::Dof> OwnElements::dofs_of(std::int64_t element) const {
     for (int i = 0; i < d; ++i) dofs.push_back({first + i, weight, equations[node * d + i]});
   };
   if (const ents_combination* points = system_.slave) {
+    if (points->heights != nullptr)
+      throw JobError(
+          "\"slave_height\" is for the library's own assembly; elements of other programs have plain slaves");
     for (std::int64_t j = points->begin[element]; j < points->begin[element + 1]; ++j)
       add_node(0, points->weights[j], system_.slave_equations, points->nodes[j]);
   } else {

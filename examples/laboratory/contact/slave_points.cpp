@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "error.hpp"
+#include "scene.hpp"
 
 namespace host {
 
@@ -22,6 +23,37 @@ std::array<double, 3> SlavePoints::combine(std::size_t point, const std::vector<
 
 std::array<double, 3> SlavePoints::place(std::size_t point, const Mesh& mesh) const {
   return combine(point, mesh.coordinates, static_cast<std::size_t>(mesh.dimension));
+}
+
+ents_combination SlavePoints::combination(std::vector<std::int64_t>& begin,
+                                          std::vector<std::int64_t>& of_nodes) const {
+  begin.clear();
+  for (std::size_t k = 0; k <= size(); ++k) begin.push_back(static_cast<std::int64_t>(k * nodes_per_point));
+  of_nodes.assign(nodes.begin(), nodes.end());
+  auto points = ents_struct<ents_combination>();
+  points.points = static_cast<std::int64_t>(size());
+  points.begin = begin.data(), points.nodes = of_nodes.data(), points.weights = weights.data();
+  if (!heights.empty()) points.heights = heights.data(), points.slopes = slopes.data();
+  return points;
+}
+
+void raise_points(const EntsLibrary& library, const ContactSpec& spec, const std::filesystem::path& folder,
+                  const Mesh& mesh, SlavePoints& points) {
+  const Json text{{"segment", mesh.dimension == 2 ? "line2" : "quad4"}, {"height", spec.slave_height}};
+  const EntsModel surface(library, text.dump(), folder, spec.slave_height_where);
+  points.heights.clear();
+  std::vector<std::int64_t> begin, nodes;
+  const ents_combination flat = points.combination(begin, nodes);
+  const std::vector<double> coordinates = surface_coordinates(
+      spec.slave_coordinates, mesh.dimension, mesh.coordinates, nodes, points.nodes_per_point);
+  std::vector<double> heights(points.size()),
+      slopes(nodes.size() * static_cast<std::size_t>(mesh.dimension - 1));
+  auto report = ents_struct<ents_report>();
+  const std::int32_t status =
+      library.raise_points(surface.get(), &flat, coordinates.empty() ? nullptr : coordinates.data(),
+                           heights.data(), slopes.data(), &report);
+  if (status != ENTS_OK) throw InputError(spec.slave_height_where + ": " + describe(library, status, report));
+  points.heights = std::move(heights), points.slopes = std::move(slopes);
 }
 
 SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,

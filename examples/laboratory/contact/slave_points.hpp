@@ -17,14 +17,19 @@ struct SlavePoints {
   std::vector<int> nodes;      ///< [points][nodes_per_point]
   std::vector<double> weights; ///< [points][nodes_per_point]
   std::vector<double> areas;   ///< [points]
+  std::vector<double>
+      heights; ///< [points] above their faces, along normals that turn with them [L]; empty: in them
+  std::vector<double> slopes; ///< [points][nodes_per_point][d-1] of the weights, with heights
 
   std::size_t size() const { return areas.size(); }
   bool are_nodes() const { return nodes_per_point == 1; }
 
   /// Sum of the weights times a field [mesh nodes][d].
   std::array<double, 3> combine(std::size_t point, const std::vector<double>& field, std::size_t d) const;
-  /// Reference position.
+  /// Place in the undeformed face, below the point if it has a height.
   std::array<double, 3> place(std::size_t point, const Mesh& mesh) const;
+  /// As the library takes them. `begin` [points + 1] and `nodes` are filled, and have to live as long
+  ents_combination combination(std::vector<std::int64_t>& begin, std::vector<std::int64_t>& nodes) const;
 };
 
 /// What areas are made of.
@@ -45,5 +50,11 @@ SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<
 /// @throws InputError if the faces are not all of one kind
 SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const std::vector<Face>& faces,
                             int per_direction, const SlaveGeometry& geometry, const std::string& where);
+
+struct ContactSpec;
+/// Points inside faces get the heights of the scene's "slave_height".
+/// @param folder  where relative names of height maps start
+void raise_points(const EntsLibrary& library, const ContactSpec& spec, const std::filesystem::path& folder,
+                  const Mesh& mesh, SlavePoints& points);
 
 } // namespace host

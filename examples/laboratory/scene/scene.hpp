@@ -99,12 +99,15 @@ struct ContactSpec {
   std::optional<RigidBodySpec> body; ///< rigid master that moves and turns
   Path wear_factor; ///< of the model's wear coefficient, over the pressure at the begin of the increment; no
                     ///< points: 1
-  std::string master, master_where;                    ///< deformable master: faces, each one segment
-  std::string ends = "repeated";                       ///< smoothed master: the scene's key "ends"
-  std::vector<MirrorPlane> mirror;                     ///< smoothed master
-  CoordinateRule coordinates;                          ///< deformable master: its surface coordinates
-  std::vector<double> direction;                       ///< rigid master: unit vector of its motion
-  CutOff cut_off;                                      ///< short waves of the height become a law
+  std::string master, master_where; ///< deformable master: faces, each one segment
+  std::string ends = "repeated";    ///< smoothed master: the scene's key "ends"
+  std::vector<MirrorPlane> mirror;  ///< smoothed master
+  CoordinateRule coordinates;       ///< deformable master: its surface coordinates
+  std::vector<double> direction;    ///< rigid master: unit vector of its motion
+  CutOff cut_off;                   ///< short waves of the height become a law
+  Json slave_height;                ///< of the slave's faces; null: they are plain
+  std::string slave_height_where;
+  CoordinateRule slave_coordinates;                    ///< in which it is given
   std::function<double(double x, double y)> law_scale; ///< of a law "table" in a slave point; empty: 1
   bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
   bool hard = false; ///< "law": "hard": the model has augmented multipliers, and Simulation their stiffness

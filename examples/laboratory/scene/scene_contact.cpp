@@ -55,6 +55,16 @@ void read_cut_off(const JsonValue& value, ContactSpec& contact) {
   object.finish();
 }
 
+void read_slave_height(const JsonValue& value, int dimension, ContactSpec& contact) {
+  JsonObject object(value);
+  contact.slave_height = object.at("height").json();
+  contact.slave_height_where = value.where();
+  contact.slave_coordinates = read_coordinate_rule(object.at("surface_coordinates"), dimension);
+  object.finish();
+  if (contact.sampling == 0 && contact.cut == 0)
+    value.fail("a rough slave has its points inside its faces; write \"sampling\": 1 or more, or \"cut\"");
+}
+
 void read_law(const JsonValue& value, ContactSpec& contact) {
   contact.hard = value.word({"hard"}) == "hard";
   if (contact.cut_off.wavelength > 0)
@@ -97,6 +107,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   contact.slave = object.at("slave").string();
   contact.slave_where = object.at("slave").where();
   if (object.has("sampling")) read_sampling(object.at("sampling"), contact);
+  if (object.has("slave_height")) read_slave_height(object.at("slave_height"), dimension, contact);
   if (object.has("areas")) {
     const JsonValue areas = object.at("areas");
     contact.equal_areas = areas.word({"tributary", "equal"}) == "equal";

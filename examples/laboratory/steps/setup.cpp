@@ -314,10 +314,15 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
                                scene_->contact->equal_areas};
   const ContactSpec& contact = *of_master.contact;
   SlavePoints points;
-  CutSpec cut{slaves, geometry, contact.cut};
-  if (contact.sampling > 0)
+  CutSpec cut{slaves, geometry, contact.cut, {}};
+  if (!contact.slave_height.is_null())
+    cut.raise = [this, library, contact](SlavePoints& of) {
+      raise_points(*library, contact, scene_->file.parent_path(), mesh_, of);
+    };
+  if (contact.sampling > 0) {
     points = sampling_points(*library, mesh_, slaves, contact.sampling, geometry, contact.slave_where);
-  else if (contact.cut == 0)
+    if (cut.raise) cut.raise(points);
+  } else if (contact.cut == 0)
     points = slave_nodes(mesh_, *dofs_, slaves, geometry);
   contact_ = std::make_unique<Contact>(std::move(master), contact, mesh_, *dofs_, std::move(points),
                                        std::move(cut), geometry.axisymmetric ? 0 : geometry.thickness);
