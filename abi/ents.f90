@@ -592,6 +592,16 @@ module ents
       integer(c_int32_t) :: status
     end function ents_tree_refit
 
+    ! Boxes around the enriched segments, with their heights and borders.
+    function ents_surface_boxes(model, mesh, boxes, report) result(status) bind(c, name="ents_surface_boxes")
+      import :: c_double, c_int32_t, c_ptr, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(inout) :: boxes(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_surface_boxes
+
     ! Project the slave nodes first .. first + count - 1 on the surface.
     function ents_detect(model, mesh, tree, size, first, count, detection, report) result(status) bind(c, name="ents_detect")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_master_mesh, ents_report

@@ -337,6 +337,14 @@ ENTS_API int32_t ents_tree_build(const ents_model *model, const ents_master_mesh
 ENTS_API int32_t ents_tree_refit(const ents_model *model, const ents_master_mesh *mesh, double *tree, int64_t size,
                                  ents_report *report);
 
+/* Boxes around the enriched segments, with their heights and borders: those that a tree is made of. Where a surface is distributed over
+ * processes, they tell which master facets another process needs as ghosts: those whose box is nearer to its slave nodes than
+ * the reach. Since contract 1.11
+ *   model, mesh  as of ents_tree_build
+ *   boxes        [segments][2 d] out: low[d], high[d] of each, [L]
+ * Errors: those of ents_tree_build; the boxes before that of report.element are then written. */
+ENTS_API int32_t ents_surface_boxes(const ents_model *model, const ents_master_mesh *mesh, double *boxes, ents_report *report);
+
 /* Slave nodes, and the segments that ents_detect finds for them. */
 typedef struct ents_detection {
   int32_t struct_size;

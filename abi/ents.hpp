@@ -58,7 +58,7 @@ struct Error : std::runtime_error {
   X(version)                                                                                                 \
   X(check_contract) X(height_register) X(model_create) X(model_create_from_file) X(model_destroy)            \
       X(model_layout) X(model_bind) X(parameter_place) X(field_size) X(field_init) X(field_sample)           \
-          X(tree_size) X(tree_build) X(tree_refit) X(detect) X(evaluate) X(state_init) X(state_augment)      \
+          X(tree_size) X(tree_build) X(tree_refit) X(surface_boxes) X(detect) X(evaluate) X(state_init) X(state_augment)      \
               X(state_transfer) X(wear_collect) X(parameter_derivatives) X(tributary_areas) X(contact_area)  \
                   X(contact_resultants) X(suggest) X(combine) X(sampling_points) X(raise_points)             \
                       X(smooth_size) X(smooth) X(smooth_mirrored_size) X(smooth_mirrored) X(pose_init)       \

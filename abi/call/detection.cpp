@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole master surfaces: the tree and the detection.
+#include "core/search/segment_tree.hpp"
 #include "core/search/way.hpp"
 
 #include <cmath>
@@ -123,6 +124,24 @@ std::int32_t make_tree(const ents_model* model, const ents_master_mesh* caller, 
   const Status outcome = make(model->plan, mesh, tree, segment);
   return outcome == Status::ok ? report_ok(report)
                                : explain_segment(model->plan, mesh, outcome, segment, report);
+}
+
+std::int32_t list_boxes(const ents_model* model, const ents_master_mesh* caller, double* boxes,
+                        ents_report* report) {
+  const FloatingPointGuard guard;
+  std::int32_t status = check_handle(model, report);
+  MasterMesh mesh;
+  if (status == ENTS_OK) status = check_mesh(caller, "mesh", mesh, report);
+  if (status != ENTS_OK) return status;
+  if (mesh.segments > 0 && !boxes)
+    return report_status(report, ENTS_NULL_ARGUMENT, -1, "argument 'boxes' is null");
+  const int d = model->plan.dimension;
+  for (std::int64_t s = 0; s < mesh.segments; ++s) {
+    double* box = boxes + s * 2 * d;
+    if (const Status outcome = box_of_segment(model->plan, mesh, s, box, box + d); outcome != Status::ok)
+      return explain_segment(model->plan, mesh, outcome, s, report);
+  }
+  return report_ok(report);
 }
 
 } // namespace
@@ -318,6 +337,11 @@ int32_t ents_tree_refit(const ents_model* model, const ents_master_mesh* mesh, d
                         ents_report* report) {
   return ents::entry_point(
       report, [&] { return ents::make_tree(model, mesh, tree, size, ents::refit_tree, true, report); });
+}
+
+int32_t ents_surface_boxes(const ents_model* model, const ents_master_mesh* mesh, double* boxes,
+                           ents_report* report) {
+  return ents::entry_point(report, [&] { return ents::list_boxes(model, mesh, boxes, report); });
 }
 
 int32_t ents_detect(const ents_model* model, const ents_master_mesh* mesh, const double* tree, int64_t size,

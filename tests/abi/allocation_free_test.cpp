@@ -78,6 +78,8 @@ public:
     admissibility_.samples = 5;
     ents_model_check(model_.get(), elements_[0][master].data(), nullptr, &admissibility_, &report_);
     ents_tree_refit(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), &report_);
+    double boxes[6];
+    ents_surface_boxes(model_.get(), &mesh_, boxes, &report_);
     for (const int64_t before : {-1, 0}) {
       segment_ = before;
       ents_detect(model_.get(), &mesh_, tree_.data(), static_cast<int64_t>(tree_.size()), 0, 1, &detection_,

@@ -116,6 +116,8 @@ TEST(FloatingPointEnvironment, IsKeptByFunctionsOfWholeSurfaces) {
       EXPECT_KEPT(setting, [&] { status = ents_tree_build(m, &s.mesh, tree, size, nullptr); });
       EXPECT_EQ(status == ENTS_OK, std::isfinite(scale)) << status;
       EXPECT_KEPT(setting, [&] { ents_tree_refit(m, &s.mesh, tree, size, nullptr); });
+      double boxes[6];
+      EXPECT_KEPT(setting, [&] { ents_surface_boxes(m, &s.mesh, boxes, nullptr); });
       EXPECT_KEPT(setting,
                   [&] { status = ents_detect(m, &s.mesh, tree, size, 0, 1, &s.detection, nullptr); });
       EXPECT_TRUE(scale != 1.0 || (status == ENTS_OK && s.segment == 0)) << status;

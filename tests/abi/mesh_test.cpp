@@ -66,6 +66,34 @@ TEST(Mesh, GivesTheBitsOfTheCallersArrays) {
   }
 }
 
+// A box holds all of its enriched segment, with its height.
+TEST(Mesh, BoxesHoldTheEnrichedSegments) {
+  Random random(83);
+  for (const ModelKind& kind : all_kinds()) {
+    const Model model(text(kind));
+    const Basis& form = basis(kind.basis);
+    MeshOfElements m(model, form, random);
+    const int64_t d = model.layout.dimension, nodes = model.layout.nodes, p = model.layout.parameters;
+    std::vector<double> boxes(static_cast<std::size_t>(m.mesh.segments * 2 * d), 7e77);
+    ASSERT_EQ(call::surface_boxes(model.get(), &m.mesh, boxes.data(), nullptr), ENTS_OK) << text(kind);
+    for (int64_t s = 0; s < m.mesh.segments; ++s) {
+      double xi[2] = {random(0.0, 1.0), random(0.0, 1.0)}, point[3] = {};
+      for (double& x : xi) x = form.simplex ? x / 2 : 2 * x - 1;
+      ents_surface surface{};
+      surface.struct_size = sizeof surface;
+      surface.master = m.positions.data() + s * nodes * d, surface.xi = xi, surface.point = point;
+      if (!m.coordinates.empty()) surface.surface_coordinates = m.coordinates.data() + s * nodes * p;
+      ASSERT_EQ(call::surface_evaluate(model.get(), int64_t{1}, &surface, nullptr), ENTS_OK) << text(kind);
+      const double* box = boxes.data() + s * 2 * d;
+      for (int64_t k = 0; k < d; ++k) {
+        const double rounding = 1e-14 * (std::fabs(box[k]) + std::fabs(box[d + k])); // of a sum over nodes
+        EXPECT_GE(point[k], box[k] - rounding) << text(kind);
+        EXPECT_LE(point[k], box[d + k] + rounding) << text(kind);
+      }
+    }
+  }
+}
+
 class MeshMistakes : public testing::Test {
 protected:
   MeshMistakes() {
@@ -140,6 +168,30 @@ TEST_F(MeshMistakes, InTheMesh) {
   expect(ENTS_STRUCT_SIZE, "mesh.reserved", [&] { return detect(); });
   mesh_.reserved = 0;
   EXPECT_EQ(detect(), ENTS_OK);
+}
+
+TEST_F(MeshMistakes, InTheBoxes) {
+  double boxes[8] = {};
+  const auto list = [&] { return call::surface_boxes(model_.get(), &mesh_, boxes, &report_); };
+  ASSERT_EQ(list(), ENTS_OK);
+  for (int s = 0; s < 2; ++s) { // lines of length 1 with the default border, a tenth of their half length
+    const double* box = boxes + 4 * s;
+    EXPECT_LE(box[0], s);
+    EXPECT_GE(box[2], s + 1);
+    EXPECT_LT(box[2] - box[0], 1.2);
+    EXPECT_LT(box[3] - box[1], 0.2);
+  }
+  connectivity_[3] = 3;
+  expect(ENTS_BAD_VALUE, "node 1 of segment 1 is 3; nodes are 0 .. 2", list);
+  EXPECT_EQ(report_.element, 1);
+  connectivity_[3] = 2;
+  positions_[3] = std::numeric_limits<double>::quiet_NaN();
+  expect(ENTS_NON_FINITE, "mesh.positions of node 1", list);
+  positions_[3] = 0.0;
+  EXPECT_EQ(call::surface_boxes(model_.get(), &mesh_, nullptr, &report_), ENTS_NULL_ARGUMENT);
+  EXPECT_EQ(call::surface_boxes(nullptr, &mesh_, boxes, &report_), ENTS_NULL_ARGUMENT);
+  mesh_.segments = 0;
+  EXPECT_EQ(call::surface_boxes(model_.get(), &mesh_, nullptr, &report_), ENTS_OK);
 }
 
 TEST_F(MeshMistakes, InTheTree) {

@@ -14,10 +14,6 @@ if TYPE_CHECKING:
     from ._model import Model
 
 
-LAYOUT, LEAF_SEGMENTS = 1701737592.0, 4
-"""The layout of a tree in memory: [tag + d, segments, stamp, order[segments], boxes[2 leaves][low[d], high[d]]]; another layout has another tag."""
-
-
 class Tree:
     """A master surface of many segments, and detection on it.
 
@@ -69,17 +65,9 @@ class Tree:
             raise
 
     def boxes(self) -> np.ndarray:
-        """[segments][2 d]: low and high corners of boxes that hold the enriched segments, with their heights and borders. Boxes of the tree's
-        leaves, which have up to four segments."""
-        d, count, tree = self.model.layout.dimension, len(self._connectivity), self._tree
-        if tree[0] != LAYOUT + d or tree[1] != count:
-            raise Error(Status.VERSION, f"Tree.boxes: this library lays trees out in another way (tag {tree[0] - d:.0f}, wanted is {LAYOUT:.0f}): take the "
-                        "package and the library of one version")
-        depth = max(0, int(np.ceil(np.log2(max(count, 1) / LEAF_SEGMENTS))))
-        leaves = 1 << depth
-        leaf = np.repeat(np.arange(leaves), np.diff((np.arange(leaves + 1) * count) >> depth))
-        found = np.empty((count, 2 * d))
-        found[tree[3:3 + count].astype(np.int64)] = tree[3 + count:].reshape(2 * leaves, 2 * d)[leaves + leaf]
+        """[segments][2 d]: low and high corners of boxes around the enriched segments, with their heights and borders."""
+        found = np.empty((len(self._connectivity), 2 * self.model.layout.dimension))
+        self.model._call("surface_boxes", self.mesh, found)
         return found
 
     def detect(self, slave: Any, reach: float, segment: Any = None, xi: Any = None, permitted: int = 0,
