@@ -172,7 +172,7 @@ module ents
   end type ents_master_mesh
 
   type, bind(c) :: ents_detection
-    integer(c_int32_t) :: struct_size = 24 + 10*pointer_bytes
+    integer(c_int32_t) :: struct_size = 24 + 14*pointer_bytes
     integer(c_int32_t) :: reserved = 0
     type(c_ptr) :: slave = c_null_ptr ! (d, count)
     real(c_double) :: reach = 0
@@ -186,6 +186,10 @@ module ents
     type(c_ptr) :: slave_begin = c_null_ptr ! (d, count)
     type(c_ptr) :: positions_begin = c_null_ptr ! (d, nodes)
     type(c_ptr) :: slave_normal = c_null_ptr ! (d, count)
+    type(c_ptr) :: slave_segment = c_null_ptr ! (count), int64
+    type(c_ptr) :: depth = c_null_ptr ! (count)
+    type(c_ptr) :: slave_side = c_null_ptr ! (count), int32
+    type(c_ptr) :: segment_side = c_null_ptr ! int32
   end type ents_detection
 
   type, bind(c) :: ents_input
@@ -613,6 +617,20 @@ module ents
       type(ents_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function ents_detect
+
+    ! Self-contact.
+    function ents_thickness(model, mesh, tree, size, first, count, detection, thickness, report) result(status) &
+      bind(c, name="ents_thickness")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, ents_detection, ents_master_mesh, ents_report
+      type(c_ptr), value :: model
+      type(ents_master_mesh), intent(in), target :: mesh
+      real(c_double), intent(in) :: tree(*)
+      integer(c_int64_t), value :: size, first, count
+      type(ents_detection), intent(in), target :: detection
+      real(c_double), intent(inout) :: thickness(*)
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_thickness
 
     ! Evaluate the elements first .. first + count - 1 of the arrays.
     function ents_evaluate(model, first, count, input, output, report) result(status) bind(c, name="ents_evaluate")

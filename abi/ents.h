@@ -367,6 +367,13 @@ typedef struct ents_detection {
   const double *positions_begin;     /* [nodes][d] of the mesh at the begin of the increment, [L]; null: the mesh does not move. Since contract 1.8 */
   const double *slave_normal;        /* [count][d] of the slave's own surface, out of its body, of any length, or null. Segments that look the same way
                                         are left out (below); zeros: none are, for this slave. Since contract 1.9 */
+  const int64_t *slave_segment;      /* [count] or null: the segment of the mesh on which each slave lies, or -1. It and the segments that share a node
+                                        with it are left out, as those of slave_node. Since contract 1.11, as what follows */
+  const double *depth;               /* [count] > 0 [L], or null: a slave that is behind a segment by more is not in contact with it (self-contact:
+                                        half the thickness of the body below the slave, ents_thickness) */
+  const int32_t *slave_side;         /* [count], [segments], or both null: numbers of the sides; segments of the slave's own side are left out. For two
+                                        passes, in which each of two surfaces is slave and master */
+  const int32_t *segment_side;
 } ents_detection;
 
 /* Project the slave nodes first .. first + count - 1 on the surface.
@@ -384,6 +391,9 @@ typedef struct ents_detection {
  * Segments that look away. With `slave_normal`, a segment whose normal (rho without its height, at its middle) makes an angle of less than
  * 93 degrees with that of the slave is left out of the search: at the corner of a body whose whole boundary is the master, the slave above
  * one side is never taken by the next one. A slave that is followed keeps its segment.
+ * Self-contact of one surface: slave_normal, slave_node or slave_segment, and depth. With depth, segments are left out whose normal makes an
+ * angle of less than 120 degrees with that of the slave, an edge that is farther behind a slave than its depth is none, too, and the way
+ * (below) is looked at in steps of depth / 2 where that is less than reach / 2.
  * Edges (normal projection). A slave node beyond the edges of all segments has no projection, unless it lies within the model's
  * "border" of one. Where a point of an edge is closer to the slave node than every projection, the normals of the segments that meet
  * there decide. Behind a concave edge (a kink of a plain mesh) the slave node has penetrated, but projects on neither segment: segment is
@@ -405,6 +415,21 @@ typedef struct ents_detection {
  * the slave with the error on. */
 ENTS_API int32_t ents_detect(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size,
                              int64_t first, int64_t count, const ents_detection *detection, ents_report *report);
+
+/* Self-contact: one surface is slave and master. How thick is the body below each slave? Since contract 1.11. A slave on one side of a thin
+ * body is behind the other side as one that has penetrated another part of the surface is behind that. Where they lie cannot tell them
+ * apart, and the thickness does: take half of it as detection.depth.
+ *   model .. count   as of ents_detect; normal projection. The mesh as it is at the begin of an increment
+ *   detection        slave, reach, slave_normal (needed) and what is left out: slave_node, slave_segment, sides. Not written
+ *   thickness        [count] in: the thickness at the begin of the increment before, or 0 the first time; out: the distance of the
+ *                    slave from the nearest point of the segments that it is behind and that lies below the tangent plane of its own
+ *                    surface, at most 2 reach; segments count whose normal makes an angle of more than 104 degrees with the slave's. Nearer places than half the thickness of before (the first time: 1e-4 reach) are contact, not
+ *                    the other side of the body
+ * The first configuration must not overlap itself by more than 1e-4 reach: it would be taken for a thin body, and the overlap not be seen as contact.
+ * No increment may halve the thickness, or turn a corner of the body by more than 16 degrees: its other side would be taken for contact.
+ * Errors: those of ents_detect, with nothing written from the slave with the error on; BAD_VALUE for shadow projections. */
+ENTS_API int32_t ents_thickness(const ents_model *model, const ents_master_mesh *mesh, const double *tree, int64_t size, int64_t first,
+                                int64_t count, const ents_detection *detection, double *thickness, ents_report *report);
 
 /* ---- evaluation ------------------------------------------------------------------------------- */
 

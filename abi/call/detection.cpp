@@ -68,9 +68,9 @@ std::int32_t explain_lost_contact(Lost lost, std::int64_t slave, std::int64_t be
   if (lost == Lost::too_deep)
     return report_message(
         report, ENTS_NO_PROJECTION, slave,
-        "slave %lld was on segment %lld and lies deeper than detection.reach (%g) now: take a smaller step, "
-        "or "
-        "give a larger reach (ENTS_FLAG_LEFT in detection.permitted: go on without its contact)",
+        "slave %lld was on segment %lld and lies deeper than detection.reach (%g), or than its depth, now: "
+        "take a smaller step, or give a larger reach (ENTS_FLAG_LEFT in detection.permitted: go on without "
+        "its contact)",
         number, segment, reach);
   return report_message(
       report, ENTS_NO_PROJECTION, slave,
@@ -180,7 +180,13 @@ std::int32_t DetectionCall::open(const ents_model* handle, const ents_master_mes
                           !io->slave     ? "slave"
                           : !io->segment ? "segment"
                                          : "xi");
-  slave_begin = io->slave_begin, positions_begin = io->positions_begin, slave_normal = io->slave_normal;
+  if (count > 0 && !io->slave_side != !io->segment_side)
+    return report_message(report, ENTS_NULL_ARGUMENT, -1, "detection.%s is null, and detection.%s is not",
+                          io->slave_side ? "segment_side" : "slave_side",
+                          io->slave_side ? "slave_side" : "segment_side");
+  slave_begin = io->slave_begin, positions_begin = io->positions_begin, depth = io->depth;
+  left_out = {io->slave_node, io->slave_segment, io->slave_side, io->segment_side, io->slave_normal};
+  if (depth) left_out.facing = faces_itself;
   return ENTS_OK;
 }
 
@@ -200,6 +206,28 @@ std::int64_t DetectionCall::segment_before(std::int64_t slave, double (&xi)[2]) 
   return static_cast<std::int64_t>(state[layout.size]) - 1;
 }
 
+std::int32_t DetectionCall::read_left_out(std::int64_t i, LeftOut& out, ents_report* report) const {
+  const long long number = i;
+  out = left_out.of(i, model->plan.dimension);
+  if (out.normal && first_non_finite(out.normal, model->plan.dimension) >= 0)
+    return report_message(report, ENTS_NON_FINITE, i,
+                          "detection.slave_normal of node %lld is NaN or infinite", number);
+  if (out.node < -1 || out.node >= mesh.nodes)
+    return report_message(report, ENTS_BAD_VALUE, i,
+                          "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld", number,
+                          static_cast<long long>(out.node), static_cast<long long>(mesh.nodes - 1));
+  if (out.segment < -1 || out.segment >= mesh.segments)
+    return report_message(report, ENTS_BAD_VALUE, i,
+                          "detection.slave_segment of node %lld is %lld; -1 or 0 .. %lld", number,
+                          static_cast<long long>(out.segment), static_cast<long long>(mesh.segments - 1));
+  if (depth && !(depth[i] > 0.0))
+    return report_message(report, ENTS_BAD_VALUE, i,
+                          "detection.depth of node %lld is %g; a length above 0 is needed: half the "
+                          "thickness of the body there (ents_thickness)",
+                          number, depth[i]);
+  return ENTS_OK;
+}
+
 std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, ents_report* report) const {
   const Plan& plan = model->plan;
   const std::int64_t permitted = judges ? io->permitted : 0;
@@ -217,17 +245,9 @@ std::int32_t DetectionCall::detect_all(std::int64_t first, std::int64_t count, e
                             std::isnan(slave[k]) ? "NaN" : "infinite");
     Detection found;
     found.segment = io->segment[i];
-    if (io->slave_node) found.own_node = io->slave_node[i];
-    found.slave_normal = slave_normal ? slave_normal + i * plan.dimension : nullptr;
-    if (found.slave_normal && first_non_finite(found.slave_normal, plan.dimension) >= 0)
-      return report_message(report, ENTS_NON_FINITE, i,
-                            "detection.slave_normal of node %lld is NaN or infinite",
-                            static_cast<long long>(i));
-    if (found.own_node < -1 || found.own_node >= mesh.nodes)
-      return report_message(report, ENTS_BAD_VALUE, i,
-                            "detection.slave_node of node %lld is %lld; -1 or 0 .. %lld",
-                            static_cast<long long>(i), static_cast<long long>(found.own_node),
-                            static_cast<long long>(mesh.nodes - 1));
+    if (const std::int32_t status = read_left_out(i, found.left_out, report); status != ENTS_OK)
+      return status;
+    if (depth) found.depth = depth[i];
     if (found.segment < -1 || found.segment >= mesh.segments)
       return report_message(report, ENTS_BAD_VALUE, i,
                             "detection.segment of node %lld is %lld; -1 or 0 .. %lld",
@@ -283,14 +303,15 @@ std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count,
                             "positions_begin of node %lld of the mesh is NaN or infinite",
                             static_cast<long long>(k / d));
   Crossing crossing;
-  if (const Status status = find_crossing(
-          plan, mesh, tree, {slave_begin, io->slave, positions_begin, io->slave_node, slave_normal}, first,
-          count, io->reach, crossing);
+  if (const Status status =
+          find_crossing(plan, mesh, tree, {slave_begin, io->slave, positions_begin, left_out, depth}, first,
+                        count, io->reach, crossing);
       status != Status::ok)
     return report_status(report, static_cast<std::int32_t>(status), -1,
                          "on the way from slave_begin and positions_begin to the end of the increment");
   if (crossing.slave < 0) return report_ok(report);
   const long long slave = crossing.slave;
+  const char* by = crossing.within < io->reach ? "depth" : "reach";
   const std::int32_t status =
       crossing.seen
           ? report_message(
@@ -299,12 +320,12 @@ std::int32_t DetectionCall::look_at_ways(std::int64_t first, std::int64_t count,
                 "after %.3g of the increment): take a smaller step (ENTS_FLAG_CROSSED in "
                 "detection.permitted: go on)",
                 slave, crossing.part)
-          : report_message(
-                report, ENTS_NO_PROJECTION, crossing.slave,
-                "slave %lld moves by %.6g relative to the master surface, %.3g times reach: it may "
-                "pass through it unseen. Take a smaller step, or give a larger reach "
-                "(ENTS_FLAG_CROSSED in detection.permitted: go on)",
-                slave, crossing.moved, crossing.moved / io->reach);
+          : report_message(report, ENTS_NO_PROJECTION, crossing.slave,
+                           "slave %lld moves by %.6g relative to the master surface, %.3g times %s: it may "
+                           "pass through it "
+                           "unseen. Take a smaller step%s (ENTS_FLAG_CROSSED in detection.permitted: go on)",
+                           slave, crossing.moved, crossing.moved / crossing.within, by,
+                           crossing.within < io->reach ? "" : ", or give a larger reach");
   report_step(report, crossing.part);
   return status;
 }

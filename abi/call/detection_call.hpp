@@ -24,9 +24,13 @@ struct DetectionCall {
   std::int64_t state_begin_stride = 0;
   // Where slaves and nodes were at the begin of the increment, or null: ways are not looked at.
   const double *slave_begin = nullptr, *positions_begin = nullptr;
-  const double* slave_normal = nullptr;
+  LeftOutOfSlaves left_out;
+  const double* depth = nullptr; // [slaves] or null
   // A slave behind an edge that had no segment ends the call, too.
   bool needs_all = false;
+
+  // What is left out for slave i. Errors are reported.
+  std::int32_t read_left_out(std::int64_t i, LeftOut& out, ents_report* report) const;
 
   // Ends with ENTS_NO_PROJECTION if a slave's contact is lost and the caller does not permit it.
   std::int32_t detect_all(std::int64_t first, std::int64_t count, ents_report* report) const;

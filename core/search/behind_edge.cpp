@@ -95,7 +95,7 @@ bool corner_of(const Plan& plan, const SegmentNodes& nodes, const Place& near, C
 // The segments whose borders go through a place, heights left aside, which is on the border of one of them;
 // -1: more than there is room for.
 int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, const Place& place,
-               const double* slave_normal, Place (&found)[most_segments]) {
+               const LeftOut& left_out, Place (&found)[most_segments]) {
   const int d = plan.dimension;
   SegmentNodes nodes;
   if (gather(plan, mesh, place.segment, nodes) != Status::ok) return 0;
@@ -108,7 +108,7 @@ int meeting_in(const Plan& plan, const MasterMesh& mesh, const double* tree, con
       [&](std::int64_t segment) {
         if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok)
           return gathered;
-        if (looks_away(plan, nodes, slave_normal)) return Status::ok;
+        if (is_left_out(plan, mesh, segment, nodes, left_out)) return Status::ok;
         BorderPoint border;
         Place here;
         if (!plan.base->border_point(*plan.base, place.base_point, nodes.positions, nodes.surface_coordinates,
@@ -160,7 +160,7 @@ bool pseudonormal(const Plan& plan, const MasterMesh& mesh, const Place* found, 
 } // namespace
 
 bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
-                    const double* slave_normal, double limit, NearestBorder& out) {
+                    const LeftOut& left_out, double limit, NearestBorder& out) {
   out.at.distance = limit, out.segment = -1;
   const Status status = visit_segments(
       BoxTree(plan, mesh.segments), tree,
@@ -170,7 +170,7 @@ bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree
         SegmentNodes nodes;
         if (const Status gathered = gather(plan, mesh, segment, nodes); gathered != Status::ok)
           return gathered;
-        if (looks_away(plan, nodes, slave_normal)) return Status::ok;
+        if (is_left_out(plan, mesh, segment, nodes, left_out)) return Status::ok;
         if (plan.border_point(plan, slave, nodes.positions, nodes.surface_coordinates, out.at.distance,
                               out.at))
           out.segment = segment;
@@ -180,7 +180,7 @@ bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree
 }
 
 BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
-                          const double* slave_normal, const NearestBorder& nearest, double& crack) {
+                          const LeftOut& left_out, const NearestBorder& nearest, double& crack) {
   const int d = plan.dimension;
   SegmentNodes nodes;
   Place place, found[most_segments];
@@ -194,7 +194,7 @@ BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double
     for (int k = 0; k < d; ++k) sum += (slave[k] - place.point[k]) * outward[k];
     return sum;
   };
-  const int count = meeting_in(plan, mesh, tree, place, slave_normal, found);
+  const int count = meeting_in(plan, mesh, tree, place, left_out, found);
   if (count < 0) return BorderSide::behind; // better a step cut than a penetration unseen
   double outward[3] = {};
   if (!pseudonormal(plan, mesh, found, count, outward))

@@ -22,14 +22,14 @@ enum class BorderSide {
   beside_behind
 }; // beside_...: of a free border, continued by its tangent plane
 
-// Segments that look away from a slave's normal (or null) do not count: their neighbours end there.
+// Segments that are left out do not count: their neighbours end there.
 
 // The point of the borders of all segments that is closest to the slave. False: none is closer than `limit`.
 bool nearest_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
-                    const double* slave_normal, double limit, NearestBorder& out);
+                    const LeftOut& left_out, double limit, NearestBorder& out);
 
 // crack: by how much the enriched segments that meet there are apart (0 where they meet).
 BorderSide side_of_border(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* slave,
-                          const double* slave_normal, const NearestBorder& nearest, double& crack);
+                          const LeftOut& left_out, const NearestBorder& nearest, double& crack);
 
 } // namespace ents

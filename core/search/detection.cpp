@@ -88,8 +88,8 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
   NearestBorder nearest{{}, -1};
   nearest.at.distance = found;
   const bool flat = !plan.height && plan.nodes == plan.dimension; // its projection is its closest point
-  if (candidates.count <= Candidates::most || out.own_node >= 0 || out.slave_normal) {
-    for (int i = 0; i < std::min(candidates.count, Candidates::most); ++i) {
+  if (candidates.count <= Candidates::most) {
+    for (int i = 0; i < candidates.count; ++i) {
       if (!(candidates.at_least[i] < nearest.at.distance) || (flat && candidates.segment[i] == out.segment))
         continue;
       SegmentNodes nodes;
@@ -99,11 +99,13 @@ void judge_by_border(const Plan& plan, const MasterMesh& mesh, const double* tre
         nearest.segment = candidates.segment[i];
     }
   } else {
-    nearest_border(plan, mesh, tree, slave, out.slave_normal, found, nearest);
+    nearest_border(plan, mesh, tree, slave, out.left_out, found, nearest);
   }
   if (nearest.segment < 0) return;
   double crack;
-  const BorderSide side = side_of_border(plan, mesh, tree, slave, out.slave_normal, nearest, crack);
+  const BorderSide side = side_of_border(plan, mesh, tree, slave, out.left_out, nearest, crack);
+  // the far side of the slave's own body
+  if (side == BorderSide::behind && nearest.at.distance > out.depth) return;
   if (out.segment < 0) {
     out.behind_edge = side == BorderSide::behind;
     return;
@@ -164,35 +166,12 @@ Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, Se
   return size < infinity ? Status::ok : Status::non_finite;
 }
 
-bool looks_away(const Plan& plan, const SegmentNodes& nodes, const double* slave_normal) {
-  if (!slave_normal) return false;
-  constexpr double facing = -0.05;
-  double size2 = 0.0, along = 0.0, normal[3];
-  for (int k = 0; k < plan.dimension; ++k) size2 += slave_normal[k] * slave_normal[k];
-  if (!(size2 > 0.0)) return false;
-  const double middle[2] = {plan.simplex ? 1.0 / 3.0 : 0.0, plan.simplex ? 1.0 / 3.0 : 0.0};
-  const SurfacePoint to = {nullptr, nullptr, nullptr, nullptr, normal, nullptr, nullptr};
-  if (plan.surface(plan, nodes.positions, nodes.surface_coordinates, middle, to) != Status::ok) return false;
-  for (int k = 0; k < plan.dimension; ++k) along += normal[k] * slave_normal[k];
-  return along > facing * std::sqrt(size2);
-}
-
-namespace {
-
-// Segments of the slave's own node are none for it.
-bool is_own(const Plan& plan, const MasterMesh& mesh, std::int64_t own_node, std::int64_t segment) {
-  const std::int64_t* first = mesh.connectivity + segment * plan.nodes;
-  return own_node >= 0 && std::find(first, first + plan.nodes, own_node) != first + plan.nodes;
-}
-
-} // namespace
-
 Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* slave, double reach,
                        Detection& out) {
   out.searched = out.behind_edge = false;
   const std::int64_t segment = out.segment;
   out.segment = -1;
-  if (segment < 0 || is_own(plan, mesh, out.own_node, segment)) return Status::ok;
+  if (segment < 0 || is_own(plan, mesh, segment, out.left_out)) return Status::ok;
   SegmentNodes nodes;
   if (const Status status = gather(plan, mesh, segment, nodes); status != Status::ok) {
     out.segment = segment; // to be named
@@ -201,7 +180,7 @@ Status detect_followed(const Plan& plan, const MasterMesh& mesh, const double* s
   const double start[2] = {out.at.xi[0], out.at.xi[1]};
   if (plan.project(plan, slave, nodes.positions, nodes.surface_coordinates, start, infinity,
                    portable::search_budget, out.at) &&
-      std::fabs(out.at.gap) <= reach)
+      std::fabs(out.at.gap) <= reach && out.at.gap >= -out.depth)
     out.segment = segment, out.other = -1;
   return Status::ok;
 }
@@ -238,7 +217,7 @@ Status detect(const Plan& plan, const MasterMesh& mesh, const double* tree, cons
       status != Status::ok || out.segment >= 0)
     return status;
   // The farther a search looks, the more it has to exclude: first no farther than the surface was.
-  if (before >= 0 && plan.projection == ProjectionKind::normal && !is_own(plan, mesh, out.own_node, before)) {
+  if (before >= 0 && plan.projection == ProjectionKind::normal && !is_own(plan, mesh, before, out.left_out)) {
     const double near = distance_at(plan, mesh, slave, before, xi) * (1.0 + 1e-9);
     if (near > 0.0 && near < 0.5 * reach) {
       const Status status = search_all(plan, mesh, tree, slave, near, out);
@@ -279,9 +258,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
     double box[6];
     plan.box(plan, nodes.positions, nodes.surface_coordinates, box, box + plan.dimension);
     const double least = least_rank(plan, slave, ray, box);
-    if (!(least <= limit()) || is_own(plan, mesh, out.own_node, segment) ||
-        looks_away(plan, nodes, out.slave_normal))
-      return Status::ok;
+    if (!(least <= limit()) || is_left_out(plan, mesh, segment, nodes, out.left_out)) return Status::ok;
     candidates.add(segment, least);
     // a rank counts what lies beyond the edge, too; the reach does not
     double farthest = reach;
@@ -295,7 +272,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
       if (doubts < most_doubts) in_doubt[doubts] = segment;
       ++doubts;
     }
-    if (found && (!normal || std::fabs(candidate.gap) <= reach)) {
+    if (found && (!normal || std::fabs(candidate.gap) <= reach) && candidate.gap >= -out.depth) {
       if (segment == out.segment) // searched again
         out.at = candidate;
       else
@@ -314,7 +291,7 @@ Status search_all(const Plan& plan, const MasterMesh& mesh, const double* tree, 
     // What is farther than the border does not matter to a slave between two segments, and is looked for
     // last.
     NearestBorder border;
-    if (out.segment < 0 && normal && nearest_border(plan, mesh, tree, slave, out.slave_normal, reach, border))
+    if (out.segment < 0 && normal && nearest_border(plan, mesh, tree, slave, out.left_out, reach, border))
       reach = border.at.distance;
     doubts = 0;
     budget = thorough;

@@ -7,6 +7,8 @@
 // first. (Eigen's KdBVH can not be refitted.)
 #pragma once
 
+#include <limits>
+
 #include "core/model/plan.hpp"
 
 namespace ents {
@@ -29,9 +31,46 @@ struct SegmentNodes {
 // ok; bad_value: a node that does not exist; non_finite.
 Status gather(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, SegmentNodes& out);
 
-// Does a segment look the way in which the slave's own surface looks, or beside it? Where their normals make an
-// angle of more than 93 degrees it does not; without a normal (null, or zeros) never.
-bool looks_away(const Plan& plan, const SegmentNodes& nodes, const double* slave_normal);
+// Segments that are no candidates for a slave: for the search of a projection, for borders, and for the side
+// of a border, whose neighbours end there (theory.md, sections 9.4 and 9.6).
+struct LeftOut {
+  std::int64_t node = -1; // the node of the mesh that the slave is: segments with this node. -1: none
+  std::int64_t segment =
+      -1; // the segment on which the slave lies, and those that share a node with it. -1: none
+  const std::int32_t* sides = nullptr; // [segments] or null: segments of the slave's own side
+  std::int32_t side = 0;
+  // [d] out of the slave's body, or null or zeros: segments that look the same way or beside it, whose normal has a
+  // cosine with it above `facing`.
+  const double* normal = nullptr;
+  double facing = -0.05; // 93 degrees
+};
+
+// Self-contact. A body's own corner may turn within an increment: a segment that becomes a candidate by that
+// (120 degrees) has been taken for the body's other side at the begin of the increment (104 degrees).
+inline constexpr double faces_itself = -0.5, faces_other_side = -0.25;
+
+// The same of many slaves: null where nothing is left out.
+struct LeftOutOfSlaves {
+  const std::int64_t *node = nullptr, *segment = nullptr;      // [slaves]
+  const std::int32_t *side = nullptr, *segment_side = nullptr; // [slaves], [segments]
+  const double* normal = nullptr;                              // [slaves][d]
+  double facing = LeftOut().facing;
+
+  LeftOut of(std::int64_t slave, int d) const {
+    LeftOut out;
+    if (node) out.node = node[slave];
+    if (segment) out.segment = segment[slave];
+    if (side) out.sides = segment_side, out.side = side[slave];
+    if (normal) out.normal = normal + slave * d;
+    out.facing = facing;
+    return out;
+  }
+};
+
+// Does the number of a segment say that it is left out, whatever its position?
+bool is_own(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, const LeftOut& left_out);
+bool is_left_out(const Plan& plan, const MasterMesh& mesh, std::int64_t segment, const SegmentNodes& nodes,
+                 const LeftOut& left_out);
 
 // Doubles that the tree of a surface takes; 0 if there are too many segments.
 std::int64_t tree_size(const Plan& plan, std::int64_t segments);
@@ -46,12 +85,10 @@ Status build_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::i
 Status refit_tree(const Plan& plan, const MasterMesh& mesh, double* tree, std::int64_t& segment);
 
 struct Detection {
-  std::int64_t own_node =
-      -1; // in: the node of the mesh that the slave is; segments with this node are not looked at. -1: none
-  const double* slave_normal =
-      nullptr;          // in: [d] out of the slave's body; segments that look the same way are left out
-  std::int64_t segment; // -1: nothing within reach
-  std::int64_t other;   // another segment with an equally good projection elsewhere; -1: none
+  LeftOut left_out;                                       // in
+  double depth = std::numeric_limits<double>::infinity(); // in: what the slave is behind by more is none
+  std::int64_t segment;                                   // -1: nothing within reach
+  std::int64_t other; // another segment with an equally good projection elsewhere; -1: none
   SegmentProjection at;
   bool searched;
   bool behind_edge; // no segment: the closest point is on an edge that segments share, and the slave is

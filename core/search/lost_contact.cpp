@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/search/behind_edge.hpp"
+#include "core/search/segment_tree.hpp"
 
 namespace ents {
 
@@ -47,17 +48,17 @@ Lost judge_lost_contact(const Plan& plan, const MasterMesh& mesh, const double* 
   // the border is known first, the search for a projection looks no farther.
   constexpr double anywhere = 1e100;
   NearestBorder nearest{{}, -1};
-  // Self-contact: the closest border is the slave's own node.
-  const bool by_border = plan.projection == ProjectionKind::normal && found.own_node < 0 &&
-                         nearest_border(plan, mesh, tree, slave, found.slave_normal, anywhere, nearest);
+  const bool by_border = plan.projection == ProjectionKind::normal &&
+                         nearest_border(plan, mesh, tree, slave, found.left_out, anywhere, nearest);
   Detection far = found;
   far.segment = -1;
+  far.depth = infinity;
   if (detect(plan, mesh, tree, slave, by_border ? nearest.at.distance : anywhere, far) != Status::ok)
     return Lost::beside;
   if (far.segment >= 0) return far.at.gap > 0.0 ? Lost::no : Lost::too_deep;
   if (!by_border) return Lost::beside;
   double crack = 0.0;
-  switch (side_of_border(plan, mesh, tree, slave, found.slave_normal, nearest, crack)) {
+  switch (side_of_border(plan, mesh, tree, slave, found.left_out, nearest, crack)) {
   case BorderSide::ahead:
     return Lost::no;
   case BorderSide::behind:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/search/mesh_motion.hpp"
 #include "core/search/segment_tree.hpp"
 
 namespace ents {
@@ -12,29 +13,6 @@ namespace ents {
 namespace {
 
 constexpr int most_places = 64; // on the way of a slave
-
-double distance(const double* a, const double* b, const double* shift, int d) {
-  double sum = 0.0;
-  for (int i = 0; i < d; ++i) {
-    const double difference = a[i] - b[i] - shift[i];
-    sum += difference * difference;
-  }
-  return std::sqrt(sum);
-}
-
-// The mesh's mean motion, and how much more one of its nodes moves at most.
-struct Motion {
-  double mean[3] = {};
-  double rest = 0.0;
-
-  Motion(const MasterMesh& mesh, const double* begin, int d) {
-    if (!begin || begin == mesh.positions || mesh.nodes == 0) return;
-    for (std::int64_t k = 0; k < mesh.nodes * d; ++k) mean[k % d] += mesh.positions[k] - begin[k];
-    for (int i = 0; i < d; ++i) mean[i] /= static_cast<double>(mesh.nodes);
-    for (std::int64_t n = 0; n < mesh.nodes; ++n)
-      rest = std::max(rest, distance(mesh.positions + n * d, begin + n * d, mean, d));
-  }
-};
 
 // Does the straight way from a to b pass a box by no more than `margin` on each axis?
 bool passes(const double* a, const double* b, const double* box, double margin, int d) {
@@ -53,9 +31,9 @@ bool passes(const double* a, const double* b, const double* box, double margin, 
 
 // Does a slave come so near to a segment that the surface may be on its way? Seen from the mesh at the end.
 bool may_meet(const Plan& plan, const MasterMesh& mesh, const double* tree, const double* from,
-              const double* to, const Motion& motion, double reach) {
+              const double* to, const MeshMotion& motion, double reach) {
   double start[3];
-  for (int i = 0; i < plan.dimension; ++i) start[i] = from[i] + motion.mean[i];
+  motion.move(from, start);
   bool meets = false;
   visit_segments(
       BoxTree(plan, mesh.segments), tree,
@@ -93,8 +71,8 @@ struct Walk {
     }
     Detection found;
     found.segment = -1;
-    found.own_node = way.own_node ? way.own_node[slave] : -1;
-    found.slave_normal = way.slave_normal ? way.slave_normal + slave * d : nullptr;
+    found.left_out = way.left_out.of(slave, d);
+    if (way.depth) found.depth = way.depth[slave];
     const Status status = detect(plan, there, boxes, place, reach, found);
     behind = status == Status::ok && (found.behind_edge || (found.segment >= 0 && found.at.gap <= 0.0));
     return status;
@@ -107,7 +85,7 @@ struct Walk {
     } else if (now) {
       if (since[k] < 0.0) since[k] = part;
     } else {
-      if (since[k] > 0.0 && since[k] < out.part) out = {far[k], since[k], out.moved, true};
+      if (since[k] > 0.0 && since[k] < out.part) out = {far[k], since[k], out.moved, out.within, true};
       since[k] = -1.0;
     }
   }
@@ -145,24 +123,26 @@ Status find_crossing(const Plan& plan, const MasterMesh& mesh, const double* tre
                      std::int64_t first, std::int64_t count, double reach, Crossing& out) {
   out = {};
   const int d = plan.dimension;
-  const Motion motion(mesh, way.positions_begin, d);
+  const MeshMotion motion(mesh, way.positions_begin, d);
   Walk walk(plan, mesh, way, reach);
   for (std::int64_t k = first; k < first + count; ++k) {
-    const double moved = distance(way.slave + k * d, way.slave_begin + k * d, motion.mean, d) + motion.rest;
-    if (!(moved > 0.5 * reach) ||
+    const double moved = motion.distance(way.slave_begin + k * d, way.slave + k * d) + motion.rest;
+    const double within = way.depth ? std::min(reach, way.depth[k]) : reach;
+    if (!(moved > 0.5 * within) ||
         !may_meet(plan, mesh, tree, way.slave_begin + k * d, way.slave + k * d, motion, reach))
       continue;
     bool behind = false;
     if (const Status status = walk.look(k, 1.0, mesh, tree, behind); status != Status::ok) return status;
     if (behind) continue;
     walk.far.push_back(k);
-    if (moved > out.moved) out.slave = k, out.moved = moved;
+    if (out.slave < 0 || moved * out.within > out.moved * within)
+      out.slave = k, out.moved = moved, out.within = within;
   }
   if (walk.far.empty()) return Status::ok;
-  const double places = std::ceil(2.0 * out.moved / reach);
+  const double places = std::ceil(2.0 * out.moved / out.within);
   if (!(places <= most_places)) {
     // A way that is thousands of times too long is no step: the iteration has diverged.
-    out.part = out.moved < 1e4 * reach ? most_places * reach / (2.0 * out.moved) : 0.5;
+    out.part = out.moved < 1e4 * out.within ? most_places * out.within / (2.0 * out.moved) : 0.5;
     return Status::ok;
   }
   out.slave = -1;

@@ -108,9 +108,11 @@ public:
     std::vector<double> xi, gap;
     std::vector<std::int32_t> flags;
   };
-  // slave [count][d]; `found` holds the projections of before (or is empty); normals [count][d] or none
+  // slave [count][d]; `found` holds the projections of before (or is empty); normals [count][d] or none, own segments
+  // and depths [count] or none
   void detect(const std::vector<double>& slave, double reach, Found& found,
-              const std::vector<double>& normals = {}) {
+              const std::vector<double>& normals = {}, const std::vector<std::int64_t>& own = {},
+              const std::vector<double>& depth = {}) {
     const std::size_t count = slave.size() / static_cast<std::size_t>(model_.dimension());
     found.segment.resize(count, -1);
     found.xi.resize(count * static_cast<std::size_t>(model_.parameters()));
@@ -119,12 +121,29 @@ public:
     io.struct_size = sizeof io;
     io.slave = slave.data(), io.reach = reach;
     if (!normals.empty()) io.slave_normal = normals.data();
+    if (!own.empty()) io.slave_segment = own.data();
+    if (!depth.empty()) io.depth = depth.data();
     io.segment = found.segment.data(), io.xi = found.xi.data(), io.gap = found.gap.data();
     io.flags = found.flags.data(), io.other = found.other.data();
     io.permitted = ENTS_FLAG_LEFT | ENTS_FLAG_BEHIND_EDGE; // the tests look at the flags
     const ents_master_mesh mesh = surface_.mesh();
     check(ents_detect(model_.handle(), &mesh, tree_.data(), size(), 0, static_cast<std::int64_t>(count), &io,
                       &report_));
+  }
+
+  // Of the body below slaves on their own segments.
+  void thickness(const std::vector<double>& slave, double reach, const std::vector<double>& normals,
+                 const std::vector<std::int64_t>& own, std::vector<double>& out) {
+    std::vector<std::int64_t> segment(own.size(), -1);
+    std::vector<double> xi(own.size() * static_cast<std::size_t>(model_.parameters()));
+    ents_detection io{};
+    io.struct_size = sizeof io;
+    io.slave = slave.data(), io.reach = reach, io.slave_normal = normals.data(),
+    io.slave_segment = own.data();
+    io.segment = segment.data(), io.xi = xi.data();
+    const ents_master_mesh mesh = surface_.mesh();
+    check(ents_thickness(model_.handle(), &mesh, tree_.data(), size(), 0,
+                         static_cast<std::int64_t>(own.size()), &io, out.data(), &report_));
   }
 
   std::int64_t size() const { return static_cast<std::int64_t>(tree_.size()); } // doubles

@@ -200,6 +200,10 @@ class Detection(ctypes.Structure):
         ("slave_begin", ctypes.c_void_p),
         ("positions_begin", ctypes.c_void_p),
         ("slave_normal", ctypes.c_void_p),
+        ("slave_segment", ctypes.c_void_p),
+        ("depth", ctypes.c_void_p),
+        ("slave_side", ctypes.c_void_p),
+        ("segment_side", ctypes.c_void_p),
     ]
 
 
@@ -501,6 +505,7 @@ FUNCTIONS = {
     "ents_tree_refit": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
     "ents_surface_boxes": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_detect": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p)),
+    "ents_thickness": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_evaluate": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p)),
     "ents_state_init": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
     "ents_state_augment": (ctypes.c_int32, (ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)),
