@@ -37,6 +37,8 @@ class ContactResults:
     rows = property(lambda self: self._rows, doc="number of equations")
     nodes = property(lambda self: self._slave.nodes, doc="[points] the node that each slave point is, ascending; None: points are inside the facets")
     areas = property(lambda self: self._slave.areas, doc="[points] [A] tributary areas of the undeformed surface")
+    thickness = property(lambda self: None if self._both is None or not self._both.one_surface else self._both.thickness.copy(),
+                         doc="[points] [L] self-contact: of the body below each point at the begin of the increment, at most 2 reach; else None")
     sampling = property(lambda self: self._slave.sampling, doc="points per direction inside each slave facet; 0: slave points are nodes")
 
     def _start_results(self, count: int) -> None:
@@ -87,8 +89,8 @@ class ContactResults:
             of = lambda array: None if array is None else np.ascontiguousarray(array[numbers])
             self._energy = self.model.iterate(of(self.points), self.tree, self.reach, of(self._searched[0]), of(self._searched[1]),
                                               "energy normal" + (" dissipation friction_energy" if self.model.layout.friction else ""),
-                                              positions_begin=None if self.rigid else self._tree_begin, area=of(self.areas), state=of(self._state_begin),
-                                              slave_values=of(self._slave_values), permitted=Flag.LEFT | Flag.BEHIND_EDGE)
+                                              positions_begin=None if self.rigid else self._tree_begin, area=of(self._carried), state=of(self._state_begin),
+                                              slave_values=of(self._slave_values), permitted=Flag.LEFT | Flag.BEHIND_EDGE, **self._pairs.left_out(numbers))
         return self._energy
 
     @property
@@ -108,15 +110,20 @@ class ContactResults:
 
     def resultants(self, about: Any = None) -> dict[str, Any]:
         """What the pair carries in the last update(), as it acts on the slave side: see Library.contact_resultants. about [d]: point of the moment."""
+        if self._both is not None and self._both.one_surface:
+            raise Error(Status.BAD_VALUE, "resultants: what a surface carries in contact with itself adds up to zero; take pressure * areas of the points of one part")
         numbers = np.arange(len(self.areas)) if self._pending is None else self._assembly[0]
         of = lambda array: np.ascontiguousarray(array[numbers])
         normal = np.zeros((len(numbers), self._positions.shape[1])) if self._pending is None else self._more()["normal"]
-        return self.model.library.contact_resultants(of(self.points), normal, of(self.pressure), of(self.areas), of(self.flags),
-                                                     of(self.traction) if self.model.layout.friction else None, about)
+        sign = np.ones((len(numbers), 1)) if self._both is None else 1.0 - 2.0 * self._both.of_points[numbers, None]  # as it acts on the slave's side
+        return self.model.library.contact_resultants(of(self.points), sign * normal, of(self.pressure), of(self._carried), of(self.flags),
+                                                     sign * of(self.traction) if self.model.layout.friction else None, about)
 
     def contact_area(self, modulus: float = 0.0, thickness: float = 1.0) -> dict[str, float]:
         """Area in contact and peak pressure with estimates of their errors, see Library.contact_area; modulus: E / (1 - nu^2). For slave points
         that are nodes of line2, tri3 or quad4 facets of one shape; of points inside the facets take areas[pressure > 0].sum()."""
+        if self._both is not None:
+            raise Error(Status.BAD_VALUE, "contact_area: both sides have slave points here; take areas[pressure > 0].sum() of one side")
         if self.nodes is None or len(self._slave.groups) > 1:
             raise Error(Status.BAD_VALUE, "contact_area: it is for slave points that are nodes of facets of one shape; here take areas[pressure > 0].sum()")
         gap, pressure = np.full(len(self.positions), np.nan), np.zeros(len(self.positions))
@@ -137,6 +144,8 @@ class ContactResults:
         if not np.isfinite(state).all():
             raise Error(Status.NON_FINITE, "state: it holds numbers that are not finite")
         self._state_begin = self._state = _frozen(state)
+        if self._points_begin is None:
+            self._measure(self.points)
         self._points_begin = self.points
         segments = state[:, -1] - 1  # a state knows its segment
         whole = (segments >= 0) & (segments < len(self.tree.connectivity)) & (segments == np.floor(segments))
@@ -145,7 +154,8 @@ class ContactResults:
     def _history(self) -> dict[str, np.ndarray]:
         """All that the next increment depends on, at the last commit()."""
         own = np.zeros(0) if self._own is None else self._own
-        return {"state": self._state_begin, "segment_begin": self._segment_begin, "tree_begin": self._tree_begin, "hint": self._committed[0],
+        thickness = np.zeros(0) if self._both is None else self._both.thickness
+        return {"thickness": thickness, "state": self._state_begin, "segment_begin": self._segment_begin, "tree_begin": self._tree_begin, "hint": self._committed[0],
                 "xi": self._committed[1], "own": own, "points_begin": np.zeros((0, 0)) if self._points_begin is None else self._points_begin}
 
     def _restore(self, history: dict[str, np.ndarray]) -> None:
@@ -158,6 +168,8 @@ class ContactResults:
         self._committed = self._hint, self._xi = np.array(history["hint"]), np.array(history["xi"])
         self._own = None if self._own is None else np.array(history["own"])
         self._pending = None
+        if self._both is not None:
+            self._both.thickness = np.array(history["thickness"])
         self._points_begin = np.array(history["points_begin"]) if history["points_begin"].size else None
 
     def _name(self) -> str:

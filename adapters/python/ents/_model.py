@@ -15,6 +15,7 @@ import numpy as np
 from . import _library
 from ._arrays import CutStep, Error, _address, _array, _count, _new, _plain
 from ._heights import warn_of_heights
+from ._surface import left_out_arrays
 from ._structs import INPUTS, QUANTITIES, RESULTS, Data, Detection, Input, Layout, Output, Shared, Status, Surface
 from ._varying import Varying
 
@@ -222,11 +223,11 @@ class Model(Varying):
     def iterate(self, slave: Any, tree: Tree, reach: float, segment: Any = None, xi: Any = None, want: Union[str, list] = "", *,
                 system: Optional[System] = None, positions_begin: Any = None, slave_begin: Any = None, area: Any = None, state: Any = None, multiplier: Any = None,
                 slave_values: Any = None, slave_temperature: Any = None, time_increment: float = 0.0, slave_normal: Any = None,
-                permitted: int = 0) -> dict[str, Any]:
+                permitted: int = 0, **left_out: Any) -> dict[str, Any]:
         """Contact of one Newton iteration in one call: `tree.detect`, states moved to the segments that were found, and `assemble` into
         `system` (None: results only).
 
-        slave, reach, segment, xi, slave_normal, permitted   as of Tree.detect: segment [n] (-1: open) and xi [n][d-1] of the last projection
+        slave, reach, segment, xi, slave_normal, permitted, left_out   as of Tree.detect: segment [n] (-1: open) and xi [n][d-1] of the last projection
         positions_begin                         [nodes][d] of the tree at the begin of the increment: needed with friction, if the master deforms
         slave_begin                             [n][d] slaves there: what was not within reach then has friction from the touch on, too
         want, area, state ...                   as of evaluate; state is that of the begin of the increment
@@ -251,8 +252,9 @@ class Model(Varying):
                  "xi": np.zeros((n, d - 1)) if xi is None else _array("xi", xi, (n, d - 1)).copy(),
                  "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
         normal = None if slave_normal is None else _array("slave_normal", slave_normal, (n, d))
+        exclusions = left_out_arrays(n, len(tree.connectivity), left_out)
         detection = _new(Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted), slave_normal=_address(normal),
-                         **{name: array.ctypes.data for name, array in found.items()})
+                         **{name: array.ctypes.data for name, array in (*found.items(), *exclusions.items())})
         report = self._call("iterate", tree.mesh, tree._tree, len(tree._tree), 0, n, detection, block, block_out,
                             None if system is None else system._struct(self, tree, n), positive=None)
         if report.status and not result["status"].any():

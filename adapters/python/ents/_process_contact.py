@@ -76,6 +76,7 @@ class LocalContact(Contact):
         self._pairs.judged = False
 
     tangent = property(lambda self: None, doc="see entries()")
+    _takes_one_surface = False
 
     def _judge(self, points: np.ndarray) -> None:
         """All processes do this together: facing()."""

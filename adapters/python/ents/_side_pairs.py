@@ -8,6 +8,7 @@ from typing import Optional
 import numpy as np
 
 from ._arrays import Error
+from ._both_sides import BothSides
 from ._sides import refuse_shared, reversed_pair
 from ._structs import Status
 from ._surface import Tree
@@ -25,23 +26,37 @@ class SidePairs:
     joined [points] bool: nodes of both surfaces, where the bodies are one: no contact there
     """
 
-    def __init__(self, slave: SlavePoints, master: MasterSurface, positions: np.ndarray, one_mesh: bool) -> None:
-        self._slave, self._master, self.now = slave, master, positions
+    def __init__(self, slave: SlavePoints, master: MasterSurface, positions: np.ndarray, one_mesh: bool, both: Optional[BothSides] = None) -> None:
+        self._slave, self._master, self._both, self.now = slave, master, both, positions
         used = np.unique(np.concatenate([group.nodes.ravel() for group in slave.groups]))
         self.joined = np.zeros(len(slave.areas), bool)
-        if one_mesh:
+        if both is not None:
+            self.joined = self._on_both_sides()
+        elif one_mesh:
             refuse_shared(slave.groups, master.groups)
             of_master = np.unique(np.concatenate([group.nodes.ravel() for group in master.groups]))
             if slave.nodes is not None:
                 self.joined = np.isin(slave.nodes, of_master)
             used = np.union1d(used, of_master)
         self._bodies = len(used) < len(positions)  # nodes beside those of the surfaces
-        self.judged, self._sign = False, 1.0
+        self.judged, self._sign = both is not None and both.one_surface, 1.0
         pair = reversed_pair(slave.groups)
         if pair is not None:
             self.judged, self._sign = True, 0.0
             warnings.warn(f"slave: the neighbours {pair[0]} and {pair[1]} are not oriented alike. Their forces are right; master facets that look the same way "
                           "as the slave are not recognised", UserWarning, stacklevel=4)
+
+    def _on_both_sides(self) -> np.ndarray:
+        """[points] bool: nodes of facets of both sides of two passes."""
+        sides, points = self._both.sides, self._slave.nodes
+        if sides is None or points is None:
+            return np.zeros(len(self._slave.areas), bool)
+        of_side = [np.concatenate([group.nodes[sides[group.numbers] == side].ravel() for group in self._slave.groups]) for side in (0, 1)]
+        return np.isin(points, of_side[0]) & np.isin(points, of_side[1])
+
+    def left_out(self, points: np.ndarray) -> dict[str, np.ndarray]:
+        """Arguments of the search for these points, beside their normals."""
+        return {} if self._both is None else self._both.left_out(points)
 
     def _cosines(self, points: np.ndarray, positions: np.ndarray, segments: np.ndarray) -> np.ndarray:
         """Of the normals of slave points and of segments: -1 where they face each other."""
@@ -74,7 +89,7 @@ def warn_of_deep(tree: Tree, pairs: SidePairs, points: np.ndarray, lost: np.ndar
     solid are behind each other, too: hence a warning."""
     if not len(lost):
         return
-    far = tree.detect(points[lost], 1e90)
+    far = tree.detect(points[lost], 1e90, **pairs.left_out(lost))
     deep = np.flatnonzero((far["segment"] >= 0) & (far["gap"] < -reach))
     deep = deep[pairs.faces(tree, lost[deep], far["segment"][deep])]
     if len(deep):

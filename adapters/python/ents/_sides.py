@@ -153,17 +153,25 @@ def reversed_pair(groups: list[Facets]) -> tuple[int, int] | None:
     return (int(facet[wrong[0]]), int(facet[wrong[0] + 1])) if len(wrong) else None
 
 
+def _sorted_corners(side: list[Facets]) -> tuple[np.ndarray, np.ndarray]:
+    corners = [np.sort(group.nodes[:, :CORNERS[group.shape]], axis=1) for group in side]
+    return (np.concatenate([np.pad(rows, ((0, 0), (0, 4 - rows.shape[1])), constant_values=-1) for rows in corners]),
+            np.concatenate([group.numbers for group in side]))
+
+
+def same_facets(slave: list[Facets], master: list[Facets]) -> bool:
+    """Are the facets of both sides the same, in any order?"""
+    (ours, _), (theirs, _) = _sorted_corners(slave), _sorted_corners(master)
+    rows = lambda array: array[np.lexsort(array.T)]
+    return ours.shape == theirs.shape and bool((rows(ours) == rows(theirs)).all())
+
+
 def refuse_shared(slave: list[Facets], master: list[Facets]) -> None:
-    """Facets that are on both sides: a surface in contact with itself."""
-    def sorted_corners(side: list[Facets]) -> tuple[np.ndarray, np.ndarray]:
-        corners = [np.sort(group.nodes[:, :CORNERS[group.shape]], axis=1) for group in side]
-        return (np.concatenate([np.pad(rows, ((0, 0), (0, 4 - rows.shape[1])), constant_values=-1) for rows in corners]),
-                np.concatenate([group.numbers for group in side]))
-    (ours, numbers), (theirs, _) = sorted_corners(slave), sorted_corners(master)
+    """Some facets that are on both sides, and some that are not."""
+    (ours, numbers), (theirs, _) = _sorted_corners(slave), _sorted_corners(master)
     candidates = np.isin(ours, theirs).all(axis=1)  # most slave facets have no node of the master
     known = set(map(tuple, theirs[np.isin(theirs, ours[candidates]).all(axis=1)].tolist())) if candidates.any() else set()
     shared = [int(k) for facet, k in zip(ours[candidates].tolist(), numbers[candidates]) if tuple(facet) in known]
     if shared:
-        raise Error(Status.BAD_VALUE, f"slave: {len(shared)} of the facets are master facets, too (slave facet {min(shared)} first): ents.Contact does not find the "
-                    "contact of a surface with itself, because each point would find its own facet. Divide the surface into two parts that may touch, one the "
-                    "slave and one the master", min(shared))
+        raise Error(Status.BAD_VALUE, f"slave: {len(shared)} of the facets are master facets, too (slave facet {min(shared)} first), and others are not. For a surface in "
+                    "contact with itself give the same facets as slave and as master, all of them (without comm); else a facet belongs to one side", min(shared))

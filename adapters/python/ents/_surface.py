@@ -14,6 +14,17 @@ if TYPE_CHECKING:
     from ._model import Model
 
 
+LEFT_OUT = {"slave_node": np.int64, "slave_segment": np.int64, "depth": np.float64, "slave_side": np.int32, "segment_side": np.int32}
+"""What Tree.detect and Model.iterate take beside slave_normal: see ents_detection in ents.h."""
+
+
+def left_out_arrays(slaves: int, segments: int, given: dict[str, Any]) -> dict[str, np.ndarray]:
+    unknown = [name for name in given if name not in LEFT_OUT]
+    if unknown:
+        raise TypeError(f"there is no argument {unknown[0]}; what is left out of a search is given as {', '.join(LEFT_OUT)}")
+    return {name: _array(name, array, (segments if name == "segment_side" else slaves,), LEFT_OUT[name]) for name, array in given.items() if array is not None}
+
+
 class Tree:
     """A master surface of many segments, and detection on it.
 
@@ -71,12 +82,15 @@ class Tree:
         return found
 
     def detect(self, slave: Any, reach: float, segment: Any = None, xi: Any = None, permitted: int = 0,
-               slave_normal: Any = None) -> dict[str, np.ndarray]:
+               slave_normal: Any = None, **left_out: Any) -> dict[str, np.ndarray]:
         """Which segment is each slave [n][d] projected on, with |gap| <= reach? segment [n], xi [n][d-1]: the answers of before, which
         are kept where they still hold. Returns new arrays: segment (-1: none), xi, gap, flags (Flag), other (an equally good one, or -1).
         A slave that had a segment, finds none and has not risen from the surface raises CutStep, unless `permitted` has its flag (Flag.LEFT,
         Flag.BEHIND_EDGE): look at `flags` then. Give segment -1 for slaves that were open. slave_normal [n][d], out of the slave's body:
-        segments that look the same way are left out."""
+        segments that look the same way are left out.
+        left_out: self-contact and two passes, as in ents_detection. slave_node [n] the node of the tree that each slave is (-1: none): its segments are
+        left out; slave_segment [n] the one on which it lies: it and those that share a node with it; depth [n] L: what a slave is behind by more is no
+        contact; slave_side [n] and segment_side [segments]: segments of the slave's own side."""
         lay = self.model.layout
         slave = _array("slave", slave, (None, lay.dimension))
         n = len(slave)
@@ -84,10 +98,26 @@ class Tree:
         out = {"segment": np.full(n, -1, np.int64) if segment is None else _array("segment", segment, (n,), np.int64).copy(),
                "xi": np.zeros((n, lay.dimension - 1)) if xi is None else _array("xi", xi, (n, lay.dimension - 1)).copy(),
                "gap": np.zeros(n), "flags": np.zeros(n, np.int32), "other": np.full(n, -1, np.int64)}
+        given = left_out_arrays(n, len(self._connectivity), left_out)
         self.model._call("detect", self.mesh, self._tree, len(self._tree), 0, n, _new(
             Detection, slave=slave.ctypes.data, reach=float(reach), permitted=int(permitted), slave_normal=_address(normal),
-            **{name: array.ctypes.data for name, array in out.items()}))
+            **{name: array.ctypes.data for name, array in (*out.items(), *given.items())}))
         return out
+
+    def thickness(self, slave: Any, reach: float, slave_normal: Any, before: Any = None, **left_out: Any) -> np.ndarray:
+        """[n] [L] the thickness of the body below slaves [n][d] of this surface, at most 2 reach (ents_thickness). Half of it is the `depth` for `detect`
+        in self-contact. before [n]: the thickness at the begin of the increment before; what is nearer than half of it is contact, no other side of the
+        body. left_out: as for `detect`."""
+        slave = _array("slave", slave, (None, self.model.layout.dimension))
+        n = len(slave)
+        normal = _array("slave_normal", slave_normal, slave.shape)
+        found = np.zeros(n) if before is None else _array("before", before, (n,)).copy()
+        segment, xi = np.full(n, -1, np.int64), np.zeros((n, self.model.layout.dimension - 1))
+        given = left_out_arrays(n, len(self._connectivity), left_out)
+        self.model._call("thickness", self.mesh, self._tree, len(self._tree), 0, n, _new(
+            Detection, slave=slave.ctypes.data, reach=float(reach), slave_normal=normal.ctypes.data, segment=segment.ctypes.data, xi=xi.ctypes.data,
+            **{name: array.ctypes.data for name, array in given.items()}), found)
+        return found
 
     def state_transfer(self, state: Any, old: Any, new: Any, positions: Any = None) -> tuple[int, np.ndarray]:
         """States [n][state_size] of the begin of the increment, there on the segments `old` [n], as their slaves see them from the segments `new` [n].

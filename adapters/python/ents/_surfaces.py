@@ -95,6 +95,10 @@ class SlavePoints:
         entries = np.arange(matrix.nnz) + np.repeat(first - matrix.indptr[:-1], np.diff(matrix.indptr))
         return Raised(matrix.indptr, matrix.indices, matrix.data, self.raised.heights[numbers], self.raised.slopes[entries])
 
+    def facet_of_points(self) -> np.ndarray:
+        """[points] a facet (place in the caller's list) on which each point lies."""
+        return self._numbers()[self._facets_of.indices[self._facets_of.indptr[:-1]]]
+
     def at(self, now: np.ndarray) -> np.ndarray:
         """[points][d] at the positions `now` [nodes][d]."""
         if self.raised is not None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _count, _frozen
+from ._both_sides import BothSides, is_one_surface, joined, refuse_one_sided
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
@@ -49,10 +50,13 @@ class Contact(ContactResults):
     """
 
     _kept: Optional[int] = None  # master facets that become segments; all
+    _takes_one_surface = True
 
     def __new__(cls, *arguments: Any, comm: Any = None, **options: Any) -> Any:
         if comm is None:
             return super().__new__(cls)
+        if options.pop("two_pass", False):
+            raise Error(Status.BAD_VALUE, "two_pass: distributed surfaces have one pass; leave out comm, or two_pass")
         from ._distributed import DistributedContact
         return DistributedContact(*arguments, comm=comm, **options)
 
@@ -60,7 +64,7 @@ class Contact(ContactResults):
                  dofs: Any = None, rows: Optional[int] = None, reach: Optional[float] = None, thickness: float = 1.0, sampling: Optional[int] = None,
                  surface_coordinates: Any = None, offset: Any = None, elements: Any = None, ends: int = ENDS_STRAIGHT, leave: bool = False,
                  mirror: Sequence = (), order: str = "ring", temperature: Any = None, master_temperature: Any = None, slave_height: Any = None,
-                 slave_surface_coordinates: Any = None, comm: None = None) -> None:
+                 slave_surface_coordinates: Any = None, two_pass: bool = False, comm: None = None) -> None:
         """Slave points on the facets `slave` against the facets `master`.
 
         model      dict, JSON text, file name, or ents.Model. Its "segment" is the type of the master facets, or a smoothed one over them ("bspline4"
@@ -80,7 +84,8 @@ class Contact(ContactResults):
                    Default: the longest edge of both surfaces
         thickness  2D: area of a length [L]; 0: axisymmetric, areas and forces of the full turn about the second axis. 3D: not read
         sampling   0: slave points are nodes, with their tributary areas; n = 1 .. 64: n points per direction inside each slave facet. Default: 0; where
-                   a slave facet is quad8 or tri6, whose corner forces under a constant pressure are negative or 0: 2 (tri6: 3 points); 0 is refused there
+                   a slave facet is quad8 or tri6, whose corner forces under a constant pressure are negative or 0: 2 (tri6: 3 points); 0 is refused there.
+                   A surface in contact with itself: 2, since a node at a corner of a body has the areas of faces that do not touch, too
         surface_coordinates  in which the height is given: "x" (3D: "xy", "xz" ...), undeformed coordinates; or an array
                    [facets][nodes of a facet][d-1] (not smoothed); default: the model's own, else natural coordinates
         offset     [L] is added to the gap, a number or one for each slave point: > 0 a clearance, < 0 a coating; needs "offset": 0 in the
@@ -95,18 +100,25 @@ class Contact(ContactResults):
                    above their facets, along normals that turn with them. sampling is 2 or what is given; 0 is refused
         slave_surface_coordinates  in which slave_height is given: "x" (3D: "xy" ...), undeformed coordinates; or [nodes][d-1]; default: natural
                    coordinates of the facets
+        two_pass   True: the points of the master's facets are slaves, too, and look for the slave's facets. Every point carries with half its area, both
+                   points of a pressing pair with the whole pressure; friction and heat are halved in the same way. The points of both sides are
+                   slave points of this Contact. Twice the cost; results do not depend on which side is the slave. With stiff penalties two passes
+                   hold more points than can be held, and meshes that do not match lock: multipliers are refused. Same facets as slave and as master,
+                   a surface in contact with itself: always in this way
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
         comm       an mpi4py communicator: the surfaces are distributed over its processes. What comes back is an ents.DistributedContact, with
                    further arguments: help(ents.DistributedContact.__init__)
 
-        Errors (ents.Error, with what to write): facets that are on both sides (a surface in contact with itself), that name a node twice, that do not
-        exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
+        A surface in contact with itself: the same facets as slave and as master, all that may touch. A point finds facets that look against it, and not
+        its own ones and those that share a node with them; the other side of a thin body is no contact, because a point penetrates by no more than
+        half the thickness of the body below it (measured where an increment begins: `thickness`). The undeformed surface must not overlap itself.
+
+        Errors (ents.Error, with what to write): facets of which some are on both sides and some are not, that name a node twice, that do not exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
         argument of another shape. A slave facet without area is left out with a warning.
         """
         self._arguments = {name: value if name == "model" else copy.deepcopy(value) for name, value in locals().items() if name not in ("self", "comm")}
         self.model = model = (model if isinstance(model, Model) else Model(model)).with_border(BORDER)
         d = model.layout.dimension
-        _refuse_models(model)
         self._positions = _frozen(_array("positions", positions, (None, d)).copy())
         nodes, own = len(self._positions), model.layout.node_dofs
         self._dofs = _frozen(np.arange(own * nodes).reshape(nodes, own) if dofs is None else _array("dofs", dofs, (nodes, own), np.int64).copy())
@@ -124,18 +136,37 @@ class Contact(ContactResults):
                 raise Error(Status.NON_FINITE, f"{name}{np.argwhere(~np.isfinite(array))[0].tolist()} is not finite")
 
         self._heat = Temperatures(model, nodes, temperature, None if self._own is None else len(self._own), master_temperature)
+        self._both = None
+        one_surface = not two_pass and self._own is None and is_one_surface(model, nodes, slave, master, order)
+        if one_surface and not self._takes_one_surface:
+            raise Error(Status.BAD_VALUE, "slave and master are the same facets: distributed surfaces are not searched for contact with themselves; leave out comm")
+        sides = None
+        if two_pass or one_surface:
+            refuse_one_sided(model, one_surface, self.rigid)
+            slave = master  # places in one list
+        _refuse_models(model)
         rough = slave_model(model, slave_height)
-        self._slave = points = SlavePoints(model, self._positions, slave, 2 if sampling is None and rough is not None else sampling, thickness, order)
+        if rough is not None and two_pass:
+            raise Error(Status.BAD_VALUE, "slave_height is of one side, and two_pass makes slaves of both: leave one of them out")
+        if sampling is None and (one_surface or rough is not None):
+            sampling = 2  # nodes at the corners of a body have the areas of faces that do not touch
+        if two_pass:
+            slave, sides = joined(model, nodes, self._arguments["slave"], master, order)
+            master = slave
+        self._slave = points = SlavePoints(model, self._positions, slave, sampling, thickness, order)
         if rough is not None and not points.sampling:
             raise Error(Status.BAD_VALUE, "sampling: 0 puts the slave points on nodes, which have no facet of their own to be raised above; write 1 or more, or "
                         "leave out slave_height")
         points.raise_by(rough, slave_surface_coordinates, self._positions)
         self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order, self._kept)
-        self._pairs = SidePairs(points, self._master, self._positions, self._own is None)
+        if two_pass or one_surface:
+            self._both = BothSides(points, self._master, sides)
+        self._pairs = SidePairs(points, self._master, self._positions, self._own is None, self._both)
         self.tree = Tree(model, self._master.segments, self._master.start, self._master.coordinates(surface_coordinates))
         self.reach = max(points.longest_edge, self._master.longest_edge) if reach is None else reach
         warn_of_size(json.loads(model._text).get("height"), model._data, model._directory, float(np.ptp(self._master.start, axis=0).max()), self.reach)
         count = len(points.areas)
+        self._carried = points.areas if self._both is None else self._both.share * points.areas
         self._elements = np.ones(count, bool) if elements is None else _array("elements", elements, (count,), bool).copy()
         self._elements &= ~self._pairs.joined
         self._leave = bool(leave)
@@ -203,9 +234,11 @@ class Contact(ContactResults):
         self._pairs.now = self._positions
         points = self._slave.at(self._positions)
         self._judge(points)
+        self._measure(points)
         found, _, _ = self._add(points, False)
         segment, bad = found["segment"], found["status"] > 0
-        warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
+        if self._both is None or not self._both.one_surface:
+            warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
         closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
         kept = bad[:, None] | (not self.model.layout.friction)
         state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
@@ -242,7 +275,8 @@ class Contact(ContactResults):
     def _judge(self, points: np.ndarray) -> None:
         """Until slave points have found a segment: do both sides look at each other?"""
         if not self._pairs.judged:
-            self._pairs.judge(self.tree, np.where(self._elements, self.tree.detect(points, self.reach, permitted=LOST)["segment"], -1))
+            self._pairs.judge(self.tree, np.where(self._elements, self.tree.detect(
+                points, self.reach, permitted=LOST, **self._pairs.left_out(np.arange(len(points))))["segment"], -1))
 
     def _search_and_add(self, points: np.ndarray, tangent: bool) -> tuple[dict[str, Any], np.ndarray, Optional[tuple]]:
         """Result [points], residual and tangent. Facets that do not face the slave are no candidates."""
@@ -268,8 +302,8 @@ class Contact(ContactResults):
         found, residual, matrix = self._assembly[1].add(
             tangent, **self._heat.inputs(self._slave, of), slave=of(points), reach=self.reach, segment=of(self._hint), xi=of(self._xi),
             want="state_end gap pressure flags" + (" traction" if self.model.layout.friction else "") + (" heat" if self._heat.on else ""), positions_begin=self._tree_begin,
-            slave_begin=None if self._points_begin is None else of(self._points_begin), area=of(self.areas),
-            state=of(self._state_begin), slave_values=of(self._slave_values), slave_normal=of(self._pairs.normals()), permitted=LOST)
+            slave_begin=None if self._points_begin is None else of(self._points_begin), area=of(self._carried),
+            state=of(self._state_begin), slave_values=of(self._slave_values), slave_normal=of(self._pairs.normals()), permitted=LOST, **self._pairs.left_out(numbers))
         residual, matrix = self._master.condensed(residual, matrix)
         if len(numbers) == len(points):
             return found, residual, matrix
@@ -291,7 +325,7 @@ class Contact(ContactResults):
         left = np.flatnonzero(result["detected"] & Flag.LEFT)
         if not len(left):
             return
-        far = self.tree.detect(points[left], 1e90)  # beside the master, or below it?
+        far = self.tree.detect(points[left], 1e90, **{**self._pairs.left_out(left), "depth": None})  # beside the master, or below it?
         gap = np.where(far["segment"] >= 0, far["gap"], 0.0)
         if gap.min() < -self.reach:
             k, depth = int(left[gap.argmin()]), -gap.min()
@@ -310,6 +344,14 @@ class Contact(ContactResults):
         self._state_begin = self._state
         self._committed = self._hint, self._xi
         self._points_begin = self.points
+        if self._both is not None:
+            self.tree.move(self._tree_begin)
+            self._measure(self.points)
+
+    def _measure(self, points: np.ndarray) -> None:
+        """Self-contact: an increment begins with the points there."""
+        if self._both is not None:
+            self._both.measure(self.tree, points, self._pairs.normals(), self.reach)
 
     def augment(self) -> None:
         """Uzawa's step of a model with "augmented": takes the multipliers of the last update() over; then solve the increment again."""
