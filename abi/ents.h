@@ -231,7 +231,7 @@ typedef struct ents_layout {
   int32_t worn;                /* wear: place in the state of three numbers: depth lost by the slave surface [L]; depth lost by the
                                   master surface that no field has yet [L], see ents_wear_collect; pressure [F/A]; else -1 */
   int32_t slave_values;        /* numbers of ents_input.slave_values: 3, or 4 with a normal law "table" (since contract 1.7;
-                                  `reserved` before) */
+                                  `reserved` before) or one that adheres (since 1.11) */
   int32_t node_dofs;           /* dofs of a node: d, or d + 1 with heat (since contract 1.10, as what follows) */
   int32_t heat;                /* 1 if the law has "heat": temperatures are dofs, the last one of each node */
 } ents_layout;
@@ -473,8 +473,9 @@ typedef struct ents_input {
                                         Since contract 1.5 */
   const double *slave_values;        /* [slave_values] numbers of this slave node: added to the model's "offset" [L]; factor of the wear coefficient, >= 0
                                         (0: does not wear); factor of the wear's "sliding", >= 0 (the distance from the axis where that
-                                        is an angle); scale r > 0 of the table, whose pressure is r p(g/r). Null: 0, 1, 1, 1. For models
-                                        with "offset", "wear" or "table". Since contract 1.6; the scale and "table" since 1.7 */
+                                        is an angle); scale r > 0 of the table, whose pressure is r p(g/r), or factor of the work of adhesion.
+                                        Null: 0, 1, 1, 1. For models with "offset", "wear", "table" or adhesion. Since contract 1.6; the
+                                        scale and "table" since 1.7 */
   int64_t slave_values_stride;
   const double *slave_begin;         /* [elements][d] positions of the slave nodes at the begin of the increment, [L], or null; ents_iterate alone reads them,
                                         for ways (as detection.slave_begin, with positions_begin), and for states that are still those of ents_state_init, or of slaves that were not within reach:
@@ -485,7 +486,8 @@ typedef struct ents_input {
   int64_t slave_temperature_stride;
   const double *master_temperature;  /* [m] of the master nodes, also of a rigid master; with `mesh` null: they come from mesh.temperature */
   int64_t master_temperature_stride;
-  double time_increment;             /* of this increment, > 0, where the heat of friction, a power, is asked for; else not read */
+  double time_increment;             /* of this increment, > 0, where the heat of friction, a power, is asked for, and (since 1.11) with a
+                                        coefficient of friction that depends on the slip rate; else not read */
 } ents_input;
 
 /* Bits of ents_input.shared. With a stride of 0 all elements take the first one's value. In an assembly such a stride is usually a
@@ -523,7 +525,8 @@ typedef struct ents_input {
 #define ENTS_SLIP          (1 << 17) /* slip          [1]    [L]     accumulated slip of the state, end of increment */
 #define ENTS_AGE           (1 << 18) /* age           [1]            increments since the last change of status */
 #define ENTS_DISSIPATION   (1 << 19) /* dissipation   [1]    [F L]   what friction dissipates in this increment: the tangential force at its end times the slip
-                                        (backward Euler); 0 without friction. Since contract 1.10, as what follows */
+                                        (backward Euler), and what damage of a "cohesive" bond takes (since 1.11). Since contract 1.10, as what
+                                        follows */
 #define ENTS_FRICTION_ENERGY (1 << 20) /* friction_energy [1] [F L]  stored in the elastic slip of friction at the end; 0 where a multiplier has the force */
 #define ENTS_HEAT          (1 << 21) /* heat          [2]    [power] through the gap, from the slave to the master; made by friction (share of dissipation /
                                         time_increment, both sides together) */

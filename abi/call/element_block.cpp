@@ -15,6 +15,7 @@ ElementBlock element_block_of(const ents_model& model, const ents_input& in, con
   ENTS_BLOCK_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.first = first;
+  b.time_increment = in.time_increment;
   b.wanted = block_results_of(model, out.wanted);
 #define ENTS_COPY(bit, public_name, name, field, type, size)                                                 \
   b.field = out.field, b.field##_stride = out.field##_stride;

@@ -179,6 +179,15 @@ std::int32_t ElementCall::check_temperatures(ents_report* report) const {
   return ENTS_OK;
 }
 
+std::int32_t ElementCall::check_time(ents_report* report) const {
+  if (plan->law.varying.by_rate() && !(in->time_increment > 0.0 && in->time_increment < 1e100))
+    return report_message(report, ENTS_BAD_VALUE, -1,
+                          "input.time_increment = %g; the coefficient of friction depends on the slip rate: give "
+                          "the time of the increment, > 0",
+                          in->time_increment);
+  return ENTS_OK;
+}
+
 std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std::int64_t count,
                                const ents_input* input, const ents_output* output, ents_report* report) {
   std::int32_t status = check_handle(handle, report);
@@ -200,6 +209,9 @@ std::int32_t ElementCall::open(const ents_model* handle, std::int64_t first, std
         report, ENTS_BAD_VALUE, -1,
         "output.xi overlaps input.start; give it an array of its own, or that one with its stride");
   if (in->mesh && (status = check_mesh(in->mesh, "input.mesh", mesh, report)) != ENTS_OK) return status;
+  if ((out->wanted & (want::element | want::flags)) != 0 && count > 0 &&
+      (status = check_time(report)) != ENTS_OK)
+    return status;
   return (out->wanted & (ENTS_RESIDUAL | ENTS_TANGENT | ENTS_HEAT)) != 0 && count > 0
              ? check_temperatures(report)
              : ENTS_OK;

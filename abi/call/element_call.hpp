@@ -106,6 +106,8 @@ struct ElementCall {
 
   // A model with heat needs temperatures, and where friction heats the time of the increment.
   std::int32_t check_temperatures(ents_report* report) const;
+  // A coefficient of friction that depends on the slip rate needs the time of the increment.
+  std::int32_t check_time(ents_report* report) const;
 
   // nodes: of its segment, if the input has a mesh
   ElementInput element(std::int64_t e, const SegmentNodes& nodes) const;

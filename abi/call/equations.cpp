@@ -17,6 +17,7 @@ std::int32_t Equations::open(const ents_system* caller, std::int64_t first, std:
     return report_status(report_, ENTS_BAD_MASK, -1,
                          "output.wanted asks for residual or tangent; ents_assemble adds them to the system");
   if (!call_.in->mesh) return report_status(report_, ENTS_NULL_ARGUMENT, -1, "input.mesh is null");
+  if ((status = call_.check_time(report_)) != ENTS_OK) return status;
   if ((status = call_.check_temperatures(report_)) != ENTS_OK) return status;
   if (s.index_size != 4 && s.index_size != 8)
     return report_message(report_, ENTS_BAD_VALUE, -1, "system.index_size is %d; it must be 4 or 8",

@@ -93,21 +93,96 @@ void read_normal(const json& normal, const std::string& path, ModelSpec& model) 
       read_table(normal, path, gap_key, number.key, model);
       break;
     }
+  if (const char* mistake = entry.mistake(model.law)) fail(ENTS_BAD_VALUE, path, mistake);
+}
+
+// The entry of a law that has been read
+const LawEntry& entry_of(NormalKind kind) {
+  for (const LawEntry& entry : law_entries)
+    if (entry.kind == kind) return entry;
+  return law_entries[0];
+}
+
+// {"pressures": [...], "slip_rates": [...], "coefficients": [[...], ...]}: a row for each pressure
+void read_coefficients(const json& value, const std::string& path, ModelSpec& model) {
+  constexpr std::size_t most = 256;
+  check_keys(value, path, {"coefficients"}, {"pressures", "slip_rates"});
+  const auto read_rising = [&](const char* key, std::vector<double>& to) {
+    to.assign(1, 0.0);
+    if (!value.contains(key)) return;
+    const std::string at = member(path, key);
+    check_array(value.at(key), at, most, "numbers, rising");
+    to = read_vector(value.at(key), at, value.at(key).size(), Range::not_negative, "");
+    if (to.empty()) fail(ENTS_BAD_VALUE, at, "is empty; write rising numbers, or leave the key out");
+    for (std::size_t i = 1; i < to.size(); ++i)
+      if (!(to[i] > to[i - 1]))
+        fail(ENTS_BAD_VALUE, item(at, i),
+             "is " + shown(to[i]) + ", not above the number before it; write rising numbers");
+  };
+  read_rising("pressures", model.friction_pressures);
+  read_rising("slip_rates", model.friction_rates);
+  if (model.friction_rates.front() != 0.0)
+    fail(ENTS_BAD_VALUE, item(member(path, "slip_rates"), 0),
+         "is " + shown(model.friction_rates.front()) + "; write 0, the rate at which sticking ends");
+  const std::string at = member(path, "coefficients");
+  const json& rows = value.at("coefficients");
+  check_array(rows, at, most, "rows, one per pressure");
+  if (rows.size() != model.friction_pressures.size())
+    fail(ENTS_BAD_VALUE, at,
+         "has " + std::to_string(rows.size()) + " rows; write one per pressure, " +
+             std::to_string(model.friction_pressures.size()));
+  ContactLaw& law = model.law;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (const double mu : read_vector(rows.at(i), item(at, i), model.friction_rates.size(),
+                                       Range::not_negative, "one per slip rate")) {
+      model.friction_coefficients.push_back(mu);
+      law.friction_coefficient = mu > law.friction_coefficient ? mu : law.friction_coefficient;
+    }
+  law.varying.kind = VaryingCoefficient::table;
+  law.varying.pressures = static_cast<std::int32_t>(model.friction_pressures.size());
+  law.varying.rates = static_cast<std::int32_t>(model.friction_rates.size());
 }
 
 void read_friction(const json& friction, const std::string& path, ModelSpec& model) {
   ContactLaw& law = model.law;
+  const LawEntry& normal = entry_of(law.normal);
   const bool rough = read_type(friction, path, {"coulomb", "rough"}) == 1;
   if (rough) {
     check_keys(friction, path, {"type", "stiffness"}, {});
     law.friction = FrictionKind::rough;
+    if (normal.is_damaged)
+      fail(ENTS_BAD_VALUE, member(path, "type"),
+           "is not possible with the normal law \"" + std::string(normal.type) +
+               "\", whose damage does not weaken shear; write \"coulomb\", which acts on the pressure, or no "
+               "friction");
   } else {
-    check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit"});
+    check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit", "adhesion", "kinetic", "decay"});
     law.friction = FrictionKind::coulomb;
-    law.friction_coefficient = read_law_number(friction, path, "coefficient", model,
-                                               model.law_binding.friction, Range::not_negative);
+    const bool decays = friction.contains("kinetic") || friction.contains("decay");
+    if (friction.at("coefficient").is_object()) {
+      if (decays)
+        fail(ENTS_BAD_VALUE, path,
+             "has \"kinetic\" or \"decay\" beside a table of coefficients; write one of the two");
+      read_coefficients(friction.at("coefficient"), member(path, "coefficient"), model);
+    } else {
+      law.friction_coefficient = read_law_number(friction, path, "coefficient", model,
+                                                 model.law_binding.friction, Range::not_negative);
+    }
+    if (decays) {
+      check_keys(friction, path, {"type", "coefficient", "stiffness", "kinetic", "decay"},
+                 {"shear_limit", "adhesion"});
+      law.varying.kind = VaryingCoefficient::decays;
+      law.varying.kinetic = read_double(friction, path, "kinetic", Range::not_negative);
+      law.varying.decay = read_double(friction, path, "decay", Range::positive);
+    }
     law.shear_limit =
         friction.contains("shear_limit") ? read_double(friction, path, "shear_limit", Range::positive) : 0.0;
+    if (friction.contains("adhesion"))
+      law.rubs_adhering = read_bool(friction.at("adhesion"), member(path, "adhesion"));
+    if (law.rubs_adhering && !normal.adheres)
+      fail(ENTS_BAD_VALUE, member(path, "adhesion"),
+           "is of a normal law that adheres; write \"dugdale\", \"separation\" or \"lennard_jones\" as "
+           "/contact/normal/type, or false");
   }
   law.friction_stiffness = read_double(friction, path, "stiffness", Range::positive);
 }
@@ -133,9 +208,8 @@ void read_wear(const json& wear, const std::string& path, ModelSpec& model) {
            "is " + shown(law.slave) +
                "; it is the part of the worn depth that the slave surface loses, 0 .. 1");
   }
-  for (const LawEntry& entry : law_entries)
-    if (entry.kind == model.law.normal && !entry.wears)
-      fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"" + std::string(entry.type) + "\"");
+  if (const LawEntry& entry = entry_of(model.law.normal); !entry.wears)
+    fail(ENTS_BAD_VALUE, path, "is not possible with the normal law \"" + std::string(entry.type) + "\"");
   if (model.law.multiplier_is_dof())
     fail(ENTS_BAD_VALUE, path,
          "needs a normal law whose pressure follows from the gap; write \"penalty\", \"power\", "
@@ -162,6 +236,10 @@ void read_flattening(const json& value, const std::string& path, ModelSpec& mode
   if (model.law.multiplier_is_dof() || model.law.wear.on)
     fail(ENTS_BAD_VALUE, path,
          "is not possible with " + std::string(model.law.wear.on ? "\"wear\"" : "multipliers as unknowns"));
+  if (model.law.pulls)
+    fail(ENTS_BAD_VALUE, path,
+         "is not possible with a normal law that pulls, \"" +
+             std::string(entry_of(model.law.normal).type) + "\"");
 }
 
 } // namespace

@@ -257,10 +257,8 @@ ents_input input_at(const Element& e, const Arguments& arguments, const Place& a
   input.area = &arguments.area;
   if (arguments.has_offset) input.slave_values = arguments.slave_values;
   input.state_begin = layout.state_size > 0 ? state_begin : nullptr;
-  if (layout.heat) {
-    input.slave_temperature = at.temperatures, input.master_temperature = at.temperatures + 1;
-    input.time_increment = e.time_increment;
-  }
+  input.time_increment = e.time_increment;
+  if (layout.heat) input.slave_temperature = at.temperatures, input.master_temperature = at.temperatures + 1;
   return input;
 }
 

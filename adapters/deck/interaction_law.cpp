@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // *SURFACE INTERACTION with its *SURFACE BEHAVIOR and *FRICTION: the law of contact elements. Heat:
 // interaction_heat.cpp.
+#include "interaction_bond.hpp"
+#include "interaction_friction.hpp"
 #include "interaction_heat.hpp"
 
 #include <algorithm>
@@ -48,6 +50,7 @@ Numbers numbers_of(const Source& source, const Line& line, const std::vector<con
 struct Interaction {
   const Statement *self = nullptr, *behaviour = nullptr, *friction = nullptr;
   std::vector<const Statement*> heat;
+  BondStatements bond;
 };
 
 /// *SURFACE INTERACTION of the pair, and what follows it up to the next one. ccx takes the first of several with one
@@ -92,6 +95,17 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
                                  " of this contact cannot be had from contact elements: ccx assembles "
                                  "temperatures of its own elements alone; leave this pair to ccx");
       out.heat.push_back(&s);
+      continue;
+    }
+    if (const Statement** bond = program != Program::abaqus           ? nullptr
+                                 : s.keyword == "COHESIVE BEHAVIOR" ? &out.bond.cohesive
+                                 : s.keyword == "DAMAGE INITIATION" ? &out.bond.initiation
+                                 : s.keyword == "DAMAGE EVOLUTION"  ? &out.bond.evolution
+                                                                    : nullptr) {
+      if (*bond)
+        source.fail(s.place, "the interaction " + pair.interaction + " has *" + s.keyword +
+                                 " a second time (first at " + source.at((*bond)->place) + "): leave one out");
+      *bond = &s;
       continue;
     }
     for (const char* other : keywords_of_interactions())
@@ -247,7 +261,13 @@ struct Behaviour {
 
   Normal law(const Statement* s) {
     const string type = s ? canonical(s->value("PRESSURE-OVERCLOSURE")) : "";
+    Normal made = of_type(s, type);
+    return s && s->has("NO SEPARATION") ? without_separation(*s, made) : made;
+  }
+
+  Normal of_type(const Statement* s, const string& type) {
     if (type.empty() || type == "HARD") return hard(s);
+    if (type == "TIED" && program == Program::calculix) return tied(*s);
     if (s->has("PENALTY") || s->has("AUGMENTED LAGRANGE"))
       source().fail(s->place,
                     "*SURFACE BEHAVIOR: PENALTY and AUGMENTED LAGRANGE are for PRESSURE-OVERCLOSURE=HARD; "
@@ -257,51 +277,31 @@ struct Behaviour {
     if (type == "TABULAR") return tabular(*s);
     source().fail(s->place,
                   "PRESSURE-OVERCLOSURE=" + s->value("PRESSURE-OVERCLOSURE") +
-                      (type == "TIED"
-                           ? " ties the surfaces, which no contact law does; leave this pair to the "
-                             "program itself"
-                           : " is not known; LINEAR, EXPONENTIAL, TABULAR and HARD are"));
+                      " is not known; LINEAR, EXPONENTIAL, TABULAR, HARD and ccx's TIED are");
+  }
+
+  /// A gap above the rounding of the mesh: what touches there does not part again.
+  double touching() const { return 1e-6 * (bodies.face_size > 0 ? bodies.face_size : 1); }
+
+  /// Once in contact a point stays: pressure and tension have one stiffness.
+  Normal without_separation(const Statement& s, Normal of) const {
+    if (of.law.at("type") != "penalty")
+      source().fail(s.place, "*SURFACE BEHAVIOR, NO SEPARATION is for a law with one stiffness; write "
+                             "PRESSURE-OVERCLOSURE=LINEAR or HARD, or leave NO SEPARATION out");
+    remarks.push_back("no separation: a point that touches is tied, also in tension");
+    return {{{"type", "tied"}, {"stiffness", of.stiffness}, {"range", touching()}}, of.stiffness};
+  }
+
+  /// ccx: stiffness, and what *FRICTION has as its stick slope.
+  Normal tied(const Statement& s) {
+    const Numbers data = line(s, {"stiffness"});
+    const double stiffness = data[0].value_or(0) > 0 ? *data[0] : proposed();
+    const double range = std::max(pair.adjust.value_or(0), 0.5 * bodies.face_size);
+    remarks.push_back("tied: points that are at most " + shown(range, 6) +
+                      " away at the begin, half a face of the slave or ADJUST");
+    return {{{"type", "tied"}, {"stiffness", stiffness}, {"range", range > 0 ? range : touching()}}, stiffness};
   }
 };
-
-nlohmann::ordered_json friction_law(const Mesh& mesh, const Statement& s, double stiffness, Program program,
-                                    const Bodies& bodies, std::vector<string>& remarks) {
-  const Source& source = mesh.source;
-  double limit = 0;
-  if (s.has("TAUMAX") && (!parse(s.value("TAUMAX"), limit) || !(limit > 0)))
-    source.fail(s.place, "*FRICTION, TAUMAX=" + s.value("TAUMAX") + ": expected a stress above 0");
-  if (s.has("ROUGH")) {
-    if (limit > 0)
-      source.fail(s.place, "*FRICTION, ROUGH never slips, so TAUMAX means nothing; leave one out");
-    for (const Line& line : s.lines) numbers_of(source, line, {});
-    return {{"type", "rough"}, {"stiffness", stiffness}};
-  }
-  if (s.lines.empty()) source.fail(s.place, "*FRICTION has no data line; write the coefficient of friction");
-  const Line& line = s.lines.back(); // ccx: "last line is decisive"
-  if (s.lines.size() > 1)
-    remarks.push_back("*FRICTION has several data lines: the last one counts, as in ccx (" +
-                      source.at(line.place) + ")");
-  const auto data = numbers_of(source, line);
-  if (!data[0]) source.fail(line.place, "*FRICTION has no coefficient; write it as the first entry");
-  if (*data[0] < 0)
-    source.fail(line.place,
-                "the coefficient of friction is " + shown(*data[0], 6) + "; write a number from 0");
-  if (*data[0] == 0) return nullptr; // Abaqus/CAE writes 0 for "frictionless"
-  const bool ccx = program == Program::calculix;
-  double slope = ccx && data.size() > 1 && data[1] ? *data[1] : 0;
-  if (!(slope > 0)) {
-    slope = ccx && bodies.first_constant > 0 ? bodies.first_constant / 2 : stiffness / 2;
-    remarks.push_back("friction: tangential stiffness " + shown(slope, 6) +
-                      (ccx && bodies.first_constant > 0
-                           ? string(", ccx's own default (half of ") +
-                                 (bodies.first_is_young ? "Young's modulus" : "the first constant") +
-                                 " of the first material)"
-                           : " proposed, half of the normal one"));
-  }
-  nlohmann::ordered_json out{{"type", "coulomb"}, {"coefficient", *data[0]}, {"stiffness", slope}};
-  if (limit > 0) out["shear_limit"] = limit;
-  return out;
-}
 
 } // namespace
 
@@ -341,9 +341,18 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
     normal = behaviour.law(parts.behaviour);
     out.clearance = behaviour.clearance;
   }
+  if (parts.bond.cohesive) {
+    normal.law = cohesive_law(mesh.source, parts.bond, behaviour.touching(), out.remarks);
+    normal.stiffness = normal.law.at("stiffness");
+  } else if (parts.bond.initiation || parts.bond.evolution) {
+    const Statement& s = parts.bond.initiation ? *parts.bond.initiation : *parts.bond.evolution;
+    mesh.source.fail(s.place, "*" + s.keyword + " of this contact has no *COHESIVE BEHAVIOR; write it, or leave "
+                                                "the damage out");
+  }
+  const bool is_tied = program == Program::calculix && normal.law.at("type") == "tied";
   out.contact["normal"] = normal.law;
   if (parts.friction)
-    if (auto law = friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, out.remarks);
+    if (auto law = friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, is_tied, out.remarks);
         !law.is_null())
       out.contact["friction"] = std::move(law);
   if (auto heat = heat_law(mesh.source, parts.heat, out.contact.contains("friction"), out.remarks);

@@ -239,8 +239,7 @@ std::vector<KeywordRule> abaqus_rules() {
         {"AUGMENTED LAGRANGE", Use::no_effect, "",
          "the penetration of its penalty stiffness stays, nothing is augmented"},
         {"DIRECT", Use::no_effect, "", ""},
-        {"NO SEPARATION", Use::refused, "*",
-         std::string("contact elements carry pressure alone, and every point may open again") + by_itself}},
+        {"NO SEPARATION", Use::used, "", ""}},
        {}},
       {"FRICTION",
        Use::used,
@@ -253,10 +252,9 @@ std::vector<KeywordRule> abaqus_rules() {
          "contact elements stick by a penalty; leave LAGRANGE out, or leave this pair to Abaqus"},
         {"ANISOTROPIC", Use::refused, "",
          std::string("friction of contact elements is the same in all directions") + by_itself},
-        {"EXPONENTIAL DECAY", Use::refused, "*",
-         "a coefficient that depends on the slip rate is no law of a contact element; write one coefficient"},
+        {"EXPONENTIAL DECAY", Use::used, "", ""},
         {"TEST DATA", Use::refused, "",
-         "a coefficient that depends on the slip rate is no law of a contact element; write one coefficient"},
+         "write the static coefficient, the kinetic one and the decay, without TEST DATA"},
         {"DEPENDENCIES", Use::refused, "*",
          "a coefficient that depends on fields is no law of a contact element; write one coefficient"},
         {"SHEAR TRACTION SLOPE", Use::refused, "*",
@@ -264,11 +262,8 @@ std::vector<KeywordRule> abaqus_rules() {
         {"USER", Use::refused, "*", user},
         {"DEPVAR", Use::refused, "*", states},
         {"PROPERTIES", Use::refused, "*", states}},
-       {{"coefficient of friction"},
-        {"slip rate", Use::refused, "0", table},
-        {"contact pressure", Use::refused, "0", table},
-        {"temperature", Use::refused, "0", table}},
-       1},
+       {{"coefficient of friction"}, {"slip rate"}, {"contact pressure"}, {"temperature", Use::refused, "0", table}}},
+      {"COHESIVE BEHAVIOR", Use::used, "", {any}, {}}, // of a pair's interaction: interaction_bond.cpp
       {"CONTACT PAIR",
        Use::used,
        "",
@@ -310,7 +305,7 @@ std::vector<KeywordRule> abaqus_rules() {
 std::vector<KeywordRule> together(std::vector<KeywordRule> rules) {
   for (KeywordRule& rule : rules)
     for (const char* name : {"SURFACE INTERACTION", "SURFACE BEHAVIOR", "FRICTION", "CONTACT PAIR",
-                             "GAP CONDUCTANCE", "GAP HEAT GENERATION"})
+                             "GAP CONDUCTANCE", "GAP HEAT GENERATION", "COHESIVE BEHAVIOR"})
       rule.of_pair = rule.of_pair || rule.name == name;
   for (auto&& more : {shared_rules(), mesh_rules()}) rules.insert(rules.end(), more.begin(), more.end());
   return rules;

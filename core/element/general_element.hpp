@@ -79,7 +79,8 @@ template <class Basis, bool Enriched> struct GeneralElement {
 
     const ElementBlock block = block_of(in, out, nullptr, 0);
     const GeneralInputs<Basis, Enriched, double> begin(plan, block, 0);
-    at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale);
+    at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale,
+                    begin.bond);
     if (element && !at.solved) return Status::out_of_range;
     if (!verdict_wanted) point.contact = false;
     if (point.contact && element) {

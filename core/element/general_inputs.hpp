@@ -26,7 +26,8 @@ template <class Basis, bool Enriched, class Scalar> struct GeneralInputs {
   static constexpr int D = Basis::dim, T = D - 1;
   SlipBegin<Scalar, T> begin; // friction, or wear
   Scalar multiplier[1 + T];
-  Scalar offset, scale; // of the gap, beside the law's own; of a table
+  Scalar offset, scale; // of the gap, beside the law's own; of a table or the work of adhesion
+  Scalar bond;
   bool has_multiplier, has_wear;
   WornState<Scalar, T> worn;
 
@@ -35,6 +36,7 @@ template <class Basis, bool Enriched, class Scalar> struct GeneralInputs {
       return element_at(block.state_begin, block.state_begin_stride, first + k);
     };
     begin.known = begin.clearance = Scalar(0.0);
+    begin.time = block.time_increment;
     for (Scalar& x : begin.from) x = Scalar(0.0);
     for (Scalar& x : multiplier) x = Scalar(0.0);
     if (plan.state.clearance_at >= 0 && block.state_begin) {
@@ -60,6 +62,9 @@ template <class Basis, bool Enriched, class Scalar> struct GeneralInputs {
     };
     offset = own(slave_value::offset, 0.0);
     scale = plan.law.has_scale ? own(slave_value::scale, 1.0) : Scalar(1.0);
+    bond = Scalar(0.0);
+    if (plan.state.bond_at >= 0 && block.state_begin)
+      bond = of_each<Scalar>([&](int k) ENTS_LAMBDA_INLINE { return state(k)[plan.state.bond_at]; });
     has_wear = plan.law.wear.on;
     if (!has_wear) return;
     worn.factor = own(slave_value::wear, 1.0), worn.sliding_factor = own(slave_value::sliding, 1.0);

@@ -81,7 +81,7 @@ private:
     for (int a = 0; a < T; ++a) xi[a] = seeded(at_.point.xi[a], a);
     for (int k = 0; k < K; ++k) metric[k] = seeded(at_.point.projector.metric[k], by_metric + k);
     for (int a = 0; a < T; ++a) multiplier[a] = seeded(begin_.multiplier[1 + a], by_multiplier + a);
-    const S area(at_.point.area), force = seeded(-(at_.point.area * at_.law.force), by_force);
+    const S area(at_.point.area), force = seeded(pressing_force(), by_force);
     SlipBegin<S, T> from;
     const bool touched = law.multiplier_is_dof() && begin_.begin.clearance > 0.0;
     from.known = S(touched ? 0.0 : begin_.begin.known), from.clearance = S(begin_.begin.clearance);
@@ -89,9 +89,16 @@ private:
     SlipShare<S> slipping;
     if (at_.slipping.some) slipping = slip_share(from.clearance, seeded(-at_.clearance, by_depth));
     Friction<S, T> friction;
-    friction.evaluate(law, {xi, metric, area, true}, from, slipping, force,
+    from.time = begin_.begin.time;
+    friction.template evaluate<true>(law, {xi, metric, area, true}, from, slipping, force,
                       begin_.has_multiplier ? multiplier : nullptr);
     return dissipation_of(law, friction);
+  }
+
+  // That friction acts on
+  double pressing_force() const {
+    if (!plan_.law.pulls) return -(at_.point.area * at_.law.force);
+    return at_.point.area * rubbing_pressure(plan_.law, at_.law.force, at_.law_gap, begin_.scale);
   }
 
   void set_dissipation() {
@@ -155,7 +162,8 @@ Status evaluate_heat_ingredients(const Plan& plan, const ElementInput& in, const
       return Status::singular_projection;
     const ElementBlock block = block_of(in, ElementOutput{}, nullptr, 0);
     const GeneralInputs<Basis, Enriched, double> begin(plan, block, 0);
-    at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale);
+    at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale,
+                    begin.bond);
     HeatIngredientsOf<Basis, Enriched>(plan, at, begin, out).write();
     return Status::ok;
   });

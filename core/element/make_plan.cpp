@@ -87,6 +87,11 @@ Plan make(const ModelSpec& model, bool enriched) {
   plan.law = model.law;
   plan.law.table = model.law_table.data();
   plan.law.table_points = static_cast<std::int32_t>(model.law_table.size());
+  if (model.law.varying.kind == VaryingCoefficient::table) {
+    VaryingCoefficient& of = plan.law.varying;
+    of.pressure = model.friction_pressures.data(), of.rate = model.friction_rates.data();
+    of.coefficient = model.friction_coefficients.data();
+  }
   plan.penetration_limit = model.penetration_limit;
   plan.border = model.border;
   plan.hull_spread = kernels.hull_spread(model.basis, model.border);

@@ -50,7 +50,9 @@ template <class Basis, bool Enriched, class Scalar> struct MultiplierEquations {
       return at.point.area * (sum.size_of(sum.dg) + 1.0 / plan.law.number[0]);
     const double rate = 1.0 / plan.law.friction_stiffness;
     double by_multiplier = at.point.area, nodes = 0.0, bound = 0.0;
-    if (f.slip) by_multiplier += at.point.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised);
+    if (f.slip)
+      by_multiplier += at.point.area * sum_of_absolutes(f.direction) * sum_of_absolutes(f.raised) *
+                       (plan.law.coefficient_varies() ? 1.0 + absolute(f.radial) : 1.0);
     by_multiplier += at.point.area * sum_of_absolutes(f.by_force);
     for (int a = 0; a < T; ++a) {
       bound += rate * sum.size_of(sum.P[a]);
@@ -74,6 +76,7 @@ private:
     const double area = area_of(k), rate = 1.0 / plan.law.friction_stiffness;
     const bool rubs = plan.law.has_friction_force() && (bits_of(f.active) >> k & 1),
                slips = bits_of(f.slip) >> k & 1;
+    const double radial = plan.law.coefficient_varies() ? lane(f.radial, k) : 1.0;
     double* column = out + n * leading;
     for (int b = 0; b < T; ++b) {
       double* by_multiplier = out + (n + 1 + b) * leading;
@@ -83,7 +86,7 @@ private:
           d = a == b ? area : 0.0;
           if (slips)
             d = lane(f.limit, k) / lane(f.norm, k) *
-                (d - area * lane(f.direction[a], k) * lane(f.raised[b], k));
+                (d - radial * (area * lane(f.direction[a], k) * lane(f.raised[b], k)));
           for (int i = 0; i < n; ++i) by_multiplier[i] += lane(sum->dxi[a][i], k) * d;
         }
         by_multiplier[n + 1 + a] = rate * (d - (a == b ? area : 0.0));

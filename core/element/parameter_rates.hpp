@@ -77,6 +77,7 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
   S multiplier[1 + T];
   WornState<S, T> worn;
   slip.known = S(begin.begin.known), slip.clearance = S(begin.begin.clearance);
+  slip.time = begin.begin.time;
   for (int a = 0; a < T; ++a) slip.from[a] = S(begin.begin.from[a]);
   for (int a = 0; a < 1 + T; ++a) multiplier[a] = S(begin.multiplier[a]);
   if (begin.has_wear) {
@@ -85,7 +86,7 @@ Status evaluate_parameter_rates(const Plan& plan, const ElementInput& in, const 
     worn.factor = S(begin.worn.factor), worn.sliding_factor = S(begin.worn.sliding_factor);
   }
   at.evaluate_law(plan, slip, begin.has_multiplier ? multiplier : nullptr, begin.has_wear ? &worn : nullptr,
-                  S(begin.offset), S(begin.scale));
+                  S(begin.offset), S(begin.scale), S(begin.bond));
   out.gap = at.gap.d;
   out.energy = point.area.v * at.law.energy.d;
   out.pressure = 0.0 - at.law.force.d;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/element/inputs.hpp"
+#include "core/law/laws.hpp"
 
 namespace ents::ENTS_ISA {
 
@@ -22,6 +23,7 @@ template <class Basis, bool Frictional, class Scalar> struct SmallResults {
   Scalar tangential[T], metric[K]; // t_a and rho_e,a . rho_e,b, where the law has multipliers
   Scalar lost;                     // of the increment, where the law has wear
   Scalar clearance;                // of an open element
+  Scalar bonded;                   // of a law that bonds, at the end
   std::int32_t more_flags = 0;
   bool escaped = false; // the projection left the segment for good
 
@@ -48,6 +50,7 @@ template <class Basis, bool Frictional, class Scalar> struct SmallResults {
     for (int k = 0; k < K; ++k) metric[k] = at.point.projector.metric[k];
     lost = at.wear.lost;
     clearance = at.clearance;
+    bonded = at.bonded;
   }
 
   // Of lane k, to element e
@@ -79,7 +82,7 @@ template <class Basis, bool Frictional, class Scalar> struct SmallResults {
         block.energy[e * block.energy_stride] =
             touches ? of_slave * (lane(force, k) * g / (0.5 * plan.law.twice_exponent + 1.0)) : 0.0;
     }
-    if (wanted & (want::dissipation | want::friction_energy)) write_friction_work(plan.law, block, k, e);
+    if (wanted & (want::dissipation | want::friction_energy)) write_friction_work(plan, block, k, e);
     if (wanted & want::iterations)
       block.iterations[e * block.iterations_stride] = static_cast<std::int32_t>(lane(evaluations, k));
     if (wanted & (want::state | want::flags | want::age | want::slip)) write_history(plan, block, k, e);
@@ -109,15 +112,21 @@ private:
            of_slave;
   }
 
-  // What slip has dissipated, and what is stored in the elastic slip; a multiplier stores nothing
-  ENTS_INLINE void write_friction_work(const ContactLaw& law, const ElementBlock& block, int k,
+  // What slip and damage have dissipated, and what is stored in the elastic slip; a multiplier stores nothing
+  ENTS_INLINE void write_friction_work(const Plan& plan, const ElementBlock& block, int k,
                                        std::int64_t e) const {
+    const ContactLaw& law = plan.law;
     double dissipated = 0.0, stored = 0.0;
+    if (has_energy && law.is_damaged) {
+      const double* begin = element_at(block.state_begin, block.state_begin_stride, e);
+      dissipated = lane(area, k) *
+                   bond_dissipation(law, begin ? begin[plan.state.bond_at] : 0.0, lane(bonded, k));
+    }
     if constexpr (Frictional) {
       const bool slips = slip >> k & 1;
       if ((active >> k & 1) && law.multiplier == Multiplier::none) {
         const double stiffness = lane(scale, k), force_left = slips ? lane(limit, k) : lane(norm, k);
-        if (slips) dissipated = slip_dissipation(lane(limit, k), lane(norm, k), stiffness);
+        if (slips) dissipated += slip_dissipation(lane(limit, k), lane(norm, k), stiffness);
         if (stiffness > 0.0) stored = 0.5 * force_left * (force_left / stiffness);
       } else if ((active >> k & 1) && slips) {
         for (int a = 0; a < T; ++a) dissipated += lane(tangential[a], k) * lane(moved[a], k);
@@ -207,6 +216,7 @@ private:
       }
     if (plan.state.multiplier_at >= 0) write_multipliers(plan.law, k, end + plan.state.multiplier_at);
     if (plan.state.wear_at >= 0) write_wear(plan, k, begin, end);
+    if (has_energy && plan.state.bond_at >= 0) end[plan.state.bond_at] = lane(bonded, k);
     if (plan.state.clearance_at >= 0 && now == static_cast<double>(History::open)) {
       for (int a = 1; a < T; ++a) end[plan.state.clearance_at + a] = 0.0;
       end[plan.state.clearance_at] = lane(clearance, k);

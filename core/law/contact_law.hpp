@@ -26,6 +26,18 @@ struct Wear {
   double sliding = 0.0; // [L] per increment, beside and perpendicular to that of the slave on the master
 };
 
+// A coefficient of friction that depends on slip rate or pressure: see friction_coefficient.hpp.
+struct VaryingCoefficient {
+  enum Kind : std::int32_t { constant, decays, table };
+  Kind kind = constant;
+  double kinetic = 0.0, decay = 0.0; // at high rates; [T/L]
+  // Of a plan, which its model has: rising pressures and slip rates, a row for each pressure
+  const double *pressure = nullptr, *rate = nullptr, *coefficient = nullptr;
+  std::int32_t pressures = 0, rates = 0;
+
+  constexpr bool by_rate() const { return kind == decays || rates > 1; }
+};
+
 // A part of the height that gives way to the pressure: see flattening.hpp.
 struct Flattening {
   std::uint8_t parameter = 0;         // 1 + index of its scale; 0: none
@@ -43,7 +55,7 @@ enum : std::int32_t {
   offset,  // added to the law's offset
   wear,    // factor of k
   sliding, // factor of `sliding`
-  scale    // factor of a table's gaps and pressures
+  scale    // factor of a table's gaps and pressures, of the work of adhesion
 };
 }
 
@@ -60,12 +72,15 @@ struct ContactLaw {
   // What the law says of itself, see set_normal_law()
   Multiplier multiplier = Multiplier::none;
   bool has_slope = false, has_scale = false;
-  double number[2] = {0.0, 0.0};   // of the law's table, in its order; of most laws eps [F/L^3]
+  bool pulls = false, bonds = false, is_damaged = false;
+  double number[4] = {}; // of the law's table, in its order; of most laws eps [F/L^3]
   std::int32_t twice_exponent = 2; // 2 m (power)
   FrictionKind friction = FrictionKind::none;
-  double friction_coefficient = 0.0; // mu
+  double friction_coefficient = 0.0; // mu; of one that varies the static one, or the largest
+  VaryingCoefficient varying;
   double friction_stiffness = 0.0;   // eps_t [F/L^3]
   double shear_limit = 0.0;          // [F/L^2]; 0: none
+  bool rubs_adhering = false; // friction of p + strength(), not of what is compression: rubbing_pressure()
   bool symmetrised = false;          // tangent (K + K^T) / 2
   const LawTable* table = nullptr;   // of a plan: points that its model has
   std::int32_t table_points = 0;
@@ -90,6 +105,9 @@ struct ContactLaw {
   constexpr std::int32_t slave_values() const {
     return has_scale ? slave_value::scale + 1 : slave_value::scale;
   }
+  constexpr bool coefficient_varies() const { return varying.kind != VaryingCoefficient::constant; }
+  // Is there contact without a limit of friction?
+  constexpr bool may_not_press() const { return multiplier_is_dof() || pulls; }
   constexpr bool multiplier_in_state() const { return multiplier == Multiplier::in_state; }
   constexpr bool multiplier_is_dof() const { return multiplier == Multiplier::is_dof; }
 };

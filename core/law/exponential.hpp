@@ -23,7 +23,7 @@ struct Exponential : NormalLaw {
   static constexpr LawNumber table[] = {{"pressure", "[F/L^2].", LawNumber::positive, true},
                                         {"clearance", "[L].", LawNumber::positive}};
 
-  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw& law, const S&) {
+  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw& law, const S&, const S&) {
     return S(law.number[1]);
   }
 

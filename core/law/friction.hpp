@@ -16,6 +16,7 @@
 // All but the last expansion to dofs happens in the reduced space of forms.hpp.
 #pragma once
 
+#include "core/law/friction_coefficient.hpp"
 #include "core/law/touch.hpp"
 #include "core/numbers/vec.hpp"
 
@@ -46,10 +47,13 @@ template <class S, int T> struct Friction {
   S scale;              // eps_t A
   S norm;               // |t| of the trial
   S limit, by_pressure; // L, dL / d(p A)
+  S by_norm, radial;    // of a coefficient that varies: dL / d|t|, 1 - |t| / L of it
   S direction[T], raised[T];
   S by_gap[T], by_force[T]; // dt_a / dg, dt_a / d(p A) at a fixed place
 
-  // slipping: the part of the increment; pressure_force: p A; multiplier: lambda_a [F/L], or null
+  // slipping: the part of the increment; pressure_force: p A; multiplier: lambda_a [F/L], or null; Varies: may the
+  // coefficient?
+  template <bool Varies = false>
   ENTS_INLINE void evaluate(const ContactLaw& law, const FrictionPlace<S, T>& at,
                             const SlipBegin<S, T>& begin, const SlipShare<S>& slipping,
                             const S& pressure_force, const S* multiplier = nullptr) {
@@ -76,10 +80,14 @@ template <class S, int T> struct Friction {
     if (!law.has_friction_force()) return slip_freely();
     by_pressure = law_number<S>(law.friction_coefficient, law.rates.friction);
     limit = by_pressure * pressure_force;
-    if (law.multiplier_is_dof()) { // one that pulls leaves no friction
+    if (law.may_not_press()) { // what pulls leaves no friction
       const Truth<S> presses = pressure_force > 0.0;
       limit = select(presses, limit, S(0.0));
       by_pressure = select(presses, by_pressure, S(0.0));
+    }
+    if constexpr (Varies) {
+      by_norm = S(0.0), radial = S(1.0);
+      if (law.coefficient_varies()) vary(law, at, begin, pressure_force);
     }
     at_shear_limit = limit < limit; // none
     if (law.shear_limit > 0.0) {
@@ -87,6 +95,10 @@ template <class S, int T> struct Friction {
       at_shear_limit = most < limit;
       limit = select(at_shear_limit, most, limit);
       by_pressure = select(at_shear_limit, S(0.0), by_pressure);
+      if constexpr (Varies) {
+        by_norm = select(at_shear_limit, S(0.0), by_norm);
+        radial = select(at_shear_limit, S(1.0), radial);
+      }
     }
     // a negative area, which is refused later, has a negative limit, and no direction at norm 0
     slip = both(both(active, norm > limit), norm > 0.0);
@@ -100,7 +112,7 @@ template <class S, int T> struct Friction {
       by_gap[a] = S(0.0);
       by_force[a] = select(slip, direction[a] * by_pressure, S(0.0));
     }
-    if (slipping.some) differentiate_share(law, at, begin, slipping.rate);
+    if (slipping.some) differentiate_share<Varies>(law, at, begin, slipping.rate);
   }
 
   // No friction.
@@ -114,15 +126,27 @@ template <class S, int T> struct Friction {
       moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
       by_gap[a] = by_force[a] = zero;
     }
-    scale = norm = limit = by_pressure = zero;
+    scale = norm = limit = by_pressure = by_norm = zero;
+    radial = S(1.0);
   }
 
 private:
+  ENTS_INLINE void vary(const ContactLaw& law, const FrictionPlace<S, T>& at, const SlipBegin<S, T>& begin,
+                        const S& pressure_force) {
+    const Truth<S> presses = pressure_force > 0.0;
+    const auto of = slip_limit_of(law, norm, select(presses, pressure_force, S(0.0)), at.area, scale, begin.time);
+    limit = of.limit, by_norm = of.by_norm;
+    by_pressure = select(presses, of.by_force, S(0.0));
+    const Truth<S> some = limit > 0.0;
+    radial = select(some, 1.0 - of.by_norm * (norm / select(some, limit, S(1.0))), S(1.0));
+  }
+
   // A coefficient of 0: an element that was in contact slips, without a force.
   ENTS_INLINE void slip_freely() {
     slip = active;
     at_shear_limit = norm < norm;
-    limit = by_pressure = S(0.0);
+    limit = by_pressure = by_norm = S(0.0);
+    radial = S(1.0);
     for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = by_gap[a] = by_force[a] = S(0.0);
   }
 
@@ -141,6 +165,7 @@ private:
   }
 
   // t_a changes with the part of the increment that is slip; its direction only beside a multiplier.
+  template <bool Varies>
   ENTS_INLINE void differentiate_share(const ContactLaw& law, const FrictionPlace<S, T>& at,
                                        const SlipBegin<S, T>& begin, const S& rate) {
     const auto& metric = at.metric;
@@ -155,7 +180,9 @@ private:
     const S turns(law.multiplier_in_state() ? 1.0 : 0.0), none(0.0);
     const S q = select(slip, turns * (limit / select(slip, norm, S(1.0))), S(1.0)) * (scale * rate);
     for (int a = 0; a < T; ++a) {
-      const S change = q * (lowered[a] - select(slip, direction[a] * along, none));
+      S change = q * (lowered[a] - select(slip, direction[a] * along, none));
+      if constexpr (Varies)
+        change = change + select(slip, direction[a] * (by_norm * (scale * (rate * along))), none);
       const S by_depth = select(closes, change, none);
       by_gap[a] = none - by_depth;
     }

@@ -4,10 +4,12 @@
 
 #include <iterator>
 
+#include "core/law/adhesion.hpp"
 #include "core/law/exponential.hpp"
 #include "core/law/multiplier.hpp"
 #include "core/law/power.hpp"
 #include "core/law/table.hpp"
+#include "core/law/tied.hpp"
 
 namespace ents {
 
@@ -18,13 +20,17 @@ struct LawEntry {
   const LawNumber* numbers;
   std::int32_t count; // of numbers
   Multiplier multiplier;
-  bool has_slope, wears, has_scale;
+  bool has_slope, wears, has_scale, pulls, adheres, bonds, is_damaged;
+  const char* (*mistake)(const ContactLaw&); // see NormalLaw
 };
 #define ENTS_LAW(name, law)                                                                                  \
   {NormalKind::name,          ENTS_ISA::law::type,                                                           \
    ENTS_ISA::law::table,      static_cast<std::int32_t>(std::size(ENTS_ISA::law::table)),                    \
    ENTS_ISA::law::multiplier, ENTS_ISA::law::has_slope,                                                      \
-   ENTS_ISA::law::wears,      ENTS_ISA::law::has_scale},
+   ENTS_ISA::law::wears,      ENTS_ISA::law::has_scale,                                                      \
+   ENTS_ISA::law::pulls,      ENTS_ISA::law::adheres,                                                        \
+   ENTS_ISA::law::bonds,      ENTS_ISA::law::is_damaged,                                                     \
+   ENTS_ISA::law::mistake},
 inline constexpr LawEntry law_entries[] = {ENTS_NORMAL_LAWS(ENTS_LAW)};
 #undef ENTS_LAW
 
@@ -32,6 +38,13 @@ inline constexpr LawEntry law_entries[] = {ENTS_NORMAL_LAWS(ENTS_LAW)};
 inline void set_normal_law(const LawEntry& entry, ContactLaw& law) {
   law.normal = entry.kind, law.multiplier = entry.multiplier;
   law.has_slope = entry.has_slope, law.has_scale = entry.has_scale;
+  law.pulls = entry.pulls, law.bonds = entry.bonds, law.is_damaged = entry.is_damaged;
+}
+// What is wrong with the numbers of the law, and what to write; or null
+inline const char* mistake_of(const ContactLaw& law) {
+  for (const LawEntry& entry : law_entries)
+    if (entry.kind == law.normal) return entry.mistake(law);
+  return nullptr;
 }
 
 namespace ENTS_ISA {
@@ -49,11 +62,42 @@ template <class F> ENTS_INLINE void with_law(NormalKind kind, F&& f) {
   }
 }
 
-// The gap [L] from which on there is contact; scale: of the slave node
-template <class S> ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale) {
+// The gap [L] from which on there is contact; scale: of the slave node; bond: of the state
+template <class S>
+ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale, const S& bond = S(0.0)) {
   S gap(0.0);
-  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { gap = decltype(type)::touching_gap(law, scale); });
+  with_law(law.normal,
+           [&](auto type) ENTS_LAMBDA_INLINE { gap = decltype(type)::touching_gap(law, scale, bond); });
   return gap;
+}
+
+// Largest tension, and where
+template <class S> ENTS_INLINE Strength<S> strength(const ContactLaw& law, const S& scale) {
+  Strength<S> of{S(0.0), S(0.0)};
+  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { of = decltype(type)::strength(law, scale); });
+  return of;
+}
+
+// The number of the state at the end of an increment, from that of its begin and the gap at its end
+template <class S> ENTS_INLINE S next_bond(const ContactLaw& law, const S& gap, const S& bond) {
+  S next(0.0);
+  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { next = decltype(type)::next_bond(law, gap, bond); });
+  return next;
+}
+// What damage has taken between them, of a unit of area
+inline double bond_dissipation(const ContactLaw& law, double begin, double end) {
+  double taken = 0.0;
+  with_law(law.normal, [&](auto type) { taken = decltype(type)::dissipation(law, begin, end); });
+  return taken;
+}
+
+// The pressure that friction acts on, W' that of the law at this gap: what of it is compression or, with
+// ContactLaw::rubs_adhering, p + strength() up to the gap of the largest tension. 0 beyond.
+template <class S>
+ENTS_INLINE S rubbing_pressure(const ContactLaw& law, const S& force, const S& gap, const S& scale) {
+  if (!law.rubs_adhering) return larger(-force, S(0.0));
+  const Strength<S> of = strength(law, scale);
+  return select(gap < of.gap, larger(of.most - force, S(0.0)), S(0.0));
 }
 
 // Is W'' constant in contact?
@@ -63,14 +107,15 @@ ENTS_INLINE bool is_linear(const ContactLaw& law) {
   return linear;
 }
 
-// multiplier: lambda of the augmented and the multiplier laws, a pressure; scale: of the slave node
+// multiplier: lambda of the augmented and the multiplier laws, a pressure; scale: of the slave node; bond: of
+// the state
 template <class S>
 ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, const S& multiplier,
-                                        const S& scale = S(1.0)) {
+                                        const S& scale = S(1.0), const S& bond = S(0.0)) {
   NormalForce<S> f{S(0.0), S(0.0), S(0.0), S(1.0) < S(0.0)};
   if (law.normal == NormalKind::none) return f;
   with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE {
-    f = decltype(type)::template force<S>(law, {gap, multiplier, scale});
+    f = decltype(type)::template force<S>(law, {gap, multiplier, scale, bond});
   });
   S open(0.0);
   if (law.multiplier != Multiplier::none)

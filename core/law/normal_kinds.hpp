@@ -13,7 +13,12 @@
   X(augmented, Augmented)                                                                                    \
   X(augmented_multiplier, AugmentedMultiplier)                                                               \
   X(multiplier, PureMultiplier)                                                                              \
-  X(table, Tabular)
+  X(table, Tabular)                                                                                          \
+  X(tied, Tied)                                                                                              \
+  X(cohesive, Cohesive)                                                                                      \
+  X(dugdale, Dugdale)                                                                                        \
+  X(separation, Separation)                                                                                  \
+  X(lennard_jones, LennardJones)
 
 namespace ents {
 

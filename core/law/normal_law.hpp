@@ -29,14 +29,18 @@ struct LawNumber {
 
 namespace ENTS_ISA {
 
-// Per area: dW/dg (<= 0), d2W/dg2, W, and whether the element is in contact.
+// Per area: dW/dg (<= 0, but of a law that pulls), d2W/dg2, W, and whether the element is in contact.
 template <class S> struct NormalForce {
   S force, stiffness, energy;
   Truth<S> contact;
 };
 
-// What the law is asked for. multiplier: lambda, a pressure; scale: r of r p(g / r), of the slave node
-template <class S> struct NormalPlace { const S &gap, &multiplier, &scale; };
+// What the law is asked for. multiplier: lambda, a pressure; scale: of the slave node, r of r p(g / r) or of r w;
+// bond: of a law that bonds, from the state at the begin of the increment
+template <class S> struct NormalPlace { const S &gap, &multiplier, &scale, &bond; };
+
+// The largest tension of a law that adheres, and the gap where it is
+template <class S> struct Strength { S most, gap; };
 
 // What most laws have.
 struct NormalLaw {
@@ -44,9 +48,22 @@ struct NormalLaw {
   static constexpr bool has_slope = false; // is W' = (W'/g) g with W'' = m W'/g? (power.hpp)
   static constexpr bool wears = true;      // may it stand with wear? Not if W'' falls as the gap does
   static constexpr bool has_scale = false; // has a slave node a scale of its own?
+  static constexpr bool pulls = false;     // may W' be positive?
+  static constexpr bool adheres = false;   // has it a strength()?
+  static constexpr bool bonds = false;     // has the state a number of it, next_bond() at the end of an increment?
+  static constexpr bool is_damaged = false; // does a bond that grows take energy, dissipation()?
   static bool is_linear(const ContactLaw&) { return false; } // is W'' constant in contact?
-  // The gap [L] from which on there is contact
-  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw&, const S&) { return S(0.0); }
+  // What is wrong with numbers that are positive each, and what to write; or null
+  static const char* mistake(const ContactLaw&) { return nullptr; }
+  // The gap [L] from which on there is contact; of the scale and the bond of the element
+  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw&, const S&, const S&) {
+    return S(0.0);
+  }
+  template <class S> static ENTS_INLINE Strength<S> strength(const ContactLaw&, const S&) {
+    return {S(0.0), S(0.0)};
+  }
+  template <class S> static ENTS_INLINE S next_bond(const ContactLaw&, const S&, const S&) { return S(0.0); }
+  static double dissipation(const ContactLaw&, double, double) { return 0.0; } // from one bond to another
 };
 
 template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); }

@@ -34,7 +34,7 @@ struct Tabular : NormalLaw {
       {"pressure", "One per gap, falling, the last one 0 [F/L^2].", LawNumber::falling}};
   static constexpr bool wears = false, has_scale = true;
 
-  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale) {
+  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale, const S&) {
     return law.table_points > 0 ? law.table[law.table_points - 1].gap * scale : S(0.0);
   }
 

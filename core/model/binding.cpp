@@ -7,6 +7,7 @@
 
 #include "core/height/field.hpp"
 #include "core/height/height_value.hpp"
+#include "core/law/laws.hpp"
 #include "core/numbers/fingerprint.hpp"
 
 namespace ents {
@@ -131,6 +132,10 @@ Status bind(const ModelSpec& model, const Plan& of, const double* parameters, co
       !number(model.law_binding.heat_conductivity, law.heat.conductivity, 0.0) ||
       !number(model.law_binding.heat_share, law.heat.share, 0.0) || law.heat.share > 1.0)
     return Status::bad_value;
+  if (model.law_binding.normal != 0 && mistake_of(law)) {
+    which = model.law_binding.normal - 1;
+    return Status::bad_value;
+  }
   if (const std::uint8_t scale = law.flattening.parameter; scale != 0 && values[which = scale - 1] != 1.0)
     return Status::bad_value;
 
@@ -164,6 +169,7 @@ Status bind(const ModelSpec& model, const Plan& of, const double* parameters, co
   }
   plan = of;
   law.table = of.law.table, law.table_points = of.law.table_points;
+  law.varying = of.law.varying;
   law.heat.by_pressure = of.law.heat.by_pressure, law.heat.pressures = of.law.heat.pressures;
   law.heat.by_gap = of.law.heat.by_gap, law.heat.gaps = of.law.heat.gaps;
   plan.law = law;

@@ -49,6 +49,8 @@ struct ModelSpec {
   double ray[3] = {0.0, 0.0, 0.0}; // emitter, or unit direction; third entry 0 in 2D
   ContactLaw law;                  // normal kind `none`: kinematics only
   std::vector<LawTable> law_table; // of a law that is a table
+  // Of a coefficient of friction: rising pressures and slip rates, a row of numbers for each pressure
+  std::vector<double> friction_pressures, friction_rates, friction_coefficients;
   std::vector<ConductancePoint> conductance_by_pressure, conductance_by_gap; // of heat
   LawBinding law_binding;
   std::vector<NamedParameter> parameters; // in the order of their names

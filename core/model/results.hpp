@@ -76,7 +76,7 @@ struct ElementInput {
   ENTS_INPUT_ARRAYS(ENTS_ARRAY) // each but slave and master or null: see ents_input
 #undef ENTS_ARRAY
   bool start_first = false;    // before the history's xi
-  double time_increment = 0.0; // of heat
+  double time_increment = 0.0; // of heat, and of friction that depends on the slip rate
 };
 
 struct ElementOutput {
@@ -107,6 +107,7 @@ struct ElementBlock {
   ENTS_BLOCK_RESULTS(ENTS_STRIDE)
 #undef ENTS_STRIDE
   std::int64_t leading, first;
+  double time_increment = 0.0; // see ElementInput
   bool start_first = false;
   // A block of one element may want results that no block has (`rest`): gradients and Hessians.
   const ElementInput* one = nullptr;
@@ -127,6 +128,7 @@ inline ElementBlock block_of(const ElementInput& in, const ElementOutput& out, c
   ENTS_BLOCK_RESULTS(ENTS_COPY)
 #undef ENTS_COPY
   b.leading = out.tangent_leading_dimension;
+  b.time_increment = in.time_increment;
   return b;
 }
 

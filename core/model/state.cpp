@@ -8,7 +8,7 @@ namespace ents {
 StateLayout make_state_layout(const ModelSpec& model) {
   const ContactLaw& law = model.law;
   const std::int32_t parameters = basis_entry(model.basis).parameters;
-  StateLayout s{-1, -1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
+  StateLayout s{-1, -1, -1, -1, -1, -1, StateLayout::xi_at + parameters, 0.0};
   if (law.has_friction()) {
     s.anchor_at = s.size;
     s.slip_at = s.anchor_at + parameters;
@@ -22,6 +22,7 @@ StateLayout make_state_layout(const ModelSpec& model) {
     s.wear_at = s.size;
     s.size += StateLayout::worn_anchor + parameters;
   }
+  if (law.bonds) s.bond_at = s.size++;
   s.clearance_at = s.anchor_at >= 0 ? s.anchor_at
                    : s.wear_at >= 0 ? s.wear_at + StateLayout::worn_anchor
                                     : -1;

@@ -24,6 +24,7 @@ struct StateLayout {
   std::int32_t slip_at;                     // accumulated slip [L], friction
   std::int32_t multiplier_at;               // [1] or, with friction, [1 + T]: augmented Lagrangian
   std::int32_t wear_at;      // [worn_slave, worn_master, pressure, anchor [T]], see below; wear
+  std::int32_t bond_at;      // [1] largest gap of a bond [L], 0: no bond; laws that bond
   std::int32_t clearance_at; // of an open element: how far from contact it was [L], in place of an anchor
   std::int32_t size;
   double tag; // "ents", version, basis and kinds of law in one exactly representable number
@@ -41,8 +42,10 @@ inline bool is_state(const StateLayout& layout, const double* state) {
          (history == 0.0 || history == 1.0 || history == 2.0 || history == 3.0);
 }
 
-// The numbers that an open element without a segment keeps of the state `before` (or null): the worn depths.
+// The numbers that an open element without a segment keeps of the state `before` (or null): the worn depths, and
+// the bond.
 inline void keep_worn_depths(const StateLayout& layout, const double* before, double* state) {
+  if (layout.bond_at >= 0 && before) state[layout.bond_at] = before[layout.bond_at];
   if (layout.wear_at < 0 || !before) return;
   for (const std::int32_t i : {StateLayout::worn_slave, StateLayout::worn_master})
     state[layout.wear_at + i] = before[layout.wear_at + i];

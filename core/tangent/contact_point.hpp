@@ -33,6 +33,7 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
   const Ray<Scalar, D>* ray = nullptr;            // shadow projection
   Scalar gap, normal_gap, law_gap;                // the last with the offset
   Scalar clearance; // to the gap from which on there is contact, with what is worn
+  Scalar bonded = Scalar(0.0); // number of a law that bonds at the end of the increment
   SlipShare<Scalar> slipping;
   V normal, c, onto[T];    // n_e; onto: shadow
   NormalForce<Scalar> law; // 0 where there is no contact
@@ -56,12 +57,13 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
   }
 
   // Law, wear and friction; multiplier: the normal one, then T tangential ones, or null; worn: null without
-  // wear; offset, scale: of the slave node.
+  // wear; offset, scale: of the slave node; bond: of the state.
   ENTS_INLINE void evaluate_law(const Plan& plan, const SlipBegin<Scalar, T>& begin, const Scalar* multiplier,
-                                const WornState<Scalar, T>* worn, const Scalar& offset, const Scalar& scale) {
+                                const WornState<Scalar, T>* worn, const Scalar& offset, const Scalar& scale,
+                                const Scalar& bond) {
     const Scalar none(0.0), lambda = multiplier ? multiplier[0] : none;
     law_gap = gap + (offset + law_number<Scalar>(plan.law.offset, plan.law.rates.offset));
-    clearance = law_gap - touching_gap(plan.law, scale);
+    clearance = law_gap - touching_gap(plan.law, scale, bond);
     if (worn) {
       clearance = clearance + worn->depth;
       slipping = slip_share(begin.clearance, -clearance);
@@ -69,8 +71,9 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
       law = worn_force(plan.law, law_gap, lambda, *worn, wear, solved);
     } else {
       solved = gap <= gap;
-      law = normal_force(plan.law, law_gap, lambda, scale);
+      law = normal_force(plan.law, law_gap, lambda, scale, bond);
     }
+    if (plan.law.bonds) bonded = select(point.outside, bond, next_bond(plan.law, law_gap, bond));
     Truth<Scalar> outside = point.outside;
     if (plan.multipliers > 0) { // a slave without area holds them at zero
       const Truth<Scalar> held = point.area <= 0.0;
@@ -94,7 +97,9 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
         of.known = select(begin.clearance > 0.0, none, begin.known);
       else if (!worn)
         slipping = slip_share(begin.clearance, -clearance);
-      friction.evaluate(plan.law, point.place(), of, slipping, -(point.area * law.force),
+      const Scalar press = plan.law.pulls ? point.area * rubbing_pressure(plan.law, law.force, law_gap, scale)
+                                          : -(point.area * law.force);
+      friction.template evaluate<true>(plan.law, point.place(), of, slipping, press,
                         multiplier ? multiplier + 1 : nullptr);
       point.ordinary = both(point.ordinary, friction.ordinary);
     } else {

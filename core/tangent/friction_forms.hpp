@@ -64,13 +64,15 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionF
   // multiplier) and m = u / |u|,
   //   stick  dt_a = scale D(A_ab w^b)
   //   slip   t_a = L n_a,  dn_a = (D(A_ab w^b) - n_a m^b (D(A_bc w^c) - D(A_bc) u^c / 2)) / |u|
+  // A coefficient that depends on the slip rate has dL/d|t|: n_a times less is subtracted, `radial` of it.
   // Without a multiplier u = w, and what is subtracted becomes n_a (m_c dxi^c + m^b w^c D(A_bc) / 2).
   struct ChangeOfForce {
     Scalar by_xi[T][T];
     Vec<Scalar, D> towards[T][T];
 
     ENTS_INLINE ChangeOfForce(const ProjectedPoint<Basis, Enriched, Scalar>& point,
-                              const Friction<Scalar, Basis::dim - 1>& friction, bool multipliers) {
+                              const Friction<Scalar, Basis::dim - 1>& friction, bool multipliers,
+                               const Scalar* radial = nullptr) {
       const auto& surface = point.projector.s;
       const auto& metric = point.projector.metric;
       const auto& w = friction.moved;
@@ -82,6 +84,7 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionF
       Scalar m[T], slips[T];
       for (int a = 0; a < T; ++a) {
         slips[a] = select(friction.slip, friction.direction[a], none);
+        if (radial) slips[a] = *radial * slips[a];
         m[a] = select(friction.slip, friction.raised[a], none);
       }
       // (A_ab w^b)_,c at fixed w and |u|_,c, with W = w^b rho_e,b

@@ -264,7 +264,29 @@ protected:
              {{"normal", {{"type", "augmented"}, {"stiffness", 1e5}}}},
              {{"normal", {{"type", "augmented_multiplier"}, {"stiffness", 1e5}}}},
              {{"normal", {{"type", "multiplier"}, {"stiffness", 1e5}}}},
-             {{"normal", {{"type", "table"}, {"gap", {-1, 0.5}}, {"pressure", {3, 0}}}}}})
+             {{"normal", {{"type", "table"}, {"gap", {-1, 0.5}}, {"pressure", {3, 0}}}}},
+             {{"normal", {{"type", "tied"}, {"stiffness", 1e5}, {"range", 1e-6}}}},
+             {{"normal",
+               {{"type", "cohesive"}, {"stiffness", 1e5}, {"strength", 10}, {"energy", 0.1}, {"range", 1e-6}}}},
+             {{"normal", {{"type", "dugdale"}, {"work", 0.01}, {"strength", 10}, {"stiffness", 1e5}}},
+              {"friction",
+               {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}, {"adhesion", true}}}},
+             {{"normal", {{"type", "separation"}, {"work", 0.01}, {"length", 1e-3}}}},
+             {{"normal", {{"type", "lennard_jones"}, {"work", 0.01}, {"length", 1e-3}, {"range", 0.02}}}},
+             {{"normal", penalty},
+              {"friction",
+               {{"type", "coulomb"},
+                {"coefficient", {{"pressures", {0, 5}}, {"slip_rates", {0, 1, 2}}, {"coefficients", {{3, 2, 1}, {2, 1, 0}}}}},
+                {"stiffness", 1e4}}}},
+             {{"normal", {{"type", "dugdale"}, {"work", 0.01}, {"strength", 10}, {"stiffness", 1e5}}},
+              {"friction",
+               {{"type", "coulomb"},
+                {"coefficient", 0.3},
+                {"kinetic", 0.2},
+                {"decay", 1.5},
+                {"stiffness", 1e4},
+                {"shear_limit", 5},
+                {"adhesion", false}}}}})
       result.push_back({{"segment", "line2"}, {"contact", contact}});
     for (const BasisEntry& basis : basis_table) result.push_back({{"segment", basis.name}});
     return result;
@@ -296,6 +318,16 @@ bool depends_on_more(const std::string& message) {
            "any length but zero",
            "is zero; write any other vector", // 2 in 2D, 3 in 3D, not all zero
            "c[i] of s1^i",
+           "strength^2 / (2 energy)", // numbers of a law that do not fit each other
+           "strength / stiffness",
+           "strength^2 / work",
+           "is of a normal law that adheres",
+           "whose damage does not weaken shear",
+           "is not possible with a normal law that pulls",
+           "one per slip rate", // tables of coefficients
+           "one per pressure",
+           "not above the number before it",
+           "the rate at which sticking ends",
            "c[i][j] of s1^i s2^j", // coefficients: flat in 2D, rows in 3D
            "numbers, the samples along s1",
            "rows, each an array of numbers",

@@ -77,7 +77,7 @@ class Case:
 
 def random_law(rng, kind, contact=True):
     law = {"type": kind, "contact": contact, "eps": rng.uniform(5, 20), "m": rng.choice([1.5, 2.0, 2.5, 3.0]), "p0": 2.0, "c0": 0.4, "r": 1.3,
-           "mu": 0.3, "eps_t": 7.0}
+           "mu": 0.3, "eps_t": 7.0, "w": 0.6, "s0": 1.5, "G": 0.5, "kappa": 0.4, "d": 0.7, "range": 5.0}
     if kind == "table":
         law["table"] = definitions.Table([-0.3, -0.2, 0.05, 0.1], [3.0, 1.7, 0.4, 0.0])
     return law

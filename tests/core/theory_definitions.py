@@ -265,12 +265,73 @@ def energy_table(law, g, multiplier):
     return law["r"] ** 2 * law["table"].at(g / law["r"])[0]
 
 
+def energy_tied(law, g, multiplier):
+    return law["eps"] / 2 * g * g
+
+
+def energy_cohesive(law, g, multiplier):
+    """Stored; while the bond opens farther than before with what damage has taken."""
+    s0, d0, df = law["s0"], law["s0"] / law["eps"], 2 * law["G"] / law["s0"]
+    place = one_value(g)
+    if place < 0:
+        return law["eps"] / 2 * g * g
+    if place < law["kappa"]:
+        return s0 * (df - law["kappa"]) / ((df - d0) * law["kappa"]) / 2 * g * g
+    taken = law["G"] * (g - law["kappa"]) / (df - d0)
+    return s0 * (df - g) / (df - d0) / 2 * g + taken
+
+
+def dugdale_places(law):
+    length = law["w"] / law["s0"]
+    rise = min(2 * law["s0"] / law["eps"], 1.3125 * length)
+    return rise, 0.875 * length + rise / 3, 1.125 * length + rise / 3
+
+
+def energy_dugdale(law, g, multiplier):
+    s0, (rise, flat, end), place = law["s0"], dugdale_places(law), one_value(g)
+    if place < 0:
+        return law["eps"] / 2 * g * g - law["w"]
+    if place < rise:
+        return s0 * (g * g / rise - g * g * g / (3 * rise * rise)) - law["w"]
+    if place < flat:
+        return s0 * (g - rise / 3) - law["w"]
+    v = (g - flat) / (end - flat)
+    return s0 * (flat - rise / 3 + (end - flat) * (v - v ** 3 + v ** 4 / 2)) - law["w"]
+
+
+def energy_separation(law, g, multiplier):
+    return -law["w"] * (1 + g / law["d"]) * exp(-1 * g / law["d"])
+
+
+def lennard_jones_numbers(law):
+    """s_e, c and C from what they are for: no tension at the range, and the work of adhesion."""
+    se = law["d"] / (law["d"] + law["range"])
+    c = (se ** 3 - se ** 9) / (1 - se ** 2) ** 2
+    psi = [s ** 8 / 8 - s ** 2 / 2 - c * (1 / s + 2 * s - s ** 3 / 3) for s in (se, 1.0)]
+    return se, c, law["w"] / (law["d"] * (psi[0] - psi[1]))
+
+
+def energy_lennard_jones(law, g, multiplier):
+    se, c, C = lennard_jones_numbers(law)
+    z = 1 + g / law["d"]
+
+    def psi(z):
+        return z ** -8 / 8 - z ** -2 / 2 - c * (z + 2 * z ** -1 - z ** -3 / 3)
+    return C * law["d"] * (psi(z) - psi(1 / se))
+
+
+def one_value(g):
+    return float(np.real(np.ravel(value(g))[0]))
+
+
 def energy_open(law, g, multiplier):
     return -multiplier * multiplier / (2 * law["eps"])
 
 
 ENERGIES = {"penalty": energy_penalty, "power": energy_power, "exponential": energy_exponential, "augmented": energy_augmented,
-            "augmented_multiplier": energy_augmented, "multiplier": energy_multiplier, "table": energy_table}
+            "augmented_multiplier": energy_augmented, "multiplier": energy_multiplier, "table": energy_table,
+            "tied": energy_tied, "cohesive": energy_cohesive, "dugdale": energy_dugdale, "separation": energy_separation,
+            "lennard_jones": energy_lennard_jones}
 
 
 def derivative_of_energy(law, g, multiplier, unit, by):

@@ -25,6 +25,36 @@ def law_numbers(law, g, multiplier=0.0):
     if kind == "table":
         W, W1, W2 = law["table"].at(g / law["r"])
         return law["r"] ** 2 * W, law["r"] * W1, W2
+    if kind == "tied":
+        return 0.5 * law["eps"] * g ** 2, law["eps"] * g, law["eps"]
+    if kind == "cohesive":
+        s0, d0, df = law["s0"], law["s0"] / law["eps"], 2 * law["G"] / law["s0"]
+        kappa = max(law["kappa"], g)
+        secant = law["eps"] if g <= 0 else s0 * (df - kappa) / ((df - d0) * kappa)
+        taken = law["G"] * (kappa - law["kappa"]) / (df - d0)
+        return 0.5 * secant * g * g + taken, secant * g, -s0 / (df - d0) if g > law["kappa"] else secant
+    if kind == "dugdale":
+        length, s0, eps = law["w"] / law["s0"], law["s0"], law["eps"]
+        rise = min(2 * s0 / eps, 1.3125 * length)
+        flat, end = 0.875 * length + rise / 3, 1.125 * length + rise / 3
+        if g < 0:
+            return -law["w"] + 0.5 * eps * g * g, eps * g, eps
+        u, v = min(g / rise, 1.0), min(max((g - flat) / (end - flat), 0.0), 1.0)
+        area = rise * (u ** 2 - u ** 3 / 3) + min(max(g - rise, 0.0), flat - rise) + (end - flat) * (v - v ** 3 + v ** 4 / 2)
+        return (-law["w"] + s0 * area, s0 * (1 - (1 - u) ** 2 - v * v * (3 - 2 * v)),
+                s0 * (2 * (1 - u) / rise - 6 * v * (1 - v) / (end - flat)))
+    if kind == "separation":
+        w, d, u = law["w"], law["d"], g / law["d"]
+        return -w * (1 + u) * np.exp(-u), w * u * np.exp(-u) / d, w * (1 - u) * np.exp(-u) / d ** 2
+    if kind == "lennard_jones":
+        z0, s, end = law["d"], law["d"] / (law["d"] + g), law["d"] / (law["d"] + law["range"])
+        c = end ** 3 * (1 + end ** 2 + end ** 4) / (1 - end ** 2)
+
+        def psi(s):
+            return s ** 8 / 8 - s ** 2 / 2 - c * (1 / s + 2 * s - s ** 3 / 3)
+        C = law["w"] / (z0 * (psi(end) - psi(1.0)))
+        return (C * z0 * (psi(s) - psi(end)), C * (s ** 3 - s ** 9 - c * (1 - s ** 2) ** 2),
+                C / z0 * (9 * s ** 10 - 3 * s ** 4 - 4 * c * s ** 3 * (1 - s ** 2)))
     raise KeyError(kind)
 
 

@@ -44,11 +44,44 @@ inline std::vector<Method> methods() {
   for (const json& normal : normals)
     for (const auto& [name, friction] : frictions)
       all.push_back({normal["type"].get<std::string>() + "_" + name, normal, friction});
+  // Laws that pull, with and without friction; ranges of tension that elements lie in, whose kinks they do not
+  const std::vector<json> pulling = {
+      {{"type", "tied"}, {"stiffness", 100.0}, {"range", 0.006}},
+      {{"type", "cohesive"}, {"stiffness", 100.0}, {"strength", 0.7}, {"energy", 0.02}, {"range", 0.006}},
+      {{"type", "dugdale"}, {"work", 0.02}, {"strength", 2.0}, {"stiffness", 400.0}},
+      {{"type", "separation"}, {"work", 0.1}, {"length", 0.03}},
+      {{"type", "lennard_jones"}, {"work", 0.15}, {"length", 0.15}, {"range", 0.012}}};
+  for (const json& normal : pulling)
+    for (const auto& [name, friction] : frictions) {
+      const std::string type = normal["type"];
+      if (name == "rough" && type == "cohesive") continue;
+      json own = friction;
+      if (name == "shear_limit" && type != "tied" && type != "cohesive") own["adhesion"] = true;
+      all.push_back({type + "_" + name, normal, own});
+    }
+  // Coefficients that vary, under a law of the fast block, one of the general block and multipliers
+  const json varying[] = {{{"type", "coulomb"}, {"coefficient", 0.4}, {"kinetic", 0.15}, {"decay", 0.3}, {"stiffness", 80.0}},
+                          {{"type", "coulomb"},
+                           {"coefficient",
+                            {{"pressures", {0.0, 2.0, 30.0}},
+                             {"slip_rates", {0.0, 100.0}},
+                             {"coefficients", {{0.5, 0.4}, {0.3, 0.2}, {0.2, 0.1}}}}},
+                           {"stiffness", 80.0}}};
+  for (const std::size_t normal : {0u, 2u, 3u, 4u})
+    for (const bool table : {false, true})
+      all.push_back({normals[normal]["type"].get<std::string>() + (table ? "_friction_table" : "_friction_decays"),
+                     normals[normal], varying[table]});
   // Its stiffness has a kink in the middle point, which no element is as deep as.
   const json table = {{"type", "table"}, {"gap", {-0.3, -0.14, 0.002}}, {"pressure", {40, 6, 0}}};
   for (const std::size_t friction : {0u, 1u})
     all.push_back({"table_" + frictions[friction].first, table, frictions[friction].second});
   return all;
+}
+
+inline bool pulls(const std::string& normal) {
+  for (const char* law : {"tied", "cohesive", "dugdale", "separation", "lennard_jones"})
+    if (normal == law) return true;
+  return false;
 }
 
 // Laws that can wear, frictionless and with friction. About a tenth of the gap is worn off in an increment.
@@ -60,7 +93,7 @@ inline std::vector<Method> methods_with_wear() {
   for (const Method& method : methods()) {
     const std::string normal = method.normal["type"];
     if (normal == "table" || normal.ends_with("multiplier") || method.name.ends_with("shear_limit") ||
-        method.name.ends_with("rough"))
+        method.name.ends_with("rough") || pulls(normal))
       continue;
     for (json wear : wears) {
       if (normal == "exponential") wear["coefficient"] = 0.005; // its pressures are larger
@@ -86,7 +119,8 @@ inline std::vector<Method> methods_with_flattening() {
   std::vector<Method> all;
   for (Method method : methods()) {
     if (std::string(method.normal["type"]).ends_with("multiplier") ||
-        !(method.name.ends_with("coulomb") || method.name == "penalty_frictionless"))
+        !(method.name.ends_with("coulomb") || method.name == "penalty_frictionless") ||
+        pulls(method.normal["type"]))
       continue;
     method.name += "_flattening";
     method.flattening = {{"scale", "flat"}, {"pressure", 20.0}, {"least", 0.3}};
@@ -109,6 +143,8 @@ inline std::vector<Method> methods_with_heat() {
   for (Method method : laws) {
     method.name += "_heat";
     method.heat = heat;
+    if (pulls(method.normal["type"])) // what depends on the pressure has a kink where it becomes tension
+      method.heat.erase("power"), method.heat.erase("table");
     if (!method.friction.is_null()) method.heat["friction"] = {{"share", 0.9}, {"slave", 0.3}};
     all.push_back(method);
   }
@@ -175,6 +211,8 @@ inline LawElements draw(Random& random, const mechanics::Scene& scene, const mec
       for (std::size_t a = 0; a < t; ++a)
         s[next++] = e.at.start[i * t + a] + random.uniform(-elastic, elastic);
     }
+    if (next + 2 == size) // before the number of the segment, of a law that bonds: the largest gap so far
+      s[next++] = random.uniform(0.0, 1.0) < 0.3 ? 0.0 : random.uniform(0.007, 0.03);
     if (touches) { // a projection from which it comes and, where an anchor would be, its clearance there
       for (std::size_t a = 0; a < t; ++a) s[3 + a] += random.uniform(-elastic, elastic);
       s[e.layout.friction ? 3 + t : static_cast<std::size_t>(e.layout.worn) + 3] = random.uniform(0.02, 0.2);
@@ -222,8 +260,8 @@ inline ents_input input_of(const LawElements& e, const std::vector<double>& star
   if (e.layout.heat) {
     in.slave_temperature = e.slave_temperature.data(), in.slave_temperature_stride = 1;
     in.master_temperature = e.master_temperature.data(), in.master_temperature_stride = l.nodes;
-    in.time_increment = 0.1;
   }
+  in.time_increment = 0.1;
   if (!e.slave_values.empty()) in.slave_values = e.slave_values.data(), in.slave_values_stride = 3;
   return in;
 }

@@ -178,6 +178,12 @@ inline const std::vector<std::string>& contact_kinds() {
         law(type("augmented"), coulomb),
         law(type("augmented_multiplier"), coulomb),
         law(type("multiplier"), limited),
+        law(R"({"type": "tied", "stiffness": 1000.0, "range": 0.01})", rough),
+        law(R"({"type": "cohesive", "stiffness": 1000.0, "strength": 20.0, "energy": 0.6, "range": 0.01})", ""),
+        law(R"({"type": "dugdale", "work": 0.1, "strength": 5.0, "stiffness": 1000.0})",
+            R"({"type": "coulomb", "coefficient": 0.3, "stiffness": 500.0, "adhesion": true})"),
+        law(R"({"type": "separation", "work": 0.1, "length": 0.01})", coulomb),
+        law(R"({"type": "lennard_jones", "work": 0.1, "length": 0.01, "range": 0.1})", ""),
     };
   }();
   return kinds;
