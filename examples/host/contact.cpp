@@ -42,6 +42,7 @@ ents_master_mesh Contact::mesh() const {
   auto mesh = ents::make<ents_master_mesh>();
   mesh.segments = ssize_of(segments()), mesh.connectivity = connectivity_.data();
   mesh.nodes = ssize_of(master_now_.size() / d_), mesh.positions = master_now_.data();
+  mesh.temperature = heat_ ? master_temperatures_.data() : nullptr;
   mesh.surface_coordinates = surface_coordinates_.empty() ? nullptr : surface_coordinates_.data();
   return mesh;
 }
@@ -49,7 +50,20 @@ ents_master_mesh Contact::mesh() const {
 void Contact::place(const Configuration& at) {
   slave_now_ = slave_positions(at);
   master_now_ = master_positions(at);
+  if (heat_) warm(at);
   if (!rigid_ && tree_.size() > 0) tree_.refit(model_, mesh());
+}
+
+/// Temperatures of slave points and master: combinations of the nodes', as the positions are.
+void Contact::warm(const Configuration& at) {
+  std::vector<double> nodes(at.displacement.begin() +
+                                static_cast<std::ptrdiff_t>(bodies_->coordinates.size()),
+                            at.displacement.end());
+  for (double& temperature : nodes) temperature += temperature_;
+  slave_temperature_ = combined(slave_, 1, nodes);
+  master_temperatures_ = rigid_      ? std::vector<double>(fixed_.size() / d_, master_temperature_)
+                         : smoothed_ ? combined(net_, 1, nodes)
+                                     : nodes;
 }
 
 void Contact::begin_increment(const Configuration& begin) {
@@ -76,6 +90,7 @@ ents_input Contact::input() const {
   in.area = areas_.data(), in.area_stride = 1;
   in.state_begin = states_.begin.data(), in.state_begin_stride = states_.size;
   in.positions_begin = master_begin_.data(), in.slave_begin = slave_begin_.data();
+  if (heat_) in.slave_temperature = slave_temperature_.data(), in.slave_temperature_stride = 1;
   return in;
 }
 
@@ -105,14 +120,15 @@ Outcome Contact::search(const Configuration& at, bool& changed) {
 void Contact::build_pattern() {
   pattern_segment_ = segment_;
   const auto m = static_cast<std::size_t>(model_.layout().nodes);
+  const auto own = static_cast<std::size_t>(model_.layout().node_dofs);
   std::vector<std::vector<int>> elements; // dofs of each slave point and its segment
   std::size_t most = 0;
   for (std::size_t k = 0; k < points(); ++k) {
     if (!rigid_ && segment_[k] < 0) continue;
     std::vector<int>& dofs = elements.emplace_back();
     const auto add = [&](std::int64_t node) {
-      for (std::size_t i = 0; i < d_; ++i)
-        dofs.push_back(static_cast<int>(static_cast<std::size_t>(node) * d_ + i));
+      for (std::size_t i = 0; i < own; ++i)
+        dofs.push_back(static_cast<int>(rows_[static_cast<std::size_t>(node) * own + i]));
     };
     const auto add_point = [&](const ents::Combination& all, std::size_t point) {
       for (auto t = static_cast<std::size_t>(all.begin[point]);
@@ -133,20 +149,20 @@ void Contact::build_pattern() {
     group.equations.insert(group.equations.end(), dofs.begin(), dofs.end());
   }
   const StencilGroup* const groups[] = {&group};
-  tangent_ = pattern_of(static_cast<int>(rows_.size()), false, std::span(groups, most > 0 ? 1 : 0));
+  tangent_ = pattern_of(static_cast<int>(own_force_.size()), false, std::span(groups, most > 0 ? 1 : 0));
 }
 
 Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual, double& squared) {
   place(at);
   std::fill_n(tangent_.valuePtr(), tangent_.nonZeros(), 0.0);
-  own_force_.assign(rows_.size(), 0.0);
+  std::fill(own_force_.begin(), own_force_.end(), 0.0);
   const ents_combination slave = slave_.get(), net = smoothed_ ? net_.get() : ents::make<ents_combination>();
   auto system = ents::make<ents_system>();
   system.index_size = sizeof(int);
   system.slave = &slave, system.master = smoothed_ ? &net : nullptr;
   system.slave_nodes = system.master_nodes = bodies_->node_count();
   system.slave_equations = system.master_equations = rows_.data();
-  system.rows = ssize_of(rows_.size()), system.residual = own_force_.data();
+  system.rows = ssize_of(own_force_.size()), system.residual = own_force_.data();
   system.row_begin = tangent_.outerIndexPtr(), system.columns = tangent_.innerIndexPtr();
   system.values = tangent_.valuePtr();
   auto out = ents::make<ents_output>();
@@ -178,16 +194,19 @@ std::vector<double> Contact::force() const {
 // Moving the master by its direction is moving all slave points back.
 Coupling Contact::coupling() const {
   Coupling c;
-  c.column.assign(rows_.size(), 0.0), c.row = c.column;
+  c.column.assign(own_force_.size(), 0.0), c.row = c.column;
   if (!rigid_) return c;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    c.force -= own_force_[i] * direction_[i % d_];
+  const auto along = [&](std::size_t dof) { // a temperature has no direction
+    return dof < bodies_->coordinates.size() ? direction_[dof % d_] : 0.;
+  };
+  for (std::size_t i = 0; i < own_force_.size(); ++i) {
+    c.force -= own_force_[i] * along(i);
     for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at) {
       const auto j = static_cast<std::size_t>(tangent_.innerIndexPtr()[at]);
       const double value = tangent_.valuePtr()[at];
-      c.column[i] -= value * direction_[j % d_];
-      c.row[j] -= direction_[i % d_] * value;
-      c.diagonal += direction_[i % d_] * value * direction_[j % d_];
+      c.column[i] -= value * along(j);
+      c.row[j] -= along(i) * value;
+      c.diagonal += along(i) * value * along(j);
     }
   }
   return c;
@@ -207,6 +226,11 @@ ContactResults Contact::results(const Configuration& at) {
   out.gap_stride = out.pressure_stride = out.slip_stride = out.flags_stride = 1;
   out.normal = r.normal.data(), out.traction = r.traction.data();
   out.normal_stride = out.traction_stride = ssize_of(d_);
+  if (heat_) {
+    r.heat.assign(2 * n, 0.0); // through the gap; made by friction, which there is none of
+    out.wanted |= ENTS_HEAT;
+    out.heat = r.heat.data(), out.heat_stride = 2;
+  }
   const ents_master_mesh surface = mesh();
   const ents_detection io = detection();
   const ents_input in = input();
@@ -215,6 +239,8 @@ ContactResults Contact::results(const Configuration& at) {
   if (!found.ok) throw JobError(found.reason);
   for (std::size_t k = 0; k < n; ++k)
     if (segment_[k] < 0) r.gap[k] = std::nan(""); // nothing is opposite
+  for (std::size_t k = 0; k < n && heat_; ++k) r.heat[k] = r.heat[2 * k];
+  r.heat.resize(heat_ ? n : 0);
   r.force = force();
   r.position = slave_now_;
   for (std::size_t i = 0; rigid_ && i < r.position.size(); ++i)

@@ -42,6 +42,7 @@ struct Outcome {
 struct ContactResults {
   std::vector<double> position, normal, traction; ///< [points][d]
   std::vector<double> gap, pressure, slip;        ///< [points]
+  std::vector<double> heat;                       ///< [points] power from slave to master; empty: no "heat"
   std::vector<double> force;                      ///< [d] of the slave points on the master
   std::vector<std::int32_t> flags;                ///< [points] ENTS_FLAG_...
 };
@@ -100,6 +101,7 @@ private:
   void read_master(const Scene& scene, const Mesh& mesh);
   void smooth(const Scene& scene, const std::vector<Face>& faces);
   void place(const Configuration& at);
+  void warm(const Configuration& at);
   std::vector<double> slave_positions(const Configuration& at) const;
   std::vector<double> master_positions(const Configuration& at) const;
   ents_detection detection();
@@ -109,7 +111,7 @@ private:
   const Mesh* bodies_;
   std::size_t d_;
   ents::Model model_;
-  bool rigid_, sampled_ = false, smoothed_ = false;
+  bool rigid_, sampled_ = false, smoothed_ = false, heat_ = false;
   std::vector<double> direction_; ///< rigid: of its motion
   // Slave points: nodes, or combinations of the nodes of their face.
   ents::Combination slave_;
@@ -123,6 +125,8 @@ private:
   double reach_ = 0;
   // Changes with the configuration.
   std::vector<double> slave_now_, master_now_, slave_begin_, master_begin_;
+  std::vector<double> slave_temperature_,
+      master_temperatures_; ///< with "heat": of points, of the master's nodes
   std::vector<std::int64_t> segment_, pattern_segment_;
   std::vector<double> xi_;
   std::vector<std::int32_t> flags_;
@@ -134,7 +138,8 @@ private:
   Begin accepted_;
   ents::States states_;
   // In the host's equations, whose rows are the dofs of the mesh.
-  std::vector<std::int64_t> rows_;
+  double temperature_ = 0, master_temperature_ = 0; ///< of everything at first; of a rigid master
+  std::vector<std::int64_t> rows_;                  ///< [nodes][node_dofs]
   SparseMatrix tangent_;
   std::vector<double> own_force_; ///< [dofs] of the last `assemble`
 };

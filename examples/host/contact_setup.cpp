@@ -70,14 +70,20 @@ Contact::Contact(const Scene& scene, const Mesh& mesh)
       rigid_(!scene.contact->rigid.empty()), direction_(scene.contact->direction) {
   read_slaves(scene, mesh);
   read_master(scene, mesh);
-  rows_.resize(mesh.coordinates.size()); // each dof is a row of its own
-  std::iota(rows_.begin(), rows_.end(), std::int64_t{0});
-  own_force_.assign(rows_.size(), 0.0);
+  heat_ = model_.layout().heat != 0;
+  temperature_ = scene.temperature, master_temperature_ = scene.contact->temperature;
+  // Each dof of the mesh is a row of its own; temperatures stand behind all displacements.
+  const auto nodes = static_cast<std::size_t>(mesh.node_count());
+  for (std::size_t node = 0; node < nodes; ++node) {
+    for (std::size_t i = 0; i < d_; ++i) rows_.push_back(ssize_of(node * d_ + i));
+    if (heat_) rows_.push_back(ssize_of(nodes * d_ + node));
+  }
+  own_force_.assign(nodes * (d_ + (scene.heat ? 1 : 0)), 0.0);
   accepted_.segment.assign(points(), -1);
   accepted_.xi.assign(points() * (d_ - 1), 0.0);
   accepted_.flags.assign(points(), 0);
   states_ = ents::States(model_, ssize_of(points()));
-  const Configuration begin{std::vector<double>(mesh.coordinates.size(), 0.0), 0, 0, 0};
+  const Configuration begin{std::vector<double>(own_force_.size(), 0.0), 0, 0, 0};
   begin_increment(begin);
   // Farther than any slave point is from the master: twice the diagonal of the box round both.
   double squared = 0;

@@ -20,6 +20,12 @@ struct ElementSetup {
   Formulation formulation = Formulation::solid;
   Material material;
   double thickness = 1; ///< [L], plane elements only
+
+  /// Pressure of a body that is held while it is warmed by one unit of temperature.
+  double thermal_stress() const {
+    const double free = 1 - (formulation == Formulation::plane_stress ? 1 : 2) * material.poisson;
+    return material.expansion * material.young / free;
+  }
 };
 
 /// Residual and tangent of one element, node-major.

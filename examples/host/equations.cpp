@@ -11,15 +11,21 @@ Equations::Equations(const Scene& scene) : scene_(&scene) {
   build_mesh();
   hold_and_load();
   if (scene.contact) contact_ = std::make_unique<Contact>(scene, mesh_);
-  const bool symmetric = !contact_ || contact_->symmetric();
+  const bool symmetric = !heat_ && (!contact_ || contact_->symmetric());
   system_ = std::make_unique<SparseSystem>(dofs_->size(), symmetric);
   solver_ = LinearSolver::create(symmetric);
   stencils_ = bulk_->stencils(*dofs_);
+  if (heat_) heat_stencils_ = heat_->stencils(*dofs_);
   if (contact_) return; // `search` builds the pattern
-  std::vector<const StencilGroup*> groups;
-  for (const StencilGroup& group : stencils_) groups.push_back(&group);
-  system_->build(groups);
+  system_->build(groups());
   solver_->analyze(system_->matrix());
+}
+
+std::vector<const StencilGroup*> Equations::groups() const {
+  std::vector<const StencilGroup*> all;
+  for (const auto* stencils : {&stencils_, &heat_stencils_})
+    for (const StencilGroup& group : *stencils) all.push_back(&group);
+  return all;
 }
 
 void Equations::build_mesh() {
@@ -38,6 +44,7 @@ void Equations::build_mesh() {
     setups.push_back(part.setup);
   }
   bulk_ = std::make_unique<Bulk>(mesh_, setups);
+  if (scene_->heat) heat_ = std::make_unique<Heat>(mesh_, setups);
 }
 
 const std::vector<int>& Equations::nodes_of_set(const std::string& name, const std::string& where) const {
@@ -50,15 +57,21 @@ const std::vector<int>& Equations::nodes_of_set(const std::string& name, const s
 
 void Equations::hold_and_load() {
   const auto d = static_cast<std::size_t>(mesh_.dimension);
-  dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension);
+  dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension, scene_->heat);
   for (const Support& support : scene_->supports)
-    for (const int node : nodes_of_set(support.nodes, support.where))
+    for (const int node : nodes_of_set(support.nodes, support.where)) {
+      if (support.temperature) {
+        dofs_->prescribe_scalar(node);
+        prescribed_.push_back(
+            {dofs_->scalar(node), *support.temperature - scene_->temperature, &support.path});
+      }
       for (std::size_t i = 0; i < d; ++i)
         if (support.displacement[i]) {
           dofs_->prescribe(node, static_cast<int>(i));
           prescribed_.push_back(
               {static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
         }
+    }
   dofs_->number();
   if (prescribed_.empty())
     throw InputError(scene_->file.string() + ": /supports: nothing holds the bodies; give supports");
@@ -91,11 +104,9 @@ Outcome Equations::search(const Configuration& at) {
   if (!found.ok || !changed) return found;
   contact_->build_pattern();
   MatrixPart part{&contact_->tangent(), {}}; // its rows are dofs of the mesh
-  for (std::size_t dof = 0; dof < mesh_.coordinates.size(); ++dof)
+  for (std::size_t dof = 0; dof < at.displacement.size(); ++dof)
     part.equations.push_back(dofs_->equation(dof));
-  std::vector<const StencilGroup*> groups;
-  for (const StencilGroup& group : stencils_) groups.push_back(&group);
-  system_->build(groups, part);
+  system_->build(groups(), part);
   solver_->analyze(system_->matrix());
   return found;
 }
@@ -108,7 +119,11 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
     state.outcome = {false, "an element is turned inside out", 0.5};
     return state;
   }
-  double squared_contact = 0, squared_loads = 0, squared_reactions = 0;
+  // Where all is equally warm nothing flows but rounding: the scale is at least this part of what cancels.
+  constexpr double least = 1e-4;
+  const double warmth =
+      heat_ ? heat_->assemble(at.displacement, jump, state.residual, *system_, stencils_.size()) : 0;
+  double squared_contact = 0, squared_loads = 0, squared_reactions = 0, squared_power = 0;
   if (contact_) {
     state.outcome = contact_->assemble(at, state.residual, squared_contact);
     if (!state.outcome.ok) return state;
@@ -130,16 +145,21 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
     }
   }
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-    if (dofs_->equation(dof) < 0) squared_reactions += state.residual[dof] * state.residual[dof];
+    if (dofs_->equation(dof) < 0)
+      (dof < mesh_.coordinates.size() ? squared_reactions : squared_power) +=
+          state.residual[dof] * state.residual[dof];
   state.size = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
+  state.power = std::max(std::sqrt(squared_power), least * warmth);
   return state;
 }
 
 double Equations::relative_residual(const State& state, const Configuration& at) const {
-  double squared = 0;
+  double squared = 0, squared_power = 0;
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-    if (dofs_->equation(dof) >= 0) squared += state.residual[dof] * state.residual[dof];
+    if (dofs_->equation(dof) >= 0)
+      (dof < mesh_.coordinates.size() ? squared : squared_power) += state.residual[dof] * state.residual[dof];
   double relative = squared > 0 ? std::sqrt(squared) / state.size : 0;
+  if (squared_power > 0) relative = std::max(relative, std::sqrt(squared_power) / state.power);
   if (scene_->by_force()) relative = std::max(relative, std::abs(state.coupling.force - at.force) / at.force);
   return relative;
 }

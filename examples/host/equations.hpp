@@ -9,6 +9,7 @@
 #include "bulk.hpp"
 #include "contact.hpp"
 #include "dof_map.hpp"
+#include "heat.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
 #include "sparse_system.hpp"
@@ -40,6 +41,7 @@ public:
     std::vector<double> residual; ///< [dofs] of all nodes: reactions where displacements are prescribed
     Coupling coupling;            ///< with a rigid master
     double size = 0;              ///< of the forces present
+    double power = 0;             ///< of the flows of heat present
   };
   /// @param jump  [dofs] or empty: adds tangent * jump to the residual, for displacements that are prescribed anew
   State evaluate(const Configuration& at, const std::vector<double>& jump = {});
@@ -60,11 +62,13 @@ private:
   const Scene* scene_;
   Mesh mesh_;
   std::unique_ptr<Bulk> bulk_;
+  std::unique_ptr<Heat> heat_; ///< null: there are no temperatures
   std::unique_ptr<DofMap> dofs_;
   std::unique_ptr<Contact> contact_;
+  std::vector<const StencilGroup*> groups() const;
   struct Prescribed {
     std::size_t dof;
-    double value;
+    double value; ///< of a temperature: its change
     const Path* path;
   };
   std::vector<Prescribed> prescribed_;
@@ -73,7 +77,7 @@ private:
     const Path* path;
   };
   std::vector<Load> loads_;
-  std::vector<StencilGroup> stencils_;
+  std::vector<StencilGroup> stencils_, heat_stencils_;
   std::unique_ptr<SparseSystem> system_;
   std::unique_ptr<LinearSolver> solver_;
 };

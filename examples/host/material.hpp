@@ -20,8 +20,10 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 struct Material {
   enum class Law { linear_elastic, st_venant_kirchhoff, neo_hooke };
   Law law = Law::linear_elastic;
-  double young = 1;   ///< E > 0 [F/L^2]
-  double poisson = 0; ///< -1 < nu < 0.5
+  double young = 1;        ///< E > 0 [F/L^2]
+  double poisson = 0;      ///< -1 < nu < 0.5
+  double conductivity = 0; ///< [power / (L temperature)]; 0: the body has no temperature
+  double expansion = 0;    ///< [1 / temperature]
 
   double mu() const { return young / (2 * (1 + poisson)); }
   double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }

@@ -13,6 +13,27 @@ std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
+/// What the slave points carry together, of this mesh.
+ents_resultants resultants_of(const Contact& contact, const ContactResults& r, int dimension) {
+  auto sum = ents::make<ents_resultants>();
+  ents::require(ents::linked(), ents_contact_resultants, dimension, ssize_of(contact.points()),
+                r.position.data(), r.normal.data(), r.pressure.data(), r.traction.data(),
+                contact.areas().data(), r.flags.data(), static_cast<const double*>(nullptr), &sum);
+  return sum;
+}
+
+Json resultants_json(const ents_resultants& sum, int dimension) {
+  const auto vector = [](const double* from, int size) { return std::vector<double>(from, from + size); };
+  return {{"normal", vector(sum.normal, dimension)},
+          {"tangential", vector(sum.tangential, dimension)},
+          {"moment", vector(sum.moment, dimension == 2 ? 1 : 3)},
+          {"centre", vector(sum.centre, dimension)},
+          {"open", sum.open},
+          {"contact", sum.contact},
+          {"stick", sum.stick},
+          {"slip", sum.slip}};
+}
+
 Json step_json(Equations& equations, const Step& step) {
   const Scene& scene = equations.scene();
   Json out{
@@ -23,19 +44,23 @@ Json step_json(Equations& equations, const Step& step) {
     out["increments"].push_back({{"value", increment.value}, {"residuals", increment.residuals}});
   const Contact* contact = equations.contact();
   if (contact == nullptr) return out;
-  double closed = 0, peak = 0, gap = 0, gap_area = 0;
-  for (std::size_t k = 0; k < contact->points(); ++k) {
-    const double area = contact->areas()[k];
-    if (step.contact.flags[k] & ENTS_FLAG_CONTACT) closed += area;
-    if (!std::isnan(step.contact.gap[k])) gap += area * step.contact.gap[k], gap_area += area;
-    peak = std::max(peak, step.contact.pressure[k]);
-  }
+  const ents_resultants sum = resultants_of(*contact, step.contact, scene.dimension);
+  double gap = 0, gap_area = 0;
+  for (std::size_t k = 0; k < contact->points(); ++k)
+    if (!std::isnan(step.contact.gap[k]))
+      gap += contact->areas()[k] * step.contact.gap[k], gap_area += contact->areas()[k];
   out["approach"] = step.approach, out["force"] = step.force;
   out["mean_pressure"] = step.force / scene.symmetry_copies / equations.slave_area();
   out["contact_force"] = step.contact.force;
   for (Json& component : out["contact_force"]) component = component.get<double>() * scene.symmetry_copies;
-  out["contact_fraction"] = closed / equations.slave_area();
-  out["peak_pressure"] = peak;
+  out["contact_fraction"] = sum.area / equations.slave_area();
+  out["peak_pressure"] = sum.largest_pressure;
+  if (!step.contact.heat.empty()) {
+    double power = 0;
+    for (const double point : step.contact.heat) power += point;
+    out["heat"] = power * scene.symmetry_copies;
+  }
+  out["resultants"] = resultants_json(sum, scene.dimension);
   out["mean_gap"] = number(gap / gap_area);
   return out;
 }
@@ -66,8 +91,15 @@ vtu::Grid bodies(const Equations& equations, const Configuration& at) {
     cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
   }
   const Scene& scene = equations.scene();
+  const auto begin = at.displacement.begin(),
+             temperatures = begin + static_cast<std::ptrdiff_t>(mesh.coordinates.size());
   grid.point_data.push_back(
-      {with_unit("displacement", scene.unit_of_length), mesh.dimension, at.displacement});
+      {with_unit("displacement", scene.unit_of_length), mesh.dimension, {begin, temperatures}});
+  if (scene.heat) {
+    vtu::Array& field =
+        grid.point_data.emplace_back(vtu::Array{"temperature", 1, {temperatures, at.displacement.end()}});
+    for (double& temperature : field.values) temperature += scene.temperature;
+  }
   grid.point_data.push_back({with_unit("stress", scene.unit_of_pressure), mesh.dimension == 3 ? 6 : 4,
                              equations.bulk().nodal_stress(at.displacement)});
   return grid;
@@ -85,6 +117,7 @@ vtu::Grid slave_points(const Equations& equations, const ContactResults& r) {
   for (const std::int32_t flags : r.flags)
     status.push_back((flags & ENTS_FLAG_CONTACT) == 0 ? 0 : (flags & ENTS_FLAG_SLIP) == 0 ? 1 : 2);
   grid.point_data.push_back({"status", 1, std::move(status)});
+  if (!r.heat.empty()) grid.point_data.push_back({"heat", 1, r.heat});
   return grid;
 }
 

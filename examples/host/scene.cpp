@@ -39,6 +39,14 @@ Material read_material(const JsonValue& value) {
   material.poisson = object.at("poisson").number();
   if (!(material.poisson > -1 && material.poisson < 0.5))
     object.at("poisson").fail("Poisson's ratio lies between -1 and 0.5");
+  if (object.has("conductivity")) material.conductivity = object.at("conductivity").positive();
+  if (object.has("expansion")) {
+    material.expansion = object.at("expansion").number();
+    if (!(material.conductivity > 0))
+      object.at("expansion").fail("a body that expands has a temperature: give its \"conductivity\"");
+    if (material.law != Material::Law::linear_elastic)
+      object.at("expansion").fail("expansion is for linear_elastic");
+  }
   object.finish();
   return material;
 }
@@ -93,7 +101,7 @@ Part read_part(const JsonValue& value, const Scene& scene, const std::map<std::s
   return part;
 }
 
-Support read_support(const JsonValue& value, int dimension) {
+Support read_support(const JsonValue& value, int dimension, bool heat) {
   static const char* const axes[] = {"x", "y", "z"};
   JsonObject object(value);
   leave_keys(object, {"turn", "turn_x", "turn_y", "turn_z", "about"});
@@ -105,13 +113,16 @@ Support read_support(const JsonValue& value, int dimension) {
     support.displacement.emplace_back();
     if (object.has(axes[i])) support.displacement.back() = object.at(axes[i]).number(), any = true;
   }
-  if (!any) value.fail("give the displacement of at least one of the components x, y, z");
+  if (heat && object.has("temperature")) support.temperature = object.at("temperature").number(), any = true;
+  if (!any)
+    value.fail(heat ? "give the displacement of at least one of the components x, y, z, or the temperature"
+                    : "give the displacement of at least one of the components x, y, z");
   support.path = read_path(object);
   object.finish();
   return support;
 }
 
-void read_master(const JsonValue& value, int dimension, ContactInput& contact) {
+void read_master(const JsonValue& value, int dimension, bool heat, ContactInput& contact) {
   const auto d = static_cast<std::size_t>(dimension);
   JsonObject master(value);
   leave_keys(master, {"rigid_body", "mirror"});
@@ -133,6 +144,7 @@ void read_master(const JsonValue& value, int dimension, ContactInput& contact) {
   } else {
     for (const JsonValue& item : master.at("nodes").items())
       for (const double x : item.numbers(d)) contact.rigid.push_back(x);
+    if (heat && master.has("temperature")) contact.temperature = master.at("temperature").number();
     const JsonValue direction = master.at("direction");
     contact.direction = direction.numbers(d);
     double squared = 0;
@@ -143,10 +155,12 @@ void read_master(const JsonValue& value, int dimension, ContactInput& contact) {
   master.finish();
 }
 
-ContactInput read_contact(const JsonValue& value, int dimension) {
+ContactInput read_contact(const JsonValue& value, const Scene& scene) {
+  const int dimension = scene.dimension;
   JsonObject object(value);
-  leave_keys(object, {"law", "cut_off", "enrichment", "wear_factor", "areas"});
+  leave_keys(object, {"law", "cut_off", "enrichment", "wear_factor", "areas", "slave_height"});
   ContactInput contact;
+  contact.temperature = scene.temperature;
   contact.slave = object.at("slave").string();
   contact.slave_where = object.at("slave").where();
   if (object.has("sampling")) {
@@ -154,11 +168,17 @@ ContactInput read_contact(const JsonValue& value, int dimension) {
     if (!sampling.is_number()) leave_to_laboratory(sampling.where());
     contact.sampling = sampling.integer(1, 64);
   }
-  read_master(object.at("master"), dimension, contact);
+  read_master(object.at("master"), dimension, scene.heat, contact);
   const JsonValue model = object.at("model");
   if (!model.is_object()) model.fail("an object is expected: the library's model");
   contact.model = model.json();
   contact.model_where = model.where();
+  const Json heat = find_json(contact.model, "/contact/heat");
+  if (!heat.is_null() && !scene.heat)
+    model.fail("\"heat\" is for bodies with temperatures; give each of /materials a \"conductivity\"");
+  if (heat.contains("friction"))
+    model.fail(
+        "friction heats in time, and the steps of a scene have none; leave \"friction\" out of \"heat\"");
   // One place says whether the master is rigid: the scene.
   contact.model["master"] = contact.rigid.empty() ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
@@ -228,7 +248,13 @@ void read_bodies(JsonObject& object, Scene& scene) {
   }
   std::map<std::string, Material> materials;
   JsonObject all(object.at("materials"));
-  for (const std::string& name : all.all_keys()) materials[name] = read_material(all.at(name));
+  for (const std::string& name : all.all_keys()) {
+    const Material& material = materials[name] = read_material(all.at(name));
+    if (materials.size() > 1 && scene.heat != (material.conductivity > 0))
+      all.at(name).fail("some materials have a \"conductivity\" and others none; give it to all of them");
+    scene.heat = material.conductivity > 0;
+  }
+  if (scene.heat && object.has("temperature")) scene.temperature = object.at("temperature").number();
   for (const JsonValue& item : object.at("parts").items())
     scene.parts.push_back(read_part(item, scene, materials, common));
   if (scene.parts.empty()) object.fail("\"parts\" is empty");
@@ -244,7 +270,7 @@ Scene read(const Json& json, const std::filesystem::path& file) {
   read_bodies(object, scene);
   if (object.has("supports"))
     for (const JsonValue& item : object.at("supports").items())
-      scene.supports.push_back(read_support(item, scene.dimension));
+      scene.supports.push_back(read_support(item, scene.dimension, scene.heat));
   if (object.has("tractions"))
     for (const JsonValue& item : object.at("tractions").items()) {
       JsonObject traction(item);
@@ -253,7 +279,7 @@ Scene read(const Json& json, const std::filesystem::path& file) {
                                  read_path(traction)});
       traction.finish();
     }
-  if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
+  if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene);
   scene.symmetry_copies = object.integer_or("symmetry_copies", 1, 64, 1);
   read_steps(object.at("steps"), scene);
   if (object.has("units")) {

@@ -33,6 +33,7 @@ struct Part {
 struct Support {
   std::string nodes, where;
   std::vector<std::optional<double>> displacement; ///< [dimension]
+  std::optional<double> temperature;
   Path path;
 };
 
@@ -51,6 +52,7 @@ struct ContactInput {
   std::vector<double> direction;    ///< [d] unit vector of the rigid master's motion
   std::vector<int> coordinate_axes; ///< master faces: reference coordinates that are surface coordinates
   std::string ends = "repeated";    ///< what a smoothed master does at its borders
+  double temperature = 0;           ///< of a rigid master
   Json model;                       ///< for the library
   std::string model_where;
 };
@@ -71,6 +73,8 @@ struct Scene {
   std::vector<Support> supports;
   std::vector<Traction> tractions;
   std::optional<ContactInput> contact;
+  bool heat = false;       ///< the materials conduct, and every node has a temperature
+  double temperature = 0;  ///< of everything before the first step, without stress
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images
   Control control = Control::load_factor;
   std::vector<double> steps;

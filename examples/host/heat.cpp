@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "heat.hpp"
+
+#include <cmath>
+
+namespace host {
+namespace {
+
+/// Derivatives of the residual of one element by its displacements and temperatures, all constant:
+///   power of node a         R_a  = sum_b  integral of k grad N_a . grad N_b      T_b
+///   force a, component i    R_ai = sum_b -integral of beta dN_a/dx_i N_b         T_b
+template <ElementType Type>
+Eigen::MatrixXd
+tangent_of(const ElementSetup& setup,
+           const Eigen::Matrix<double, node_count(Type), dimension(Type), Eigen::RowMajor>& X) {
+  constexpr int nodes = node_count(Type), d = dimension(Type), forces = nodes * d;
+  static const auto points = quadrature<Type>();
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(forces + nodes, forces + nodes);
+  const double beta = setup.thermal_stress();
+  for (const auto& point : points) {
+    const Eigen::Matrix<double, d, d> map = X.transpose() * point.derivatives;
+    const Eigen::Matrix<double, nodes, d> dN = point.derivatives * map.inverse();
+    double weight = point.weight * map.determinant(), radius = 0;
+    if (setup.formulation == Formulation::axisymmetric) {
+      radius = X.col(0).dot(point.values);
+      weight *= 2 * std::numbers::pi * radius;
+    } else if (d == 2) {
+      weight *= setup.thickness;
+    }
+    K.bottomRightCorner(nodes, nodes) += weight * setup.material.conductivity * dN * dN.transpose();
+    for (int a = 0; a < nodes; ++a)
+      for (int i = 0; i < d; ++i) {
+        const double hoop = radius > 0 && i == 0 ? point.values[a] / radius : 0;
+        for (int b = 0; b < nodes; ++b)
+          K(d * a + i, forces + b) -= weight * beta * (dN(a, i) + hoop) * point.values[b];
+      }
+  }
+  return K;
+}
+
+} // namespace
+
+std::vector<StencilGroup> Heat::stencils(const DofMap& dofs) const {
+  std::vector<StencilGroup> result;
+  for (const ElementGroup& group : mesh_->groups) {
+    StencilGroup stencil;
+    stencil.dofs = node_count(group.type) * (mesh_->dimension + 1);
+    for (std::size_t e = 0; e < group.size(); ++e) {
+      for (const int node : group.element(e))
+        for (int c = 0; c < mesh_->dimension; ++c) stencil.equations.push_back(dofs.equation(node, c));
+      for (const int node : group.element(e)) stencil.equations.push_back(dofs.equation(dofs.scalar(node)));
+    }
+    result.push_back(std::move(stencil));
+  }
+  return result;
+}
+
+template <ElementType Type>
+double Heat::assemble_group(std::size_t index, const std::vector<double>& values,
+                            const std::vector<double>& direction, std::vector<double>& residual,
+                            SparseSystem& system, std::size_t first) const {
+  constexpr int nodes = node_count(Type), d = dimension(Type);
+  const ElementGroup& group = mesh_->groups[index];
+  const auto displacements = mesh_->coordinates.size();
+  Eigen::Matrix<double, nodes, d, Eigen::RowMajor> X;
+  std::vector<std::size_t> dof(static_cast<std::size_t>(nodes * (d + 1)));
+  Eigen::VectorXd moved(nodes * (d + 1));
+  double squared = 0;
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const auto element = group.element(e);
+    for (int a = 0; a < nodes; ++a) {
+      const auto node = static_cast<std::size_t>(element[static_cast<std::size_t>(a)]);
+      for (int i = 0; i < d; ++i) {
+        const std::size_t own = node * static_cast<std::size_t>(d) + static_cast<std::size_t>(i);
+        X(a, i) = mesh_->coordinates[own], dof[static_cast<std::size_t>(d * a + i)] = own;
+      }
+      dof[static_cast<std::size_t>(nodes * d + a)] = displacements + node;
+    }
+    const Eigen::MatrixXd K = tangent_of<Type>(setups_[static_cast<std::size_t>(group.part)], X);
+    for (std::size_t k = 0; k < dof.size(); ++k)
+      moved[static_cast<Eigen::Index>(k)] = values[dof[k]] + (direction.empty() ? 0 : direction[dof[k]]);
+    const Eigen::VectorXd force = K * moved;
+    for (std::size_t k = 0; k < dof.size(); ++k) residual[dof[k]] += force[static_cast<Eigen::Index>(k)];
+    system.add(first + index, e, K.data());
+    squared += (K.bottomRightCorner(nodes, nodes).cwiseAbs() * moved.tail(nodes).cwiseAbs()).squaredNorm();
+  }
+  return squared;
+}
+
+double Heat::assemble(const std::vector<double>& values, const std::vector<double>& direction,
+                      std::vector<double>& residual, SparseSystem& system, std::size_t first) const {
+  double squared = 0;
+  for (std::size_t g = 0; g < mesh_->groups.size(); ++g) switch (mesh_->groups[g].type) {
+    case ElementType::tri3:
+      squared += assemble_group<ElementType::tri3>(g, values, direction, residual, system, first);
+      break;
+    case ElementType::quad4:
+      squared += assemble_group<ElementType::quad4>(g, values, direction, residual, system, first);
+      break;
+    case ElementType::tet4:
+      squared += assemble_group<ElementType::tet4>(g, values, direction, residual, system, first);
+      break;
+    case ElementType::hex8:
+      squared += assemble_group<ElementType::hex8>(g, values, direction, residual, system, first);
+      break;
+    }
+  return std::sqrt(squared);
+}
+
+} // namespace host

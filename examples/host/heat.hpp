@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Temperatures of the bodies: steady conduction, and thermal expansion of linear elastic ones. They stand behind all
+// displacements, one per node, as changes of the scene's "temperature".
+#pragma once
+
+#include <vector>
+
+#include "dof_map.hpp"
+#include "element.hpp"
+#include "mesh.hpp"
+#include "sparse_system.hpp"
+
+namespace host {
+
+class Heat {
+public:
+  /// @param setups  one per part of the mesh, of materials with a conductivity
+  Heat(const Mesh& mesh, const std::vector<ElementSetup>& setups) : mesh_(&mesh), setups_(setups) {}
+
+  /// Equations of the elements: displacements node by node, then temperatures. One group per group of the mesh; they
+  /// follow the bulk's in every SparseSystem.
+  std::vector<StencilGroup> stencils(const DofMap& dofs) const;
+
+  /// Add the power that leaves each node and the stress of expansion to `residual`, their tangent to `system`.
+  /// @param values     [dofs] displacements and changes of temperature
+  /// @param direction  [dofs] or empty: adds tangent * direction to the residual
+  /// @param first      number of this object's first group in `system`
+  /// @return the size of the powers before they cancel in the elements: [power]
+  double assemble(const std::vector<double>& values, const std::vector<double>& direction,
+                  std::vector<double>& residual, SparseSystem& system, std::size_t first) const;
+
+private:
+  template <ElementType Type>
+  double assemble_group(std::size_t group, const std::vector<double>& values,
+                        const std::vector<double>& direction, std::vector<double>& residual,
+                        SparseSystem& system, std::size_t first) const;
+
+  const Mesh* mesh_;
+  std::vector<ElementSetup> setups_;
+};
+
+} // namespace host
