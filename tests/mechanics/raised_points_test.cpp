@@ -317,5 +317,82 @@ TEST(RaisedPoints, HaveExactTangents) {
   EXPECT_LT(worst_moment, 1e-13);
 }
 
+// What a caller may get wrong is said by the name of the argument.
+TEST(RaisedPoints, SayWhatIsWrong) {
+  Random random(3);
+  Pair pair = draw_pair(random, "quad4", 2);
+  const ents::Model surface(slave_text(3)),
+      model(master_text(3, R"({"normal": {"type": "penalty", "stiffness": 50}})"));
+  std::vector<double> heights(pair.areas.size()), slopes(2 * pair.weights.size());
+  ents_combination c = pair.combination();
+  ents_report report = new_report();
+  const auto expect = [&](std::int32_t status, std::int32_t wanted, const char* words) {
+    EXPECT_EQ(status, wanted) << report.message;
+    EXPECT_NE(std::string(report.message).find(words), std::string::npos) << report.message;
+  };
+  const auto raised = [&] {
+    return ents_raise_points(surface.get(), &c, nullptr, heights.data(), slopes.data(), &report);
+  };
+  ASSERT_EQ(raised(), ENTS_OK) << report.message;
+  expect(ents_raise_points(surface.get(), &c, nullptr, nullptr, slopes.data(), &report), ENTS_NULL_ARGUMENT,
+         "'heights'");
+  expect(ents_raise_points(surface.get(), &c, nullptr, heights.data(), nullptr, &report), ENTS_NULL_ARGUMENT,
+         "'slopes'");
+  pair.weights[5] += 1e-6;
+  expect(raised(), ENTS_BAD_VALUE, "point 1 are no shape functions");
+  pair.weights[5] -= 1e-6;
+
+  std::vector<double> place(3 * pair.areas.size());
+  const auto all = static_cast<std::int64_t>(pair.positions.size()) / 3;
+  const auto combined = [&](int d = 3) {
+    return ents_combine(&c, d, all, pair.positions.data(), place.data(), &report);
+  };
+  c.heights = heights.data();
+  expect(combined(), ENTS_NULL_ARGUMENT, "combination.slopes is null");
+  c.slopes = slopes.data();
+  ASSERT_EQ(combined(), ENTS_OK) << report.message;
+  expect(combined(1), ENTS_BAD_VALUE, "'dimension'");
+  const std::vector<std::int32_t> reflected(pair.nodes.size());
+  c.reflected = reflected.data();
+  expect(combined(), ENTS_BAD_VALUE, "heights and reflected");
+  c.reflected = nullptr;
+  heights[2] = std::nan("");
+  expect(combined(), ENTS_NON_FINITE, "point 2");
+  ASSERT_EQ(raised(), ENTS_OK);
+  const std::vector<double> good = pair.positions;
+  for (std::size_t i = static_cast<std::size_t>(3 * pair.slave_first); i < pair.positions.size(); ++i)
+    pair.positions[i] = 0.0;
+  expect(combined(), ENTS_DEGENERATE_SEGMENT, "point 0 has no normal");
+  pair.positions = good;
+
+  // The system's part of it: one element above the master's middle.
+  pair.heights = heights, pair.slopes = slopes;
+  ents_combination points = pair.combination(), of_master = points;
+  const ents_master_mesh mesh = pair.master.mesh();
+  std::vector<std::int64_t> equations(pair.positions.size(), -1), segment(pair.areas.size(), 4);
+  ASSERT_EQ(combined(), ENTS_OK);
+  auto input = ents::make<ents_input>();
+  input.slave = place.data(), input.slave_stride = 3, input.area = pair.areas.data(), input.area_stride = 1;
+  input.mesh = &mesh, input.segment = segment.data(), input.segment_stride = 1;
+  auto system = ents::make<ents_system>();
+  system.index_size = 8, system.slave = &points, system.slave_nodes = all;
+  system.slave_equations = system.master_equations = equations.data(), system.master_nodes = all;
+  double residual = 0.0;
+  system.rows = 1, system.residual = &residual;
+  const auto assembled = [&] {
+    return ents_assemble(model.get(), 0, pair.points(), &input, nullptr, &system, &report);
+  };
+  expect(assembled(), ENTS_NULL_ARGUMENT, "system.slave_positions is null");
+  std::vector<double> moved = pair.positions;
+  for (std::size_t i = static_cast<std::size_t>(3 * pair.slave_first); i < moved.size(); ++i)
+    moved[i] += 1e-3;
+  system.slave_positions = moved.data();
+  for (std::size_t i = 2; i < place.size(); i += 3) place[i] = -0.1; // all in contact
+  expect(assembled(), ENTS_BAD_VALUE, "input.slave of element 0 is");
+  system.slave_positions = pair.positions.data();
+  of_master.points = all, system.master = &of_master;
+  expect(assembled(), ENTS_BAD_VALUE, "system.master has heights");
+}
+
 } // namespace
 } // namespace mechanics::raised_points_test
