@@ -181,10 +181,11 @@ std::int32_t ElementCall::check_temperatures(ents_report* report) const {
 
 std::int32_t ElementCall::check_time(ents_report* report) const {
   if (plan->law.varying.by_rate() && !(in->time_increment > 0.0 && in->time_increment < 1e100))
-    return report_message(report, ENTS_BAD_VALUE, -1,
-                          "input.time_increment = %g; the coefficient of friction depends on the slip rate: give "
-                          "the time of the increment, > 0",
-                          in->time_increment);
+    return report_message(
+        report, ENTS_BAD_VALUE, -1,
+        "input.time_increment = %g; the coefficient of friction depends on the slip rate: give "
+        "the time of the increment, > 0",
+        in->time_increment);
   return ENTS_OK;
 }
 

@@ -156,7 +156,8 @@ void read_friction(const json& friction, const std::string& path, ModelSpec& mod
                "\", whose damage does not weaken shear; write \"coulomb\", which acts on the pressure, or no "
                "friction");
   } else {
-    check_keys(friction, path, {"type", "coefficient", "stiffness"}, {"shear_limit", "adhesion", "kinetic", "decay"});
+    check_keys(friction, path, {"type", "coefficient", "stiffness"},
+               {"shear_limit", "adhesion", "kinetic", "decay"});
     law.friction = FrictionKind::coulomb;
     const bool decays = friction.contains("kinetic") || friction.contains("decay");
     if (friction.at("coefficient").is_object()) {
@@ -238,8 +239,8 @@ void read_flattening(const json& value, const std::string& path, ModelSpec& mode
          "is not possible with " + std::string(model.law.wear.on ? "\"wear\"" : "multipliers as unknowns"));
   if (model.law.pulls)
     fail(ENTS_BAD_VALUE, path,
-         "is not possible with a normal law that pulls, \"" +
-             std::string(entry_of(model.law.normal).type) + "\"");
+         "is not possible with a normal law that pulls, \"" + std::string(entry_of(model.law.normal).type) +
+             "\"");
 }
 
 } // namespace

@@ -70,7 +70,8 @@ struct Element {
   int dofs = 0;         ///< per node; the reference node of a rigid body may have rotations behind them
   int temperature = -1; ///< dof of each node that is its temperature; -1: there is none
   int all_dofs = 0;     ///< of the element, for messages; 0: nodes * dofs
-  double time_increment = 0;    ///< for the heat of friction, a power, and coefficients that depend on the slip rate
+  double time_increment =
+      0; ///< for the heat of friction, a power, and coefficients that depend on the slip rate
   bool reference_turns = false; ///< it has (body.hpp): 3 rotations, in the plane one, in all arrays of dofs
   int coordinates = 0;          ///< per node
   Grid<const double> position;  ///< (coordinate, node) reference, or current with no displacement, [L]

@@ -43,9 +43,10 @@ nlohmann::ordered_json cohesive_law(const Source& source, const BondStatements& 
   const double stiffness = positive(source, cohesive, "a stiffness K_nn");
   for (const std::size_t shear : {1u, 2u})
     if (entry(source, cohesive.lines[0], shear, 0) != 0)
-      source.fail(cohesive.lines[0].place,
-                  "contact elements are bonded against opening alone, and their damage does not weaken shear; "
-                  "write 0 for K_ss and K_tt, or leave this pair to Abaqus");
+      source.fail(
+          cohesive.lines[0].place,
+          "contact elements are bonded against opening alone, and their damage does not weaken shear; "
+          "write 0 for K_ss and K_tt, or leave this pair to Abaqus");
   if (!of.initiation) {
     if (of.evolution)
       source.fail(of.evolution->place, "*DAMAGE EVOLUTION has no *DAMAGE INITIATION before it; write it, or "
@@ -56,16 +57,17 @@ nlohmann::ordered_json cohesive_law(const Source& source, const BondStatements& 
   expect(source, *of.initiation, "CRITERION", {"MAXS", "QUADS"});
   const double strength = positive(source, *of.initiation, "a strength t_n");
   if (!of.evolution)
-    source.fail(of.initiation->place, "*DAMAGE INITIATION has no *DAMAGE EVOLUTION behind it, so that nothing "
-                                      "would be damaged; write it, or leave the initiation out");
+    source.fail(of.initiation->place,
+                "*DAMAGE INITIATION has no *DAMAGE EVOLUTION behind it, so that nothing "
+                "would be damaged; write it, or leave the initiation out");
   expect(source, *of.evolution, "SOFTENING", {"LINEAR"});
   expect(source, *of.evolution, "TYPE", {"ENERGY", "DISPLACEMENT"});
   double energy = 0;
   if (canonical(of.evolution->value("TYPE")) == "ENERGY")
     energy = positive(source, *of.evolution, "an energy of fracture");
   else // the opening at failure beyond that at initiation
-    energy = 0.5 * strength *
-             (strength / stiffness + positive(source, *of.evolution, "an opening at failure"));
+    energy =
+        0.5 * strength * (strength / stiffness + positive(source, *of.evolution, "an opening at failure"));
   remarks.push_back("cohesive: pressure has the stiffness K_nn, too");
   return {{"type", "cohesive"},
           {"stiffness", stiffness},

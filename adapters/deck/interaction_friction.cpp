@@ -35,21 +35,25 @@ void read_coefficient(const Source& source, const Statement& friction, nlohmann:
   if (friction.has("EXPONENTIAL DECAY")) {
     const Line& line = friction.lines[0];
     if (friction.lines.size() > 1)
-      source.fail(friction.lines[1].place, "*FRICTION, EXPONENTIAL DECAY has one data line; leave this one out");
+      source.fail(friction.lines[1].place,
+                  "*FRICTION, EXPONENTIAL DECAY has one data line; leave this one out");
     to["coefficient"] = coefficient(source, line, 0), to["kinetic"] = coefficient(source, line, 1);
     const double decay = entry(source, line, 2, 0);
-    if (!(decay > 0)) source.fail(line.place, "the decay (entry 3) is " + shown(decay, 6) + "; write a number above 0");
+    if (!(decay > 0))
+      source.fail(line.place, "the decay (entry 3) is " + shown(decay, 6) + "; write a number above 0");
     to["decay"] = decay;
     return;
   }
   std::set<double> rates, pressures;
   std::map<std::pair<double, double>, double> points; // pressure, rate
   for (const Line& line : friction.lines) {
-    const double mu = coefficient(source, line, 0), rate = entry(source, line, 1, 0), pressure = entry(source, line, 2, 0);
+    const double mu = coefficient(source, line, 0), rate = entry(source, line, 1, 0),
+                 pressure = entry(source, line, 2, 0);
     if (rate < 0 || pressure < 0)
       source.fail(line.place, "slip rate and pressure of a coefficient are numbers from 0");
     if (!points.insert({{pressure, rate}, mu}).second)
-      source.fail(line.place, "there is a coefficient for this slip rate and pressure already; leave one out");
+      source.fail(line.place,
+                  "there is a coefficient for this slip rate and pressure already; leave one out");
     rates.insert(rate), pressures.insert(pressure);
   }
   nlohmann::ordered_json rows = nlohmann::ordered_json::array(), columns = nlohmann::ordered_json::array();
@@ -99,7 +103,8 @@ nlohmann::ordered_json friction_law(const Mesh& mesh, const Statement& s, double
     for (const Line& line : s.lines)
       for (const auto field : fields_of(line.text))
         if (!field.empty())
-          source.fail(line.place, "*FRICTION, ROUGH never slips, so " + string(field) + " means nothing; leave it out");
+          source.fail(line.place,
+                      "*FRICTION, ROUGH never slips, so " + string(field) + " means nothing; leave it out");
     return {{"type", "rough"}, {"stiffness", stiffness}};
   }
   if (s.lines.empty()) source.fail(s.place, "*FRICTION has no data line; write the coefficient of friction");

@@ -97,14 +97,15 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
       out.heat.push_back(&s);
       continue;
     }
-    if (const Statement** bond = program != Program::abaqus           ? nullptr
+    if (const Statement** bond = program != Program::abaqus         ? nullptr
                                  : s.keyword == "COHESIVE BEHAVIOR" ? &out.bond.cohesive
                                  : s.keyword == "DAMAGE INITIATION" ? &out.bond.initiation
                                  : s.keyword == "DAMAGE EVOLUTION"  ? &out.bond.evolution
                                                                     : nullptr) {
       if (*bond)
         source.fail(s.place, "the interaction " + pair.interaction + " has *" + s.keyword +
-                                 " a second time (first at " + source.at((*bond)->place) + "): leave one out");
+                                 " a second time (first at " + source.at((*bond)->place) +
+                                 "): leave one out");
       *bond = &s;
       continue;
     }
@@ -275,9 +276,8 @@ struct Behaviour {
     if (type == "LINEAR") return linear(*s);
     if (type == "EXPONENTIAL") return exponential(*s);
     if (type == "TABULAR") return tabular(*s);
-    source().fail(s->place,
-                  "PRESSURE-OVERCLOSURE=" + s->value("PRESSURE-OVERCLOSURE") +
-                      " is not known; LINEAR, EXPONENTIAL, TABULAR, HARD and ccx's TIED are");
+    source().fail(s->place, "PRESSURE-OVERCLOSURE=" + s->value("PRESSURE-OVERCLOSURE") +
+                                " is not known; LINEAR, EXPONENTIAL, TABULAR, HARD and ccx's TIED are");
   }
 
   /// A gap above the rounding of the mesh: what touches there does not part again.
@@ -299,7 +299,8 @@ struct Behaviour {
     const double range = std::max(pair.adjust.value_or(0), 0.5 * bodies.face_size);
     remarks.push_back("tied: points that are at most " + shown(range, 6) +
                       " away at the begin, half a face of the slave or ADJUST");
-    return {{{"type", "tied"}, {"stiffness", stiffness}, {"range", range > 0 ? range : touching()}}, stiffness};
+    return {{{"type", "tied"}, {"stiffness", stiffness}, {"range", range > 0 ? range : touching()}},
+            stiffness};
   }
 };
 
@@ -346,13 +347,15 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
     normal.stiffness = normal.law.at("stiffness");
   } else if (parts.bond.initiation || parts.bond.evolution) {
     const Statement& s = parts.bond.initiation ? *parts.bond.initiation : *parts.bond.evolution;
-    mesh.source.fail(s.place, "*" + s.keyword + " of this contact has no *COHESIVE BEHAVIOR; write it, or leave "
-                                                "the damage out");
+    mesh.source.fail(s.place, "*" + s.keyword +
+                                  " of this contact has no *COHESIVE BEHAVIOR; write it, or leave "
+                                  "the damage out");
   }
   const bool is_tied = program == Program::calculix && normal.law.at("type") == "tied";
   out.contact["normal"] = normal.law;
   if (parts.friction)
-    if (auto law = friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, is_tied, out.remarks);
+    if (auto law =
+            friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, is_tied, out.remarks);
         !law.is_null())
       out.contact["friction"] = std::move(law);
   if (auto heat = heat_law(mesh.source, parts.heat, out.contact.contains("friction"), out.remarks);

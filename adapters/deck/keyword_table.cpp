@@ -262,7 +262,10 @@ std::vector<KeywordRule> abaqus_rules() {
         {"USER", Use::refused, "*", user},
         {"DEPVAR", Use::refused, "*", states},
         {"PROPERTIES", Use::refused, "*", states}},
-       {{"coefficient of friction"}, {"slip rate"}, {"contact pressure"}, {"temperature", Use::refused, "0", table}}},
+       {{"coefficient of friction"},
+        {"slip rate"},
+        {"contact pressure"},
+        {"temperature", Use::refused, "0", table}}},
       {"COHESIVE BEHAVIOR", Use::used, "", {any}, {}}, // of a pair's interaction: interaction_bond.cpp
       {"CONTACT PAIR",
        Use::used,

@@ -96,8 +96,7 @@ ENTS_NOINLINE std::uint32_t write_general(const Plan& plan, const ElementBlock& 
   const auto measured = at.measure(plan);
   Truth<Scalar> fine = both(both(p.ordinary, at.safe), p.is_regular(measured, !ray));
   if (plan.multipliers > 0) fine = both(fine, p.area > 0.0);
-  at.evaluate_law(plan, in.begin, in.multipliers(), in.worn_or_null(), in.offset, in.scale,
-                  in.bond);
+  at.evaluate_law(plan, in.begin, in.multipliers(), in.worn_or_null(), in.offset, in.scale, in.bond);
   Scalar size = p.area * (absolute(at.law.force) + absolute(at.law.stiffness));
   if (in.has_wear) {
     size = size + p.area * (absolute(at.wear.by_slid) + at.wear.slid) + absolute(in.worn.depth);

@@ -91,7 +91,7 @@ private:
     Friction<S, T> friction;
     from.time = begin_.begin.time;
     friction.template evaluate<true>(law, {xi, metric, area, true}, from, slipping, force,
-                      begin_.has_multiplier ? multiplier : nullptr);
+                                     begin_.has_multiplier ? multiplier : nullptr);
     return dissipation_of(law, friction);
   }
 

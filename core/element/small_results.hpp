@@ -119,8 +119,8 @@ private:
     double dissipated = 0.0, stored = 0.0;
     if (has_energy && law.is_damaged) {
       const double* begin = element_at(block.state_begin, block.state_begin_stride, e);
-      dissipated = lane(area, k) *
-                   bond_dissipation(law, begin ? begin[plan.state.bond_at] : 0.0, lane(bonded, k));
+      dissipated =
+          lane(area, k) * bond_dissipation(law, begin ? begin[plan.state.bond_at] : 0.0, lane(bonded, k));
     }
     if constexpr (Frictional) {
       const bool slips = slip >> k & 1;

@@ -25,9 +25,10 @@ struct AdhesiveLaw : NormalLaw {
 
 struct Dugdale : AdhesiveLaw {
   static constexpr char type[] = "dugdale",
-                        formula[] = "Adhesion: pressure -stiffness g for gap g < 0, then a tension that rises "
-                                    "to strength, stays there, and falls to 0 smoothly around work/strength "
-                                    "(Maugis 1992). Not with wear.";
+                        formula[] =
+                            "Adhesion: pressure -stiffness g for gap g < 0, then a tension that rises "
+                            "to strength, stays there, and falls to 0 smoothly around work/strength "
+                            "(Maugis 1992). Not with wear.";
   static constexpr LawNumber table[] = {
       {"work", "Work of adhesion [F/L]; a slave node may have a factor of it, ents_input.slave_values[3].",
        LawNumber::positive, true},
@@ -38,7 +39,8 @@ struct Dugdale : AdhesiveLaw {
   static const char* mistake(const ContactLaw& law) {
     return law.number[2] * law.number[0] >= 1.6 * law.number[1] * law.number[1]
                ? nullptr
-               : "has a stiffness with which the tension would rise over more than its work of adhesion; write a "
+               : "has a stiffness with which the tension would rise over more than its work of adhesion; "
+                 "write a "
                  "stiffness of at least 1.6 strength^2 / work";
   }
   // The places between which the tension is constant, and where it ends. The area below is the work of
@@ -72,8 +74,8 @@ struct Dugdale : AdhesiveLaw {
     const S width = of.end - of.flat, v = clamp((g - of.flat) / width, 0.0, 1.0);
     const S falling = v * v * (3.0 - 2.0 * v), middle = clamp_to(g - of.rise, of.flat - of.rise);
     const S tension = most * (one - left * left - falling);
-    const S area = most * (of.rise * (u * u - u * u * u / 3.0) + middle +
-                           width * (v - v * v * v + 0.5 * v * v * v * v));
+    const S area =
+        most * (of.rise * (u * u - u * u * u / 3.0) + middle + width * (v - v * v * v + 0.5 * v * v * v * v));
     const S slope = most * (2.0 * left / of.rise - 6.0 * v * (one - v) / width);
     const Truth<S> presses = g < 0.0;
     return {select(presses, stiffness * deep, tension), select(presses, S(stiffness), slope),
@@ -90,9 +92,10 @@ private:
 
 struct Separation : AdhesiveLaw {
   static constexpr char type[] = "separation",
-                        formula[] = "Adhesion: W = -work (1 + u) exp(-u), u = g/length (Xu and Needleman 1994): "
-                                    "the largest tension work/(e length) is at g = length; none from 25 "
-                                    "lengths on. Not with wear.";
+                        formula[] =
+                            "Adhesion: W = -work (1 + u) exp(-u), u = g/length (Xu and Needleman 1994): "
+                            "the largest tension work/(e length) is at g = length; none from 25 "
+                            "lengths on. Not with wear.";
   static constexpr LawNumber table[] = {
       {"work", "Work of adhesion [F/L]; a slave node may have a factor of it, ents_input.slave_values[3].",
        LawNumber::positive, true},
@@ -109,20 +112,24 @@ struct Separation : AdhesiveLaw {
   template <class S>
   static ENTS_INLINE NormalForce<S> force(const ContactLaw& law, const NormalPlace<S>& at) {
     const double length = law.number[1];
-    const S u = at.gap * (1.0 / length), w = work<S>(law, at.scale), e = w * exponential(clamp(-u, -last, 200.0));
-    return {(u * e) * (1.0 / length), ((1.0 - u) * e) * (1.0 / (length * length)), -((1.0 + u) * e), u < last};
+    const S u = at.gap * (1.0 / length), w = work<S>(law, at.scale),
+            e = w * exponential(clamp(-u, -last, 200.0));
+    return {(u * e) * (1.0 / length), ((1.0 - u) * e) * (1.0 / (length * length)), -((1.0 + u) * e),
+            u < last};
   }
 };
 
 struct LennardJones : AdhesiveLaw {
   static constexpr char type[] = "lennard_jones",
-                        formula[] = "Adhesion: tension (8 work/(3 length)) (s^3 - s^9), s = length/(length + g), "
-                                    "with a small term that ends it at g = range and factor that keeps the work "
-                                    "(Lennard-Jones 9-3; Greenwood 1997). Not with wear.";
+                        formula[] =
+                            "Adhesion: tension (8 work/(3 length)) (s^3 - s^9), s = length/(length + g), "
+                            "with a small term that ends it at g = range and factor that keeps the work "
+                            "(Lennard-Jones 9-3; Greenwood 1997). Not with wear.";
   static constexpr LawNumber table[] = {
       {"work", "Work of adhesion [F/L]; a slave node may have a factor of it, ents_input.slave_values[3].",
        LawNumber::positive, true},
-      {"length", "Distance of the surfaces at gap 0 [L]: the largest tension 1.03 work/length is at g = 0.2 length."},
+      {"length",
+       "Distance of the surfaces at gap 0 [L]: the largest tension 1.03 work/length is at g = 0.2 length."},
       {"range", "Gap from which on there is no tension [L]."}};
   static constexpr double steepest = 2.0; // s of the deepest place of the formula; a straight line goes on
 

@@ -73,16 +73,16 @@ struct ContactLaw {
   Multiplier multiplier = Multiplier::none;
   bool has_slope = false, has_scale = false;
   bool pulls = false, bonds = false, is_damaged = false;
-  double number[4] = {}; // of the law's table, in its order; of most laws eps [F/L^3]
+  double number[4] = {};           // of the law's table, in its order; of most laws eps [F/L^3]
   std::int32_t twice_exponent = 2; // 2 m (power)
   FrictionKind friction = FrictionKind::none;
   double friction_coefficient = 0.0; // mu; of one that varies the static one, or the largest
   VaryingCoefficient varying;
-  double friction_stiffness = 0.0;   // eps_t [F/L^3]
-  double shear_limit = 0.0;          // [F/L^2]; 0: none
+  double friction_stiffness = 0.0; // eps_t [F/L^3]
+  double shear_limit = 0.0;        // [F/L^2]; 0: none
   bool rubs_adhering = false; // friction of p + strength(), not of what is compression: rubbing_pressure()
-  bool symmetrised = false;          // tangent (K + K^T) / 2
-  const LawTable* table = nullptr;   // of a plan: points that its model has
+  bool symmetrised = false;   // tangent (K + K^T) / 2
+  const LawTable* table = nullptr; // of a plan: points that its model has
   std::int32_t table_points = 0;
   bool has_offset = false;
   double offset = 0.0; // [L] added to the gap that the law sees: > 0 a clearance, < 0 a coating

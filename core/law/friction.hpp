@@ -134,7 +134,8 @@ private:
   ENTS_INLINE void vary(const ContactLaw& law, const FrictionPlace<S, T>& at, const SlipBegin<S, T>& begin,
                         const S& pressure_force) {
     const Truth<S> presses = pressure_force > 0.0;
-    const auto of = slip_limit_of(law, norm, select(presses, pressure_force, S(0.0)), at.area, scale, begin.time);
+    const auto of =
+        slip_limit_of(law, norm, select(presses, pressure_force, S(0.0)), at.area, scale, begin.time);
     limit = of.limit, by_norm = of.by_norm;
     by_pressure = select(presses, of.by_force, S(0.0));
     const Truth<S> some = limit > 0.0;

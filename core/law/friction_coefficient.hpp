@@ -105,16 +105,15 @@ inline SlipLimit slip_limit(const ContactLaw& law, double norm, double force, do
   const double by_force = at.mu + (area > 0.0 ? force * (at.by_pressure / area) : 0.0);
   if (!(slope > 0.0)) return {force * at.mu, 0.0, by_force, 0.0};
   const double fall = law.friction_coefficient - law.varying.kinetic;
-  const double of_static = is_table || fall == 0.0 ? (is_table ? 0.0 : 1.0) : (at.mu - law.varying.kinetic) / fall;
+  const double of_static =
+      is_table || fall == 0.0 ? (is_table ? 0.0 : 1.0) : (at.mu - law.varying.kinetic) / fall;
   return {force * at.mu, by_slip / slope, scale / slope * by_force, scale / slope * force * of_static};
 }
 
 namespace ENTS_ISA {
 
 // The same of any scalar
-template <class S> struct SlipLimitOf {
-  S limit, by_norm, by_force;
-};
+template <class S> struct SlipLimitOf { S limit, by_norm, by_force; };
 template <class S>
 ENTS_NOINLINE SlipLimitOf<S> slip_limit_of(const ContactLaw& law, const S& norm, const S& force,
                                            const S& area, const S& scale, double time) {
@@ -124,7 +123,8 @@ ENTS_NOINLINE SlipLimitOf<S> slip_limit_of(const ContactLaw& law, const S& norm,
     of = {one.limit, one.by_norm, one.by_force};
   } else if constexpr (std::is_same_v<S, Dual<double>>) {
     const SlipLimit one = slip_limit(law, norm.v, force.v, area.v, scale.v, time);
-    of.limit = S(one.limit, one.by_norm * norm.d + one.by_force * force.d + one.by_coefficient * law.rates.friction);
+    of.limit =
+        S(one.limit, one.by_norm * norm.d + one.by_force * force.d + one.by_coefficient * law.rates.friction);
     of.by_norm = S(one.by_norm), of.by_force = S(one.by_force);
   } else {
     for (int k = 0; k < width_of<S>; ++k) {

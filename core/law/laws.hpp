@@ -63,8 +63,7 @@ template <class F> ENTS_INLINE void with_law(NormalKind kind, F&& f) {
 }
 
 // The gap [L] from which on there is contact; scale: of the slave node; bond: of the state
-template <class S>
-ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale, const S& bond = S(0.0)) {
+template <class S> ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale, const S& bond = S(0.0)) {
   S gap(0.0);
   with_law(law.normal,
            [&](auto type) ENTS_LAMBDA_INLINE { gap = decltype(type)::touching_gap(law, scale, bond); });
@@ -81,7 +80,8 @@ template <class S> ENTS_INLINE Strength<S> strength(const ContactLaw& law, const
 // The number of the state at the end of an increment, from that of its begin and the gap at its end
 template <class S> ENTS_INLINE S next_bond(const ContactLaw& law, const S& gap, const S& bond) {
   S next(0.0);
-  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { next = decltype(type)::next_bond(law, gap, bond); });
+  with_law(law.normal,
+           [&](auto type) ENTS_LAMBDA_INLINE { next = decltype(type)::next_bond(law, gap, bond); });
   return next;
 }
 // What damage has taken between them, of a unit of area

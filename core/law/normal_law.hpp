@@ -50,7 +50,8 @@ struct NormalLaw {
   static constexpr bool has_scale = false; // has a slave node a scale of its own?
   static constexpr bool pulls = false;     // may W' be positive?
   static constexpr bool adheres = false;   // has it a strength()?
-  static constexpr bool bonds = false;     // has the state a number of it, next_bond() at the end of an increment?
+  static constexpr bool bonds =
+      false; // has the state a number of it, next_bond() at the end of an increment?
   static constexpr bool is_damaged = false; // does a bond that grows take energy, dissipation()?
   static bool is_linear(const ContactLaw&) { return false; } // is W'' constant in contact?
   // What is wrong with numbers that are positive each, and what to write; or null

@@ -45,14 +45,16 @@ struct Cohesive : NormalLaw {
       {"stiffness", "[F/L^3], more than strength^2/(2 energy).", LawNumber::positive, true},
       {"strength", "Largest tension [F/L^2]."},
       {"energy", "Of a unit of area that opens [F/L]."},
-      {"range", "A bond forms where the gap is at most this [L], at most strength/stiffness; above the rounding "
-                "of the mesh."}};
+      {"range",
+       "A bond forms where the gap is at most this [L], at most strength/stiffness; above the rounding "
+       "of the mesh."}};
   static constexpr bool wears = false, pulls = true, bonds = true, is_damaged = true;
 
   static const char* mistake(const ContactLaw& law) {
     const double* n = law.number;
     if (!(2.0 * n[0] * n[2] > n[1] * n[1]))
-      return "has a stiffness with which the bond would take more than its energy up to the strength; write a "
+      return "has a stiffness with which the bond would take more than its energy up to the strength; write "
+             "a "
              "stiffness above strength^2 / (2 energy)";
     if (!(n[0] * n[3] <= n[1]))
       return "has a range in which a new bond would begin beyond its strength; write a range of at most "
@@ -68,8 +70,7 @@ struct Cohesive : NormalLaw {
   }
 
   // Of a bond that broke, 0
-  template <class S>
-  static ENTS_INLINE S touching_gap(const ContactLaw& law, const S&, const S& bond) {
+  template <class S> static ENTS_INLINE S touching_gap(const ContactLaw& law, const S&, const S& bond) {
     return select(bond > 0.0, S(0.0), S(law.number[3]));
   }
   template <class S> static ENTS_INLINE S next_bond(const ContactLaw& law, const S& gap, const S& bond) {
@@ -97,8 +98,7 @@ struct Cohesive : NormalLaw {
     const S down = law.number[1] / (last - first);
     const S secant = select(holds, down * (last - opening) / opening, none);
     const S stiffness = select(presses, whole, secant);
-    return {stiffness * g, select(tears, -down, stiffness), 0.5 * stiffness * g * g,
-            either(presses, holds)};
+    return {stiffness * g, select(tears, -down, stiffness), 0.5 * stiffness * g * g, either(presses, holds)};
   }
 };
 

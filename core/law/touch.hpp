@@ -14,9 +14,9 @@ namespace ents::ENTS_ISA {
 
 // What an increment begins with.
 template <class S, int T> struct SlipBegin {
-  S from[T];   // anchor of an element in contact; projection xi_n of an open one
-  S known;     // 1 where there is one of these
-  S clearance; // c_n [L] of an open element; 0: it was in contact
+  S from[T];         // anchor of an element in contact; projection xi_n of an open one
+  S known;           // 1 where there is one of these
+  S clearance;       // c_n [L] of an open element; 0: it was in contact
   double time = 0.0; // of the increment; read where the coefficient of friction depends on the slip rate
 };
 

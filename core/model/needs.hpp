@@ -35,8 +35,8 @@ ENTS_BASES(ENTS_BASIS)
 
 // Does such a model have the faster kernel (fast_block.hpp)?
 constexpr bool has_fast_kernel(const ContactLaw& law, ProjectionKind projection, TangentKind tangent) {
-  return projection == ProjectionKind::normal && law.force_has_slope() &&
-         !law.coefficient_varies() && tangent == TangentKind::consistent;
+  return projection == ProjectionKind::normal && law.force_has_slope() && !law.coefficient_varies() &&
+         tangent == TangentKind::consistent;
 }
 
 // Does the force depend on the state of the begin of the increment?

@@ -32,7 +32,7 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
   ProjectedPoint<Basis, Enriched, Scalar>& point; // its projector is at xi
   const Ray<Scalar, D>* ray = nullptr;            // shadow projection
   Scalar gap, normal_gap, law_gap;                // the last with the offset
-  Scalar clearance; // to the gap from which on there is contact, with what is worn
+  Scalar clearance;            // to the gap from which on there is contact, with what is worn
   Scalar bonded = Scalar(0.0); // number of a law that bonds at the end of the increment
   SlipShare<Scalar> slipping;
   V normal, c, onto[T];    // n_e; onto: shadow
@@ -100,7 +100,7 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
       const Scalar press = plan.law.pulls ? point.area * rubbing_pressure(plan.law, law.force, law_gap, scale)
                                           : -(point.area * law.force);
       friction.template evaluate<true>(plan.law, point.place(), of, slipping, press,
-                        multiplier ? multiplier + 1 : nullptr);
+                                       multiplier ? multiplier + 1 : nullptr);
       point.ordinary = both(point.ordinary, friction.ordinary);
     } else {
       friction.set_none();

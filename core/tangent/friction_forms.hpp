@@ -72,7 +72,7 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionF
 
     ENTS_INLINE ChangeOfForce(const ProjectedPoint<Basis, Enriched, Scalar>& point,
                               const Friction<Scalar, Basis::dim - 1>& friction, bool multipliers,
-                               const Scalar* radial = nullptr) {
+                              const Scalar* radial = nullptr) {
       const auto& surface = point.projector.s;
       const auto& metric = point.projector.metric;
       const auto& w = friction.moved;
@@ -84,7 +84,6 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionF
       Scalar m[T], slips[T];
       for (int a = 0; a < T; ++a) {
         slips[a] = select(friction.slip, friction.direction[a], none);
-        if (radial) slips[a] = *radial * slips[a];
         m[a] = select(friction.slip, friction.raised[a], none);
       }
       // (A_ab w^b)_,c at fixed w and |u|_,c, with W = w^b rho_e,b
@@ -103,6 +102,8 @@ template <class Basis, bool Enriched, bool Rigid, class Scalar> struct FrictionF
           }
         }
       }
+      if (radial)
+        for (Scalar& n : slips) n = *radial * n;
       for (int a = 0; a < T; ++a)
         for (int b = 0; b < T; ++b) towards[a][b] = (ratio * w[b]) * surface.e[a];
       if (multipliers) {

@@ -350,9 +350,9 @@ private:
   ENTS_NOINLINE void set_force(const Plan& plan, const ContactPoint<Basis, Enriched, Scalar>& at,
                                const Weights<Scalar, T>& sum) {
     const auto& friction_at = at.friction;
-    const typename Forms::ChangeOfForce change(
-        at.point, friction_at, plan.law.multiplier_is_dof() || plan.law.multiplier_in_state(),
-        plan.law.coefficient_varies() ? &friction_at.radial : nullptr);
+    const typename Forms::ChangeOfForce change(at.point, friction_at,
+                                               plan.law.multiplier_is_dof() || plan.law.multiplier_in_state(),
+                                               plan.law.coefficient_varies() ? &friction_at.radial : nullptr);
     for (int a = 0; a < T; ++a) {
       Form<Basis, Scalar> f;
       for (auto& v : f.a) v = V::zero();

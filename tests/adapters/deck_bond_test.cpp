@@ -8,8 +8,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Law law(const string& behaviour, Program program, double face_size = 0.5) {
-  const string text = two_blocks() + "*MATERIAL, NAME=M\n*ELASTIC\n1000., .3\n*SURFACE INTERACTION, NAME=I\n" +
-                      behaviour + pair_of_surfaces + step;
+  const string text = two_blocks() +
+                      "*MATERIAL, NAME=M\n*ELASTIC\n1000., .3\n*SURFACE INTERACTION, NAME=I\n" + behaviour +
+                      pair_of_surfaces + step;
   const Mesh mesh = mesh_of(text);
   Bodies bodies = bodies_of(mesh);
   bodies.face_size = face_size;
@@ -47,7 +48,9 @@ TEST(DeckBond, TiedOfCcxSticksWithItsSlope) {
 TEST(DeckBond, CohesiveBehaviorIsTheBilinearLaw) {
   const string cohesive = linear + number + "*COHESIVE BEHAVIOR\n2e5, 0., 0.\n";
   const string starts = "*DAMAGE INITIATION, CRITERION=MAXS\n10., 10., 10.\n";
-  const auto normal = [&](const string& text) { return law(text, Program::abaqus).contact.at("normal").dump(); };
+  const auto normal = [&](const string& text) {
+    return law(text, Program::abaqus).contact.at("normal").dump();
+  };
   EXPECT_EQ(normal(cohesive), R"({"type":"tied","stiffness":200000.0,"range":5e-07})");
   EXPECT_EQ(normal(cohesive + starts + "*DAMAGE EVOLUTION, TYPE=ENERGY\n0.01\n"),
             R"({"type":"cohesive","stiffness":200000.0,"strength":10.0,"energy":0.01,"range":5e-07})");

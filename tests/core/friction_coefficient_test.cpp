@@ -38,7 +38,9 @@ double coefficient(const ContactLaw& law, double p, double v) {
     return law.varying.kinetic + (0.5 - law.varying.kinetic) * std::exp(-0.7 * v);
   const auto row = [&](int i) {
     const double* c = coefficients + 3 * i;
-    return v < 2.0 ? c[0] + (c[1] - c[0]) * v / 2.0 : v < 10.0 ? c[1] + (c[2] - c[1]) * (v - 2.0) / 8.0 : c[2];
+    return v < 2.0    ? c[0] + (c[1] - c[0]) * v / 2.0
+           : v < 10.0 ? c[1] + (c[2] - c[1]) * (v - 2.0) / 8.0
+                      : c[2];
   };
   const double w = std::min(std::max(0.5 * (p - 1.0), 0.0), 1.0);
   return row(0) + w * (row(1) - row(0));
@@ -46,7 +48,9 @@ double coefficient(const ContactLaw& law, double p, double v) {
 
 struct Draw {
   std::mt19937 engine{3};
-  double operator()(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
 };
 
 TEST(FrictionCoefficient, SlipSolvesItsEquation) {
@@ -54,7 +58,8 @@ TEST(FrictionCoefficient, SlipSolvesItsEquation) {
   for (const ContactLaw& law : {decaying(), decaying(0.9), tabulated()}) {
     int slips = 0, falls = 0;
     for (int i = 0; i < 5000; ++i) {
-      const double area = draw(0.5, 2.0), force = area * draw(0.5, 4.0), scale = 40.0 * area, norm = draw(0.0, 4.0);
+      const double area = draw(0.5, 2.0), force = area * draw(0.5, 4.0), scale = 40.0 * area,
+                   norm = draw(0.0, 4.0);
       const double time = draw(0.005, 1.0), h = 1e-6;
       const auto at = [&](double n, double p) { return slip_limit(law, n, p, area, scale, time); };
       const SlipLimit limit = at(norm, force);
@@ -70,9 +75,12 @@ TEST(FrictionCoefficient, SlipSolvesItsEquation) {
       const double by_force = (at(norm, force + h).limit - at(norm, force - h).limit) / (2 * h);
       if (std::fabs(by_norm - limit.by_norm) > 1e-4 || std::fabs(by_force - limit.by_force) > 1e-4) {
         // a kink of the table, or the jump from sticking to a slip that goes on by itself
-        const double before = at(norm - 2 * h, force - 2 * h).by_norm, after = at(norm + 2 * h, force + 2 * h).by_norm;
-        const double before2 = at(norm - 2 * h, force + 2 * h).by_norm, after2 = at(norm + 2 * h, force - 2 * h).by_norm;
-        ASSERT_TRUE(std::fabs(before - after) > 1e-5 || std::fabs(before2 - after2) > 1e-5 || law.varying.pressures > 1);
+        const double before = at(norm - 2 * h, force - 2 * h).by_norm,
+                     after = at(norm + 2 * h, force + 2 * h).by_norm;
+        const double before2 = at(norm - 2 * h, force + 2 * h).by_norm,
+                     after2 = at(norm + 2 * h, force - 2 * h).by_norm;
+        ASSERT_TRUE(std::fabs(before - after) > 1e-5 || std::fabs(before2 - after2) > 1e-5 ||
+                    law.varying.pressures > 1);
         ++falls;
       }
     }
@@ -117,7 +125,7 @@ TEST(FrictionCoefficient, SticksUpToTheStaticLimit) {
   EXPECT_FALSE(at(0.04999, 1e-3).slip);
   EXPECT_NEAR(at(0.04999, 1e-3).force[0], 1.9996, 1e-12);
   EXPECT_TRUE(at(0.05001, 1e3).slip);
-  EXPECT_NEAR(at(0.05001, 1e3).force[0], 2.0, 1e-4); // slowly: static
+  EXPECT_NEAR(at(0.05001, 1e3).force[0], 2.0, 1e-4);  // slowly: static
   EXPECT_NEAR(at(0.05001, 1e-3).force[0], 0.8, 1e-3); // at once: kinetic
 }
 

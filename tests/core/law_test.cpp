@@ -76,7 +76,8 @@ TEST_P(EveryLaw, ForceAndStiffnessAreTheDerivativesOfTheEnergy) {
   int touching = 0;
   for (int i = 0; i < 2000; ++i) {
     const SomeLaw some = some_law(GetParam(), random);
-    const double lambda = random(0.0, 2.0), scale = random(0.5, 2.0), h = 1e-6, bond = some_bond(some, random);
+    const double lambda = random(0.0, 2.0), scale = random(0.5, 2.0), h = 1e-6,
+                 bond = some_bond(some, random);
     const double gap = random(-1.5, some.law.pulls ? 3.0 : 0.5);
     const auto at = [&](double g) { return normal_force(some.law, g, lambda, scale, bond); };
     // with what damage has taken since the begin of the increment
@@ -97,8 +98,8 @@ TEST_P(EveryLaw, ForceAndStiffnessAreTheDerivativesOfTheEnergy) {
     }
     ASSERT_TRUE(some.law.pulls || f.force <= 0.0);
     ASSERT_TRUE(f.contact || (f.force == 0.0 && f.stiffness == 0.0));
-    const NormalForce<Dual<double>> dual = normal_force(some.law, Dual<double>(gap, 1.0), Dual<double>(lambda),
-                                                        Dual<double>(scale), Dual<double>(bond));
+    const NormalForce<Dual<double>> dual = normal_force(
+        some.law, Dual<double>(gap, 1.0), Dual<double>(lambda), Dual<double>(scale), Dual<double>(bond));
     ASSERT_EQ(dual.force.v, f.force);
     ASSERT_NEAR(dual.force.d, f.stiffness, 1e-12 * size);
     if (!some.law.is_damaged) {

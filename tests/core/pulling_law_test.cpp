@@ -86,12 +86,18 @@ TEST(Tied, HoldsWhatItTouched) {
   EXPECT_EQ(next_bond(tied, 3.0, bond), bond);
 }
 
-struct Adhesive { NormalKind kind; double numbers[4], most, at; }; // largest tension, where it is
+struct Adhesive {
+  NormalKind kind;
+  double numbers[4], most, at;
+}; // largest tension, where it is
 const Adhesive adhesives[] = {
     {NormalKind::dugdale, {0.01, 2.0, 1e4, 0.0}, 2.0, 4e-4},
     {NormalKind::separation, {0.01, 2e-3, 0.0, 0.0}, 0.01 / (std::exp(1.0) * 2e-3), 2e-3},
     // 16 / (9 sqrt(3)) w / z_0 without a range
-    {NormalKind::lennard_jones, {0.01, 2e-3, 20.0, 0.0}, 16.0 / (9.0 * std::sqrt(3.0)) * 5.0, 2e-3 * (std::pow(3.0, 1.0 / 6.0) - 1.0)},
+    {NormalKind::lennard_jones,
+     {0.01, 2e-3, 20.0, 0.0},
+     16.0 / (9.0 * std::sqrt(3.0)) * 5.0,
+     2e-3 * (std::pow(3.0, 1.0 / 6.0) - 1.0)},
     {NormalKind::lennard_jones, {0.01, 2e-3, 0.02, 0.0}, 5.280833, 4.0e-4}}; // of a quadrature
 
 TEST(Adhesion, WorkAndStrengthAreThoseOfTheLaw) {
@@ -111,7 +117,8 @@ TEST(Adhesion, WorkAndStrengthAreThoseOfTheLaw) {
       if (t > most * (1.0 + 1e-12)) most = t, at = gap;
     }
     const Strength<double> strength = ENTS_ISA::strength(law, 1.0);
-    EXPECT_NEAR(work, 0.01, a.numbers[2] > 1.0 && a.kind == NormalKind::lennard_jones ? 2e-5 : 1e-8); // the tail
+    EXPECT_NEAR(work, 0.01,
+                a.numbers[2] > 1.0 && a.kind == NormalKind::lennard_jones ? 2e-5 : 1e-8); // the tail
     EXPECT_NEAR(most, a.most, 1e-3 * a.most);
     EXPECT_NEAR(at, a.at, 0.02 * a.at);
     EXPECT_NEAR(strength.most, most, 1e-6 * most);

@@ -60,17 +60,19 @@ inline std::vector<Method> methods() {
       all.push_back({type + "_" + name, normal, own});
     }
   // Coefficients that vary, under a law of the fast block, one of the general block and multipliers
-  const json varying[] = {{{"type", "coulomb"}, {"coefficient", 0.4}, {"kinetic", 0.15}, {"decay", 0.3}, {"stiffness", 80.0}},
-                          {{"type", "coulomb"},
-                           {"coefficient",
-                            {{"pressures", {0.0, 2.0, 30.0}},
-                             {"slip_rates", {0.0, 100.0}},
-                             {"coefficients", {{0.5, 0.4}, {0.3, 0.2}, {0.2, 0.1}}}}},
-                           {"stiffness", 80.0}}};
+  const json varying[] = {
+      {{"type", "coulomb"}, {"coefficient", 0.4}, {"kinetic", 0.15}, {"decay", 0.3}, {"stiffness", 80.0}},
+      {{"type", "coulomb"},
+       {"coefficient",
+        {{"pressures", {0.0, 2.0, 30.0}},
+         {"slip_rates", {0.0, 100.0}},
+         {"coefficients", {{0.5, 0.4}, {0.3, 0.2}, {0.2, 0.1}}}}},
+       {"stiffness", 80.0}}};
   for (const std::size_t normal : {0u, 2u, 3u, 4u})
     for (const bool table : {false, true})
-      all.push_back({normals[normal]["type"].get<std::string>() + (table ? "_friction_table" : "_friction_decays"),
-                     normals[normal], varying[table]});
+      all.push_back(
+          {normals[normal]["type"].get<std::string>() + (table ? "_friction_table" : "_friction_decays"),
+           normals[normal], varying[table]});
   // Its stiffness has a kink in the middle point, which no element is as deep as.
   const json table = {{"type", "table"}, {"gap", {-0.3, -0.14, 0.002}}, {"pressure", {40, 6, 0}}};
   for (const std::size_t friction : {0u, 1u})

@@ -40,7 +40,10 @@ private:
 /// Conjugate gradients for the layer's stiffness plus the matrix of the contact elements. Preconditioner: the
 /// layer's compliance on the nodes that are free, which makes the number of iterations nearly independent of
 /// the mesh; the diagonal on those that contact elements hold. Multipliers, one for each node, are
-/// eliminated: where contact is closed their equation prescribes the displacement.
+/// eliminated: where contact is closed their equation prescribes the displacement. Where tension of an adhesive law
+/// falls with the gap the matrix may not be positive definite: no equilibrium nearby is stable, and the surfaces jump.
+/// Then what is not is left out of the contact elements' matrix, row by row, and the step descends to the equilibrium
+/// that the jump ends in.
 class LayerSolver final : public LinearSolver {
 public:
   explicit LayerSolver(std::shared_ptr<const LayerBody> body) : body_(std::move(body)) {}
@@ -59,6 +62,9 @@ private:
   /// Displacements of the free nodes for forces; the others' are zero. Empty: the matrix is not positive
   /// definite.
   Eigen::VectorXd free_displacement(const Eigen::VectorXd& force) const;
+  /// Leaves out of the contact elements' matrix what may make it indefinite. @return was there any?
+  bool make_definite();
+  void set_open();
 
   std::shared_ptr<const LayerBody> body_;
   SparseSystem::Matrix contact_; ///< of the displacements, lower triangle
