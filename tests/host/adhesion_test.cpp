@@ -242,7 +242,7 @@ TEST(Adhesion, OfALoopJumpsTakeTheEnergy) {
   EXPECT_EQ(jumps, 2);
   EXPECT_NEAR(energy, first, 1e-12);
   EXPECT_NEAR(work_done, lost, 0.01 * lost);
-  EXPECT_LT(largest_of_others, 1e-2 * lost / steps);
+  EXPECT_LT(largest_of_others, 1e-3 * lost); // of the trapezoidal rule, one step
 }
 
 } // namespace

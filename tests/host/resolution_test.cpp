@@ -58,6 +58,32 @@ TEST(ShortestWave, OfHeightsOfHeights) {
   EXPECT_TRUE(std::isinf(wave_of("null")));
 }
 
+// (pi / 4) E* w / s^2, with the strength s of each law
+TEST(Resolution, OfTheTensionOfALaw) {
+  const auto of = [](const char* law) {
+    return tension_length(
+        Json::parse(std::string(R"({"parameters": {"w": 0.02}, "contact": {"normal": )") + law + "}}"), 1000);
+  };
+  const double pi = std::numbers::pi, e = std::numbers::e;
+  EXPECT_TRUE(std::isinf(of(R"({"type": "penalty", "stiffness": 1e6})")));
+  EXPECT_DOUBLE_EQ(of(R"({"type": "dugdale", "work": 0.02, "strength": 5, "stiffness": 1e5})"),
+                   pi / 4 * 20 / 25);
+  EXPECT_DOUBLE_EQ(of(R"({"type": "dugdale", "work": "w", "strength": 5, "stiffness": 1e5})"),
+                   pi / 4 * 20 / 25);
+  EXPECT_NEAR(of(R"({"type": "separation", "work": 0.02, "length": 0.001})"),
+              pi / 4 * 20 / std::pow(20 / e, 2), 1e-12);
+  EXPECT_NEAR(of(R"({"type": "lennard_jones", "work": 0.02, "length": 0.001, "range": 0.01})"),
+              pi / 4 * 20 / std::pow(1.0264 * 20, 2), 1e-5);
+  Resolution some;
+  some.spacing = 0.1, some.wave = 10, some.tension = 0.3;
+  EXPECT_TRUE(some.too_coarse());
+  EXPECT_NE(describe(some, "mm").find("take nodes at most 0.075 mm apart"), std::string::npos)
+      << describe(some, "mm");
+  some.tension = 0.5;
+  EXPECT_FALSE(some.too_coarse());
+  EXPECT_NE(describe(some, "mm").find("acts over 0.5 mm"), std::string::npos);
+}
+
 Resolution of_scene(const Json& json) {
   const Scene scene = scene_from(json);
   return Simulation(scene, &library()).resolution();

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "exact.hpp"
 #include "map_file.hpp"
 #include "mesh.hpp"
 #include "output/table.hpp"
@@ -21,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Points of the slave surface and elements of its body that the shortest wave has to have.
-constexpr double points_in_wave = 2, elements_in_wave = 8;
+constexpr double points_in_wave = 2, elements_in_wave = 8, points_in_tension = 4;
 
 double length_of(const Json& vector) {
   double squared = 0;
@@ -147,10 +148,30 @@ double shortest_wave(const Json& height, const std::filesystem::path& folder, st
 double Resolution::spacing_needed() const { return wave / points_in_wave; }
 double Resolution::element_needed() const { return wave / elements_in_wave; }
 
-bool Resolution::too_coarse() const {
+double Resolution::tension_needed() const { return tension / points_in_tension; }
+
+bool Resolution::too_coarse_for_tension() const { return spacing > tension_needed() * (1 + 1e-9); }
+
+bool Resolution::too_coarse_for_waves() const {
   constexpr double rounding = 1 + 1e-9;
   return spacing > spacing_needed() * rounding ||
          (depth > 0 && std::max(spacing, depth) > element_needed() * rounding);
+}
+bool Resolution::too_coarse() const { return too_coarse_for_waves() || too_coarse_for_tension(); }
+
+double tension_length(const Json& model, double modulus) {
+  const Json law = find_json(model, "/contact/normal");
+  if (!law.is_object() || !law.contains("work")) return infinity;
+  Json work = law.at("work");
+  if (work.is_string()) work = find_json(model, ("/parameters/" + work.get<std::string>()).c_str());
+  if (!work.is_number()) return infinity;
+  const double w = work.get<double>();
+  const std::string type = law.value("type", "");
+  const double strength = type == "dugdale" ? law.at("strength").get<double>()
+                          : type == "separation"
+                              ? w / (std::numbers::e * law.at("length").get<double>())
+                              : 16 / (9 * std::sqrt(3.0)) * w / law.at("length").get<double>();
+  return std::numbers::pi / 4 * modulus * w / (strength * strength);
 }
 
 Resolution resolution_of(const Scene& scene, const Mesh& mesh) {
@@ -160,6 +181,7 @@ Resolution resolution_of(const Scene& scene, const Mesh& mesh) {
   const std::vector<Face>& faces = mesh.face_sets.at(contact.slave);
   for (const Face& face : faces) found.spacing = std::max(found.spacing, longest_edge(mesh, face));
   found.spacing /= std::max({1, contact.sampling, contact.cut});
+  if (!contact.rigid.empty()) found.tension = tension_length(contact.model, contact_modulus(scene));
   const auto d = static_cast<std::size_t>(scene.dimension);
   const double scale = length_per_coordinate(contact, d);
   if (std::isnan(scale)) return found;
@@ -171,14 +193,23 @@ Resolution resolution_of(const Scene& scene, const Mesh& mesh) {
 }
 
 std::string describe(const Resolution& found, const std::string& unit) {
-  if (!std::isfinite(found.wave)) return "";
   const auto length = [&](double value) {
     return format_number(value, 3) + (unit.empty() ? "" : " ") + unit;
   };
+  std::string tension;
+  if (std::isfinite(found.tension)) {
+    tension = "the tension of the law acts over " + length(found.tension) + " beside the contact";
+    if (found.too_coarse_for_tension())
+      tension += ". The mesh is too coarse for it, slave points will jump one by one: take nodes at most " +
+                 length(found.tension_needed()) +
+                 " apart, a quarter of that, or a law of the same work with less strength";
+  }
+  if (!std::isfinite(found.wave)) return tension;
+  if (!tension.empty()) tension = "; " + tension;
   std::string text = "the shortest wave of the height is " + length(found.wave) +
                      " long; slave nodes lie up to " + length(found.spacing) + " apart";
   if (found.depth > 0) text += ", the elements below them are up to " + length(found.depth) + " deep";
-  if (!found.too_coarse()) return text + ": fine enough";
+  if (!found.too_coarse_for_waves()) return text + ": fine enough" + tension;
   text += ". The mesh is too coarse for this surface: ";
   if (found.depth > 0)
     text += "elements have to be at most " + length(found.element_needed()) +
@@ -187,13 +218,14 @@ std::string describe(const Resolution& found, const std::string& unit) {
   else
     text += "take nodes ";
   return text + "at most " + length(found.spacing_needed()) +
-         " apart, half of that wave; or leave shorter waves out with the key cut_off";
+         " apart, half of that wave; or leave shorter waves out with the key cut_off" + tension;
 }
 
 Json json_of(const Resolution& found) {
   return {{"shortest_wave", std::isfinite(found.wave) ? Json(found.wave) : Json()},
           {"slave_spacing", found.spacing},
           {"element_depth", found.depth},
+          {"tension_length", std::isfinite(found.tension) ? Json(found.tension) : Json()},
           {"too_coarse", found.too_coarse()}};
 }
 
