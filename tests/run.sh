@@ -8,7 +8,7 @@ usage() {
 usage: sh tests/run.sh [--hosts] [-DNAME=VALUE ...]
 
 Installs what is missing, builds in build/ (see sh examples/setup.sh --help for both, and for the options) and runs every test.
-With --hosts it installs the finite element programs that Debian has, too, if they can be had (about 450 MB): GetFEM, dolfinx, FreeFEM;
+With --hosts it installs the finite element programs that Debian has, too, if they can be had (about 450 MB): GetFEM, dolfinx, FreeFEM, PETSc;
 and a compiler for Windows.
 Their tests are skipped where they are not installed. Afterwards some of them, by name:
   ctest --test-dir build -R clients --output-on-failure
@@ -21,7 +21,7 @@ HELP
 
 hosts=''
 if [ "${1-}" = --hosts ]; then
-  hosts='--try g++-mingw-w64-x86-64-posix --try python3-getfem++ --try python3-dolfinx-real --try freefem++ --try libfreefem++-dev'
+  hosts='--try g++-mingw-w64-x86-64-posix --try python3-getfem++ --try python3-dolfinx-real --try freefem++ --try libfreefem++-dev --try libpetsc-real-dev'
   shift
 fi
 for option; do
