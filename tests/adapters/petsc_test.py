@@ -12,7 +12,11 @@ ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_MCA_mpi_yield_when_id
 
 
 def run(processes, *options):
-    command = [MPIRUN, "--oversubscribe", "-n", str(processes), PROGRAM, *options]
+    return started("-n", str(processes), PROGRAM, *options)
+
+
+def started(*arguments):
+    command = [MPIRUN, "--oversubscribe", *arguments]
     return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=200)
 
 
@@ -59,6 +63,12 @@ class Sheets(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("-n and -steps are at least 1", done.stderr)
         self.assertIn("usage: mpirun -n P petsc_sheets", run(1, "-help").stdout)
+
+    def test_a_process_that_fails_alone_ends_all(self):
+        """The other would wait for it: until this test's limit of time."""
+        done = started("-n", "1", PROGRAM, ":", "-n", "1", PROGRAM, "-steps", "0")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("process 1: -n and -steps are at least 1", done.stderr)
 
 
 if __name__ == "__main__":
