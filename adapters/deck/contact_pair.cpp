@@ -2,10 +2,21 @@
 #include "contact_pair.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace ents_deck {
 
 using std::string;
+
+namespace {
+
+constexpr std::string_view own_surface = "contact of a surface with itself is not carried: the elements that "
+                                         "take its place have fixed nodes, and which "
+                                         "faces are a node's own body changes as it moves. Divide the "
+                                         "surface into two that may touch and have no node in "
+                                         "common";
+
+} // namespace
 
 std::vector<ContactPair> contact_pairs(const Mesh& mesh) {
   std::vector<ContactPair> out;
@@ -14,9 +25,10 @@ std::vector<ContactPair> contact_pairs(const Mesh& mesh) {
     for (const Line& line : s.lines) {
       const auto fields = fields_of(line.text);
       if (fields.size() < 2 || fields[0].empty() || fields[1].empty())
-        mesh.source.fail(
-            line.place,
-            "expected slave surface, master surface (contact of a surface with itself is not read)");
+        mesh.source.fail(line.place, "expected slave surface, master surface; " + string(own_surface));
+      if (canonical(fields[0]) == canonical(fields[1]))
+        mesh.source.fail(line.place,
+                         "'" + string(fields[0]) + "' is slave and master: " + string(own_surface));
       ContactPair pair{string(fields[0]), string(fields[1]), s.value("INTERACTION"), &s, line.place, {}};
       if (const string adjust = s.value("ADJUST"); !adjust.empty()) {
         double value = 0;

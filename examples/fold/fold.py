@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """fold.py [ENTS-HOST] [--out FOLDER]: a fold whose legs are pressed together, against its upper half on a rigid plane of symmetry.
 
-The inner faces of the legs are slave and master. By symmetry the half presses on the plane with the same force, if its penalty is twice as stiff.
+The inner faces of the legs are slave and master, or the whole boundary is both (variant whole). By symmetry the half presses on the plane with the
+same force, if its penalty is twice as stiff.
 """
 import pathlib
 import sys
@@ -25,21 +26,31 @@ def draw(folder, steps):
               lambda axes: panel(axes, "pressed", len(steps)))
 
 
+def carried(folder, step):
+    """Force across the legs [N]: of a surface against itself the sum of the pressures, each with half of its area on both sides."""
+    pressure, area, normal = (runs.vtu_values(folder, step, "slave", name) for name in ("pressure", "area", "normal"))
+    return sum(p * a * abs(normal[3 * k + 1]) for k, (p, a) in enumerate(zip(pressure, area)) if p > 0)
+
+
 def main():
     arguments = runs.arguments(__doc__, "fold")
-    whole = runs.solve(arguments.program, HERE / "scene.json", arguments.out / "whole")
-    half = runs.solve(arguments.program, HERE / "scene.json", arguments.out / "half", "--variant", "half")
+    solve = lambda name, *options: runs.solve(arguments.program, HERE / "scene.json", arguments.out / name, *options)
+    sets, half = solve("whole"), solve("half", "--variant", "half")
+    surface, points = solve("surface", "--variant", "whole"), solve("points", "--variant", "half_points")
     steps = []
-    print(f"{'load factor':>12}{'force [N]':>14}{'half on a plane':>18}")
-    for a, b in zip(whole["steps"], half["steps"]):
-        force, right = -a["contact_force"][1], -b["contact_force"][1]
+    print(f"{'load factor':>12}{'two sets [N]':>14}{'half, nodes':>14}{'one surface':>14}{'half, points':>14}")
+    for k, (a, b, c, e) in enumerate(zip(sets["steps"], half["steps"], surface["steps"], points["steps"]), 1):
+        force, right, exact = -a["contact_force"][1], -b["contact_force"][1], -e["contact_force"][1]
         if right > 0:
-            steps.append([runs.quantity("force", force, right), runs.quantity("peak pressure", a["peak_pressure"], b["peak_pressure"])])
-            print(f"{a['value']:>12g}{force:>14.7f}{right:>18.7f}")
+            own = carried(arguments.out / "surface", k)
+            steps.append([runs.quantity("force", force, right), runs.quantity("peak pressure", a["peak_pressure"], b["peak_pressure"]),
+                          runs.quantity("force, one surface", own, exact),
+                          runs.quantity("peak pressure, one surface", c["peak_pressure"], e["peak_pressure"])])
+            print(f"{a['value']:>12g}{force:>14.7f}{right:>14.7f}{own:>14.7f}{exact:>14.7f}")
     if not steps:
         sys.exit("the legs do not touch")
     runs.write_result(arguments.out, steps)
-    draw(arguments.out, whole["steps"])
+    draw(arguments.out, sets["steps"])
     return 0
 
 

@@ -58,6 +58,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     for (const double value : {0.0, 1.0, turns ? std::abs(place[0]) : 1.0}) slave_values_.push_back(value);
     if (spec.law_scale) slave_values_.push_back(spec.law_scale(place[0], place[1]));
   }
+  read_both_sides(spec);
   number_unknowns();
   master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
   refuse_self_contact(spec);
@@ -77,7 +78,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
 }
 
 void Contact::refuse_self_contact(const ContactSpec& spec) const {
-  if (master_.rigid) return;
+  if (master_.rigid || has_both_sides(spec)) return;
   const std::set<std::int64_t> of_master =
       master_.net ? master_.net->nodes_of_mesh()
                   : std::set<std::int64_t>(master_.connectivity.begin(), master_.connectivity.end());
@@ -85,7 +86,8 @@ void Contact::refuse_self_contact(const ContactSpec& spec) const {
     if (of_master.count(node) != 0)
       throw InputError(spec.slave_where +
                        ": slave and master faces share nodes, and a node would find its own "
-                       "segments; divide the surface into two sets that do not meet");
+                       "segments; give the same set as slave and as master, for contact of a surface with "
+                       "itself, or two sets that do not meet");
 }
 
 bool Contact::has_two_sides(const ContactSpec& spec) const {
@@ -258,7 +260,7 @@ Lost Contact::find_lost_since_begin(const ents_master_mesh& where) const {
     at.xi.insert(at.xi.end(), begin_at_.xi.data() + k * parameters_,
                  begin_at_.xi.data() + (k + 1) * parameters_);
   }
-  Lost lost = detector_.find(where, slaves, normals, at);
+  Lost lost = detector_.find(where, slaves, normals, left_out_.of(gone), at);
   if (lost.slave >= 0) lost.slave = static_cast<std::int64_t>(gone[static_cast<std::size_t>(lost.slave)]);
   return lost;
 }
@@ -281,7 +283,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
     // are equally close. The one straight ahead of the node is near its projection on the segment without the
     // height.
     Projections straight = at_;
-    base_detector_->find(where, slave_positions_, slave_normals_, straight);
+    base_detector_->find(where, slave_positions_, slave_normals_, left_out_, straight);
     // A body may have turned on by several segments: a closed node is straight ahead of another one now.
     const bool may_jump = master_.body_node >= 0;
     for (std::size_t k = 0; k < points_.size(); ++k)
@@ -291,7 +293,9 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
         std::copy_n(straight.xi.data() + k * parameters_, parameters_, at_.xi.data() + k * parameters_);
       }
   }
-  Lost lost = detector_.find(where, slave_positions_, slave_normals_, at_);
+  if (one_surface_)
+    left_out_.slave_begin = slave_begin_.data(), left_out_.positions_begin = master_begin_.data();
+  Lost lost = detector_.find(where, slave_positions_, slave_normals_, left_out_, at_);
   if (lost.slave < 0) lost = find_lost_since_begin(where);
   lost_.clear();
   lost_behind_edge_ = lost.behind_edge;
@@ -300,8 +304,9 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
     std::string text;
     for (std::size_t i = 0; i < d_; ++i) text += (i > 0 ? ", " : "") + format_number(position[i], 6);
     lost_ = "the slave node at (" + text + ") " +
-            (lost.behind_edge ? "lies behind a concave edge between two segments and projects on neither"
-                              : "was in contact and lies beside all segments of the master now");
+            (lost.crossed       ? "passes through the surface within the increment"
+             : lost.behind_edge ? "lies behind a concave edge between two segments and projects on neither"
+                                : "was in contact and lies beside all segments of the master now");
   }
   if (at_.segment != before) move_history(report);
   return at_.segment != pattern_segment_;

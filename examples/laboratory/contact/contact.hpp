@@ -63,6 +63,8 @@ struct ContactHistory {
   std::vector<double> state, pressure, traction;
   std::map<std::string, std::vector<double>> fields; ///< blocks of the model's fields
   double worn_master = 0;                            ///< volume that the master has lost [L^3]
+  std::vector<double>
+      thickness; ///< [slaves] self-contact: of the body at the begin of the increment [L]; else empty
 };
 
 /// What the elements start from beside the configuration: the last choice, and the states of the increment's
@@ -197,9 +199,9 @@ public:
 
   /// Points that are cut again have none: the configuration says where they are.
   ContactHistory history() const {
-    if (cuts_again()) return {{}, {}, {}, {}, master_.model->fields(), worn_master_};
-    return {begin_at_,   state_begin_, accepted_.pressure, accepted_.traction, master_.model->fields(),
-            worn_master_};
+    if (cuts_again()) return {{}, {}, {}, {}, master_.model->fields(), worn_master_, {}};
+    return {begin_at_,    state_begin_,    accepted_.pressure, accepted_.traction, master_.model->fields(),
+            worn_master_, thickness_below_};
   }
   /// @throws InputError if the sizes or the state blocks are not of this model
   void restore(const ContactHistory& history, const Configuration& at);
@@ -208,6 +210,10 @@ private:
   std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
   std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
   void number_unknowns();
+  /// Of a surface that is slave and master: half of each area, and what the search leaves out.
+  void read_both_sides(const ContactSpec& spec);
+  /// Self-contact: an increment begins there.
+  void measure_thickness(const Configuration& begin);
   /// @throws InputError where slave nodes are nodes of the master
   void refuse_self_contact(const ContactSpec& spec) const;
   /// Have two segments the same nodes: is the master a sheet without thickness, but for its height?
@@ -288,6 +294,9 @@ private:
   std::vector<double> bound_;   ///< parameters of the model at present
   bool surface_changed_ = true; ///< since the detector has seen it
   Detector detector_;
+  LeftOut left_out_;
+  std::vector<double> thickness_below_; ///< [slaves] self-contact, see ContactHistory; else empty
+  bool one_surface_ = false;
   std::unique_ptr<Detector> base_detector_;   ///< on the segments without their height
   Projections at_, begin_at_;                 ///< present ones; those of the history
   std::vector<std::int64_t> pattern_segment_; ///< for which the tangent's pattern was made

@@ -55,8 +55,10 @@ ContactFields Contact::fields(const Configuration& at) {
     if (master_.profile)
       fields.gap[k] += slave_values_[slave_numbers_ * k],
           fields.normal_gap[k] += slave_values_[slave_numbers_ * k];
+    // With two passes that on the master's side; of one surface they add up to zero.
+    const double sign = !left_out_.side.empty() && left_out_.side[k] == 1 ? -1 : 1;
     for (std::size_t i = 0; i < d_; ++i) {
-      fields.force[i] += fields.node_forces[k * d_ + i];
+      fields.force[i] += sign * fields.node_forces[k * d_ + i];
       if (master_.translates()) fields.point[k * d_ + i] += at.motion * master_.direction[i];
     }
     if (status[k] == ENTS_OK && (fields.flags[k] & ENTS_FLAG_OUTSIDE) == 0) continue;

@@ -22,7 +22,8 @@ bool fields_fit(const std::map<std::string, std::vector<double>>& theirs,
 void Contact::begin_increment(const Configuration& begin) {
   begin_ = begin;
   master_begin_ = master_points(begin.displacement);
-  if (has_history()) slave_begin_ = slave_points(begin);
+  if (has_history() || one_surface_) slave_begin_ = slave_points(begin);
+  measure_thickness(begin);
   at_ = begin_at_;
   pressure_ = accepted_.pressure;
   traction_ = accepted_.traction;
@@ -207,7 +208,8 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
   }
   if (history.at.segment.size() != begin_at_.segment.size() || history.state.size() != state_begin_.size() ||
       history.at.xi.size() != begin_at_.xi.size() || history.pressure.size() != pressure_.size() ||
-      history.traction.size() != traction_.size() || !fields_fit(history.fields, master_.model->fields()))
+      history.traction.size() != traction_.size() || history.thickness.size() != thickness_below_.size() ||
+      !fields_fit(history.fields, master_.model->fields()))
     throw InputError("the contact's history is that of another scene: its sizes differ");
   for (const std::int64_t segment : history.at.segment)
     if (segment < -1 || segment >= stride(master_.segments()))
@@ -219,6 +221,7 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
     accepted_.traction = taken.traction;
     master_.model->fields() = taken.fields;
     worn_master_ = taken.worn_master;
+    thickness_below_ = taken.thickness;
     bound_.clear();
     set_worn();
     begin_increment(begin);

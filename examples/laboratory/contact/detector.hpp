@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "both_sides.hpp"
 #include "ents_library.hpp"
 
 namespace host {
@@ -20,6 +21,7 @@ struct Lost {
   std::int64_t slave = -1;  ///< -1: none
   bool behind_edge = false; ///< between two segments: it projects on neither; else it has left all segments
                             ///< beside a free edge
+  bool crossed = false;     ///< it has passed through the surface within the increment
 };
 
 class Detector {
@@ -40,9 +42,17 @@ public:
   ///         them
   /// @throws JobError with the library's message
   Lost find(const ents_master_mesh& mesh, const std::vector<double>& slaves,
-            const std::vector<double>& normals, Projections& at) const;
+            const std::vector<double>& normals, const LeftOut& left_out, Projections& at) const;
+  /// Self-contact: the thickness of the body below the slaves, where an increment begins.
+  /// @param thickness [slaves] in: the last one, or 0; out: the present one
+  void measure(const ents_master_mesh& mesh, const std::vector<double>& slaves,
+               const std::vector<double>& normals, const LeftOut& left_out,
+               std::vector<double>& thickness) const;
 
 private:
+  ents_detection arguments(const ents_master_mesh& mesh, const std::vector<double>& slaves,
+                           const std::vector<double>& normals, const LeftOut& left_out) const;
+
   const EntsModel* model_;
   std::vector<double> tree_;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "both_sides.hpp"
 #include "mesh_size.hpp"
 #include "slave_points.hpp"
 #include "smoothing.hpp"
@@ -98,9 +99,10 @@ Master scene_master(const EntsLibrary& library, const Scene& scene, const Mesh& 
       throw InputError(contact.master_where +
                        ": \"ends\" and \"mirror\" are for smoothed segments; the model's " + "segment is " +
                        segment);
-    const std::size_t count = count_of_nodes(found->second);
+    const std::vector<Face> faces = contact.two_pass ? slave_faces(mesh, contact) : found->second;
+    const std::size_t count = count_of_nodes(faces);
     check_sizes(scene, *master.model, count, contact.master_where);
-    master.connectivity = connectivity_of(found->second, count);
+    master.connectivity = connectivity_of(faces, count);
   }
   const std::vector<double> points = master.net ? master.net->positions(mesh.coordinates) : mesh.coordinates;
   master.surface_coordinates =

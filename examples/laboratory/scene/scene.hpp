@@ -109,6 +109,7 @@ struct ContactSpec {
   std::string slave_height_where;
   CoordinateRule slave_coordinates;                    ///< in which it is given
   std::function<double(double x, double y)> law_scale; ///< of a law "table" in a slave point; empty: 1
+  bool two_pass = false;                               ///< the points of the master faces are slaves, too
   bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
   bool hard = false; ///< "law": "hard": the model has augmented multipliers, and Simulation their stiffness
   Json model;        ///< passed on to the library

@@ -116,6 +116,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   }
   if (object.has("enrichment"))
     contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
+  if (object.has("two_pass")) contact.two_pass = object.at("two_pass").boolean();
   if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
   if (object.has("wear_factor")) {
     const JsonValue table = object.at("wear_factor");

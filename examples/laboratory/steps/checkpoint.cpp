@@ -63,6 +63,7 @@ Json Simulation::checkpoint() const {
                        {"pressure", history.pressure},
                        {"traction", history.traction}};
     if (!now_.parameters.empty()) json["contact"]["parameters"] = now_.parameters;
+    if (!history.thickness.empty()) json["contact"]["thickness"] = history.thickness;
     if (!history.fields.empty())
       json["contact"]["fields"] = history.fields, json["contact"]["worn_master"] = history.worn_master;
   }
@@ -117,6 +118,7 @@ void Simulation::restore(const Json& checkpoint) {
     history.traction = contact.at("traction").numbers();
     at.parameters = now_.parameters;
     if (!at.parameters.empty()) at.parameters = contact.at("parameters").numbers(at.parameters.size());
+    if (contact.has("thickness")) history.thickness = contact.at("thickness").numbers();
     if (contact.has("fields")) {
       JsonObject fields(contact.at("fields"));
       for (const std::string& name : fields.all_keys()) history.fields[name] = fields.at(name).numbers();

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "both_sides.hpp"
 #include "half_space.hpp"
 #include "layer_body.hpp"
 #include "mesh_size.hpp"
@@ -288,7 +289,8 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
     return;
   }
   if (library == nullptr) throw JobError(scene_->file.string() + ": contact needs the library");
-  const std::vector<Face>& slaves = find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
+  find_faces(mesh_, scene_->contact->slave, scene_->contact->slave_where);
+  const std::vector<Face> slaves = slave_faces(mesh_, *scene_->contact);
   exact_axis_ = host::exact_axis(*scene_, *library);
   resolution_ = resolution_of(*scene_, mesh_);
   if (scene_->exact.type == ExactSpec::Type::boundary_elements && divisions == 0 && !maker)
