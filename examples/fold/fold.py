@@ -14,16 +14,22 @@ import runs  # noqa: E402
 
 
 def draw(folder, steps):
+    """The surface against itself: its mesh, and the pressure on the points in contact."""
+    run = folder / "surface"
+
     def panel(axes, title, step):
-        points = runs.vtu_points(folder / "whole", max(step, 1), "bulk", displaced=step > 0)
-        quads = runs.vtu_values(folder / "whole", max(step, 1), "bulk", "connectivity", "q")
+        points = runs.vtu_points(run, max(step, 1), "bulk", displaced=step > 0)
+        quads = runs.vtu_values(run, max(step, 1), "bulk", "connectivity", "q")
         for i in range(0, len(quads), 4):
             axes.plot(*list(zip(*(points[n] for n in (*quads[i:i + 4], quads[i]))))[:2], color=runs.BLUE, linewidth=1)
+        if step == len(steps):
+            pressed = [(x, p) for x, p in zip(runs.vtu_points(run, step, "slave"), runs.vtu_values(run, step, "slave", "pressure")) if p > 0]
+            axes.scatter([x[0] for x, _ in pressed], [x[1] for x, _ in pressed], s=[150 * p for _, p in pressed], color=runs.ORANGE, zorder=3)
         axes.set(title=title, xlim=(-0.7, 4.2), ylim=(-0.65, 0.65), aspect="equal")
         axes.axis("off")
 
     runs.draw(folder / "fold.png", (1200, 240), lambda axes: panel(axes, "as it is", 0), lambda axes: panel(axes, "half way", len(steps) // 2),
-              lambda axes: panel(axes, "pressed", len(steps)))
+              lambda axes: panel(axes, "pressed: all faces against all", len(steps)))
 
 
 def carried(folder, step):
@@ -50,7 +56,7 @@ def main():
     if not steps:
         sys.exit("the legs do not touch")
     runs.write_result(arguments.out, steps)
-    draw(arguments.out, sets["steps"])
+    draw(arguments.out, surface["steps"])
     return 0
 
 

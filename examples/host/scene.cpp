@@ -158,7 +158,7 @@ void read_master(const JsonValue& value, int dimension, bool heat, ContactInput&
 ContactInput read_contact(const JsonValue& value, const Scene& scene) {
   const int dimension = scene.dimension;
   JsonObject object(value);
-  leave_keys(object, {"law", "cut_off", "enrichment", "wear_factor", "areas", "slave_height"});
+  leave_keys(object, {"law", "cut_off", "enrichment", "wear_factor", "areas", "slave_height", "two_pass"});
   ContactInput contact;
   contact.temperature = scene.temperature;
   contact.slave = object.at("slave").string();
@@ -169,6 +169,8 @@ ContactInput read_contact(const JsonValue& value, const Scene& scene) {
     contact.sampling = sampling.integer(1, 64);
   }
   read_master(object.at("master"), dimension, scene.heat, contact);
+  if (contact.slave == contact.master)
+    leave_to_laboratory(contact.slave_where + ": a surface in contact with itself");
   const JsonValue model = object.at("model");
   if (!model.is_object()) model.fail("an object is expected: the library's model");
   contact.model = model.json();

@@ -138,7 +138,7 @@ class OneSurface(unittest.TestCase):
             contact.update((now - x).ravel())
             self.assertEqual(contact.pressure.max(), 0.0)
             contact.commit()
-        self.assertLess(np.median(contact.thickness), 0.03)
+        self.assertLess(np.median(contact.body_thickness), 0.03)
         # Halved within one increment: the limit that is documented. It is seen as contact, and not silent.
         contact = ents.Contact(model(), x, faces, faces, reach=0.5)
         contact.update((x * [1, 0.4] - x).ravel())

@@ -85,16 +85,27 @@ TEST(ThinSheet, ASmoothedRingOfFourIsNone) {
   EXPECT_LT(solve(simulation, {}).back().contact_force[1], -0.1);
 }
 
-TEST(ThinSheet, ASurfaceThatTouchesItselfIsRefused) {
+// Faces that meet the master's in a corner; two passes over such faces; and what a surface against itself can not have.
+TEST(ThinSheet, SidesThatMeetAreRefused) {
   Json scene = beside_a_sheet(false, false, Json());
   scene["contact"]["model"].erase("height");
-  for (const char* slave : {"b.y_min", "b.x_min"}) { // the same faces, and faces that meet them in a corner
-    scene["contact"]["slave"] = slave;
-    scene["contact"]["master"] = {{"faces", "b.y_min"}};
-    EXPECT_NE(refusal_of_simulation(scene).find("/contact/slave: slave and master faces share nodes"),
-              std::string::npos)
-        << slave;
-  }
+  scene["contact"]["slave"] = "b.x_min";
+  scene["contact"]["master"] = {{"faces", "b.y_min"}};
+  const auto expect = [&](const char* words) {
+    const std::string refusal = refusal_of_simulation(scene);
+    EXPECT_NE(refusal.find("/contact/slave"), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
+  };
+  expect("slave and master faces share nodes");
+  scene["contact"]["two_pass"] = true;
+  expect("two passes need sets that do not meet");
+  scene["contact"].erase("two_pass");
+  scene["contact"]["slave"] = "b.y_min";
+  scene["contact"]["model"]["height"] = {{"type", "constant"}, {"value", 0.05}};
+  expect("would see that of one side alone");
+  scene["contact"]["model"].erase("height");
+  scene["contact"]["model"]["contact"]["normal"] = {{"type", "augmented"}, {"stiffness", 1.0}};
+  expect("over-constraint");
 }
 
 } // namespace

@@ -37,7 +37,7 @@ class ContactResults:
     rows = property(lambda self: self._rows, doc="number of equations")
     nodes = property(lambda self: self._slave.nodes, doc="[points] the node that each slave point is, ascending; None: points are inside the facets")
     areas = property(lambda self: self._slave.areas, doc="[points] [A] tributary areas of the undeformed surface")
-    thickness = property(lambda self: None if self._both is None or not self._both.one_surface else self._both.thickness.copy(),
+    body_thickness = property(lambda self: None if self._both is None or not self._both.one_surface else self._both.thickness.copy(),
                          doc="[points] [L] self-contact: of the body below each point at the begin of the increment, at most 2 reach; else None")
     sampling = property(lambda self: self._slave.sampling, doc="points per direction inside each slave facet; 0: slave points are nodes")
 

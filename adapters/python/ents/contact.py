@@ -111,7 +111,7 @@ class Contact(ContactResults):
 
         A surface in contact with itself: the same facets as slave and as master, all that may touch. A point finds facets that look against it, and not
         its own ones and those that share a node with them; the other side of a thin body is no contact, because a point penetrates by no more than
-        half the thickness of the body below it (measured where an increment begins: `thickness`). The undeformed surface must not overlap itself.
+        half the thickness of the body below it (measured where an increment begins: .body_thickness). The undeformed surface must not overlap itself.
 
         Errors (ents.Error, with what to write): facets of which some are on both sides and some are not, that name a node twice, that do not exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
         argument of another shape. A slave facet without area is left out with a warning.

@@ -117,6 +117,9 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (object.has("enrichment"))
     contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
   if (object.has("two_pass")) contact.two_pass = object.at("two_pass").boolean();
+  if (contact.two_pass && !contact.slave_height.is_null())
+    object.at("slave_height")
+        .fail("is of one side, and \"two_pass\" makes slaves of both; leave one of them out");
   if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
   if (object.has("wear_factor")) {
     const JsonValue table = object.at("wear_factor");
