@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thin things: a sheet whose two sides have the same nodes, and a surface that would touch itself.
+// Thin things: a sheet whose two sides have the same nodes, and a surface that touches itself.
 #include <gtest/gtest.h>
 
 #include "support.hpp"
@@ -83,6 +83,36 @@ TEST(ThinSheet, ASmoothedRingOfFourIsNone) {
   const Scene read = test::scene_from(scene);
   Simulation simulation(read, &test::library());
   EXPECT_LT(solve(simulation, {}).back().contact_force[1], -0.1);
+}
+
+/// The last step of a shipped scene of the fold, as a variant of it says.
+StepRecord pressed_fold(const std::string& variant, const std::function<void(Json&)>& edit = {}) {
+  const Scene scene = test::shipped_scene("fold", edit, variant);
+  Simulation simulation(scene, &test::library());
+  return solve(simulation, {}).back();
+}
+
+// Each leg of 0.3 is behind its own other side by less than the surface is wide. Both legs are slaves, with half of
+// their areas: the pressure is whole. The half is pressed on a plane, whose normal does not bend: 2e-6.
+TEST(ThinSheet, AFoldAgainstItselfIsItsHalfOnAPlane) {
+  const StepRecord half = pressed_fold("half_points"), whole = pressed_fold("whole"),
+                   two_pass = pressed_fold("two_pass");
+  const auto carried = [](const StepRecord& step) {
+    double sum = 0;
+    for (std::size_t k = 0; k < step.areas.size(); ++k)
+      sum += step.areas[k] * step.fields.pressure[k] * std::abs(step.fields.normal[2 * k + 1]);
+    return sum;
+  };
+  EXPECT_NEAR(carried(whole) / carried(half), 1, 1e-5);
+  EXPECT_NEAR(whole.peak_pressure / half.peak_pressure, 1, 1e-4);
+  EXPECT_NEAR(whole.contact_force[1], 0, 1e-12);
+  EXPECT_NEAR(-two_pass.contact_force[1] / carried(whole), 1, 1e-5);
+  // Which of the two is called the slave has no effect.
+  const StepRecord swapped = pressed_fold("two_pass", [](Json& scene) {
+    scene["contact"]["slave"] = "fold.LOWER";
+    scene["contact"]["master"] = {{"faces", "fold.UPPER"}};
+  });
+  EXPECT_NEAR(swapped.contact_force[1] / -two_pass.contact_force[1], 1, 1e-9);
 }
 
 // Faces that meet the master's in a corner; two passes over such faces; and what a surface against itself can not have.
