@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "error.hpp"
 
@@ -47,8 +48,8 @@ double layer_compliance(double k, double thickness, const Material& material) {
 
 ElasticLayer::ElasticLayer(Eigen::Index nx, Eigen::Index ny, double lx, double ly, double thickness,
                            const Material& material, Grid grid)
-    : lx_(lx), ly_(ly), periodic_(grid == Grid::periodic), transform_(grid, nx, ny), wave_number_(nx, ny),
-      compliance_(nx, ny) {
+    : lx_(lx), ly_(ly), grid_(grid), periodic_(grid == Grid::periodic), transform_(grid, nx, ny),
+      wave_number_(nx, ny), compliance_(nx, ny) {
   for (Eigen::Index j = 0; j < ny; ++j)
     for (Eigen::Index i = 0; i < nx; ++i) {
       wave_number_(i, j) =
@@ -63,6 +64,32 @@ Eigen::ArrayXXd ElasticLayer::smoothed(const Eigen::ArrayXXd& field, double devi
 
 Eigen::ArrayXXd ElasticLayer::displacement(const Eigen::ArrayXXd& pressure) const {
   return transform_.filter(pressure, compliance_);
+}
+
+Eigen::ArrayXXd ElasticLayer::displacement_of_boxes(const Eigen::ArrayXXd& pressure, double hx,
+                                                    double hy) const {
+  Eigen::ArrayXXd kept = compliance_;
+  const auto mean = [](double k, double h) { return k > 0 ? std::sin(k * h / 2) / (k * h / 2) : 1.; };
+  for (Eigen::Index j = 0; j < cells_y(); ++j)
+    for (Eigen::Index i = 0; i < cells_x(); ++i) {
+      const double kx = pi * transform_.half_waves(i, cells_x()) / lx_,
+                   ky = pi * transform_.half_waves(j, cells_y()) / ly_;
+      kept(i, j) *= kx * hx < pi && ky * hy < pi ? mean(kx, hx) * mean(ky, hy) : 0;
+    }
+  return transform_.filter(pressure, kept);
+}
+
+double ElasticLayer::between(const Eigen::ArrayXXd& field, double x, double y) const {
+  const auto line = [](double place, double length, Eigen::Index cells) {
+    const double at =
+        std::clamp(place / length * static_cast<double>(cells) - 0.5, 0., static_cast<double>(cells - 1));
+    const auto before = std::min(static_cast<Eigen::Index>(at), cells - 2);
+    return std::pair(before, at - static_cast<double>(before));
+  };
+  const auto [i, u] = line(x, lx_, field.rows());
+  const auto [j, v] = line(y, ly_, field.cols());
+  return (1 - u) * ((1 - v) * field(i, j) + v * field(i, j + 1)) +
+         u * ((1 - v) * field(i + 1, j) + v * field(i + 1, j + 1));
 }
 
 LayerContact ElasticLayer::describe(Eigen::ArrayXXd pressure, Eigen::ArrayXXd gap, int iterations) const {

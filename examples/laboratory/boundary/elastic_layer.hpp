@@ -39,6 +39,10 @@ public:
   ElasticLayer(Eigen::Index nx, Eigen::Index ny, double lx, double ly, double thickness,
                const Material& material, Grid grid = Grid::cells);
 
+  double length_x() const { return lx_; }
+  double length_y() const { return ly_; }
+  Grid grid() const { return grid_; }
+
   /// Centre of a cell from the corner of the layer.
   double x(Eigen::Index i) const {
     return (static_cast<double>(i) + 0.5) * lx_ / static_cast<double>(cells_x());
@@ -56,6 +60,14 @@ public:
   /// @param deviation  its standard deviation [L]
   Eigen::ArrayXXd smoothed(const Eigen::ArrayXXd& field, double deviation) const;
 
+  /// Displacement under pressures that are means over boxes around points hx and hy apart, without the waves
+  /// that such points cannot have: that of the law of a place (place_laws.hpp).
+  Eigen::ArrayXXd displacement_of_boxes(const Eigen::ArrayXXd& pressure, double hx, double hy) const;
+
+  /// A field between the centres of the cells, bilinear; beyond the outermost as there.
+  /// @param x, y  from the corner of the layer
+  double between(const Eigen::ArrayXXd& field, double x, double y) const;
+
   /// Pressure >= 0 under a rigid surface, where gap + displacement >= 0, one of them zero.
   /// @param gap  [x][y] of the undeformed layer, < 0: overlap
   /// @throws JobError if the iteration does not converge
@@ -71,6 +83,7 @@ private:
   LayerContact describe(Eigen::ArrayXXd pressure, Eigen::ArrayXXd gap, int iterations) const;
 
   double lx_, ly_;
+  Grid grid_;
   bool periodic_;
   WaveTransform transform_;
   Eigen::ArrayXXd wave_number_, compliance_; ///< [modes x][modes y]

@@ -7,61 +7,77 @@
 #include <numbers>
 
 #include "error.hpp"
+#include "output/table.hpp"
 
 namespace host {
 namespace {
 
-// The table goes from nearly full contact down to a few per mille of the area.
-constexpr int levels = 16;
-constexpr double most = 1.5, least = 1e-3;   // mean pressures over E* times the rms slope
-constexpr double gap_of_full_contact = 1e-3; // gap over the rms of the waves: full contact
-constexpr double enough = 4e-4;              // error of gaps, of the height of the waves
-constexpr double mean_width = 0.5;           // standard deviation of the local mean, of the cut-off
-constexpr double flattest = 0.1;             // least local height, of the rms
-constexpr int tail = 5;                      // points of the exponential end, one per factor e
+constexpr double mean_width = 0.5; // standard deviation of the local mean, of the cut-off
+constexpr double flattest = 0.1;   // least local height, of the rms
 
-/// The waves of all parts of a height that have some.
-int cut_off(Json& height, double wavelength) {
+} // namespace
+
+int leave_out_short_waves(Json& height, double wavelength) {
   int found = 0;
   if (height.is_object())
     for (const char* type : {"map", "roughness", "fourier", "weierstrass"})
       if (height.value("type", "") == type) height["cut_off"] = wavelength, ++found;
   if (height.is_structured())
     for (auto& part : height)
-      if (part.is_structured()) found += cut_off(part, wavelength);
+      if (part.is_structured()) found += leave_out_short_waves(part, wavelength);
   return found;
 }
 
-/// Root of the mean square of the slope.
-double slope(const Eigen::ArrayXXd& z, double dx, double dy) {
-  const Eigen::Index n = z.rows(), m = z.cols();
-  const Eigen::ArrayXXd along = (z.bottomRows(n - 1) - z.topRows(n - 1)) / dx,
-                        across = (z.rightCols(m - 1) - z.leftCols(m - 1)) / dy;
-  return std::sqrt(along.square().mean() + across.square().mean());
-}
-
-} // namespace
-
 RemovedWaves::RemovedWaves(const Scene& scene, const EntsLibrary& library)
-    : place_(scene, "\"cut_off\""), model_(scene.contact->model) {
+    : place_(scene, scene.contact->cut_off.own ? "\"below\"" : "\"cut_off\""), model_(scene.contact->model) {
   const CutOff& cut = scene.contact->cut_off;
   check_coordinates();
   const EntsModel full(library, model_.dump(), scene.file.parent_path(), scene.contact->model_where);
-  if (!model_.contains("height") || cut_off(model_["height"], cut.wavelength) == 0)
+  if (!model_.contains("height") || leave_out_short_waves(model_["height"], cut.wavelength) == 0)
     throw InputError(cut.where + ": the model's height has no part of type map, roughness, fourier or "
                                  "weierstrass, whose waves could be left out");
   const EntsModel smooth(library, model_.dump(), scene.file.parent_path(), scene.contact->model_where);
-  const ElasticLayer cells = place_.layer(cut.points, std::numeric_limits<double>::infinity());
+  const ElasticLayer layer = place_.layer(cut.points, std::numeric_limits<double>::infinity());
+  cells_ = std::make_unique<const ElasticLayer>(
+      unit_half_space(layer.cells_x(), layer.cells_y(), layer.length_x(), layer.length_y(), layer.grid()));
+  const ElasticLayer& cells = *cells_;
   Eigen::ArrayXXd waves = place_.gap(full, cells) - place_.gap(smooth, cells);
-  waves -= waves.mean();
+  mean_ = waves.mean();
+  waves -= mean_;
   const double mean_square = waves.square().mean();
   rms_ = std::sqrt(mean_square);
   if (!(rms_ > 1e-12 * (place_.box().length(0) + place_.box().length(1))))
     throw InputError(cut.where + ": the height has no waves shorter than " + std::to_string(cut.wavelength) +
                      " (in units of its surface coordinates); leave the key out, or cut longer waves off");
-  const Eigen::ArrayXXd local = cells.smoothed(waves.square(), mean_width * cut.wavelength);
-  scale_ = (local / mean_square).max(flattest * flattest).sqrt();
-  press(waves / scale_, cells);
+  if (!cut.own) {
+    const Eigen::ArrayXXd local = cells.smoothed(waves.square(), mean_width * cut.wavelength);
+    scale_ = (local / mean_square).max(flattest * flattest).sqrt();
+    waves /= scale_;
+  }
+  press(waves);
+}
+
+/// Says on stderr how far the boundary elements are: they take a minute where nothing has been kept.
+void RemovedWaves::press(const Eigen::ArrayXXd& waves) {
+  const double modulus = place_.material().contact_modulus();
+  const CutOff& cut = place_.scene().contact->cut_off;
+  const WaveProgress progress = progress_on_stderr(cut.where + ": boundary elements of the waves below " +
+                                                   format_number(cut.wavelength));
+  WaveLaw law = kept_wave_law(waves, *cells_, modulus, progress);
+  for (const WaveLevel& level : law)
+    gap_.push_back(level.gap), pressure_.push_back(level.pressure), share_.push_back(level.share);
+  const PartSpec& part = place_.scene().parts[0];
+  const auto spacing = [&](std::size_t axis) {
+    return place_.box().length(axis) / static_cast<double>(part.lines[axis].size() - 1);
+  };
+  if (cut.own)
+    own_ = std::make_unique<PlaceLaws>(std::move(law), *cells_,
+                                       std::array{place_.box().low[0], place_.box().low[1]}, modulus,
+                                       spacing(0), spacing(1));
+}
+
+SlavePoints RemovedWaves::points(SlavePoints points, const Mesh& mesh) const {
+  return own_ ? own_->springs(points, mesh) : points;
 }
 
 void RemovedWaves::check_coordinates() const {
@@ -86,53 +102,29 @@ void RemovedWaves::check_coordinates() const {
                      "of the master's nodes as /contact/model/surface_coordinates");
 }
 
-void RemovedWaves::press(const Eigen::ArrayXXd& gap, const ElasticLayer& half_space) {
-  const double modulus = place_.material().contact_modulus(),
-               rms_slope = slope(gap, half_space.x(1) - half_space.x(0), half_space.y(1) - half_space.y(0));
-  Eigen::ArrayXXd start;
-  for (int i = 0; i < levels; ++i) {
-    const double mean = modulus * rms_slope * most * std::pow(least / most, i / (levels - 1.));
-    LayerContact found = half_space.press_with(mean, gap, 0, start.size() == 0 ? nullptr : &start, enough);
-    const double mean_gap = found.gap.mean();
-    if (!gap_.empty() &&
-        gap_.back() < gap_of_full_contact * rms_) // of several nearly full contacts the last one stays
-      gap_.pop_back(), pressure_.pop_back(), share_.pop_back();
-    gap_.push_back(mean_gap), pressure_.push_back(mean), share_.push_back(found.fraction);
-    start = std::move(found.pressure);
-  }
-}
-
 ContactSpec RemovedWaves::contact() const {
-  // Behind the last point the pressure falls exponentially, as it does before it, and ends.
-  std::vector<double> gap = gap_, pressure = pressure_;
-  const std::size_t n = gap.size();
-  const double length = (gap_[n - 1] - gap_[n - 2]) / std::log(pressure_[n - 2] / pressure_[n - 1]);
-  for (int i = 1; i <= tail; ++i) {
-    gap.push_back(gap_.back() + i * length);
-    pressure.push_back(i < tail ? pressure_.back() * std::exp(-i) : 0);
+  if (own_) {
+    ContactSpec contact = *place_.scene().contact;
+    contact.model = model_;
+    contact.model["contact"] = own_->contact();
+    contact.model["contact"]["offset"] = mean_;
+    return contact;
   }
   ContactSpec contact = *place_.scene().contact;
   contact.model = model_;
-  contact.model["contact"] = {{"normal", {{"type", "table"}, {"gap", gap}, {"pressure", pressure}}}};
+  contact.model["contact"] = {{"normal", law_table(gap_, pressure_)}, {"offset", mean_}};
   contact.law_scale = [this](double x, double y) { return scale(x, y); };
   return contact;
 }
 
 double RemovedWaves::scale(double x, double y) const {
-  const auto line = [](double place, double low, double length, Eigen::Index cells) {
-    const double at = std::clamp((place - low) / length * static_cast<double>(cells) - 0.5, 0.,
-                                 static_cast<double>(cells - 1));
-    const auto before = std::min(static_cast<Eigen::Index>(at), cells - 2);
-    return std::pair(before, at - static_cast<double>(before));
-  };
   const Box& box = place_.box();
-  const auto [i, u] = line(x, box.low[0], box.length(0), scale_.rows());
-  const auto [j, v] = line(y, box.low[1], box.length(1), scale_.cols());
-  return (1 - u) * ((1 - v) * scale_(i, j) + v * scale_(i, j + 1)) +
-         u * ((1 - v) * scale_(i + 1, j) + v * scale_(i + 1, j + 1));
+  return cells_->between(scale_, x - box.low[0], y - box.low[1]);
 }
 
-double RemovedWaves::share(double pressure, double scale) const {
+double RemovedWaves::share(double x, double y, double pressure) const {
+  if (own_) return own_->share(x, y, pressure);
+  const double scale = this->scale(x, y);
   const double p = pressure / scale;
   if (p <= pressure_.back()) return share_.back() * p / pressure_.back();
   if (p >= pressure_.front()) return share_.front();

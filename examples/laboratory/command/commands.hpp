@@ -46,6 +46,19 @@ struct VariantsOptions {
 /// A scene and all its variants: one row each.
 int variants_command(const CommonOptions& common, const VariantsOptions& options);
 
+struct SublawOptions {
+  std::filesystem::path scan, out;   ///< a height map, a model or a scene; out empty: no files
+  double from = 0, to = 0;           ///< waves between these lengths; to = 0: all shorter ones
+  double modulus = 0, poisson = 0.3; ///< E* [F/L^2], and nu of the bodies
+  double conductivity = 0;           ///< k_s of the interface; 0: no conductance in the model
+  double unit = 0;                   ///< of a map in metres: the model's length unit; 0: as it is
+  std::vector<double> size;          ///< of the surface; empty: it says so itself
+  int points = 0, realisations = 0;  ///< 0: as many as the waves need; four of a spectrum
+  bool pictures = true;
+};
+/// The short waves of a surface as a law: the part of a model.
+int sublaw_command(const CommonOptions& common, const SublawOptions& options);
+
 struct VerifyOptions {
   std::vector<std::filesystem::path> files;
   double tolerance = 1e-10;

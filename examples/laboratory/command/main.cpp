@@ -12,6 +12,7 @@
 #include "arguments.hpp"
 #include "commands.hpp"
 #include "error.hpp"
+#include "sublaw_options.hpp"
 
 namespace {
 
@@ -19,7 +20,7 @@ using host::integer;
 using host::number_check;
 using host::positive;
 
-constexpr const char* command_names = "run, variants, verify, check or chart, or --help";
+constexpr const char* command_names = "run, variants, sublaw, verify, check or chart, or --help";
 
 /// The command line, and what it says.
 class Program {
@@ -30,12 +31,15 @@ public:
                 "  ents-lab run examples/hertz2d/scene.json --out out/hertz2d\n"
                 "  ents-lab run examples/westergaard/scene.json --compare\n"
                 "  ents-lab variants examples/hertz2d/scene.json\n"
+                "  ents-lab sublaw scan.txt --from 0.5 --unit 1e-6 --modulus 1100\n"
                 "  ents-lab verify tests/mechanics/golden/*.json\n"
                 "  ents-lab check model.json --mesh master.inp\n"
                 "  ents-lab chart --out out/chart\n\n"
                 "ents-lab SUBCOMMAND --help says more of each.");
     app_.require_subcommand(1);
     add_run(), add_variants(), add_verify(), add_check(), add_chart();
+    sublaw_app_ = host::add_sublaw(app_, sublaw_);
+    add_common(*sublaw_app_);
   }
 
   int run(int argc, char** argv) {
@@ -63,13 +67,14 @@ private:
   CLI::App app_{"Laboratory of ents, enriched node-to-segment contact.\n"
                 "On top of the reference host: it loads libents.so and knows nothing of it but ents.h.\n",
                 "ents-lab"};
-  CLI::App *run_app_ = nullptr, *variants_app_ = nullptr, *verify_app_ = nullptr, *check_app_ = nullptr,
-           *chart_app_ = nullptr;
+  CLI::App *run_app_ = nullptr, *variants_app_ = nullptr, *sublaw_app_ = nullptr, *verify_app_ = nullptr,
+           *check_app_ = nullptr, *chart_app_ = nullptr;
   CLI::Option* compare_ = nullptr;
   std::string compare_list_;
   host::CommonOptions common_;
   host::RunOptions run_;
   host::VariantsOptions variants_;
+  host::SublawOptions sublaw_;
   host::VerifyOptions verify_;
   host::CheckOptions check_;
   host::ChartOptions chart_;
@@ -307,6 +312,7 @@ int Program::perform() {
     run_.compare_divisions = divisions_of(compare_list_);
     if (run_app_->parsed()) return run_command(common_, run_);
     if (variants_app_->parsed()) return variants_command(common_, variants_);
+    if (sublaw_app_->parsed()) return sublaw_command(common_, sublaw_);
     if (verify_app_->parsed()) return verify_command(common_, verify_);
     if (chart_app_->parsed()) return chart_command(common_, chart_);
     return check_command(common_, check_);

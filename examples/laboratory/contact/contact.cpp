@@ -51,12 +51,14 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   }
   wear_factor_ = spec.wear_factor;
   const bool turns = d_ == 2 && thickness_ == 0 && sliding_ < master_.model->parameters().size();
-  const bool varies = turns || !wear_factor_.points.empty() || master_.profile || spec.law_scale;
-  if (spec.law_scale) slave_numbers_ = 4;
+  const bool own = !points_.scales.empty(), scaled = spec.law_scale || own;
+  const bool varies = turns || !wear_factor_.points.empty() || master_.profile || scaled;
+  if (scaled) slave_numbers_ = 4;
   for (std::size_t k = 0; k < points_.size() && varies; ++k) {
     const auto place = points_.place(k, mesh);
-    for (const double value : {0.0, 1.0, turns ? std::abs(place[0]) : 1.0}) slave_values_.push_back(value);
-    if (spec.law_scale) slave_values_.push_back(spec.law_scale(place[0], place[1]));
+    for (const double value : {own ? points_.offsets[k] : 0.0, 1.0, turns ? std::abs(place[0]) : 1.0})
+      slave_values_.push_back(value);
+    if (scaled) slave_values_.push_back(own ? points_.scales[k] : spec.law_scale(place[0], place[1]));
   }
   read_both_sides(spec);
   number_unknowns();

@@ -89,10 +89,6 @@ public:
   double total_area() const;
   /// Positions [n][d] in the frame of a rigid body that turns, in space at its present place.
   void to_space(std::vector<double>& points) const;
-  /// Scale of the law in a slave point, if it is a table that has one; 1.
-  double law_scale(std::size_t slave) const {
-    return slave_numbers_ > 3 ? slave_values_[slave_numbers_ * slave + 3] : 1;
-  }
   /// Diagonal of the box round the slave nodes: the length that penetrations are measured by.
   double size() const { return size_; }
   bool symmetric_tangent() const {

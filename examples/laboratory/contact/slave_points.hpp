@@ -20,6 +20,11 @@ struct SlavePoints {
   std::vector<double>
       heights; ///< [points] above their faces, along normals that turn with them [L]; empty: in them
   std::vector<double> slopes; ///< [points][nodes_per_point][d-1] of the weights, with heights
+  /// Where several points stand at one place, as the springs of its law do: the first of each place, and the
+  /// number of points; empty: every point is a place.
+  std::vector<std::size_t> places;
+  /// [points] of the law "table", ents_input.slave_values[0] and [3]; or empty.
+  std::vector<double> offsets, scales;
 
   std::size_t size() const { return areas.size(); }
   bool are_nodes() const { return nodes_per_point == 1; }

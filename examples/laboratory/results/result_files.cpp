@@ -64,7 +64,7 @@ vtu::Grid slave_grid(Simulation& simulation, const StepRecord& record) {
   grid.point_data.push_back({with_unit("gap", units.length), 1, record.fields.gap});
   grid.point_data.push_back({with_unit("pressure", units.pressure), 1, record.fields.pressure});
   grid.point_data.push_back({"normal", d, record.fields.normal});
-  grid.point_data.push_back({"area", 1, simulation.contact()->areas()});
+  grid.point_data.push_back({"area", 1, record.areas});
   grid.point_data.push_back({with_unit("traction", units.pressure), d, record.fields.traction});
   grid.point_data.push_back({with_unit("slip", units.length), 1, record.fields.slip});
   grid.point_data.push_back({"age", 1, record.fields.age});

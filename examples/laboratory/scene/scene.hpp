@@ -85,6 +85,8 @@ struct MirrorPlane {
 struct CutOff {
   double wavelength = 0; ///< shorter ones become a law; 0: none
   int points = 256;      ///< cells of the boundary elements along the longer side
+  /// Each place has a law of its own (place_laws.hpp); else one law, scaled with the local height of the waves
+  bool own = false;
   std::string where;
 };
 

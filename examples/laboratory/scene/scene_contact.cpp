@@ -65,10 +65,24 @@ void read_slave_height(const JsonValue& value, int dimension, ContactSpec& conta
     value.fail("a rough slave has its points inside its faces; write \"sampling\": 1 or more, or \"cut\"");
 }
 
+void read_below(const JsonValue& value, ContactSpec& contact) {
+  if (contact.cut_off.wavelength > 0)
+    value.fail("\"cut_off\" leaves the short waves to a law, too; leave one of the two keys out");
+  contact.cut_off.where = value.where();
+  JsonObject object(value);
+  const JsonValue cut = object.at("cut");
+  if (!(cut.number() > 0)) cut.fail("a wavelength > 0 is expected");
+  contact.cut_off.wavelength = cut.number();
+  if (object.has("law")) object.at("law").word({"boundary_elements"});
+  if (object.has("points")) contact.cut_off.points = object.at("points").integer(16, 2048);
+  contact.cut_off.own = true;
+  object.finish();
+}
+
 void read_law(const JsonValue& value, ContactSpec& contact) {
   contact.hard = value.word({"hard"}) == "hard";
   if (contact.cut_off.wavelength > 0)
-    value.fail("the law follows from the waves that \"cut_off\" leaves out; leave \"law\" out");
+    value.fail("the law follows from the waves that \"cut_off\" or \"below\" leaves out; leave \"law\" out");
   if (!find_json(contact.model, "/contact/normal").is_null())
     value.fail("the model has a law, too; leave out this key, or \"normal\" of /contact/model/contact");
   // The stiffness is none of the answer; Simulation::build_contact puts one that suits the mesh.
@@ -85,6 +99,9 @@ void check_cut_off(const ContactSpec& contact) {
   if (contact.cut > 0)
     fail("is not possible with \"sampling\": \"cut\"; take the nodes, or a number of points");
   if (contact.gap_only) fail("is not possible with \"enrichment\": \"gap_only\"");
+  if (!contact.slave_height.is_null()) fail("is not possible with \"slave_height\"; leave one of them out");
+  if (contact.cut_off.own && contact.sampling > 0)
+    fail("is for the nodes of the slave surface, whose distances its law needs; leave \"sampling\" out");
   if (contact.model.contains("parameters")) fail("is for a model without \"parameters\"");
 }
 
@@ -121,6 +138,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
     object.at("slave_height")
         .fail("is of one side, and \"two_pass\" makes slaves of both; leave one of them out");
   if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
+  if (object.has("below")) read_below(object.at("below"), contact);
   if (object.has("wear_factor")) {
     const JsonValue table = object.at("wear_factor");
     for (const JsonValue& item : table.items()) {

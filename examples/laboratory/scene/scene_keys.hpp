@@ -31,8 +31,9 @@ void read_sampling(const JsonValue& value, ContactSpec& contact);
 /// Its key "law", which stands for the law of the model.
 void read_law(const JsonValue& value, ContactSpec& contact);
 
-/// Its key "cut_off", and what it excludes in the rest of the contact.
+/// Its keys "cut_off" and "below", and what it excludes in the rest of the contact.
 void read_cut_off(const JsonValue& value, ContactSpec& contact);
+void read_below(const JsonValue& value, ContactSpec& contact);
 void check_cut_off(const ContactSpec& contact);
 
 /// The keys "ends" and "mirror" of a master on the faces of a body.

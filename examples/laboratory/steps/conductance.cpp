@@ -21,14 +21,14 @@ GapMeans gap_means(const std::vector<double>& gap, const std::vector<double>& ar
   return {sum.gap / area, sum.cubed / area};
 }
 
-double incremental_conductance(Simulation& simulation, const StepRecord& record, const Target& higher,
-                               const Target& lower) {
+double incremental_conductance(Simulation& simulation, const Target& higher, const Target& lower) {
   // The mean gap with its penetrations: the penalty is a part of the stiffness.
   const auto mean_gap = [&] {
-    const std::vector<double>& gap = simulation.contact()->accepted().gap;
+    const std::vector<double>&gap = simulation.contact()->accepted().gap,
+          &areas = simulation.contact()->areas();
     double sum = 0, area = 0;
     for (std::size_t k = 0; k < gap.size(); ++k)
-      if (!std::isnan(gap[k])) sum += record.areas[k] * gap[k], area += record.areas[k];
+      if (!std::isnan(gap[k])) sum += areas[k] * gap[k], area += areas[k];
     return sum / area;
   };
   const Json here = simulation.checkpoint();

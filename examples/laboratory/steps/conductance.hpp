@@ -16,8 +16,7 @@ GapMeans gap_means(const std::vector<double>& gap, const std::vector<double>& ar
 /// their conductivity k_s = 2 k_1 k_2 / (k_1 + k_2), which is their incremental stiffness dp / d(- mean gap) over E*
 /// (J. R. Barber, Proc. R. Soc. A 459, 2003): a central difference between a higher and a lower load, which are
 /// taken back; NaN where one of them does not converge.
-double incremental_conductance(Simulation& simulation, const StepRecord& record, const Target& higher,
-                               const Target& lower);
+double incremental_conductance(Simulation& simulation, const Target& higher, const Target& lower);
 
 /// Closed forms for a sine of wavelength lambda whose mean pressure is the part P of that of full contact:
 /// h_c lambda / k_s = pi / (- ln P), and <g^3> / amplitude^3.

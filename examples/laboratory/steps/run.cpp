@@ -11,6 +11,7 @@
 
 #include "advice.hpp"
 #include "conductance.hpp"
+#include "merged_places.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -110,25 +111,28 @@ void fill_contact_results(Simulation& simulation, StepRecord& record) {
   }
   double closed = 0, gap = 0, gap_area = 0;
   record.areas = contact->areas();
-  for (std::size_t k = 0; k < contact->slaves().size(); ++k) {
-    const double area = contact->areas()[k];
+  const std::vector<std::size_t> points = merge_places(contact->slaves(), record);
+  for (std::size_t k = 0; k < record.areas.size(); ++k) {
+    const double area = record.areas[k];
     if (record.fields.closed[k]) {
       closed += area;
       record.penetration = std::max(record.penetration, std::abs(record.fields.gap[k]));
     }
     if (!std::isnan(record.fields.gap[k])) gap += area * record.fields.gap[k], gap_area += area;
     record.peak_pressure = std::max(record.peak_pressure, record.fields.pressure[k]);
-    const auto position = contact->position_of(k, simulation.now().displacement);
+    const auto position = contact->position_of(points[k], simulation.now().displacement);
     record.positions.insert(record.positions.end(), position.begin(), position.begin() + scene.dimension);
-    const auto place = contact->slaves().place(k, simulation.mesh());
+    const auto place = contact->slaves().place(points[k], simulation.mesh());
     record.places.insert(record.places.end(), place.begin(), place.begin() + scene.dimension);
   }
   record.contact_fraction = closed / simulation.contact_area();
   if (const RemovedWaves* waves =
           simulation.removed_waves()) { // nodes are closed that are in contact in part
     double area = 0;
+    const auto d = static_cast<std::size_t>(scene.dimension);
     for (std::size_t k = 0; k < record.areas.size(); ++k)
-      area += record.areas[k] * waves->share(record.fields.pressure[k], contact->law_scale(k));
+      area += record.areas[k] *
+              waves->share(record.places[k * d], record.places[k * d + 1], record.fields.pressure[k]);
     record.contact_fraction = record.area.fraction = area / simulation.contact_area();
   } else {
     record.area = estimate_area(simulation, record.fields);
@@ -369,7 +373,7 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     if (scene.probe > 0) {
       Target higher = target_at(1), lower = higher;
       higher.value *= 1 + scene.probe, lower.value *= 1 - scene.probe;
-      record.conductance = incremental_conductance(simulation, record, higher, lower);
+      record.conductance = incremental_conductance(simulation, higher, lower);
       add_exact_conductance(scene, record);
     }
     record.wall_time = watch.seconds();

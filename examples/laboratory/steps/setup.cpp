@@ -326,6 +326,7 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
     if (cut.raise) cut.raise(points);
   } else if (contact.cut == 0)
     points = slave_nodes(mesh_, *dofs_, slaves, geometry);
+  if (removed_waves_) points = removed_waves_->points(std::move(points), mesh_);
   contact_ = std::make_unique<Contact>(std::move(master), contact, mesh_, *dofs_, std::move(points),
                                        std::move(cut), geometry.axisymmetric ? 0 : geometry.thickness);
 }
