@@ -158,7 +158,8 @@ void read_master(const JsonValue& value, int dimension, bool heat, ContactInput&
 ContactInput read_contact(const JsonValue& value, const Scene& scene) {
   const int dimension = scene.dimension;
   JsonObject object(value);
-  leave_keys(object, {"law", "cut_off", "enrichment", "wear_factor", "areas", "slave_height", "two_pass"});
+  leave_keys(object,
+             {"law", "cut_off", "enrichment", "wear_factor", "areas", "slave_height", "two_pass", "below"});
   ContactInput contact;
   contact.temperature = scene.temperature;
   contact.slave = object.at("slave").string();
