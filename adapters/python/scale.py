@@ -216,8 +216,14 @@ class Host:
             fem_petsc.assemble_vector(b, self.residual)
             fem_petsc.apply_lifting(b, [self.jacobian], [self.bcs], [self.u.vector], -1.0)
             b.ghostUpdate(PETSc.InsertMode.ADD, PETSc.ScatterMode.REVERSE)
-        with self.times("contact"):
-            (equations, forces), self.tangent = self.contact.update(self.u.x.array)
+        try:
+            with self.times("contact"):
+                (equations, forces), self.tangent = self.contact.update(self.u.x.array)
+        except ents.CutStep:
+            if snes is None:
+                raise
+            b.set(np.inf)  # on all processes: the line search halves its step
+            return
         self.stale, self.evaluations = self.stale or self.contact.pattern_changed, self.evaluations + 1
         b.setValues(equations, forces, PETSc.InsertMode.ADD)
         b.assemble()
