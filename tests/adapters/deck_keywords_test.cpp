@@ -122,6 +122,9 @@ TEST(DeckKeywords, WhatAPairNeedsIsAskedFor) {
   };
   refused("INTERACTION=I, TYPE", "TYPE", "deck.inp:", "*CONTACT PAIR has no INTERACTION=");
   refused(", TYPE=SURFACE TO SURFACE", "", "deck.inp:", "*CONTACT PAIR has no TYPE=");
+  refused("\nSLAVE, MASTER", "\nSLAVE, slave",
+          "deck.inp:", "'SLAVE' is slave and master: contact of a surface with itself is not carried");
+  refused("\nSLAVE, MASTER", "\nSLAVE", "deck.inp:", "contact of a surface with itself is not carried");
   refused("*SURFACE INTERACTION, NAME=I", "*SURFACE INTERACTION, NAME=J",
           "deck.inp:", "there is no *SURFACE INTERACTION");
   refused("TYPE=SURFACE TO SURFACE", "TYPE=SURFACE TO MOON", "deck.inp:", "SURFACE TO MOON is not known");
