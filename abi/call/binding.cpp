@@ -70,7 +70,8 @@ std::int32_t refuse_binding(const ents_model& model, Status status, std::int32_t
                           name);
   return report_message(
       report, ENTS_BAD_VALUE, -1,
-      "parameters[%d] (\"%s\") is out of range: a stiffness or pressure is positive, a coefficient of "
+      "parameters[%d] (\"%s\") is out of range: a number of the normal law is positive and fits its others, "
+      "a coefficient of "
       "friction and a number of wear are not negative, the scale of \"flattening\" is 1, all are at most "
       "1e100",
       which, name);

@@ -47,7 +47,7 @@ inline std::vector<Method> methods() {
   // Laws that pull, with and without friction; ranges of tension that elements lie in, whose kinks they do not
   const std::vector<json> pulling = {
       {{"type", "tied"}, {"stiffness", 100.0}, {"range", 0.006}},
-      {{"type", "cohesive"}, {"stiffness", 100.0}, {"strength", 0.7}, {"energy", 0.02}, {"range", 0.006}},
+      {{"type", "cohesive"}, {"stiffness", 100.0}, {"strength", 0.7}, {"energy", 0.02}, {"range", 0.002}},
       {{"type", "dugdale"}, {"work", 0.02}, {"strength", 2.0}, {"stiffness", 400.0}},
       {{"type", "separation"}, {"work", 0.1}, {"length", 0.03}},
       {{"type", "lennard_jones"}, {"work", 0.15}, {"length", 0.15}, {"range", 0.012}}};
@@ -59,14 +59,14 @@ inline std::vector<Method> methods() {
       if (name == "shear_limit" && type != "tied" && type != "cohesive") own["adhesion"] = true;
       all.push_back({type + "_" + name, normal, own});
     }
-  // Coefficients that vary, under a law of the fast block, one of the general block and multipliers
+  // Coefficients that vary, between two points of a table, whose kinks no element meets, under a law of the fast block, one of the general block and multipliers
   const json varying[] = {
       {{"type", "coulomb"}, {"coefficient", 0.4}, {"kinetic", 0.15}, {"decay", 0.3}, {"stiffness", 80.0}},
       {{"type", "coulomb"},
        {"coefficient",
-        {{"pressures", {0.0, 2.0, 30.0}},
+        {{"pressures", {0.0, 300.0}},
          {"slip_rates", {0.0, 100.0}},
-         {"coefficients", {{0.5, 0.4}, {0.3, 0.2}, {0.2, 0.1}}}}},
+         {"coefficients", {{0.5, 0.4}, {0.1, 0.05}}}}},
        {"stiffness", 80.0}}};
   for (const std::size_t normal : {0u, 2u, 3u, 4u})
     for (const bool table : {false, true})

@@ -22,7 +22,8 @@ struct Value {
 constexpr Value values[] = {{"amplitude", 0.012, 0.02}, {"eps", 100.0, 100.0},  {"factor", 0.9, 1.0},
                             {"k", 0.05, 0.05},          {"level", 0.004, 0.02}, {"mu", 0.3, 0.3},
                             {"offset", 0.003, 0.02},    {"phase", 0.7, 1.0},    {"sliding", 0.02, 0.02},
-                            {"top", 0.01, 0.02},        {"u", 0.15, 0.5},       {"v", -0.1, 0.5}};
+                            {"top", 0.01, 0.02},        {"u", 0.15, 0.5},       {"v", -0.1, 0.5},
+                            {"work", 0.02, 0.02}};
 constexpr std::size_t parameters = std::size(values);
 
 json height_with_names(int t) {
@@ -41,11 +42,14 @@ json height_with_names(int t) {
 }
 json law_with_names(Method method) {
   json& normal = method.normal;
-  if (normal["type"] != "table")
+  if (normal.contains("work"))
+    normal["work"] = "work";
+  else if (normal["type"] != "table")
     normal[normal["type"] == "power"         ? "coefficient"
            : normal["type"] == "exponential" ? "pressure"
                                              : "stiffness"] = "eps";
-  if (!method.friction.is_null()) method.friction["coefficient"] = "mu";
+  if (!method.friction.is_null() && !method.friction.value("coefficient", json()).is_object())
+    method.friction["coefficient"] = "mu";
   if (!method.wear.is_null()) method.wear["coefficient"] = "k", method.wear["sliding"] = "sliding";
   if (!method.offset.is_null()) method.offset = "offset";
   return {
