@@ -170,8 +170,8 @@ void read_friction(const json& friction, const std::string& path, ModelSpec& mod
                                                  model.law_binding.friction, Range::not_negative);
     }
     if (decays) {
-      check_keys(friction, path, {"type", "coefficient", "stiffness", "kinetic", "decay"},
-                 {"shear_limit", "adhesion"});
+      if (!friction.contains("kinetic") || !friction.contains("decay"))
+        fail(ENTS_BAD_VALUE, path, "has one of \"kinetic\" and \"decay\"; write both, or neither");
       law.varying.kind = VaryingCoefficient::decays;
       law.varying.kinetic = read_double(friction, path, "kinetic", Range::not_negative);
       law.varying.decay = read_double(friction, path, "decay", Range::positive);

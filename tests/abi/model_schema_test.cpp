@@ -331,6 +331,8 @@ bool depends_on_more(const std::string& message) {
            "is of a normal law that adheres",
            "whose damage does not weaken shear",
            "is not possible with a normal law that pulls",
+           "write both, or neither", // static and kinetic friction
+           "beside a table of coefficients",
            "one per slip rate", // tables of coefficients
            "one per pressure",
            "not above the number before it",

@@ -121,7 +121,7 @@ TEST(RigidMotion, ChangesNeitherGapNorPressureNorTraction) {
         // the size of the segment for the gap; the traction follows from the pressure and from slip times
         // stiffness (80)
         test::raise(worst, std::fabs(a.gap[i] - b.gap[i]));
-        test::raise(worst, std::fabs(a.pressure[i] - b.pressure[i]) / (a.pressure[i] + 10.0));
+        test::raise(worst, std::fabs(a.pressure[i] - b.pressure[i]) / (std::fabs(a.pressure[i]) + 10.0));
         test::raise(worst, std::fabs(t - length_of(&b.traction[i * d], d)) / (t + 10.0));
       }
     }

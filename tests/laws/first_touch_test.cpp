@@ -107,7 +107,8 @@ TEST(FirstTouch, IsFlaggedWhereTheBeginIsNotKnown) {
 // there is no friction in the increment of the touch, and a flag says so.
 TEST(FirstTouch, IsTheLimitForEveryLaw) {
   for (const Method& method : methods()) {
-    if (!method.name.ends_with("_coulomb")) continue;
+    if (!method.name.ends_with("_coulomb") || method.normal["type"] == "separation") // that is never open
+      continue;
     Path path({{"normal", method.normal}, {"friction", friction(0.3, 8000.0)}});
     const bool multiplies = !path.elements.multiplier.empty();
     if (multiplies) path.elements.multiplier = {0.0, 0.0};

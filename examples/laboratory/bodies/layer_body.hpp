@@ -42,8 +42,7 @@ private:
 /// the mesh; the diagonal on those that contact elements hold. Multipliers, one for each node, are
 /// eliminated: where contact is closed their equation prescribes the displacement. Where tension of an adhesive law
 /// falls with the gap the matrix may not be positive definite: no equilibrium nearby is stable, and the surfaces jump.
-/// Then what is not is left out of the contact elements' matrix, row by row, and the step descends to the equilibrium
-/// that the jump ends in.
+/// Then what is not is left out of the contact elements' matrix, row by row, so that the step descends.
 class LayerSolver final : public LinearSolver {
 public:
   explicit LayerSolver(std::shared_ptr<const LayerBody> body) : body_(std::move(body)) {}
