@@ -135,11 +135,14 @@ PlaceCurve PlaceLaws::curve(double x, double y) const {
 double PlaceLaws::share(double x, double y, double pressure) const {
   double p = 0, part = 0;
   if (!(pressure > 0)) return 0;
-  for (std::size_t level = law_.size(); level-- > 0;) {
+  for (std::size_t level = law_.size(); level-- > 0;) { // between two levels a power of the pressure
     const double next = mean(pressed_[level], x, y), in = mean(closed_[level], x, y);
-    if (next > p && pressure <= next)
-      return p > 0 ? part + (in - part) * std::log(pressure / p) / std::log(next / p) : in * pressure / next;
-    if (next > p) p = next, part = in;
+    if (!(next > p)) continue;
+    if (pressure <= next)
+      return p > 0 && part > 0 && in > 0
+                 ? part * std::pow(in / part, std::log(pressure / p) / std::log(next / p))
+                 : in * pressure / next;
+    p = next, part = in;
   }
   return part;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// theory.md, section 4.6. The law of the short waves around each point of the slave surface, which differs from place to place: one
+// theory.md, section 4.8.
+// The law of the short waves around each point of the slave surface, which differs from place to place: one
 // has a summit, another none. From the solution of boundary elements for all places at once (wave_law.hpp), at
 // every level the mean pressure p_i of the box around the point and the gap g_i = g + u_i there: g is the gap of
 // the level, u_i the displacement under all p_i that points with these distances can follow. What the body

@@ -155,7 +155,7 @@ WaveLaw press_waves(const Eigen::ArrayXXd& waves, const ElasticLayer& half_space
   for (int i = 0; i < level_count; ++i) {
     const double mean = slope * highest * std::pow(lowest / highest, i / (level_count - 1.));
     LayerContact found = half_space.press_with(mean, waves, 0, start.size() == 0 ? nullptr : &start, enough);
-    // Of several nearly full contacts the last one stays.
+    // Full contact is left out: its gap says nothing of the pressure.
     if (!law.empty() && law.back().gap < gap_of_full_contact * rms) law.pop_back();
     law.push_back({mean * modulus, found.gap.mean(), found.fraction, found.fraction_counted,
                    (found.pressure * modulus).cast<float>()});

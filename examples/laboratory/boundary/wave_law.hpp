@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// theory.md, section 4.6. The law of the short waves of a rough surface: boundary elements press exactly these waves on a half-space
+// theory.md, section 4.8.
+// The law of the short waves of a rough surface: boundary elements press exactly these waves on a half-space
 // without friction, at mean pressures from nearly full contact down to a few per mille of the area. Gaps are
 // counted from the mean plane of the waves, so that the law acts on the gap to the surface without them.
 #pragma once
