@@ -205,7 +205,7 @@ TEST(DeckRefuses, WithLineAndReason) {
            ": ";
   };
   const Mistake mistakes[] = {
-      {"=LINEAR\n1e6", "=TIED\n1e6", line_of("*SURFACE BEHAVIOR"), "ties the surfaces"},
+      {"=LINEAR\n1e6", "=SOFT\n1e6", line_of("*SURFACE BEHAVIOR"), "SOFT"},
       {"*STATIC", "*HEAT TRANSFER", line_of("*STATIC"), "conduct no heat"},
       {"*STATIC", "*MODAL DYNAMIC", line_of("*STATIC"), "linear step"},
       {"*STATIC", "*DYNAMIC", line_of("*STATIC"), "verified in *STATIC"},
