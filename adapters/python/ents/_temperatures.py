@@ -52,5 +52,5 @@ class Temperatures:
     def inputs(self, slave: SlavePoints, of: Callable) -> dict[str, Any]:
         """What Model.iterate takes."""
         if not self.on:
-            return {}
+            return {"time_increment": self._increment}  # friction may depend on the slip rate
         return {"slave_temperature": of(np.ascontiguousarray(slave.matrix @ self._now)), "time_increment": self._increment or (1.0 if not self._rubs else 0.0)}

@@ -210,7 +210,7 @@ class Contact(ContactResults):
     def update(self, u: Any, tangent: bool = True, time_increment: Optional[float] = None) -> tuple[np.ndarray, Optional[scipy.sparse.csr_matrix]]:
         """Search and assemble at the displacements (and temperatures) u: [rows], or [nodes][d or d + 1] where some are no unknowns. Returns residual
         [rows] (internal force, and power that leaves the nodes, to be added to those of the bodies) and tangent (csr_matrix; None with
-        tangent=False, as for the trial steps of a line search). time_increment: since the last commit(), where friction heats.
+        tangent=False, as for the trial steps of a line search). time_increment: since the last commit(), where friction heats or depends on the slip rate.
         CutStep: take a smaller step from the last commit(); nothing has changed. Error: a mistake."""
         self._heat.take(time_increment)
         if self._points_begin is None:
