@@ -10,16 +10,6 @@ namespace {
 
 using std::string;
 
-/// Entry i of a data line. @return `otherwise` if it is empty
-double entry(const Source& source, const Line& line, std::size_t i, double otherwise) {
-  const auto fields = fields_of(line.text);
-  double value = 0;
-  if (i >= fields.size() || fields[i].empty()) return otherwise;
-  if (!parse(fields[i], value))
-    source.fail(line.place, "expected a number, found '" + string(fields[i]) + "'");
-  return value;
-}
-
 double positive(const Source& source, const Statement& s, const char* what) {
   const double value = s.lines.empty() ? 0 : entry(source, s.lines[0], 0, 0);
   if (!(value > 0)) source.fail(s.place, "*" + s.keyword + " needs " + what + " above 0 as its first entry");

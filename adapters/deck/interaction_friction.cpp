@@ -10,16 +10,6 @@ namespace {
 
 using std::string;
 
-/// Entry i of a data line. @return `otherwise` if it is empty
-double entry(const Source& source, const Line& line, std::size_t i, double otherwise) {
-  const auto fields = fields_of(line.text);
-  double value = 0;
-  if (i >= fields.size() || fields[i].empty()) return otherwise;
-  if (!parse(fields[i], value))
-    source.fail(line.place, "expected a number, found '" + string(fields[i]) + "'");
-  return value;
-}
-
 double coefficient(const Source& source, const Line& line, std::size_t i) {
   constexpr double missing = -1e300;
   const double value = entry(source, line, i, missing);

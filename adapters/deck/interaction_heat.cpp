@@ -16,19 +16,6 @@ struct Table {
   std::vector<double> places, conductances;
 };
 
-/// Entry i of a data line. @return `otherwise` if it is empty
-double entry(const Source& source, const Line& line, std::size_t i, std::optional<double> otherwise) {
-  const auto fields = fields_of(line.text);
-  double value = 0;
-  if (i >= fields.size() || fields[i].empty()) {
-    if (otherwise) return *otherwise;
-    source.fail(line.place, "entry " + std::to_string(i + 1) + " is missing; write a number");
-  }
-  if (!parse(fields[i], value))
-    source.fail(line.place, "expected a number, found '" + string(fields[i]) + "'");
-  return value;
-}
-
 void read_table(const Source& source, const Statement& s, const string& place, Table& out) {
   if (out.from)
     source.fail(s.place, "*GAP CONDUCTANCE over the " + place + " is there a second time (first at " +

@@ -233,4 +233,16 @@ std::string shown(double value, int digits) {
   return text;
 }
 
+double entry(const Source& source, const Line& line, std::size_t i, std::optional<double> otherwise) {
+  const auto fields = fields_of(line.text);
+  double value = 0;
+  if (i >= fields.size() || fields[i].empty()) {
+    if (otherwise) return *otherwise;
+    source.fail(line.place, "entry " + std::to_string(i + 1) + " is missing; write a number");
+  }
+  if (!parse(fields[i], value))
+    source.fail(line.place, "expected a number, found '" + std::string(fields[i]) + "'");
+  return value;
+}
+
 } // namespace ents_deck

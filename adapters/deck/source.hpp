@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,6 +92,8 @@ std::vector<std::string_view> fields_of(std::string_view line);
 /// or not finite.
 bool parse(std::string_view text, std::int64_t& value);
 bool parse(std::string_view text, double& value);
+/// Entry i of a data line as a number. @return `otherwise` if it is empty; with none, that is an error
+double entry(const Source& source, const Line& line, std::size_t i, std::optional<double> otherwise = {});
 
 /// With so many significant digits, for people.
 std::string shown(double value, int digits = 4);
