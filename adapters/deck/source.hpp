@@ -8,8 +8,8 @@
 #include <deque>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -24,22 +24,22 @@ constexpr double least_order = 0.1;
 /// By so much a mesh may miss the difference that the fit has promised.
 constexpr double within_fit = 4. / 3;
 
-struct Solution {
+struct SolvedScene {
   CompareRow row;
   std::vector<double> displacement; ///< [slaves][d], last step
   std::vector<double> areas;        ///< [slaves]
   double approach = 0, force = 0;
 };
 
-Solution solve_once(const Scene& scene, const EntsLibrary& library, int divisions,
-                    const RunObserver& observer) {
+SolvedScene solve_once(const Scene& scene, const EntsLibrary& library, int divisions,
+                       const RunObserver& observer) {
   if (observer.line)
     observer.line(divisions == 0 ? "one enriched segment"
                                  : "explicit mesh, " + std::to_string(divisions) + " segments per direction");
   Simulation simulation(scene, &library, divisions);
   if (divisions == 0) note_small_maps(scene, {}); // the master is rigid
   const std::vector<StepRecord> records = solve(simulation, {});
-  Solution solution;
+  SolvedScene solution;
   solution.row.divisions = divisions;
   solution.row.sizes = simulation.sizes();
   solution.row.wall_time = simulation.timings().total;
@@ -57,7 +57,7 @@ Solution solve_once(const Scene& scene, const EntsLibrary& library, int division
   return solution;
 }
 
-void measure_difference(const Scene& scene, const Solution& enriched, Solution& other) {
+void measure_difference(const Scene& scene, const SolvedScene& enriched, SolvedScene& other) {
   const auto d = static_cast<std::size_t>(scene.dimension);
   double difference = 0, norm = 0;
   for (std::size_t i = 0; i < enriched.displacement.size(); ++i) {
@@ -116,14 +116,14 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
   if (!scene.contact || scene.contact->rigid.empty())
     throw InputError(scene.file.string() + ": only a scene with a rigid master can be compared");
   Comparison comparison;
-  Solution enriched = solve_once(scene, library, 0, observer);
+  SolvedScene enriched = solve_once(scene, library, 0, observer);
   // What this process does for the first time (pages of memory above all) is no part of the comparison.
   constexpr double short_run = 5; // [s]
   if (enriched.row.wall_time < short_run) enriched = solve_once(scene, library, 0, {});
   comparison.enriched = enriched.row;
   comparison.error = scene.compare.error;
   for (const int n : divisions) {
-    Solution other = solve_once(scene, library, n, observer);
+    SolvedScene other = solve_once(scene, library, n, observer);
     measure_difference(scene, enriched, other);
     comparison.explicit_meshes.push_back(other.row);
   }
@@ -132,7 +132,7 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
   const double needed = std::pow(comparison.constant / comparison.error, 1 / comparison.order);
   if (needed > (scene.dimension == 2 ? finest_line : finest_patch)) return comparison;
   const int asked = std::max(1, static_cast<int>(std::ceil(needed)));
-  Solution other;
+  SolvedScene other;
   try {
     other = solve_once(scene, library, asked, observer);
   } catch (const JobError& error) { // this mesh is nobody's choice: the others keep their table
