@@ -204,7 +204,9 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   EXPECT_GE(count_.checked, goal);
   EXPECT_LE(worst_.error, tolerance) << worst_.where;
   EXPECT_LE(count_.repeated, count_.checked / 50);
-  if (GetParam().normal["type"] != "separation") EXPECT_GT(count_.open, goal / 100); // all are in its range
+  if (GetParam().normal["type"] != "separation") { // all are in its range
+    EXPECT_GT(count_.open, goal / 100);
+  }
   EXPECT_TRUE((GetParam().friction.is_null() && GetParam().wear.is_null()) || count_.touching > goal / 20);
   if (!GetParam().friction.is_null()) {
     EXPECT_GT(count_.stick, goal / 100);
