@@ -45,7 +45,7 @@ def main():
         result = runs.solve(command.program, scene_of(alpha), command.out / f"alpha_{alpha}")
         curves[alpha] = [(step["value"], step["mean_pressure"] / FULL) for step in result["steps"]]
         pull = min(p for _, p in curves[alpha])
-        quantities.append(runs.quantity(f"pull-off / p*, alpha {alpha}", pull, exact(alpha)))
+        quantities.append(runs.quantity(f"pull-off / p*, alpha {alpha}", -pull, -exact(alpha)))
         print(f"alpha {alpha}: pull-off {pull:.5f} p*, Johnson {exact(alpha):.5f}")
     runs.write_result(command.out, [quantities])
 
