@@ -64,7 +64,7 @@ json text_of(const mechanics::Scene& scene, const Case& c) {
 }
 
 // The state and the multipliers without what friction has of them
-LawElements without_friction(const LawElements& with, const ents_model* model) {
+LawElements without_friction(const LawElements& with, const ents_model* model, bool bonds) {
   LawElements e = with;
   e.layout = layout_of(model);
   const auto t = static_cast<std::size_t>(e.layout.parameters), n = static_cast<std::size_t>(e.at.count),
@@ -76,6 +76,7 @@ LawElements without_friction(const LawElements& with, const ents_model* model) {
     const double* before = &with.state[i * from];
     double* after = &e.state[i * static_cast<std::size_t>(e.layout.state_size)];
     for (std::size_t k = 1; k < 3 + t; ++k) after[k] = before[k];
+    if (bonds) after[e.layout.state_size - 2] = before[from - 2]; // before the number of the segment
     if (e.layout.augmentable) after[3 + t] = before[3 + t + t + 1];
     for (std::size_t k = 0; e.layout.worn >= 0 && k < 3 + t; ++k)
       after[static_cast<std::size_t>(e.layout.worn) + k] =
@@ -166,7 +167,8 @@ TEST(NoFriction, HasTheBitsOfAModelWithoutFriction) {
     LawElements e = draw(random, scene, mechanics::Model(text.dump()), call_size, 0.05);
     for (std::size_t i = 0; i < static_cast<std::size_t>(call_size); i += 7) // some have to be searched for
       e.state[i * static_cast<std::size_t>(e.layout.state_size) + 3] += 0.7;
-    const LawElements plain = without_friction(e, none.get());
+    const std::string type = c.method.normal["type"];
+    const LawElements plain = without_friction(e, none.get(), type == "tied" || type == "cohesive");
     LawResults of_none, of_zero, of_bound, of_positive;
     evaluate(none.get(), plain, wanted, of_none);
     evaluate(zero.get(), e, wanted, of_zero);

@@ -204,7 +204,9 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
   EXPECT_GE(count_.checked, goal);
   EXPECT_LE(worst_.error, tolerance) << worst_.where;
   EXPECT_LE(count_.repeated, count_.checked / 50);
-  if (GetParam().normal["type"] != "separation") { // all are in its range
+  const std::string type = GetParam().normal["type"];
+  const bool reaches = !GetParam().offset.is_null() && (type == "dugdale" || type == "lennard_jones");
+  if (type != "separation" && !reaches) { // of these all are in the range
     EXPECT_GT(count_.open, goal / 100);
   }
   EXPECT_TRUE((GetParam().friction.is_null() && GetParam().wear.is_null()) || count_.touching > goal / 20);
