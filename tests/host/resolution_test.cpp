@@ -77,11 +77,11 @@ TEST(Resolution, OfTheTensionOfALaw) {
   Resolution some;
   some.spacing = 0.1, some.wave = 10, some.tension = 0.3;
   EXPECT_TRUE(some.too_coarse());
-  EXPECT_NE(describe(some, "mm").find("take nodes at most 0.075 mm apart"), std::string::npos)
+  EXPECT_NE(describe(some, "mm").find("take nodes at most 0.0750 mm apart"), std::string::npos)
       << describe(some, "mm");
   some.tension = 0.5;
   EXPECT_FALSE(some.too_coarse());
-  EXPECT_NE(describe(some, "mm").find("acts over 0.5 mm"), std::string::npos);
+  EXPECT_NE(describe(some, "mm").find("acts over 0.500 mm"), std::string::npos);
 }
 
 Resolution of_scene(const Json& json) {
