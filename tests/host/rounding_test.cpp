@@ -63,7 +63,7 @@ TEST(Rounding, TiltedWave) {
       "master": {"nodes": [[2, 0.6], [-2, -0.6]], "direction": [0, -1]},
       "model": {"segment": "line2", "surface_coordinates": [[2], [-2]],
         "height": {"type": "sine", "amplitude": 0.005, "wave_vector": [2.5]},
-        "contact": {"normal": {"type": "penalty", "stiffness": 1e10}}}},
+        "contact": {"normal": {"type": "penalty", "stiffness": 4e9}}}},
     "steps": {"control": "force", "values": [0.2]}})");
   ends_with_rounding(json, "tilted wave");
 }
