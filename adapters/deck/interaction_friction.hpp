@@ -10,7 +10,7 @@ namespace ents_deck {
 /// @param is_tied    ccx's TIED, whose coefficient is irrelevant: it sticks
 /// @param remarks    what the user has to know is added, a sentence each
 /// @return "friction" of a model's "contact"; null: frictionless
-/// @throws Error with the line of a number that is none of friction's
+/// @throws Error with the line of a coefficient, decay or table that is missing or out of range
 nlohmann::ordered_json friction_law(const Mesh& mesh, const Statement& s, double stiffness, Program program,
                                     const Bodies& bodies, bool is_tied, std::vector<std::string>& remarks);
 
