@@ -36,7 +36,8 @@ template <class Basis, bool Enriched, class Scalar> struct GeneralInputs {
       return element_at(block.state_begin, block.state_begin_stride, first + k);
     };
     begin.known = begin.clearance = Scalar(0.0);
-    begin.time = block.time_increment;
+    // Without a time no force is asked for (`check_time` in abi), a gap at most.
+    begin.time = block.time_increment > 0.0 ? block.time_increment : 1.0;
     for (Scalar& x : begin.from) x = Scalar(0.0);
     for (Scalar& x : multiplier) x = Scalar(0.0);
     if (plan.state.clearance_at >= 0 && block.state_begin) {
