@@ -3,12 +3,13 @@
 """What distributed surfaces cost, without bodies: a slave surface slides over a wavy master, both cut into patches of processes. Positions are prescribed.
 scale.py has the bodies; there the mesh decides which process gets which part, here each gets an equal one.
 
-usage: scale_surfaces.py [-n N] [--margin M] [--slide EDGES] [--evaluations N] [--write FILE] [--compare FILE]
+usage: scale_surfaces.py [-n N] [--margin M] [--slide EDGES] [--depth EDGES] [--evaluations N] [--write FILE] [--compare FILE]
        mpirun -n P python3 -m mpi4py scale_surfaces.py ...
 
 -n             facets of the master along x and y; the slave's are 0.8 of that size and cover 0.5 x 0.6 of it. Default 100
 --margin       of ents.Contact, in edges of a facet; default: that of ents.Contact
 --slide        way of the slave surface in all, in edges; default 4
+--depth        how far the slave surface is pressed in, in edges; with 0.3 every point is in contact; default 0.03
 --evaluations  residuals and tangents in all; default 40
 --write        the forces as JSON; --compare: they have to be those of such a file, to 1e-10
 
@@ -25,6 +26,7 @@ def arguments():
     parser.add_argument("-n", type=int, default=100)
     parser.add_argument("--margin", type=float)
     parser.add_argument("--slide", type=float, default=4.0)
+    parser.add_argument("--depth", type=float, default=0.03)
     parser.add_argument("--evaluations", type=int, default=40)
     for name in ("--write", "--compare"):
         parser.add_argument(name, type=pathlib.Path)
@@ -81,7 +83,7 @@ def main(given):
     forces, wall, processor = [], 0.0, 0.0
     for step in range(given.evaluations):
         u = np.zeros((len(numbers), 3))
-        u[len(master.numbers):] = [given.slide * edge * (step + 1) / given.evaluations, 0, -0.03 * edge]
+        u[len(master.numbers):] = [given.slide * edge * (step + 1) / given.evaluations, 0, -given.depth * edge]
         begin = time.perf_counter(), time.process_time()
         (equations, values), _ = contact.update(u)
         contact.commit()
