@@ -36,6 +36,7 @@ WHY = {
     "punch1": "slave faces over edges of the master: ccx cuts them there",
     "punch2": "slave faces over edges of the master: ccx cuts them there",
     "thread": "slave faces that only partly lie on the master: ccx cuts them",
+    "cubef2f1": "tied: 18 triangles of the slave on 64 faces of the master, held at points; cubef2f2, the sides swapped, agrees",
     "beamcontact": "slave faces half beyond the edge of the master, where all of the pressure is: it acts where a face's points are",
     "bolt": "exponential law, far from d = 0: ccx's and Abaqus's are two laws",
 }

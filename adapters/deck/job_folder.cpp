@@ -64,6 +64,7 @@ std::vector<Path> write_job(const Job& job, const Options& options, const Path& 
   files.push_back({out / list_name, list, {}});
   std::error_code ignored;
   for (const Path& old : listed(out)) std::filesystem::remove(old, ignored);
+  const bool is_new = !std::filesystem::exists(out, ignored);
   std::vector<Path> written;
   try {
     for (const JobFile& file : files) {
@@ -72,6 +73,7 @@ std::vector<Path> write_job(const Job& job, const Options& options, const Path& 
     }
   } catch (...) {
     for (const Path& path : written) std::filesystem::remove(path, ignored);
+    if (is_new) std::filesystem::remove(out, ignored); // where it is empty
     throw;
   }
   written.pop_back();
