@@ -15,7 +15,7 @@ ElementBlock element_block_of(const ents_model& model, const ents_input& in, con
   ENTS_BLOCK_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.first = first;
-  b.time_increment = in.time_increment;
+  if (model.plan.law.varying.by_rate()) b.time_increment = in.time_increment; // an older struct has none
   b.wanted = block_results_of(model, out.wanted);
 #define ENTS_COPY(bit, public_name, name, field, type, size)                                                 \
   b.field = out.field, b.field##_stride = out.field##_stride;
@@ -60,6 +60,9 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
     return false;
   if (report && report->struct_size != static_cast<std::int32_t>(sizeof *report)) return false;
   const Plan& plan = model->plan;
+  if (plan.law.varying.by_rate() &&
+      (in->struct_size != static_cast<std::int32_t>(sizeof *in) || !is_time_increment(in->time_increment)))
+    return false;
   const std::int32_t wanted = out->wanted;
   if (wanted == 0 || block_results_of(*model, wanted) != wanted) return false;
   if (first < 0 || count < 1 || first > most || count > most) return false;

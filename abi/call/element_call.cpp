@@ -171,7 +171,7 @@ std::int32_t ElementCall::check_temperatures(ents_report* report) const {
     if (!a.array)
       return report_message(report, ENTS_NULL_ARGUMENT, -1,
                             "%s is null, but the model has \"heat\": give the temperatures", a.name);
-  if (plan->law.heat.has_friction && !(in->time_increment > 0.0 && in->time_increment < 1e100))
+  if (plan->law.heat.has_friction && !is_time_increment(in->time_increment))
     return report_message(report, ENTS_BAD_VALUE, -1,
                           "input.time_increment = %g; the heat of friction is a power: give the time of the "
                           "increment, > 0",
@@ -180,7 +180,7 @@ std::int32_t ElementCall::check_temperatures(ents_report* report) const {
 }
 
 std::int32_t ElementCall::check_time(ents_report* report) const {
-  if (plan->law.varying.by_rate() && !(in->time_increment > 0.0 && in->time_increment < 1e100))
+  if (plan->law.varying.by_rate() && !is_time_increment(in->time_increment))
     return report_message(
         report, ENTS_BAD_VALUE, -1,
         "input.time_increment = %g; the coefficient of friction depends on the slip rate: give "

@@ -8,6 +8,9 @@
 
 namespace ents {
 
+// Of heat and of friction that depends on the slip rate
+inline bool is_time_increment(double time) { return time > 0.0 && time < 1e100; }
+
 template <class T> T* at(T* data, std::int64_t stride, std::int64_t element) noexcept {
   return data ? data + stride * element : nullptr;
 }

@@ -43,7 +43,7 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
                              const double* co, const double* v, const double* vini, const int* mi,
                              const int* ielprop, const double* prop, double* fn, double* qa, int* nal,
                              const int* calcul_fn, const int* calcul_qa, const double* xstateini,
-                             double* xstate, const int* nstate_, std::size_t) {
+                             double* xstate, const int* nstate_, const double* dtime, std::size_t) {
   Element e = describe(*nelem, lakonl, prop + ielprop[*nelem - 1]);
   ccx::check_history("U1E", *nelem, *nstate_, xstateini, xstate);
   const int* nodes = kon + ipkon[*nelem - 1];
@@ -64,6 +64,7 @@ CCX_API void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon,
   e.position = {reference, 1, 3};
   e.displacement = {displacement, 1, 3};
   e.change = {change, 1, 3};
+  e.time_increment = *dtime > 0 ? *dtime : 1;
   e.history = {xstateini + at};
   e.history_size = *nstate_;
   e.residual = {residual, 1, 3};

@@ -162,10 +162,12 @@ bool lies_beside(const Arguments& arguments, int32_t flags, double gap, const do
 }
 
 /// The host's history as a state block; hosts begin with zeros.
-void begin_state(const Element& e, const LoadedModel& model, double* state) {
+/// @return false: the element has none yet
+bool begin_state(const Element& e, const LoadedModel& model, double* state) {
   bool any = false;
   for (int i = 0; i < model.layout.state_size; ++i) any = (state[i] = e.history(i)) != 0 || any;
   if (!any) ents_state_init(model.model, 1, state, model.layout.state_size, nullptr);
+  return any;
 }
 
 /// Projection on the segment without its height. A state in contact overrides it.
@@ -293,7 +295,7 @@ Result evaluate(const Element& e) {
   double state_begin[largest_state], state_end[largest_state];
   double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0, friction_energy = 0,
                                                                        dissipation = 0;
-  if (layout.state_size > 0) begin_state(e, model, state_begin);
+  const bool fresh = layout.state_size > 0 && !begin_state(e, model, state_begin);
   clear(e);
   Result result;
   result.message[0] = 0;
@@ -310,6 +312,7 @@ Result evaluate(const Element& e) {
 
   ents_report report{};
   report.struct_size = sizeof report;
+  if (fresh && model.bonds) find_begin(e, arguments, state_begin); // bonds of the undeformed bodies
   ents_input input = input_at(e, arguments, at, state_begin);
   double start[2];
   if (find_start(model, input, start)) input.start = start;

@@ -14,7 +14,7 @@ void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const c
                      const double* v, const double* vini, const int* mi, const int* ielprop,
                      const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
                      const int* calcul_qa, const double* xstateini, double* xstate, const int* nstate_,
-                     std::size_t);
+                     const double* dtime, std::size_t);
 void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
                          const double* co, const double* v, const double* vini, const int* mi,
                          const int* ielprop, const double* prop, double* fn, double* qa, int* nal,
@@ -83,7 +83,7 @@ Answer CalculixHost::evaluate(int element, const std::vector<double>& displaceme
   else
     ents_ccx_force_(&nelem, kon_.data(), ipkon_.data(), label, co_.data(), v.data(), vini.data(), mi_,
                     ielprop_.data(), prop_.data(), fn.data(), qa, &nal, &yes, &yes, before, after, &nstate_,
-                    8);
+                    &dtime, 8);
   ents_ccx_stiffness_(&nelem, label, s.data(), sm.data(), ff.data(), 8);
   Answer answer;
   if (qa[2] > 0 && qa[2] < 1) {

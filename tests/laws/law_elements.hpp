@@ -166,6 +166,7 @@ inline std::vector<Method> all_methods() {
 struct LawElements {
   mechanics::Elements at;
   std::vector<double> state, multiplier, slave_values, slave_temperature, master_temperature;
+  double time_increment = 0.1;
   ents_layout layout{};
 };
 
@@ -263,7 +264,7 @@ inline ents_input input_of(const LawElements& e, const std::vector<double>& star
     in.slave_temperature = e.slave_temperature.data(), in.slave_temperature_stride = 1;
     in.master_temperature = e.master_temperature.data(), in.master_temperature_stride = l.nodes;
   }
-  in.time_increment = 0.1;
+  in.time_increment = e.time_increment;
   if (!e.slave_values.empty()) in.slave_values = e.slave_values.data(), in.slave_values_stride = 3;
   return in;
 }

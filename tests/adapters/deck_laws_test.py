@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Laws that ccx's own contact does not have, on a deck in ccx: two cubes, against the exact forces.
+
+usage: deck_laws_test.py [--build DIR]
+
+The cubes have no lateral strain and are guided, so that all is uniform: springs in series when they are pulled apart or pressed; when the
+upper one slides, every node of it at the same speed. Prints a line per law: force, exact force. Exit status: 0 all within 0.1 %; 1 not;
+3 ccx is not here."""
+import argparse
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+from deck_run_test import force
+
+YOUNG, AREA, STIFFNESS = 1000.0, 0.64, 20000.0
+BODIES = 1 / (1 / YOUNG + 1 / (YOUNG * AREA))  # the stiffness of both [F/L]
+NORMAL = {"type": "penalty", "stiffness": STIFFNESS}
+PRESSED = {"normal": NORMAL, "friction": {"type": "coulomb", "coefficient": 0.4, "stiffness": 1e5}}
+DECK = """** two cubes
+*NODE, NSET=NALL
+{nodes}
+*ELEMENT, TYPE=C3D8, ELSET=LOWER
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=UPPER
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=LOW
+1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=HIGH
+11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=BOTTOM
+1, 2, 3, 4
+*NSET, NSET=TOP
+15, 16, 17, 18
+*SURFACE, NAME=SLAVE, TYPE=ELEMENT
+UPPER, S1
+*SURFACE, NAME=MASTER, TYPE=ELEMENT
+LOWER, S2
+*MATERIAL, NAME=STEEL
+*ELASTIC
+{young}, 0.
+*SOLID SECTION, ELSET=LOWER, MATERIAL=STEEL
+*SOLID SECTION, ELSET=UPPER, MATERIAL=STEEL
+*SURFACE INTERACTION, NAME=I1
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+{stiffness}
+*CONTACT PAIR, INTERACTION=I1, TYPE=SURFACE TO SURFACE
+SLAVE, MASTER
+*BOUNDARY
+BOTTOM, 3, 3
+LOW, 1, 2
+HIGH, 2, 2
+*STEP, INC=1000
+*STATIC, DIRECT
+{increment}, {time}
+*BOUNDARY
+TOP, 3, 3, {up}
+HIGH, 1, 1, {along}
+*NODE PRINT, NSET=LOW, TOTALS=ONLY
+RF
+*END STEP
+"""
+
+
+def deck(up, along=0.0, time=1.0):
+    low = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    nodes = [f"{i + 1}, {x}., {y}., {z}." for i, (x, y, z) in enumerate(low)]
+    nodes += [f"{i + 11}, {0.1 + 0.8 * x}, {0.1 + 0.8 * y}, {z + 1}." for i, (x, y, z) in enumerate(low)]
+    return DECK.format(nodes="\n".join(nodes), young=YOUNG, stiffness=STIFFNESS, increment=time / 20, time=time, up=up, along=along)
+
+
+def tied():
+    pulled = 1e-3
+    return {"normal": {"type": "tied", "stiffness": STIFFNESS, "range": 1e-6}}, deck(pulled), pulled / (1 / BODIES + 1 / (STIFFNESS * AREA))
+
+
+def cohesive():
+    """Behind its strength the traction falls in a line to 0 at the gap 2 energy / strength."""
+    strength, energy, pulled = 0.5, 5e-4, 1.4e-3
+    first, last = strength / STIFFNESS, 2 * energy / strength
+    slope = strength / (last - first)  # pulled = gap + t A / BODIES, t = slope (last - gap)
+    gap = (pulled - slope * last * AREA / BODIES) / (1 - slope * AREA / BODIES)
+    assert first < gap < last
+    return ({"normal": {"type": "cohesive", "stiffness": STIFFNESS, "strength": strength, "energy": energy, "range": 1e-6}}, deck(pulled),
+            AREA * slope * (last - gap))
+
+
+def sliding(friction, coefficient, speed):
+    """Pressed and moved at a speed: N and mu N."""
+    pressed, along = -1e-3, 0.05
+    normal = -pressed / (1 / BODIES + 1 / (STIFFNESS * AREA))
+    law = {"normal": NORMAL, "friction": {**PRESSED["friction"], **friction}}
+    return law, deck(pressed, along, along / speed), normal * math.hypot(1, coefficient(normal / AREA, speed))
+
+
+def decay(speed):
+    return sliding({"kinetic": 0.2, "decay": 3.0}, lambda pressure, v: 0.2 + 0.2 * math.exp(-3 * v), speed)
+
+
+def table():
+    """Bilinear in pressure and slip rate"""
+    values = {"pressures": [0, 1], "slip_rates": [0, 1], "coefficients": [[0.5, 0.3], [0.4, 0.1]]}
+
+    def coefficient(p, v):
+        return (1 - p) * (0.5 - 0.2 * v) + p * (0.4 - 0.3 * v)
+    return sliding({"coefficient": values}, coefficient, 0.25)
+
+
+LAWS = {"tied": tied, "cohesive": cohesive, "kinetic, slow": lambda: decay(0.1), "kinetic, fast": lambda: decay(0.5), "table": table}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    build = parser.parse_args().build.resolve()
+    ccx, ents_deck = build / "calculix/ccx_ents", build / "bin/ents-deck"
+    if not ccx.exists():
+        print(f"{ccx} is not here: sh adapters/calculix/run.sh --only-build")
+        return 3
+    wrong = 0
+    print("law                force        exact")
+    for name, of in LAWS.items():
+        contact, text, exact = of()
+        folder = build / "deck_laws" / name.replace(", ", "_")
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        (folder / "cubes.inp").write_text(text)
+        (folder / "model.json").write_text(json.dumps({"contact": contact}))
+        ran = subprocess.run([ents_deck, "run", "cubes.inp", "--model", "model.json", "--ccx", ccx, "--no-pictures"], cwd=folder, capture_output=True, text=True)
+        if ran.returncode != 0:
+            print(f"{name:14} {ran.stderr.strip()}{ran.stdout[-600:]}   WRONG")
+            wrong += 1
+            continue
+        ours = force(folder / "cubes_ents/cubes.dat")
+        right = abs(ours - exact) <= 1e-3 * exact
+        print(f"{name:14} {ours:10.6f}   {exact:10.6f}{'' if right else '   WRONG'}")
+        wrong += not right
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
