@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -23,11 +24,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view per_coordinate = "one per surface coordinate of the segment";
 constexpr std::size_t most_coefficients = 64; // per surface coordinate
 constexpr std::size_t most_parts = 1024;      // of a sum or product
-
-constexpr double pi = 3.14159265358979323846;
 
 std::vector<double> read_surface_vector(const json& value, const std::string& path, const char* key,
                                         const HeightSources& sources) {
@@ -151,7 +149,7 @@ ThreadProfile read_thread_profile(const json& value, const std::string& path) {
   p.pitch = read_double(value, path, "pitch", Range::positive);
   const std::string angles = member(path, "flank_angles");
   if (const json& flanks = value.at("flank_angles"); flanks.is_array() && flanks.size() == 2) {
-    constexpr double degree = pi / 180.0;
+    constexpr double degree = std::numbers::pi / 180.0;
     p.rising = degree * read_within(flanks[0], item(angles, 0), 0.1, 89.0, "degrees from 0.1 to 89");
     p.falling = degree * read_within(flanks[1], item(angles, 1), 0.1, 89.0, "degrees from 0.1 to 89");
   } else {
@@ -194,7 +192,8 @@ Height read_thread(const json& value, const std::string& path, const HeightSourc
            "is " + shown(starts) + "; write a whole number: others do not close round the axis");
     const bool left =
         value.contains("hand") && read_choice(value.at("hand"), member(path, "hand"), {"right", "left"}) == 1;
-    const double ridges_per_angle = starts / read_double_or(value, path, "turn", Range::positive, 2.0 * pi);
+    const double ridges_per_angle =
+        starts / read_double_or(value, path, "turn", Range::positive, 2.0 * std::numbers::pi);
     wave_vector.insert(wave_vector.begin(), left ? ridges_per_angle : -ridges_per_angle);
   }
   return Height::profile(thread_coefficients(profile), wave_vector, -offset);

@@ -48,6 +48,7 @@ double read_double_or(const nlohmann::json& object, const std::string& path, con
                       double otherwise);
 
 // Exactly `size` numbers; `meaning` says what they are ("one per surface coordinate").
+constexpr std::string_view per_coordinate = "one per surface coordinate of the segment";
 std::vector<double> read_vector(const nlohmann::json& value, const std::string& path, std::size_t size,
                                 Range range, std::string_view meaning);
 

@@ -21,7 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view per_coordinate = "one per surface coordinate of the segment";
 constexpr double largest_height = 1e100; // as Range::any
 
 void read_values(const json& value, const std::string& path, HeightMap& map) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -19,12 +20,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t most_waves = 1024;
 constexpr std::int64_t most_samples[2] = {std::int64_t{1} << 20,
                                           2048}; // of a profile, of a surface per coordinate
 constexpr double per_shortest = 8.0;             // samples, unless the text says how many
-constexpr std::string_view per_coordinate = "one per surface coordinate of the segment";
 
 std::vector<double> read_surface_vector(const json& value, const std::string& path, const char* key,
                                         const HeightSources& sources, Range range) {
@@ -124,7 +123,8 @@ Height read_fourier(const json& value, const std::string& path, const HeightSour
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     const std::vector<double> wave = read_vector(
         vectors[i], item(at, i), static_cast<std::size_t>(sources.dimension), Range::any, per_coordinate);
-    if (!is_shorter(wave, cut_off)) waves.push_back(Height::sine(amplitudes[i], wave, phases[i] + 0.5 * pi));
+    if (!is_shorter(wave, cut_off))
+      waves.push_back(Height::sine(amplitudes[i], wave, phases[i] + 0.5 * std::numbers::pi));
   }
   if (waves.empty()) fail_without_waves(path);
   return waves.size() == 1 ? std::move(waves[0]) : Height::sum(std::move(waves));
@@ -148,9 +148,9 @@ Height read_weierstrass(const json& value, const std::string& path, const Height
     std::vector<double> vector = first;
     for (double& k : vector) k *= factor;
     if (is_shorter(vector, cut_off)) break;
-    const double phase = random ? 2.0 * pi * random_phase(seed, i, 0) : 0.0;
+    const double phase = random ? 2.0 * std::numbers::pi * random_phase(seed, i, 0) : 0.0;
     waves.push_back(Height::sine(amplitude * portable::exponential(-hurst * portable::logarithm(factor)),
-                                 vector, phase + 0.5 * pi));
+                                 vector, phase + 0.5 * std::numbers::pi));
   }
   if (waves.empty()) fail_without_waves(path);
   return waves.size() == 1 ? std::move(waves[0]) : Height::sum(std::move(waves));

@@ -17,10 +17,9 @@ using ents_deck::Face;
 using ents_deck::face_normal;
 using ents_deck::length;
 using ents_deck::minus;
-using ents_deck::Point;
 using ents_deck::Shape;
 using std::string;
-using Coordinates = std::unordered_map<std::int64_t, Point>;
+using Coordinates = std::unordered_map<std::int64_t, ents_deck::Point>;
 
 Shape shape_of(const string& name) {
   for (const Shape shape : {Shape::line2, Shape::line3, Shape::tri3, Shape::tri6, Shape::quad4, Shape::quad8})
@@ -48,11 +47,11 @@ Shape face_of(std::size_t nodes, bool plane) {
 
 /// The undeformed master below a point.
 void find_under(const WatchedPair& pair, WatchedPoint& p) {
-  const Point x = place_of(pair.undeformed, p);
+  const ents_deck::Point x = place_of(pair.undeformed, p);
   const ents_deck::FacetTree::Closest under = pair.tree->closest(x, p.normal);
   if (under.face < 0) return;
-  const Point n = face_normal(pair.undeformed, pair.faces[static_cast<std::size_t>(under.face)]);
-  const Point away = minus(x, under.point);
+  const ents_deck::Point n = face_normal(pair.undeformed, pair.faces[static_cast<std::size_t>(under.face)]);
+  const ents_deck::Point away = minus(x, under.point);
   const double ahead = dot(away, n) / length(n);
   p.under = under.point;
   p.beside = p.element ? 0 : std::sqrt(std::max(dot(away, away) - ahead * ahead, 0.0));
@@ -94,7 +93,7 @@ WatchedPair read_pair(const nlohmann::json& json, const Coordinates& coordinates
     p.weights = point.at("weights").get<std::vector<double>>();
     if (p.weights.size() != p.face.nodes.size())
       throw std::runtime_error("a point has another number of \"weights\" than of \"nodes\"");
-    p.normal = point.at("normal").get<Point>();
+    p.normal = point.at("normal").get<ents_deck::Point>();
     p.masters = nodes_of(point.at("masters"), true);
     p.faces = point.at("faces").get<std::vector<int>>();
     for (const int face : p.faces)
@@ -112,8 +111,8 @@ WatchedPair read_pair(const nlohmann::json& json, const Coordinates& coordinates
 
 } // namespace
 
-Point place_of(const ents_deck::Mesh& mesh, const WatchedPoint& p) {
-  Point x{};
+ents_deck::Point place_of(const ents_deck::Mesh& mesh, const WatchedPoint& p) {
+  ents_deck::Point x{};
   for (std::size_t i = 0; i < p.weights.size(); ++i)
     for (std::size_t j = 0; j < 3; ++j)
       x[j] += p.weights[i] * mesh.nodes[static_cast<std::size_t>(p.face.nodes[i])].x[j];

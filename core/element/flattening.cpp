@@ -8,7 +8,7 @@ namespace ents {
 
 namespace {
 
-constexpr int most_dofs = 3 * 17, most_steps = 100, samples = 16;
+constexpr int residual_size = 3 * 17, most_steps = 100, samples = 16;
 
 class FlattenedElement {
 public:
@@ -107,7 +107,7 @@ private:
   Status write(const ElementOutput& out) {
     const int dofs = plan_.dofs;
     const bool coupled = pressure_ > 0.0 && known_ && (out.wanted & want::tangent) != 0;
-    double residual[most_dofs], gradient[most_dofs];
+    double residual[residual_size], gradient[residual_size];
     if (coupled) {
       if (const Status status = differentiate(residual); status != Status::ok) return status;
       ElementOutput to{};

@@ -15,6 +15,7 @@
 // fit for signal and image processing, IEEE Signal Processing Magazine 16 (1999) 22-38.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct HeightMap {
   double size[2] = {1.0, 1.0};
   MapBoundary boundary = MapBoundary::periodic;
 };
+
+inline std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); } // of a container
 
 // Solves (c_i-1 + 4 c_i + c_i+1) / 6 = f_i in place for `count` numbers that lie `stride` apart. Clamped: at
 // least 2, with c_1 = (8 f_1 - f_0 - f_2) / 6 and the same at the other end (not-a-knot).

@@ -15,8 +15,6 @@ namespace ents {
 
 namespace {
 
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 std::int32_t dimension_of(const std::vector<double>& vector) {
   if (vector.empty() || vector.size() > 2)
     throw std::invalid_argument("a height has 1 or 2 surface coordinates");

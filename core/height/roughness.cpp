@@ -11,18 +11,16 @@ namespace ents {
 
 namespace {
 
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Real and imaginary parts apart: GCC makes fused operations of complex products side by side, although it is
 // told not to, where the instruction set has them, and bits would depend on it.
-struct Waves {
+struct Complexes {
   std::vector<double> re, im;
-  explicit Waves(std::int64_t n) : re(index(n), 0.0), im(index(n), 0.0) {}
+  explicit Complexes(std::int64_t n) : re(index(n), 0.0), im(index(n), 0.0) {}
 };
 
 // exp(2 pi i k / n)
-Waves roots_of_one(std::int64_t n) {
-  Waves roots(n);
+Complexes roots_of_one(std::int64_t n) {
+  Complexes roots(n);
   for (std::int64_t k = 0; k < n; ++k)
     portable::sin_cos_turns(static_cast<double>(k) / static_cast<double>(n), 0.0, roots.im[index(k)],
                             roots.re[index(k)]);
@@ -31,7 +29,7 @@ Waves roots_of_one(std::int64_t n) {
 
 // sum_k a[k] exp(2 pi i k j / n) in place (Cooley and Tukey 1965), of the n numbers from `from` on that are
 // `apart`; n is a power of two.
-void transform(Waves& a, std::int64_t from, std::int64_t n, std::int64_t apart, const Waves& roots) {
+void transform(Complexes& a, std::int64_t from, std::int64_t n, std::int64_t apart, const Complexes& roots) {
   double *re = a.re.data() + from, *im = a.im.data() + from;
   for (std::int64_t i = 1, j = 0; i < n; ++i) { // j: i with its bits in reverse
     std::int64_t bit = n >> 1;
@@ -103,7 +101,7 @@ HeightMap rough_map(const Roughness& r) {
   if (!(total > 0.0)) return map;
 
   // c_k = sqrt(power / total) rms exp(2 pi i phase), c_-k its conjugate: sum |c_k|^2 = rms^2
-  Waves waves(n1 * n2);
+  Complexes waves(n1 * n2);
   for (std::int64_t j = -most_2; j <= most_2; ++j)
     for (std::int64_t i = -most_1; i <= most_1; ++i) {
       const bool upper =
@@ -117,7 +115,7 @@ HeightMap rough_map(const Roughness& r) {
       const std::size_t at = index(((j + n2) % n2) * n1 + (i + n1) % n1);
       waves.re[at] = amplitude * cosine, waves.im[at] = upper ? amplitude * sine : -amplitude * sine;
     }
-  const Waves roots_1 = roots_of_one(n1), roots_2 = roots_of_one(n2);
+  const Complexes roots_1 = roots_of_one(n1), roots_2 = roots_of_one(n2);
   for (std::int64_t j = 0; j < n2; ++j) transform(waves, j * n1, n1, 1, roots_1);
   for (std::int64_t i = 0; i < n1; ++i) transform(waves, i, n2, n1, roots_2);
   map.values = std::move(waves.re);

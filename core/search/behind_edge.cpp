@@ -26,12 +26,6 @@ double dot(const double* a, const double* b, int d) {
   return sum;
 }
 
-double distance(const double* a, const double* b, int d) {
-  double sum = 0.0;
-  for (int k = 0; k < d; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum);
-}
-
 bool evaluate(const Plan& plan, const SegmentNodes& nodes, const double* xi, Place& out) {
   out.xi[0] = xi[0], out.xi[1] = xi[1];
   const SurfacePoint to = {out.point, out.normal, nullptr, out.base_point, nullptr, nullptr, nullptr};

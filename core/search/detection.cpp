@@ -33,12 +33,6 @@ double least_rank(const Plan& plan, const double* slave, const double (&ray)[3],
   return least <= most + 1e-12 * (std::fabs(least) + std::fabs(most)) ? least : infinity;
 }
 
-double distance(const double* a, const double* b, int d) {
-  double sum = 0.0;
-  for (int k = 0; k < d; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
-  return std::sqrt(sum);
-}
-
 // The better of two projections on different segments; equal ones at the same place are one.
 void consider(int d, std::int64_t segment, const SegmentProjection& candidate, Detection& best) {
   const double tie = std::max(candidate.tie, best.segment < 0 ? 0.0 : best.at.tie);

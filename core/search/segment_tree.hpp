@@ -89,6 +89,12 @@ Status visit_segments(const BoxTree& t, const double* tree, Rank&& rank, Limit&&
   return whole ? Status::ok : Status::bad_state;
 }
 
+inline double distance(const double* a, const double* b, int d) {
+  double sum = 0.0;
+  for (int k = 0; k < d; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(sum);
+}
+
 // How far a box [low[d], high[d]] is from a point.
 inline double distance_to_box(int d, const double* point, const double* box) {
   double sum = 0.0;

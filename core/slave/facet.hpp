@@ -7,7 +7,14 @@
 #include "core/numbers/vec.hpp"
 #include "core/surface/basis.hpp"
 
-namespace ents::ENTS_ISA {
+namespace ents {
+
+// A point of a rule of quadrature over a facet
+struct QuadraturePoint {
+  double xi[2], weight;
+};
+
+namespace ENTS_ISA {
 
 // Shape functions at xi, and area per natural area there; in 2D times the thickness, or the full turn about
 // the second axis where that is 0.
@@ -72,4 +79,5 @@ template <class Result, class F> Result with_facet(Basis basis, Result otherwise
   }
 }
 
-} // namespace ents::ENTS_ISA
+} // namespace ENTS_ISA
+} // namespace ents

@@ -11,14 +11,10 @@ namespace ents {
 
 namespace {
 
-struct Point {
-  double xi[2], weight;
-};
-
 // Roots of the Legendre polynomial P_n by Newton's method from Chebyshev's, and Gauss's weights 2 / ((1 -
 // x^2) P_n'^2).
-std::vector<Point> gauss_legendre(int n) {
-  std::vector<Point> points;
+std::vector<QuadraturePoint> gauss_legendre(int n) {
+  std::vector<QuadraturePoint> points;
   for (int i = 0; i < n; ++i) {
     double x = -std::cos(3.141592653589793 * (i + 0.75) / (n + 0.5)), slope = 1.0;
     for (int iteration = 0; iteration < 8; ++iteration) {
@@ -36,9 +32,9 @@ std::vector<Point> gauss_legendre(int n) {
   return points;
 }
 
-template <class B> std::vector<Point> rule(int n) {
+template <class B> std::vector<QuadraturePoint> rule(int n) {
   if constexpr (B::simplex) {
-    std::vector<Point> points;
+    std::vector<QuadraturePoint> points;
     const double part = 1.0 / n;
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n - j; ++i) {
@@ -49,15 +45,15 @@ template <class B> std::vector<Point> rule(int n) {
     // Centroids of parts lack the second moments of the parts, 1 / n^2 of the triangle's. Away from the
     // middle by this factor the points have all of them: the rule is exact for quadratic shape functions.
     if (B::nodes > 3 && n > 1)
-      for (Point& point : points)
+      for (QuadraturePoint& point : points)
         for (double& xi : point.xi) xi = 1.0 / 3.0 + n / std::sqrt(n * n - 1.0) * (xi - 1.0 / 3.0);
     return points;
   } else {
-    const std::vector<Point> line = gauss_legendre(n);
+    const std::vector<QuadraturePoint> line = gauss_legendre(n);
     if constexpr (B::dim == 2) return line;
-    std::vector<Point> points;
-    for (const Point& q : line)
-      for (const Point& p : line) points.push_back({{p.xi[0], q.xi[0]}, p.weight * q.weight});
+    std::vector<QuadraturePoint> points;
+    for (const QuadraturePoint& q : line)
+      for (const QuadraturePoint& p : line) points.push_back({{p.xi[0], q.xi[0]}, p.weight * q.weight});
     return points;
   }
 }
@@ -77,7 +73,7 @@ template <class B> auto shape_at_centroid(const std::int64_t* nodes, const doubl
 template <class B> struct Sample { double N[B::nodes], area; };
 
 template <class B>
-Sample<B> sample_at(const Point& point, const std::int64_t* nodes, const double* positions,
+Sample<B> sample_at(const QuadraturePoint& point, const std::int64_t* nodes, const double* positions,
                     double thickness) {
   using namespace ENTS_ISA;
   constexpr int T = B::dim - 1;
@@ -92,7 +88,7 @@ Sample<B> sample_at(const Point& point, const std::int64_t* nodes, const double*
 
 // Of the triangle that a quadrilateral with a collapsed side is; its corner there is both nodes, half and
 // half.
-Sample<ENTS_ISA::Quad4> sample_triangle(const Point& point, int side, const std::int64_t* nodes,
+Sample<ENTS_ISA::Quad4> sample_triangle(const QuadraturePoint& point, int side, const std::int64_t* nodes,
                                         const double* positions) {
   const int corner[3] = {side, (side + 2) % 4, (side + 3) % 4};
   const std::int64_t of_triangle[3] = {nodes[corner[0]], nodes[corner[1]], nodes[corner[2]]};
@@ -109,7 +105,8 @@ Status sample(int n, std::int64_t count, const std::int64_t* connectivity, const
               double thickness, std::int64_t* nodes, double* weights, double* areas, std::int64_t& facet) {
   constexpr int M = B::nodes;
   constexpr bool may_collapse = std::is_same_v<B, ENTS_ISA::Quad4>;
-  const std::vector<Point> points = rule<B>(n), of_triangle = rule<ENTS_ISA::Tri3>(may_collapse ? n : 1);
+  const std::vector<QuadraturePoint> points = rule<B>(n),
+                                     of_triangle = rule<ENTS_ISA::Tri3>(may_collapse ? n : 1);
   for (const bool writes : {false, true}) // nothing, unless all facets are good
     for (facet = 0; facet < count; ++facet) {
       const std::int64_t* own = connectivity + facet * M;

@@ -9,16 +9,12 @@ namespace ents {
 
 namespace {
 
-struct Point {
-  double xi[2], weight;
-};
-
 // 3 Gauss points per direction; 7 points of degree 5 on triangles (Radon 1948).
 constexpr double gauss = 0.774596669241483377;
 constexpr double gauss_points[3] = {-gauss, 0.0, gauss};
 constexpr double gauss_weights[3] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 
-template <class B> int quadrature(Point (&points)[9]) {
+template <class B> int quadrature(QuadraturePoint (&points)[9]) {
   int n = 0;
   if constexpr (B::dim == 2) {
     for (int i = 0; i < 3; ++i) points[n++] = {{gauss_points[i], 0.0}, gauss_weights[i]};
@@ -43,7 +39,7 @@ template <class B>
 bool add_facet(const std::int64_t* nodes, const double* positions, double thickness, double* areas) {
   using namespace ENTS_ISA;
   constexpr int D = B::dim, T = D - 1, M = B::nodes;
-  Point points[9];
+  QuadraturePoint points[9];
   const int n = quadrature<B>(points);
   double area = 0.0, share[M] = {}, square[M] = {}, squares = 0.0;
   for (int q = 0; q < n; ++q) {
