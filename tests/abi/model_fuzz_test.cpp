@@ -14,6 +14,7 @@
 
 #include "abi/read/surface_file.hpp"
 #include "model_errors.hpp"
+#include "sample_count.hpp"
 
 namespace model_fuzz_test {
 namespace {
@@ -118,7 +119,7 @@ TEST(ModelFuzz, DamagedTextsEndInAStatus) {
                                            ENTS_FILE};
   std::set<std::int32_t> seen;
   Generator generator(1);
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < (test::sample_divisor > 1 ? 10000 : 100000); ++i) {
     const std::string text = damaged(seeds[below(generator, seeds.size())], generator, seeds);
     const ents::testing::Verdict got = ents::testing::verdict(text, "no such directory", data);
     seen.insert(got.status);
