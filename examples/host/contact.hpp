@@ -8,7 +8,7 @@
 #include <ents.hpp>
 
 #include "mesh.hpp"
-#include "output/vtu.hpp"
+#include "vtu.hpp"
 #include "scene.hpp"
 #include "sparse_system.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "check.hpp"
 #include "error.hpp"
-#include "output/text_file.hpp"
 #include "result.hpp"
 
 namespace {
@@ -42,7 +41,7 @@ int run(const Options& options) {
     failure = error.what();
   }
   const std::string result = result_json(equations, steps, failure).dump(2) + "\n";
-  if (!options.out.empty()) write_text(std::filesystem::path(options.out) / "result.json", result);
+  if (!options.out.empty()) save_text(std::filesystem::path(options.out) / "result.json", result);
   if (options.json) std::printf("%s", result.c_str());
   if (!options.json && !options.out.empty()) say(options.out + ": result.json, and result.pvd for ParaView");
   if (!failure.empty()) throw JobError(failure);

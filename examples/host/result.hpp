@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "newton.hpp"
-#include "output/vtu.hpp"
+#include "vtu.hpp"
 
 namespace host {
 

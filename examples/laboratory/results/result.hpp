@@ -11,7 +11,7 @@
 #include "compare.hpp"
 #include "json_reader.hpp"
 #include "output/table.hpp"
-#include "output/vtu.hpp"
+#include "vtu.hpp"
 #include "run.hpp"
 
 namespace host {

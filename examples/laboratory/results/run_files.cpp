@@ -7,6 +7,7 @@
 #include "output/text_file.hpp"
 #include "restart.hpp"
 #include "result.hpp"
+#include "series.hpp"
 
 namespace host {
 namespace {
@@ -29,7 +30,7 @@ void keep_as(const fs::path& file, const fs::path& kept) {
 RunFiles::RunFiles(fs::path folder, const fs::path& restart, int first)
     : folder_(std::move(folder)), lock_(folder_) {
   if (folder_.empty()) return;
-  series_ = std::make_unique<vtu::Series>(folder_, "result");
+  series_ = std::make_unique<vtu::Series>(folder_, "result", write_text);
   std::error_code error;
   const fs::path of_checkpoint = restart.has_parent_path() ? restart.parent_path() : ".";
   if (restart.empty() || !fs::equivalent(of_checkpoint, folder_, error)) {
@@ -55,8 +56,8 @@ void RunFiles::remove_older_run() {
 }
 
 void RunFiles::resume(int first) {
-  series_->resume(first);
-  const std::vector<int> listed = series_->whole_steps();
+  host::resume(*series_, first);
+  const std::vector<int> listed = whole_steps(*series_);
   while (std::find(listed.begin(), listed.end(), whole_ + 1) != listed.end()) ++whole_;
   if (whole_ < first - 1)
     std::fprintf(

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What pictures.py and chart.py draw: ranges, orders, colours, notes that do not meet, numbers inside the page.
 
-    python3 tests/host/output/pictures_test.py EXAMPLES_HOST
+    python3 tests/host/output/pictures_test.py EXAMPLES_LABORATORY
 
 Exit status 3: there is no matplotlib."""
 import math
@@ -10,8 +10,8 @@ import pathlib
 import sys
 import unittest
 
-HOST = pathlib.Path(sys.argv.pop(1))
-sys.path[:0] = [str(HOST / "output"), str(HOST.parent / "laboratory" / "chart")]
+LABORATORY = pathlib.Path(sys.argv.pop(1))
+sys.path[:0] = [str(LABORATORY / "output"), str(LABORATORY / "chart")]
 sys.dont_write_bytecode = True
 import pictures  # noqa: E402
 import chart  # noqa: E402

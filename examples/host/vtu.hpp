@@ -6,9 +6,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace host {
+
+/// Write a file whole: the text goes to FILE.new, which then takes its name. Who reads FILE meanwhile sees the old one.
+/// @throws std::runtime_error naming the file that cannot be written, and why
+void save_text(const std::filesystem::path& file, const std::string& text);
+
+} // namespace host
 
 namespace host::vtu {
 
@@ -31,7 +40,7 @@ struct Cells {
   std::vector<std::int64_t> connectivity; ///< [cells][nodes_per_cell], 0-based into Grid::points
 };
 
-/// One named value per point or per cell.
+/// One named value per point.
 /// components: 1 scalar; 2 or 3 vector; 4 plane tensor xx yy zz xy; 6 tensor xx yy zz xy yz xz (VTK's order).
 /// 2 and 4 are padded with zeros to 3 and 6, so that ParaView treats plane and space results alike.
 struct Array {
@@ -43,9 +52,8 @@ struct Array {
 struct Grid {
   int dimension = 3;          ///< 2 or 3; plane points get z = 0
   std::vector<double> points; ///< [n][dimension], length
-  std::vector<Cells> cells;   ///< cell data run through these blocks in order
+  std::vector<Cells> cells;
   std::vector<Array> point_data;
-  std::vector<Array> cell_data;
 };
 
 /// The slave nodes as a cloud: one vertex per point.
@@ -60,42 +68,37 @@ Grid sampled_surface(int dimension, int n1, int n2, std::vector<double> points);
 /// @throws std::invalid_argument naming the array whose size does not fit, or a bad node number
 std::string to_xml(const Grid& grid);
 
-/// @throws std::runtime_error naming the file that cannot be written; std::invalid_argument as to_xml
-void write(const std::filesystem::path& file, const Grid& grid);
-
 /// A series over load steps: DIR/NAME.pvd refers to DIR/NAME_PART_0003.vtu.
 class Series {
 public:
-  Series(std::filesystem::path directory, std::string name);
-
-  /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
-  void add(int step, double time, std::string_view part, const Grid& grid);
-
-  /// Replace the .pvd file by one that lists what was added up to now: after every step, so that a run that
-  /// was stopped can be looked at and gone on with.
-  void write_list() const;
-
-  /// A run that goes on: what the .pvd file there is says of earlier steps stays in it.
-  void resume(int first_step);
-
-  /// Steps of which the .pvd file lists as many parts as of any, ascending.
-  std::vector<int> whole_steps() const;
-
-  /// The .pvd file, for the message to the user.
-  std::filesystem::path file() const;
-
-private:
+  using Save = std::function<void(const std::filesystem::path& file, const std::string& text)>;
+  /// One part of one step.
   struct Entry {
     int step;
     double time;
     std::string part, file;
   };
-  void list(Entry entry);
 
+  /// @param save  how its files are written
+  Series(std::filesystem::path directory, std::string name, Save save = save_text);
+
+  /// Write one part ("bulk", "slave", "surface") of one step. `time`: load factor or time of the step.
+  /// @throws as `save` and to_xml
+  void add(int step, double time, std::string_view part, const Grid& grid);
+
+  /// Replace the .pvd file by one that lists what was added up to now: after every step, so that a run that
+  /// was stopped can be looked at.
+  void write_list() const;
+
+  /// The .pvd file, for the message to the user.
+  std::filesystem::path file() const;
+
+  std::vector<Entry> entries; ///< what the .pvd file lists
+
+private:
   std::filesystem::path directory_;
   std::string name_;
-  std::vector<std::string> parts_; ///< in order of first appearance: the block number in ParaView
-  std::vector<Entry> entries_;
+  Save save_;
 };
 
 } // namespace host::vtu

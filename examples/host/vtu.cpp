@@ -4,14 +4,25 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <fstream>
-#include <map>
 #include <span>
 #include <stdexcept>
 
-#include "text_file.hpp"
+namespace host {
+
+void save_text(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path beside = file.string() + ".new";
+  std::ofstream stream(beside, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+  std::filesystem::rename(beside, file);
+}
+
+} // namespace host
 
 namespace host::vtu {
 namespace {
@@ -84,8 +95,8 @@ std::vector<double> padded(const std::vector<double>& values, std::size_t from, 
   return out;
 }
 
-void attributes(std::string& xml, std::string_view tag, const std::vector<Array>& arrays, std::size_t n) {
-  xml.append("<").append(tag) += ">\n";
+void attributes(std::string& xml, const std::vector<Array>& arrays, std::size_t n) {
+  xml += "<PointData>\n";
   for (const Array& array : arrays) {
     const int from = array.components, to = from == 2 ? 3 : from == 4 ? 6 : from;
     if (from < 1) throw std::invalid_argument("array '" + array.name + "': components must be at least 1");
@@ -96,7 +107,7 @@ void attributes(std::string& xml, std::string_view tag, const std::vector<Array>
     data_array(xml, array.name, to,
                padded(array.values, static_cast<std::size_t>(from), static_cast<std::size_t>(to)));
   }
-  xml.append("</").append(tag) += ">\n";
+  xml += "</PointData>\n";
 }
 
 /// The three arrays of VTK's cell list, all blocks one after the other.
@@ -179,8 +190,7 @@ std::string to_xml(const Grid& grid) {
   xml += std::string(byte_order) + "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
   xml += "<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
          std::to_string(cells.types.size()) + "\">\n";
-  attributes(xml, "PointData", grid.point_data, points);
-  attributes(xml, "CellData", grid.cell_data, cells.types.size());
+  attributes(xml, grid.point_data, points);
   xml += "<Points>\n";
   data_array(xml, "Points", 3, padded(grid.points, dimension, 3));
   xml += "</Points>\n<Cells>\n";
@@ -191,44 +201,8 @@ std::string to_xml(const Grid& grid) {
   return xml;
 }
 
-void write(const std::filesystem::path& file, const Grid& grid) { write_text(file, to_xml(grid)); }
-
-Series::Series(std::filesystem::path directory, std::string name)
-    : directory_(std::move(directory)), name_(std::move(name)) {}
-
-void Series::list(Entry entry) {
-  if (std::find(parts_.begin(), parts_.end(), entry.part) == parts_.end()) parts_.push_back(entry.part);
-  entries_.push_back(std::move(entry));
-}
-
-void Series::resume(int first_step) {
-  std::ifstream stream(file());
-  for (std::string line; std::getline(stream, line);) { // our own file: one DataSet a line, nothing escaped
-    const auto value = [&](const std::string& key) {
-      const auto begin = line.find(key + "=\"");
-      if (begin == line.npos) return std::string{};
-      const auto first = begin + key.size() + 2;
-      return line.substr(first, line.find('"', first) - first);
-    };
-    const std::string vtu = value("file"), time = value("timestep");
-    int step = first_step;
-    const auto digits = vtu.rfind('_') + 1;
-    std::from_chars(vtu.data() + digits, vtu.data() + vtu.size(), step);
-    if (step >= first_step) continue;
-    Entry entry{step, 0, value("name"), vtu};
-    std::from_chars(time.data(), time.data() + time.size(), entry.time);
-    list(std::move(entry));
-  }
-}
-
-std::vector<int> Series::whole_steps() const {
-  std::map<int, std::size_t> parts;
-  for (const Entry& entry : entries_) ++parts[entry.step];
-  std::vector<int> steps;
-  for (const auto& [step, count] : parts)
-    if (count == parts_.size()) steps.push_back(step);
-  return steps;
-}
+Series::Series(std::filesystem::path directory, std::string name, Save save)
+    : directory_(std::move(directory)), name_(std::move(name)), save_(std::move(save)) {}
 
 std::filesystem::path Series::file() const { return directory_ / (name_ + ".pvd"); }
 
@@ -236,8 +210,8 @@ void Series::add(int step, double time, std::string_view part, const Grid& grid)
   std::string digits = std::to_string(step);
   digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
   const std::string vtu = name_ + "_" + std::string(part) + "_" + digits + ".vtu";
-  write(directory_ / vtu, grid);
-  list({step, time, std::string(part), vtu});
+  save_(directory_ / vtu, to_xml(grid));
+  entries.push_back({step, time, std::string(part), vtu});
 }
 
 void Series::write_list() const {
@@ -245,12 +219,14 @@ void Series::write_list() const {
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
       "byte_order=\"" +
       std::string(byte_order) + "\">\n<Collection>\n";
-  for (const Entry& entry : entries_) {
-    const auto number_of_part = std::find(parts_.begin(), parts_.end(), entry.part) - parts_.begin();
+  std::vector<std::string> parts; // in order of first appearance: the block number in ParaView
+  for (const Entry& entry : entries) {
+    const auto number_of_part = std::find(parts.begin(), parts.end(), entry.part) - parts.begin();
+    if (number_of_part == std::ssize(parts)) parts.push_back(entry.part);
     xml += "<DataSet timestep=\"" + number(entry.time) + "\" part=\"" + std::to_string(number_of_part) +
            "\" name=\"" + attribute(entry.part) + "\" file=\"" + attribute(entry.file) + "\"/>\n";
   }
-  write_text(file(), xml + "</Collection>\n</VTKFile>\n");
+  save_(file(), xml + "</Collection>\n</VTKFile>\n");
 }
 
 } // namespace host::vtu
