@@ -10,14 +10,6 @@
 namespace host {
 namespace {
 
-const std::vector<Face>& faces_of(const Mesh& mesh, const std::string& name, const std::string& where) {
-  const auto found = mesh.face_sets.find(name);
-  if (found != mesh.face_sets.end() && !found->second.empty()) return found->second;
-  std::string names;
-  for (const auto& [key, faces] : mesh.face_sets) names += (names.empty() ? "" : ", ") + key;
-  throw InputError(where + ": no faces \"" + name + "\"; there are: " + names);
-}
-
 /// Nodes of the largest face: among quadrilaterals a triangle has its last node twice.
 std::size_t corners(const std::vector<Face>& faces) {
   int most = 0;
@@ -101,7 +93,7 @@ Contact::Contact(const Scene& scene, const Mesh& mesh)
 /// Slave points and their areas: the nodes with ents_tributary_areas, or ents_sampling_points.
 void Contact::read_slaves(const Scene& scene, const Mesh& mesh) {
   const ContactInput& contact = *scene.contact;
-  const std::vector<Face>& faces = faces_of(mesh, contact.slave, contact.slave_where);
+  const std::vector<Face>& faces = named(mesh.face_sets, contact.slave, contact.slave_where, "faces");
   const std::size_t count = corners(faces);
   const std::vector<std::int64_t> connectivity = connectivity_of(faces, count);
   slave_nodes_ = nodes_of(faces);
@@ -146,7 +138,7 @@ void Contact::read_master(const Scene& scene, const Mesh& mesh) {
     std::iota(connectivity_.begin(), connectivity_.end(), std::int64_t{0});
     return;
   }
-  const std::vector<Face>& faces = faces_of(mesh, contact.master, contact.master_where);
+  const std::vector<Face>& faces = named(mesh.face_sets, contact.master, contact.master_where, "faces");
   smoothed_ = is_smoothed(contact.model.value("segment", ""));
   if (smoothed_) {
     smooth(scene, faces);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The body of an Abaqus or CalculiX deck, which ents-deck's reader reads.
-#include "mesh.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "deck/faces.hpp"
-#include "error.hpp"
+#include "keys.hpp"
 
 namespace host {
 namespace {
@@ -163,6 +161,15 @@ void add_deck(Mesh& mesh, const std::string& name, const std::filesystem::path& 
     add_body(mesh, name, ents_deck::read_mesh(ents_deck::read_source(file)), element_set, part);
   } catch (const ents_deck::Error& error) {
     throw InputError(error.what());
+  }
+}
+
+void add_part(Mesh& mesh, const Part& part, int index) {
+  if (!part.lines.empty()) return add_block(mesh, part.name, part.type, part.lines, index);
+  try {
+    add_deck(mesh, part.name, part.deck, part.element_set, index);
+  } catch (const InputError& error) { // names the deck, and not who asked for it
+    throw InputError(part.deck_where + ": " + error.what());
   }
 }
 

@@ -33,33 +33,18 @@ void Equations::build_mesh() {
   std::vector<ElementSetup> setups;
   for (const Part& part : scene_->parts) {
     const int index = static_cast<int>(setups.size());
-    if (!part.lines.empty())
-      add_block(mesh_, part.name, part.type, part.lines, index);
-    else
-      try {
-        add_deck(mesh_, part.name, part.deck, part.element_set, index);
-      } catch (const InputError& error) { // names the deck, and not who asked for it
-        throw InputError(part.deck_where + ": " + error.what());
-      }
+    add_part(mesh_, part, index);
     setups.push_back(part.setup);
   }
   bulk_ = std::make_unique<Bulk>(mesh_, setups);
   if (scene_->heat) heat_ = std::make_unique<Heat>(mesh_, setups);
 }
 
-const std::vector<int>& Equations::nodes_of_set(const std::string& name, const std::string& where) const {
-  const auto found = mesh_.node_sets.find(name);
-  if (found != mesh_.node_sets.end() && !found->second.empty()) return found->second;
-  std::string names;
-  for (const auto& [key, nodes] : mesh_.node_sets) names += (names.empty() ? "" : ", ") + key;
-  throw InputError(where + "/nodes: no nodes \"" + name + "\"; there are: " + names);
-}
-
 void Equations::hold_and_load() {
   const auto d = static_cast<std::size_t>(mesh_.dimension);
   dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension, scene_->heat);
   for (const Support& support : scene_->supports)
-    for (const int node : nodes_of_set(support.nodes, support.where)) {
+    for (const int node : named(mesh_.node_sets, support.nodes, support.where + "/nodes", "nodes")) {
       if (support.temperature) {
         dofs_->prescribe_scalar(node);
         prescribed_.push_back(
@@ -77,10 +62,9 @@ void Equations::hold_and_load() {
     throw InputError(scene_->file.string() + ": /supports: nothing holds the bodies; give supports");
   const ElementSetup& setup = scene_->parts.front().setup;
   for (const Traction& traction : scene_->tractions) {
-    const auto faces = mesh_.face_sets.find(traction.faces);
-    if (faces == mesh_.face_sets.end())
-      throw InputError(traction.where + "/faces: no faces \"" + traction.faces + "\" in the mesh");
-    const std::vector<double> areas = node_areas(mesh_, faces->second, setup, traction.where + "/faces");
+    const std::string where = traction.where + "/faces";
+    const std::vector<double> areas =
+        node_areas(mesh_, named(mesh_.face_sets, traction.faces, where, "faces"), setup, where);
     Load& load =
         loads_.emplace_back(Load{std::vector<double>(mesh_.coordinates.size(), 0.0), &traction.path});
     for (std::size_t dof = 0; dof < load.force.size(); ++dof)

@@ -57,7 +57,6 @@ public:
 private:
   void build_mesh();
   void hold_and_load();
-  const std::vector<int>& nodes_of_set(const std::string& name, const std::string& where) const;
 
   const Scene* scene_;
   Mesh mesh_;

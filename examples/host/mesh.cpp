@@ -1,14 +1,119 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Structured blocks with graded grid lines, and faces.
 #include "mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
-#include <Eigen/Geometry>
-
 namespace host {
+namespace {
+
+/// Faces of the elements whose nodes all lie on one side.
+std::vector<Face> faces_on(const ElementGroup& group, const std::vector<char>& on_side) {
+  std::vector<Face> result;
+  const LocalFaces local = faces(group.type);
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const auto nodes = group.element(e);
+    for (int f = 0; f < local.count; ++f) {
+      Face face;
+      face.count = local.nodes_per_face;
+      bool inside = true;
+      for (int a = 0; a < face.count; ++a) {
+        const int local_node = local.nodes[static_cast<std::size_t>(f)][static_cast<std::size_t>(a)];
+        const int node = nodes[static_cast<std::size_t>(local_node)];
+        face.nodes[static_cast<std::size_t>(a)] = node;
+        inside = inside && on_side[static_cast<std::size_t>(node)] != 0;
+      }
+      if (inside) result.push_back(face);
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+void append_graded(GridLines& lines, double to, int divisions, double growth) {
+  const double from = lines.back();
+  // Cell sizes form a geometric progression whose sum is to - from.
+  double sum = 0, size = 1;
+  for (int i = 0; i < divisions; ++i, size *= growth) sum += size;
+  double position = 0;
+  size = 1;
+  for (int i = 0; i + 1 < divisions; ++i, size *= growth) {
+    position += size;
+    lines.push_back(from + (to - from) * (position / sum));
+  }
+  lines.push_back(to);
+}
+
+void add_block(Mesh& mesh, const std::string& name, ElementType type, const std::vector<GridLines>& lines,
+               int part) {
+  const auto d = static_cast<std::size_t>(mesh.dimension);
+  std::array<int, 3> points{1, 1, 1};
+  for (std::size_t i = 0; i < d; ++i) points[i] = static_cast<int>(lines[i].size());
+  const int first = mesh.node_count();
+  const auto index = [&](int i, int j, int k) { return first + i + points[0] * (j + points[1] * k); };
+
+  std::vector<int> all;
+  std::array<std::vector<int>, 6> sides;
+  for (int k = 0; k < points[2]; ++k)
+    for (int j = 0; j < points[1]; ++j)
+      for (int i = 0; i < points[0]; ++i) {
+        const std::array<int, 3> position{i, j, k};
+        for (std::size_t a = 0; a < d; ++a) {
+          mesh.coordinates.push_back(lines[a][static_cast<std::size_t>(position[a])]);
+          if (position[a] == 0) sides[2 * a].push_back(index(i, j, k));
+          if (position[a] == points[a] - 1) sides[2 * a + 1].push_back(index(i, j, k));
+        }
+        all.push_back(index(i, j, k));
+      }
+
+  ElementGroup group;
+  group.type = type;
+  group.part = part;
+  const auto add = [&](std::initializer_list<int> nodes) {
+    group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
+  };
+  for (int k = 0; k < std::max(1, points[2] - 1); ++k)
+    for (int j = 0; j + 1 < points[1]; ++j)
+      for (int i = 0; i + 1 < points[0]; ++i) {
+        const std::array<int, 8> c{
+            index(i, j, k),     index(i + 1, j, k),     index(i + 1, j + 1, k),     index(i, j + 1, k),
+            index(i, j, k + 1), index(i + 1, j, k + 1), index(i + 1, j + 1, k + 1), index(i, j + 1, k + 1)};
+        switch (type) {
+        case ElementType::quad4:
+          add({c[0], c[1], c[2], c[3]});
+          break;
+        case ElementType::tri3:
+          add({c[0], c[1], c[2]});
+          add({c[0], c[2], c[3]});
+          break;
+        case ElementType::hex8:
+          add({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
+          break;
+        case ElementType::tet4: // Kuhn's six tetrahedra round the diagonal 0-6
+          add({c[0], c[1], c[2], c[6]});
+          add({c[0], c[2], c[3], c[6]});
+          add({c[0], c[3], c[7], c[6]});
+          add({c[0], c[7], c[4], c[6]});
+          add({c[0], c[4], c[5], c[6]});
+          add({c[0], c[5], c[1], c[6]});
+          break;
+        }
+      }
+
+  static constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min",
+                                                         "y_max", "z_min", "z_max"};
+  std::vector<char> on_side(static_cast<std::size_t>(mesh.node_count()));
+  for (std::size_t s = 0; s < 2 * d; ++s) {
+    std::fill(on_side.begin(), on_side.end(), char{0});
+    for (const int node : sides[s]) on_side[static_cast<std::size_t>(node)] = 1;
+    mesh.face_sets[name + "." + side_names[s]] = faces_on(group, on_side);
+    mesh.node_sets[name + "." + side_names[s]] = std::move(sides[s]);
+  }
+  mesh.node_sets[name] = std::move(all);
+  mesh.groups.push_back(std::move(group));
+}
 
 std::vector<int> nodes_of(const std::vector<Face>& faces) {
   std::set<int> nodes;
@@ -22,47 +127,6 @@ std::vector<std::int64_t> connectivity_of(const std::vector<Face>& faces, std::s
     for (int a = 0; a < static_cast<int>(count); ++a)
       out.push_back(face.nodes[static_cast<std::size_t>(std::min(a, face.count - 1))]);
   return out;
-}
-
-std::vector<double> tributary_areas(const Mesh& mesh, const std::vector<Face>& faces,
-                                    const std::vector<int>& nodes, double thickness, bool axisymmetric) {
-  std::map<int, std::size_t> position;
-  for (std::size_t i = 0; i < nodes.size(); ++i) position[nodes[i]] = i;
-  std::vector<double> areas(nodes.size(), 0.0);
-  const auto add = [&](int node, double area) { areas[position.at(node)] += area; };
-  const double g = 1 / std::sqrt(3.);
-  for (const Face& face : faces) {
-    std::array<Eigen::Vector3d, 4> x;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(face.count); ++a) {
-      const auto place = mesh.node(face.nodes[a]);
-      x[a] = {place[0], place[1], mesh.dimension == 3 ? place[2] : 0};
-    }
-    if (face.count == 2) {
-      const double length = (x[1] - x[0]).norm();
-      for (const double xi : {-g, g}) { // two points: exact for N r, a quadratic
-        const double radius = 0.5 * ((1 - xi) * x[0][0] + (1 + xi) * x[1][0]);
-        const double weight = 0.5 * length * (axisymmetric ? 2 * std::numbers::pi * radius : thickness);
-        add(face.nodes[0], weight * 0.5 * (1 - xi));
-        add(face.nodes[1], weight * 0.5 * (1 + xi));
-      }
-    } else if (face.count == 3) {
-      const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-      for (std::size_t a = 0; a < 3; ++a) add(face.nodes[a], area / 3);
-    } else {
-      for (const double xi : {-g, g})
-        for (const double eta : {-g, g}) {
-          const auto point = detail::multilinear<4, 2>({xi, eta, 0}, 1);
-          Eigen::Vector3d first = Eigen::Vector3d::Zero(), second = Eigen::Vector3d::Zero();
-          for (int a = 0; a < 4; ++a) {
-            first += point.derivatives(a, 0) * x[static_cast<std::size_t>(a)];
-            second += point.derivatives(a, 1) * x[static_cast<std::size_t>(a)];
-          }
-          const double weight = first.cross(second).norm();
-          for (int a = 0; a < 4; ++a) add(face.nodes[static_cast<std::size_t>(a)], weight * point.values[a]);
-        }
-    }
-  }
-  return areas;
 }
 
 } // namespace host

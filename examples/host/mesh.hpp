@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "error.hpp"
 #include "shape.hpp"
 
 namespace host {
@@ -52,13 +53,6 @@ struct Mesh {
 /// One axis of a structured block: the ordered coordinates of its grid planes.
 using GridLines = std::vector<double>;
 
-/// The upper side of a block, that of its last axis, is a cylinder: highest at 0, where the block ends, and
-/// lower by radius - sqrt(radius^2 - x^2) beside it. The nodes below follow in proportion to their height.
-struct Crown {
-  double radius = 0; ///< 0: none
-  int axis = 0;      ///< x, across the cylinder
-};
-
 /// Grid lines of one graded piece, without its first: `divisions` cells from `from` to `to`, each `growth`
 /// times as long as the one before it (geometric progression).
 void append_graded(GridLines& lines, double to, int divisions, double growth);
@@ -67,7 +61,7 @@ void append_graded(GridLines& lines, double to, int divisions, double growth);
 /// per cell round one space diagonal: conforming) in 3D. Its sets are NAME (all nodes) and the sides
 /// NAME.x_min, NAME.x_max, NAME.y_min ... as nodes and as faces.
 void add_block(Mesh& mesh, const std::string& name, ElementType type, const std::vector<GridLines>& lines,
-               int part, const Crown& crown = {});
+               int part);
 
 /// Add the body of an Abaqus/CalculiX deck with its node sets and surfaces as NAME.SET.
 /// @param element_set  of the deck; empty: the whole body
@@ -75,13 +69,18 @@ void add_block(Mesh& mesh, const std::string& name, ElementType type, const std:
 void add_deck(Mesh& mesh, const std::string& name, const std::filesystem::path& file,
               const std::string& element_set, int part);
 
-/// Tributary measure of every node of the faces, in the order of `nodes`: integral of its shape function over
-/// the faces in the reference configuration.
-/// @param thickness     2D: [L]
-/// @param axisymmetric  2D: weighs with 2 pi r instead of the thickness
-/// @return [nodes.size()], area
-std::vector<double> tributary_areas(const Mesh& mesh, const std::vector<Face>& faces,
-                                    const std::vector<int>& nodes, double thickness, bool axisymmetric);
+/// A set of the mesh: of `node_sets` or `face_sets`.
+/// @param where  file and JSON path of the name
+/// @param kind   "nodes" or "faces"
+/// @throws InputError naming the sets that there are
+template <class Sets>
+const auto& named(const Sets& sets, const std::string& name, const std::string& where, const char* kind) {
+  const auto found = sets.find(name);
+  if (found != sets.end() && !found->second.empty()) return found->second;
+  std::string names;
+  for (const auto& [key, value] : sets) names += (names.empty() ? "" : ", ") + key;
+  throw InputError(where + ": no " + kind + " \"" + name + "\"; there are: " + names);
+}
 
 /// [faces][count] nodes: with count 4 a triangle among quadrilaterals has its last node twice.
 std::vector<std::int64_t> connectivity_of(const std::vector<Face>& faces, std::size_t count);

@@ -2,46 +2,13 @@
 // A scene: bodies, how they are held and loaded, one contact, and the steps. README.md lists the keys.
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "element.hpp"
-#include "json_reader.hpp"
-#include "mesh.hpp"
-#include "path.hpp"
+#include "keys.hpp"
 
 namespace host {
 
 /// The scene is right, and is solved by the laboratory's program.
 struct NeedsLaboratory : InputError {
   using InputError::InputError;
-};
-
-/// A body: a structured block, or the mesh of a deck.
-struct Part {
-  std::string name;
-  ElementSetup setup;
-  ElementType type = ElementType::quad4; ///< block
-  std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
-  std::filesystem::path deck;
-  std::string deck_where, element_set;
-};
-
-/// Displacement components of a set of nodes; they follow the load factor along a path.
-struct Support {
-  std::string nodes, where;
-  std::vector<std::optional<double>> displacement; ///< [dimension]
-  std::optional<double> temperature;
-  Path path;
-};
-
-/// Force per area of a set of faces, dead load.
-struct Traction {
-  std::string faces, where;
-  std::vector<double> value; ///< [dimension]
-  Path path;
 };
 
 /// Slave faces, and either a rigid segment that moves along a line, or master faces.
@@ -55,14 +22,6 @@ struct ContactInput {
   double temperature = 0;           ///< of a rigid master
   Json model;                       ///< for the library
   std::string model_where;
-};
-
-/// What the values of the steps are.
-enum class Control {
-  load_factor,   ///< of supports and tractions
-  approach,      ///< motion of the rigid master [L]
-  force,         ///< on the rigid master along its direction [F], of all symmetric copies together
-  mean_pressure, ///< the same over the area of the slave surface [F/L^2]
 };
 
 struct Scene {

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "areas.hpp"
 #include "cut_points.hpp"
 #include "polygon.hpp"
 #include "support.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Structured blocks, their faces, and tributary areas.
-#include "mesh.hpp"
+#include "areas.hpp"
 
 #include <algorithm>
 #include <cmath>

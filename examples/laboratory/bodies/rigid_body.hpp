@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "json_reader.hpp"
-#include "path.hpp"
+#include "keys.hpp"
 
 namespace host {
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "areas.hpp"
 #include "error.hpp"
 #include "scene.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene: its supports, loads, steps and all keys of one line; parts and contact are in files of their own.
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "scene_keys.hpp"
@@ -10,27 +8,12 @@
 namespace host {
 namespace {
 
-Formulation read_formulation(JsonObject& scene, int dimension) {
-  if (dimension == 3) return Formulation::solid;
-  const std::string word = scene.at("formulation").word({"plane_strain", "plane_stress", "axisymmetric"});
-  return word == "plane_strain"   ? Formulation::plane_strain
-         : word == "plane_stress" ? Formulation::plane_stress
-                                  : Formulation::axisymmetric;
-}
-
 SupportSpec read_support(const JsonValue& value, const Scene& scene, Formulation formulation) {
-  static const std::vector<std::string> axes{"x", "y", "z"}, of_plane{"turn"},
-      of_space{"turn_x", "turn_y", "turn_z"};
+  static const std::vector<std::string> of_plane{"turn"}, of_space{"turn_x", "turn_y", "turn_z"};
   const auto d = static_cast<std::size_t>(scene.dimension);
   JsonObject object(value);
   SupportSpec support;
-  support.where = value.where();
-  support.nodes = object.at("nodes").string();
-  bool any = false;
-  for (std::size_t i = 0; i < d; ++i) {
-    auto& component = support.displacement.emplace_back();
-    if (object.has(axes[i])) component = object.at(axes[i]).number(), any = true;
-  }
+  const bool any = read_support(object, scene.dimension, support);
   const std::vector<std::string>& turns = d == 2 ? of_plane : of_space;
   std::vector<double> turn(turns.size(), 0.0);
   bool turned = false;
@@ -52,29 +35,8 @@ SupportSpec read_support(const JsonValue& value, const Scene& scene, Formulation
       std::copy(point.begin(), point.end(), support.about.begin());
     }
   }
-  support.path = read_path(object);
   object.finish();
   return support;
-}
-
-/// One number per step; {"to": 3, "count": 40}: equal steps from the value before.
-/// @param start  the value before the first step
-std::vector<double> read_step_values(const JsonValue& values, double start) {
-  std::vector<double> steps;
-  for (const JsonValue& item : values.items()) {
-    if (!item.is_object()) {
-      steps.push_back(item.number());
-      continue;
-    }
-    JsonObject range(item);
-    const double from = steps.empty() ? start : steps.back(), to = range.at("to").number();
-    const int most = 1000000 - static_cast<int>(steps.size()); // of the run
-    const int count = range.at("count").integer(1, std::max(most, 1));
-    range.finish();
-    for (int i = 1; i < count; ++i) steps.push_back(from + (to - from) * i / count);
-    steps.push_back(to);
-  }
-  return steps;
 }
 
 /// The key "history". Wear beside the motion of the mesh has to be one of them: a step that is cut would
@@ -113,21 +75,8 @@ void read_history(JsonObject& scene_object, Scene& scene) {
 }
 
 void read_steps(const JsonValue& value, Scene& scene) {
-  static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
-                                                       {"approach", Control::approach},
-                                                       {"force", Control::force},
-                                                       {"mean_pressure", Control::mean_pressure}};
   JsonObject object(value);
-  const JsonValue control = object.at("control");
-  scene.control = controls.at(control.word({"load_factor", "approach", "force", "mean_pressure"}));
-  if (scene.control != Control::load_factor && (!scene.contact || scene.contact->rigid.empty()))
-    control.fail("only a rigid master can be moved; use load_factor");
-  const JsonValue values = object.at("values");
-  scene.steps = read_step_values(values, 0);
-  if (scene.steps.empty()) values.fail("at least one step is expected");
-  if (scene.control == Control::force || scene.control == Control::mean_pressure)
-    for (const double step : scene.steps)
-      if (!(step > 0)) values.fail("forces and pressures are > 0 in contact");
+  scene.steps = read_steps(object, scene.contact && !scene.contact->rigid.empty(), scene.control);
   if (object.has("probe")) {
     const JsonValue probe = object.at("probe");
     scene.probe = probe.number();
@@ -141,7 +90,7 @@ void read_steps(const JsonValue& value, Scene& scene) {
 
 /// The keys "materials" and "parts".
 Materials read_bodies(JsonObject& object, Scene& scene, const ElementSetup& common) {
-  const Materials materials = read_materials(object.at("materials"));
+  const Materials materials = read_materials(object.at("materials"), false);
   for (const JsonValue& item : object.at("parts").items()) {
     scene.parts.push_back(read_part(item, scene, materials, common));
     for (std::size_t i = 0; i + 1 < scene.parts.size(); ++i)
@@ -157,14 +106,7 @@ void read_supports_and_loads(JsonObject& object, Scene& scene, Formulation formu
   if (object.has("supports"))
     for (const JsonValue& item : object.at("supports").items())
       scene.supports.push_back(read_support(item, scene, formulation));
-  if (object.has("tractions"))
-    for (const JsonValue& item : object.at("tractions").items()) {
-      JsonObject traction(item);
-      scene.tractions.push_back({traction.at("faces").string(), item.where(),
-                                 traction.at("value").numbers(static_cast<std::size_t>(scene.dimension)),
-                                 read_path(traction)});
-      traction.finish();
-    }
+  scene.tractions = read_tractions(object, scene.dimension);
   if (object.has("springs"))
     for (const JsonValue& item : object.at("springs").items()) {
       JsonObject spring(item);
@@ -258,11 +200,7 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
   JsonObject object(JsonValue(json, file.string() + ": " + (variant.empty() ? "" : "/variants/" + variant)));
   scene.title = object.string_or("title", file.parent_path().filename().string());
   scene.dimension = object.at("dimension").integer(2, 3);
-  ElementSetup common;
-  common.formulation = read_formulation(object, scene.dimension);
-  if (scene.dimension == 2 && common.formulation != Formulation::axisymmetric)
-    common.thickness = object.positive_or("thickness", 1);
-
+  const ElementSetup common = read_formulation(object, scene.dimension);
   const Materials materials = read_bodies(object, scene, common);
   read_supports_and_loads(object, scene, common.formulation);
   if (object.has("contact")) scene.contact = read_contact(object.at("contact"), scene.dimension);
@@ -279,20 +217,6 @@ Scene read(const Json& json, const std::filesystem::path& file, const std::strin
 }
 
 } // namespace
-
-Json read_variant(const std::filesystem::path& file, const std::string& variant) {
-  Json json = parse_json_file(file);
-  if (variant.empty()) return json;
-  const Json variants = find_json(json, "/variants");
-  if (!variants.is_object() || !variants.contains(variant)) {
-    std::string names;
-    for (const auto& item : variants.items()) names += (names.empty() ? "" : ", ") + item.key();
-    throw InputError(file.string() + ": no variant \"" + variant +
-                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
-  }
-  json.merge_patch(variants.at(variant));
-  return json;
-}
 
 Scene read_scene(const std::filesystem::path& file, const std::string& variant) {
   Scene wanted = read(read_variant(file, {}), file);

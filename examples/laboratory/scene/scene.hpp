@@ -3,43 +3,27 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "element.hpp"
-#include "json_reader.hpp"
-#include "mesh.hpp"
-#include "path.hpp"
+#include "crown.hpp"
+#include "keys.hpp"
 #include "rigid_body.hpp"
 #include "surface_coordinates.hpp"
 
 namespace host {
 
-/// A body: a structured block, or the mesh of a deck.
-struct PartSpec {
-  std::string name, where; ///< where: file and path, for messages
-  ElementSetup setup;
-  ElementType type = ElementType::quad4; ///< block
-  std::vector<GridLines> lines;          ///< block: one per axis; empty: deck
-  Crown crown;                           ///< block
-  bool layer = false;                    ///< block: its surface alone has nodes, layer_body.hpp
-  std::filesystem::path deck;
-  std::string deck_where; ///< file and path, for messages
-  std::string element_set;
+/// What the reference host leaves to the laboratory of a body.
+struct PartSpec : Part {
+  std::string where;  ///< file and path, for messages
+  Crown crown;        ///< block
+  bool layer = false; ///< block: its surface alone has nodes, layer_body.hpp
 };
 
-/// Prescribed displacement components of a node set, or its motion as a rigid body; they follow the load
-/// factor along their path.
-struct SupportSpec {
-  std::string nodes, where;
-  std::vector<std::optional<double>> displacement; ///< [dimension]; of a set that turns: of the point `about`
+/// Prescribed displacement components of a node set (of the point `about` if it turns), or its motion as a rigid
+/// body; they follow the load factor along their path.
+struct SupportSpec : Support {
   std::vector<double> turn; ///< radians: in the plane one angle, in space a rotation vector; empty: none
   std::array<double, 3> about{};
-  Path path;
 
   bool moves() const {
     const auto nonzero = [](const std::optional<double>& component) { return component.value_or(0) != 0; };
@@ -54,13 +38,6 @@ struct HalfSpaceSpec {
   std::string where;
   std::vector<double> point; ///< where the force acts
   Material material;
-};
-
-/// Dead load per reference area; follows the load factor along its path.
-struct TractionSpec {
-  std::string faces, where;
-  std::vector<double> value; ///< [dimension], force / area
-  Path path;
 };
 
 /// Elastic foundation: every component pulls back on its own.
@@ -116,14 +93,6 @@ struct ContactSpec {
   bool hard = false; ///< "law": "hard": the model has augmented multipliers, and Simulation their stiffness
   Json model;        ///< passed on to the library
   std::string model_where;
-};
-
-/// What the steps prescribe.
-enum class Control {
-  load_factor,   ///< of supports and tractions; a rigid master stays
-  approach,      ///< motion of the rigid master along its direction [L]
-  force,         ///< force on the rigid master along its direction [F], of all symmetric copies together
-  mean_pressure, ///< the same divided by the slave surface's area [F/L^2]
 };
 
 /// A named parameter of the contact model that changes over the steps.
@@ -206,7 +175,7 @@ struct Scene {
   std::vector<PartSpec> parts;
   std::vector<SupportSpec> supports;
   std::optional<HalfSpaceSpec> half_space;
-  std::vector<TractionSpec> tractions;
+  std::vector<Traction> tractions;
   std::vector<SpringSpec> springs;
   std::vector<PeriodicSpec> periodic;
   std::vector<PeriodicSpec> tied; ///< their nodes lie in the same places
@@ -223,10 +192,6 @@ struct Scene {
   std::vector<Variant> variants;
   Json definition; ///< the file's text, changed by the variant: what a checkpoint is held against
 };
-
-/// The file's text, changed by one of its variants; empty: as it is.
-/// @throws InputError naming the file and the variants that there are
-Json read_variant(const std::filesystem::path& file, const std::string& variant);
 
 /// @param variant  one of the scene's own, or empty: the scene as it is
 /// @throws InputError naming the file and the JSON path

@@ -2,16 +2,9 @@
 // The keys of a scene, read group by group. All throw InputError naming the key.
 #pragma once
 
-#include <map>
-#include <string>
-
 #include "scene.hpp"
 
 namespace host {
-
-using Materials = std::map<std::string, Material>;
-
-Materials read_materials(const JsonValue& value);
 
 /// One of the key "parts".
 /// @param scene   its file and dimension are read

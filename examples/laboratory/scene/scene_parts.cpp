@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys of a scene's bodies: materials and parts.
+// Keys of a scene's bodies that the reference host leaves to the laboratory.
 #include <algorithm>
 #include <cmath>
 
@@ -7,43 +7,6 @@
 
 namespace host {
 namespace {
-
-Material read_material(const JsonValue& value) {
-  JsonObject object(value);
-  Material material;
-  const std::string law = object.at("law").word({"linear_elastic", "st_venant_kirchhoff", "neo_hooke"});
-  material.law = law == "neo_hooke"             ? Material::Law::neo_hooke
-                 : law == "st_venant_kirchhoff" ? Material::Law::st_venant_kirchhoff
-                                                : Material::Law::linear_elastic;
-  material.young = object.at("young").positive();
-  material.poisson = object.at("poisson").number();
-  if (!(material.poisson > -1 && material.poisson < 0.5))
-    object.at("poisson").fail("Poisson's ratio lies between -1 and 0.5");
-  object.finish();
-  return material;
-}
-
-/// {"from": 0, "pieces": [{"to": 1, "divisions": 10, "growth": 1.2}, ...]}
-GridLines read_axis(const JsonValue& value) {
-  JsonObject object(value);
-  GridLines lines{object.at("from").number()};
-  for (const JsonValue& item : object.at("pieces").items()) {
-    JsonObject piece(item);
-    const double to = piece.at("to").number();
-    if (!(to > lines.back())) piece.at("to").fail("grid pieces run upwards: a number > the previous end");
-    const int divisions = piece.at("divisions").integer(1, 100000);
-    const double growth = piece.positive_or("growth", 1);
-    piece.finish();
-    if (lines.size() + static_cast<std::size_t>(divisions) > 1000000)
-      piece.at("divisions").fail("an axis has at most 1000000 divisions");
-    append_graded(lines, to, divisions, growth);
-    if (!std::is_sorted(lines.begin(), lines.end(), std::less_equal<>{}) || !std::isfinite(lines.back()))
-      item.fail("cells vanish: \"growth\" is too far from 1 for so many divisions");
-  }
-  object.finish();
-  if (lines.size() < 2) value.fail("at least one piece is expected");
-  return lines;
-}
 
 /// A layer has equal cells on its surface, none below, and a compliance in closed form.
 void check_layer(JsonObject& part, const PartSpec& read) {
@@ -81,46 +44,16 @@ Crown read_crown(const JsonValue& value, const PartSpec& part) {
 
 } // namespace
 
-Materials read_materials(const JsonValue& value) {
-  Materials materials;
-  JsonObject object(value);
-  for (const std::string& name : object.all_keys()) materials[name] = read_material(object.at(name));
-  return materials;
-}
-
 PartSpec read_part(const JsonValue& value, const Scene& scene, const Materials& materials,
                    const ElementSetup& common) {
   JsonObject object(value);
   PartSpec part;
   part.where = value.where();
-  part.name = object.at("name").string();
   part.setup = common;
-  const JsonValue material = object.at("material");
-  const auto found = materials.find(material.string());
-  if (found == materials.end()) material.fail("no material \"" + material.string() + "\" in /materials");
-  part.setup.material = found->second;
-  if (object.has("deck")) {
-    part.deck = scene.file.parent_path() / object.at("deck").string();
-    part.deck_where = object.at("deck").where();
-    part.element_set = object.string_or("element_set", "");
-  } else {
-    static const std::map<std::string, ElementType> types{{"tri3", ElementType::tri3},
-                                                          {"quad4", ElementType::quad4},
-                                                          {"tet4", ElementType::tet4},
-                                                          {"hex8", ElementType::hex8}};
-    const bool plane = scene.dimension == 2;
-    const JsonValue element = object.at("element");
-    const std::string word = element.word(plane ? std::vector<std::string>{"tri3", "quad4"}
-                                                : std::vector<std::string>{"tet4", "hex8", "layer"});
-    part.layer = word == "layer";
-    if (!part.layer) part.type = types.at(word);
-    part.lines = {read_axis(object.at("x")), read_axis(object.at("y"))};
-    if (!plane) part.lines.push_back(read_axis(object.at("z")));
-    if (common.formulation == Formulation::axisymmetric && part.lines[0].front() < 0)
-      object.at("x").fail("x is the radius of an axisymmetric body and starts at 0 or above");
-    if (part.layer) check_layer(object, part);
-    if (object.has("crown")) part.crown = read_crown(object.at("crown"), part);
-  }
+  part.layer =
+      !read_part(object, scene.dimension, materials, scene.file.parent_path(), {"layer"}, part).empty();
+  if (part.layer) check_layer(object, part);
+  if (!part.lines.empty() && object.has("crown")) part.crown = read_crown(object.at("crown"), part);
   object.finish();
   return part;
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "areas.hpp"
 #include "both_sides.hpp"
 #include "half_space.hpp"
 #include "layer_body.hpp"
@@ -17,22 +18,12 @@
 namespace host {
 namespace {
 
-template <class Map>
-const typename Map::mapped_type& find_set(const Map& sets, const std::string& name, const std::string& where,
-                                          const char* kind) {
-  const auto found = sets.find(name);
-  if (found != sets.end() && !found->second.empty()) return found->second;
-  std::string names;
-  for (const auto& [key, value] : sets) names += (names.empty() ? "" : ", ") + key;
-  throw InputError(where + ": no " + kind + " \"" + name + "\"; there are: " + names);
-}
-
 const std::vector<int>& find_nodes(const Mesh& mesh, const std::string& name, const std::string& where) {
-  return find_set(mesh.node_sets, name, where, "nodes");
+  return named(mesh.node_sets, name, where, "nodes");
 }
 
 const std::vector<Face>& find_faces(const Mesh& mesh, const std::string& name, const std::string& where) {
-  return find_set(mesh.face_sets, name, where, "faces");
+  return named(mesh.face_sets, name, where, "faces");
 }
 
 /// Pairs of nodes on opposite sides: equal coordinates but for one axis.
@@ -191,15 +182,11 @@ void Simulation::build_mesh() {
   std::vector<ElementSetup> setups;
   for (const PartSpec& part : scene_->parts) {
     const int index = static_cast<int>(setups.size());
-    if (part.lines.empty()) try {
-        add_deck(mesh_, part.name, part.deck, part.element_set, index);
-      } catch (const InputError& error) { // names the deck, and not who asked for it
-        throw InputError(part.deck_where + ": " + error.what());
-      }
-    else if (part.layer)
+    if (part.layer)
       add_layer(mesh_, part.name, part.lines);
     else
-      add_block(mesh_, part.name, part.type, part.lines, index, part.crown);
+      add_part(mesh_, part, index);
+    if (part.crown.radius > 0) round_block(mesh_, part.lines, part.crown);
     setups.push_back(part.setup);
   }
   if (scene_->contact && scene_->contact->body) // displacement and turns of the body
@@ -241,7 +228,7 @@ void Simulation::build_equations() {
         }
       }
   }
-  for (const TractionSpec& traction : scene_->tractions) {
+  for (const Traction& traction : scene_->tractions) {
     loads_.push_back({std::vector<double>(total, 0.0), &traction.path});
     add_by_area(mesh_, *scene_, traction.faces, traction.where, traction.value, loads_.back().force);
   }
