@@ -12,23 +12,10 @@ Bulk::Bulk(const Mesh& mesh, std::vector<ElementSetup> setups) : mesh_(&mesh), s
   });
 }
 
-std::vector<StencilGroup> Bulk::stencils(const DofMap& dofs) const {
-  std::vector<StencilGroup> result;
-  for (const ElementGroup& group : mesh_->groups) {
-    StencilGroup stencil;
-    stencil.dofs = node_count(group.type) * mesh_->dimension;
-    stencil.equations.reserve(group.nodes.size() * static_cast<std::size_t>(mesh_->dimension));
-    for (const int node : group.nodes)
-      for (int c = 0; c < mesh_->dimension; ++c) stencil.equations.push_back(dofs.equation(node, c));
-    result.push_back(std::move(stencil));
-  }
-  return result;
-}
-
 template <ElementType Type>
 bool Bulk::assemble_group(std::size_t group_index, const std::vector<double>& displacement,
                           const std::vector<double>& direction, std::vector<double>& residual,
-                          SparseSystem* system, double* energy) const {
+                          const AddTangent& add, double* energy) const {
   constexpr std::size_t nodes = static_cast<std::size_t>(node_count(Type));
   constexpr std::size_t d = static_cast<std::size_t>(dimension(Type)), dofs = nodes * d;
   const ElementGroup& group = mesh_->groups[group_index];
@@ -46,37 +33,25 @@ bool Bulk::assemble_group(std::size_t group_index, const std::vector<double>& di
         u[d * a + i] = displacement[dof[d * a + i]];
         moved = moved || (!direction.empty() && direction[dof[d * a + i]] != 0);
       }
-    if (!evaluate_element<Type>(setup, X, u, system != nullptr || moved, result)) return false;
+    if (!evaluate_element<Type>(setup, X, u, add || moved, result)) return false;
     if (moved) {
       Eigen::Matrix<double, static_cast<int>(dofs), 1> step;
       for (std::size_t a = 0; a < dofs; ++a) step[static_cast<Eigen::Index>(a)] = direction[dof[a]];
       result.residual.noalias() += result.tangent * step;
     }
     for (std::size_t a = 0; a < dofs; ++a) residual[dof[a]] += result.residual[static_cast<Eigen::Index>(a)];
-    if (system != nullptr) system->add(group_index, e, result.tangent.data());
+    if (add) add({group_index, e, dof, result.tangent.data()});
     if (energy != nullptr) *energy += result.energy;
   }
   return true;
 }
 
 bool Bulk::assemble(const std::vector<double>& displacement, const std::vector<double>& direction,
-                    std::vector<double>& residual, SparseSystem* system, double* energy) const {
+                    std::vector<double>& residual, const AddTangent& add, double* energy) const {
   for (std::size_t g = 0; g < mesh_->groups.size(); ++g) {
-    bool ok = false;
-    switch (mesh_->groups[g].type) {
-    case ElementType::tri3:
-      ok = assemble_group<ElementType::tri3>(g, displacement, direction, residual, system, energy);
-      break;
-    case ElementType::quad4:
-      ok = assemble_group<ElementType::quad4>(g, displacement, direction, residual, system, energy);
-      break;
-    case ElementType::tet4:
-      ok = assemble_group<ElementType::tet4>(g, displacement, direction, residual, system, energy);
-      break;
-    case ElementType::hex8:
-      ok = assemble_group<ElementType::hex8>(g, displacement, direction, residual, system, energy);
-      break;
-    }
+    const bool ok = with_type(mesh_->groups[g].type, [&]<ElementType Type>() {
+      return assemble_group<Type>(g, displacement, direction, residual, add, energy);
+    });
     if (!ok) return false;
   }
   return true;
@@ -136,20 +111,9 @@ std::vector<double> Bulk::nodal_stress(const std::vector<double>& displacement) 
   const std::size_t components = mesh_->dimension == 3 ? 6 : 4;
   const auto nodes = static_cast<std::size_t>(mesh_->node_count());
   std::vector<double> sum(nodes * components, 0.0), weight(nodes, 0.0);
-  for (const ElementGroup& group : mesh_->groups) switch (group.type) {
-    case ElementType::tri3:
-      stress_of_group<ElementType::tri3>(group, displacement, sum, weight);
-      break;
-    case ElementType::quad4:
-      stress_of_group<ElementType::quad4>(group, displacement, sum, weight);
-      break;
-    case ElementType::tet4:
-      stress_of_group<ElementType::tet4>(group, displacement, sum, weight);
-      break;
-    case ElementType::hex8:
-      stress_of_group<ElementType::hex8>(group, displacement, sum, weight);
-      break;
-    }
+  for (const ElementGroup& group : mesh_->groups)
+    with_type(group.type,
+              [&]<ElementType Type>() { stress_of_group<Type>(group, displacement, sum, weight); });
   for (std::size_t node = 0; node < nodes; ++node)
     for (std::size_t c = 0; c < components; ++c)
       if (weight[node] > 0) sum[node * components + c] /= weight[node];

@@ -2,31 +2,36 @@
 // The bodies: assembly of all bulk elements.
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "dof_map.hpp"
 #include "element.hpp"
 #include "mesh.hpp"
-#include "sparse_system.hpp"
 
 namespace host {
+
+/// The tangent of one element, on its way into the equations.
+struct ElementTangent {
+  std::size_t group, element;        ///< its place in the mesh
+  std::span<const std::size_t> dofs; ///< of all nodes' dofs
+  const double* values;              ///< [dofs][dofs], column by column
+};
+using AddTangent = std::function<void(const ElementTangent&)>;
 
 class Bulk {
 public:
   /// @param setups  one per part of the mesh
   Bulk(const Mesh& mesh, std::vector<ElementSetup> setups);
 
-  /// Equations of the elements, one group per group of the mesh. The first groups of every SparseSystem.
-  std::vector<StencilGroup> stencils(const DofMap& dofs) const;
-
-  /// Add the internal forces to `residual` and, if wanted, the tangent to `system`.
+  /// Add the internal forces to `residual`, and hand the elements' tangents on, one after the other.
   /// @param displacement  [dofs] of all nodes
   /// @param direction     [dofs] or empty: adds tangent * direction to the residual (a prescribed jump)
   /// @param residual      [dofs], also of prescribed dofs: their reactions
+  /// @param add           null: no tangent is wanted
   /// @param energy        optional
   /// @return false if an element is turned inside out
   bool assemble(const std::vector<double>& displacement, const std::vector<double>& direction,
-                std::vector<double>& residual, SparseSystem* system, double* energy = nullptr) const;
+                std::vector<double>& residual, const AddTangent& add, double* energy = nullptr) const;
 
   /// The tangent does not depend on the displacement.
   bool linear() const { return linear_; }
@@ -40,7 +45,7 @@ private:
   template <ElementType Type>
   bool assemble_group(std::size_t group, const std::vector<double>& displacement,
                       const std::vector<double>& direction, std::vector<double>& residual,
-                      SparseSystem* system, double* energy) const;
+                      const AddTangent& add, double* energy) const;
   template <ElementType Type>
   void stress_of_group(const ElementGroup& group, const std::vector<double>& displacement,
                        std::vector<double>& sum, std::vector<double>& weight) const;

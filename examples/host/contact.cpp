@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace host {
 namespace {
@@ -121,35 +122,31 @@ void Contact::build_pattern() {
   pattern_segment_ = segment_;
   const auto m = static_cast<std::size_t>(model_.layout().nodes);
   const auto own = static_cast<std::size_t>(model_.layout().node_dofs);
-  std::vector<std::vector<int>> elements; // dofs of each slave point and its segment
-  std::size_t most = 0;
+  std::vector<std::set<std::int64_t>> neighbours(rows_.size() / own); // nodes with a common slave point
+  std::vector<std::int64_t> nodes;                                    // of a slave point and its segment
+  const auto add_point = [&](const ents::Combination& all, std::size_t point) {
+    nodes.insert(nodes.end(), all.nodes.begin() + all.begin[point], all.nodes.begin() + all.begin[point + 1]);
+  };
   for (std::size_t k = 0; k < points(); ++k) {
     if (!rigid_ && segment_[k] < 0) continue;
-    std::vector<int>& dofs = elements.emplace_back();
-    const auto add = [&](std::int64_t node) {
-      for (std::size_t i = 0; i < own; ++i)
-        dofs.push_back(static_cast<int>(rows_[static_cast<std::size_t>(node) * own + i]));
-    };
-    const auto add_point = [&](const ents::Combination& all, std::size_t point) {
-      for (auto t = static_cast<std::size_t>(all.begin[point]);
-           t < static_cast<std::size_t>(all.begin[point + 1]); ++t)
-        add(all.nodes[t]);
-    };
+    nodes.clear();
     add_point(slave_, k);
     for (std::size_t a = 0; !rigid_ && a < m; ++a) {
       const std::int64_t point = connectivity_[static_cast<std::size_t>(segment_[k]) * m + a];
-      smoothed_ ? add_point(net_, static_cast<std::size_t>(point)) : add(point);
+      smoothed_ ? add_point(net_, static_cast<std::size_t>(point)) : nodes.push_back(point);
     }
-    most = std::max(most, dofs.size());
+    for (const std::int64_t node : nodes)
+      neighbours[static_cast<std::size_t>(node)].insert(nodes.begin(), nodes.end());
   }
-  StencilGroup group;
-  group.dofs = static_cast<int>(most);
-  for (std::vector<int>& dofs : elements) {
-    dofs.resize(most, -1);
-    group.equations.insert(group.equations.end(), dofs.begin(), dofs.end());
-  }
-  const StencilGroup* const groups[] = {&group};
-  tangent_ = pattern_of(static_cast<int>(own_force_.size()), false, std::span(groups, most > 0 ? 1 : 0));
+  std::vector<Eigen::Triplet<double, int>> zeros;
+  for (std::size_t node = 0; node < neighbours.size(); ++node)
+    for (const std::int64_t other : neighbours[node])
+      for (std::size_t i = 0; i < own * own; ++i)
+        zeros.emplace_back(rows_[node * own + i / own],
+                           rows_[static_cast<std::size_t>(other) * own + i % own], 0.);
+  const auto size = static_cast<Eigen::Index>(own_force_.size());
+  tangent_.resize(size, size);
+  tangent_.setFromTriplets(zeros.begin(), zeros.end());
 }
 
 Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual, double& squared) {

@@ -8,9 +8,9 @@
 #include <ents.hpp>
 
 #include "mesh.hpp"
-#include "vtu.hpp"
 #include "scene.hpp"
-#include "sparse_system.hpp"
+#include "solver.hpp"
+#include "vtu.hpp"
 
 namespace host {
 

@@ -11,21 +11,8 @@ Equations::Equations(const Scene& scene) : scene_(&scene) {
   build_mesh();
   hold_and_load();
   if (scene.contact) contact_ = std::make_unique<Contact>(scene, mesh_);
-  const bool symmetric = !heat_ && (!contact_ || contact_->symmetric());
-  system_ = std::make_unique<SparseSystem>(dofs_->size(), symmetric);
-  solver_ = LinearSolver::create(symmetric);
-  stencils_ = bulk_->stencils(*dofs_);
-  if (heat_) heat_stencils_ = heat_->stencils(*dofs_);
-  if (contact_) return; // `search` builds the pattern
-  system_->build(groups());
-  solver_->analyze(system_->matrix());
-}
-
-std::vector<const StencilGroup*> Equations::groups() const {
-  std::vector<const StencilGroup*> all;
-  for (const auto* stencils : {&stencils_, &heat_stencils_})
-    for (const StencilGroup& group : *stencils) all.push_back(&group);
-  return all;
+  symmetric_ = !heat_ && (!contact_ || contact_->symmetric());
+  solver_ = LinearSolver::create(symmetric_);
 }
 
 void Equations::build_mesh() {
@@ -42,22 +29,22 @@ void Equations::build_mesh() {
 
 void Equations::hold_and_load() {
   const auto d = static_cast<std::size_t>(mesh_.dimension);
-  dofs_ = std::make_unique<DofMap>(mesh_.node_count(), mesh_.dimension, scene_->heat);
+  const auto nodes = static_cast<std::size_t>(mesh_.node_count());
+  equation_.assign(nodes * (d + (scene_->heat ? 1 : 0)), 0);
+  const auto prescribe = [&](std::size_t dof, double value, const Path& path) {
+    equation_[dof] = -1;
+    prescribed_.push_back({dof, value, &path});
+  };
   for (const Support& support : scene_->supports)
     for (const int node : named(mesh_.node_sets, support.nodes, support.where + "/nodes", "nodes")) {
-      if (support.temperature) {
-        dofs_->prescribe_scalar(node);
-        prescribed_.push_back(
-            {dofs_->scalar(node), *support.temperature - scene_->temperature, &support.path});
-      }
+      const auto n = static_cast<std::size_t>(node);
+      if (support.temperature)
+        prescribe(nodes * d + n, *support.temperature - scene_->temperature, support.path);
       for (std::size_t i = 0; i < d; ++i)
-        if (support.displacement[i]) {
-          dofs_->prescribe(node, static_cast<int>(i));
-          prescribed_.push_back(
-              {static_cast<std::size_t>(node) * d + i, *support.displacement[i], &support.path});
-        }
+        if (support.displacement[i]) prescribe(n * d + i, *support.displacement[i], support.path);
     }
-  dofs_->number();
+  for (int& equation : equation_)
+    if (equation >= 0) equation = size_++;
   if (prescribed_.empty())
     throw InputError(scene_->file.string() + ": /supports: nothing holds the bodies; give supports");
   const ElementSetup& setup = scene_->parts.front().setup;
@@ -87,32 +74,50 @@ Outcome Equations::search(const Configuration& at) {
   const Outcome found = contact_->search(at, changed);
   if (!found.ok || !changed) return found;
   contact_->build_pattern();
-  MatrixPart part{&contact_->tangent(), {}}; // its rows are dofs of the mesh
-  for (std::size_t dof = 0; dof < at.displacement.size(); ++dof)
-    part.equations.push_back(dofs_->equation(dof));
-  system_->build(groups(), part);
-  solver_->analyze(system_->matrix());
+  analyzed_ = false;
   return found;
+}
+
+/// Entries of the same place add up. A symmetric tangent has them below its diagonal, wherever the element has them.
+void Equations::add_element(const ElementTangent& element) {
+  const std::size_t n = element.dofs.size();
+  for (std::size_t b = 0; b < n; ++b)
+    for (std::size_t a = symmetric_ ? b : 0; a < n; ++a) {
+      int row = equation_[element.dofs[a]], column = equation_[element.dofs[b]];
+      if (row < 0 || column < 0) continue;
+      if (symmetric_ && row < column) std::swap(row, column);
+      entries_.emplace_back(row, column, element.values[b * n + a]);
+    }
+}
+
+void Equations::add_contact(const SparseMatrix& tangent) { // rows of the pattern are its columns
+  for (int i = 0; i < tangent.outerSize(); ++i)
+    for (SparseMatrix::InnerIterator entry(tangent, i); entry; ++entry) {
+      const int row = equation_[static_cast<std::size_t>(i)];
+      const int column = equation_[static_cast<std::size_t>(entry.index())];
+      if (row >= 0 && column >= 0 && !(symmetric_ && row < column))
+        entries_.emplace_back(row, column, entry.value());
+    }
 }
 
 Equations::State Equations::evaluate(const Configuration& at, const std::vector<double>& jump) {
   State state;
   state.residual.assign(at.displacement.size(), 0.0);
-  system_->set_zero();
-  if (!bulk_->assemble(at.displacement, jump, state.residual, system_.get())) {
+  entries_.clear();
+  const AddTangent add = [this](const ElementTangent& element) { add_element(element); };
+  if (!bulk_->assemble(at.displacement, jump, state.residual, add)) {
     state.outcome = {false, "an element is turned inside out", 0.5};
     return state;
   }
   // Where all is equally warm nothing flows but rounding: the scale is at least this part of what cancels.
   constexpr double least = 1e-4;
-  const double warmth =
-      heat_ ? heat_->assemble(at.displacement, jump, state.residual, *system_, stencils_.size()) : 0;
+  const double warmth = heat_ ? heat_->assemble(at.displacement, jump, state.residual, add) : 0;
   double squared_contact = 0, squared_loads = 0, squared_reactions = 0, squared_power = 0;
   if (contact_) {
     state.outcome = contact_->assemble(at, state.residual, squared_contact);
     if (!state.outcome.ok) return state;
     const SparseMatrix& tangent = contact_->tangent();
-    system_->add(tangent);
+    add_contact(tangent);
     if (!jump.empty()) {
       const Eigen::Map<const Eigen::VectorXd> step(jump.data(), static_cast<Eigen::Index>(jump.size()));
       Eigen::Map<Eigen::VectorXd>(state.residual.data(), step.size()) +=
@@ -120,6 +125,8 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
     }
     if (contact_->rigid()) state.coupling = contact_->coupling();
   }
+  tangent_.resize(size_, size_);
+  tangent_.setFromTriplets(entries_.begin(), entries_.end());
   for (const Load& load : loads_) {
     const double factor = load.path->at(at.load_factor);
     for (std::size_t dof = 0; dof < load.force.size(); ++dof) {
@@ -129,7 +136,7 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
     }
   }
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-    if (dofs_->equation(dof) < 0)
+    if (equation_[dof] < 0)
       (dof < mesh_.coordinates.size() ? squared_reactions : squared_power) +=
           state.residual[dof] * state.residual[dof];
   state.size = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
@@ -140,7 +147,7 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
 double Equations::relative_residual(const State& state, const Configuration& at) const {
   double squared = 0, squared_power = 0;
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof)
-    if (dofs_->equation(dof) >= 0)
+    if (equation_[dof] >= 0)
       (dof < mesh_.coordinates.size() ? squared : squared_power) += state.residual[dof] * state.residual[dof];
   double relative = squared > 0 ? std::sqrt(squared) / state.size : 0;
   if (squared_power > 0) relative = std::max(relative, std::sqrt(squared_power) / state.power);
@@ -149,12 +156,14 @@ double Equations::relative_residual(const State& state, const Configuration& at)
 }
 
 bool Equations::solve(const State& state, double motion_step, Configuration& at) {
-  if (!solver_->factorize(system_->matrix())) return false;
+  if (!analyzed_) solver_->analyze(tangent_);
+  analyzed_ = true;
+  if (!solver_->factorize(tangent_)) return false;
   const bool by_force = scene_->by_force();
-  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(dofs_->size(), by_force ? 2 : 1);
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(dofs_->size()), row = column;
+  Eigen::MatrixXd sides = Eigen::MatrixXd::Zero(size_, by_force ? 2 : 1);
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(size_), row = column;
   for (std::size_t dof = 0; dof < state.residual.size(); ++dof) {
-    const int equation = dofs_->equation(dof);
+    const int equation = equation_[dof];
     if (equation < 0) continue;
     sides(equation, 0) = -state.residual[dof];
     if (!state.coupling.column.empty())
@@ -173,7 +182,7 @@ bool Equations::solve(const State& state, double motion_step, Configuration& at)
   if (!std::isfinite(motion_step) || !step.allFinite()) return false;
   at.motion += motion_step;
   for (std::size_t dof = 0; dof < at.displacement.size(); ++dof)
-    if (const int equation = dofs_->equation(dof); equation >= 0) at.displacement[dof] += step[equation];
+    if (const int equation = equation_[dof]; equation >= 0) at.displacement[dof] += step[equation];
   return true;
 }
 

@@ -8,11 +8,9 @@
 
 #include "bulk.hpp"
 #include "contact.hpp"
-#include "dof_map.hpp"
 #include "heat.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
-#include "sparse_system.hpp"
 
 namespace host {
 
@@ -24,7 +22,9 @@ public:
   const Scene& scene() const { return *scene_; }
   const Mesh& mesh() const { return mesh_; }
   const Bulk& bulk() const { return *bulk_; }
-  const DofMap& dofs() const { return *dofs_; }
+  /// Dofs: the displacements node by node, then the temperatures.
+  std::size_t dofs() const { return equation_.size(); }
+  int size() const { return size_; }            ///< number of equations
   Contact* contact() { return contact_.get(); } ///< null: the scene has none
   double slave_area() const;
   std::string solver_name() const { return solver_->name(); }
@@ -32,7 +32,7 @@ public:
   /// Displacements of the supports at the configuration's load factor.
   void prescribe(Configuration& at) const;
 
-  /// Find the segments; the pattern of the tangent follows them. @return not ok: cut the increment
+  /// Find the segments, which the tangent's entries depend on. @return not ok: cut the increment
   Outcome search(const Configuration& at);
 
   /// Residual and tangent; the tangent stays in this object.
@@ -57,14 +57,14 @@ public:
 private:
   void build_mesh();
   void hold_and_load();
+  void add_element(const ElementTangent& element);
+  void add_contact(const SparseMatrix& tangent);
 
   const Scene* scene_;
   Mesh mesh_;
   std::unique_ptr<Bulk> bulk_;
   std::unique_ptr<Heat> heat_; ///< null: there are no temperatures
-  std::unique_ptr<DofMap> dofs_;
   std::unique_ptr<Contact> contact_;
-  std::vector<const StencilGroup*> groups() const;
   struct Prescribed {
     std::size_t dof;
     double value; ///< of a temperature: its change
@@ -76,9 +76,13 @@ private:
     const Path* path;
   };
   std::vector<Load> loads_;
-  std::vector<StencilGroup> stencils_, heat_stencils_;
-  std::unique_ptr<SparseSystem> system_;
+  std::vector<int> equation_; ///< [dofs] -1: prescribed
+  int size_ = 0;
+  bool symmetric_ = false;                           ///< the tangent: its lower triangle is enough
+  std::vector<Eigen::Triplet<double, int>> entries_; ///< that the tangent is the sum of
+  SparseMatrix tangent_;
   std::unique_ptr<LinearSolver> solver_;
+  bool analyzed_ = false; ///< the solver knows where the tangent has entries
 };
 
 } // namespace host

@@ -40,25 +40,10 @@ tangent_of(const ElementSetup& setup,
 
 } // namespace
 
-std::vector<StencilGroup> Heat::stencils(const DofMap& dofs) const {
-  std::vector<StencilGroup> result;
-  for (const ElementGroup& group : mesh_->groups) {
-    StencilGroup stencil;
-    stencil.dofs = node_count(group.type) * (mesh_->dimension + 1);
-    for (std::size_t e = 0; e < group.size(); ++e) {
-      for (const int node : group.element(e))
-        for (int c = 0; c < mesh_->dimension; ++c) stencil.equations.push_back(dofs.equation(node, c));
-      for (const int node : group.element(e)) stencil.equations.push_back(dofs.equation(dofs.scalar(node)));
-    }
-    result.push_back(std::move(stencil));
-  }
-  return result;
-}
-
 template <ElementType Type>
 double Heat::assemble_group(std::size_t index, const std::vector<double>& values,
                             const std::vector<double>& direction, std::vector<double>& residual,
-                            SparseSystem& system, std::size_t first) const {
+                            const AddTangent& add) const {
   constexpr int nodes = node_count(Type), d = dimension(Type);
   const ElementGroup& group = mesh_->groups[index];
   const auto displacements = mesh_->coordinates.size();
@@ -81,29 +66,19 @@ double Heat::assemble_group(std::size_t index, const std::vector<double>& values
       moved[static_cast<Eigen::Index>(k)] = values[dof[k]] + (direction.empty() ? 0 : direction[dof[k]]);
     const Eigen::VectorXd force = K * moved;
     for (std::size_t k = 0; k < dof.size(); ++k) residual[dof[k]] += force[static_cast<Eigen::Index>(k)];
-    system.add(first + index, e, K.data());
+    add({index, e, dof, K.data()});
     squared += (K.bottomRightCorner(nodes, nodes).cwiseAbs() * moved.tail(nodes).cwiseAbs()).squaredNorm();
   }
   return squared;
 }
 
 double Heat::assemble(const std::vector<double>& values, const std::vector<double>& direction,
-                      std::vector<double>& residual, SparseSystem& system, std::size_t first) const {
+                      std::vector<double>& residual, const AddTangent& add) const {
   double squared = 0;
-  for (std::size_t g = 0; g < mesh_->groups.size(); ++g) switch (mesh_->groups[g].type) {
-    case ElementType::tri3:
-      squared += assemble_group<ElementType::tri3>(g, values, direction, residual, system, first);
-      break;
-    case ElementType::quad4:
-      squared += assemble_group<ElementType::quad4>(g, values, direction, residual, system, first);
-      break;
-    case ElementType::tet4:
-      squared += assemble_group<ElementType::tet4>(g, values, direction, residual, system, first);
-      break;
-    case ElementType::hex8:
-      squared += assemble_group<ElementType::hex8>(g, values, direction, residual, system, first);
-      break;
-    }
+  for (std::size_t g = 0; g < mesh_->groups.size(); ++g)
+    squared += with_type(mesh_->groups[g].type, [&]<ElementType Type>() {
+      return assemble_group<Type>(g, values, direction, residual, add);
+    });
   return std::sqrt(squared);
 }
 

@@ -5,10 +5,7 @@
 
 #include <vector>
 
-#include "dof_map.hpp"
-#include "element.hpp"
-#include "mesh.hpp"
-#include "sparse_system.hpp"
+#include "bulk.hpp"
 
 namespace host {
 
@@ -17,23 +14,18 @@ public:
   /// @param setups  one per part of the mesh, of materials with a conductivity
   Heat(const Mesh& mesh, const std::vector<ElementSetup>& setups) : mesh_(&mesh), setups_(setups) {}
 
-  /// Equations of the elements: displacements node by node, then temperatures. One group per group of the mesh; they
-  /// follow the bulk's in every SparseSystem.
-  std::vector<StencilGroup> stencils(const DofMap& dofs) const;
-
-  /// Add the power that leaves each node and the stress of expansion to `residual`, their tangent to `system`.
+  /// Add the power that leaves each node and the stress of expansion to `residual`, hand the elements' tangents on.
   /// @param values     [dofs] displacements and changes of temperature
   /// @param direction  [dofs] or empty: adds tangent * direction to the residual
-  /// @param first      number of this object's first group in `system`
   /// @return the size of the powers before they cancel in the elements: [power]
   double assemble(const std::vector<double>& values, const std::vector<double>& direction,
-                  std::vector<double>& residual, SparseSystem& system, std::size_t first) const;
+                  std::vector<double>& residual, const AddTangent& add) const;
 
 private:
   template <ElementType Type>
   double assemble_group(std::size_t group, const std::vector<double>& values,
                         const std::vector<double>& direction, std::vector<double>& residual,
-                        SparseSystem& system, std::size_t first) const;
+                        const AddTangent& add) const;
 
   const Mesh* mesh_;
   std::vector<ElementSetup> setups_;

@@ -122,8 +122,8 @@ std::string read_part(JsonObject& object, int dimension, const Materials& materi
     return "";
   }
   const bool plane = dimension == 2;
-  std::vector<std::string> words = plane ? std::vector<std::string>{"tri3", "quad4"}
-                                         : std::vector<std::string>{"tet4", "hex8"};
+  std::vector<std::string> words =
+      plane ? std::vector<std::string>{"tri3", "quad4"} : std::vector<std::string>{"tet4", "hex8"};
   if (!plane) words.insert(words.end(), others.begin(), others.end());
   const std::string word = object.at("element").word(words);
   const auto type = types.find(word);

@@ -25,8 +25,7 @@ int run(const Options& options) {
     std::fprintf(said, "%s\n", line.c_str());
     std::fflush(said); // a run of hours can be watched through a pipe
   };
-  say(scene.title + ": " + std::to_string(equations.dofs().size()) + " equations, " +
-      equations.solver_name());
+  say(scene.title + ": " + std::to_string(equations.size()) + " equations, " + equations.solver_name());
   if (!options.out.empty()) std::filesystem::create_directories(options.out);
   vtu::Series series(options.out, "result");
   std::vector<Step> steps;

@@ -28,7 +28,7 @@ int Step::iterations() const {
 }
 
 Newton::Newton(Equations& equations, Say say) : equations_(&equations), say_(std::move(say)) {
-  now_.displacement.assign(static_cast<std::size_t>(equations.dofs().dofs()), 0.0);
+  now_.displacement.assign(equations.dofs(), 0.0);
   Contact* contact = equations.contact();
   if (contact == nullptr) return;
   const Outcome found = equations.search(now_);

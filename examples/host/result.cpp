@@ -135,7 +135,7 @@ Json result_json(Equations& equations, const std::vector<Step>& steps, const std
               {"sizes",
                {{"nodes", mesh.node_count()},
                 {"elements", elements},
-                {"equations", equations.dofs().size()},
+                {"equations", equations.size()},
                 {"contact_elements", contact ? contact->points() : 0},
                 {"master_segments", contact ? contact->segments() : 0}}},
               {"failure", failure.empty() ? Json() : Json(failure)}};

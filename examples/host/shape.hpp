@@ -23,6 +23,21 @@ constexpr std::string_view name(ElementType type) {
   return names[static_cast<std::size_t>(type)];
 }
 
+/// Call a generic lambda with the type as a constant: `with_type(type, []<ElementType Type>() { ... })`.
+template <class Function> auto with_type(ElementType type, const Function& function) {
+  switch (type) {
+  case ElementType::tri3:
+    return function.template operator()<ElementType::tri3>();
+  case ElementType::quad4:
+    return function.template operator()<ElementType::quad4>();
+  case ElementType::tet4:
+    return function.template operator()<ElementType::tet4>();
+  case ElementType::hex8:
+    break;
+  }
+  return function.template operator()<ElementType::hex8>();
+}
+
 /// Faces (edges in 2D) as local node numbers, -1 fills up; their normal points out of the element, where
 /// normal = tangent turned by +90 degrees in 2D and rho_,1 x rho_,2 in 3D.
 struct LocalFaces {

@@ -6,22 +6,26 @@
 #include <memory>
 #include <string>
 
-#include <Eigen/Core>
-
-#include "sparse_system.hpp"
+#include <Eigen/SparseCore>
 
 namespace host {
 
+using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
 class LinearSolver {
 public:
-  /// @param symmetric  the matrices hold their lower triangle only
-  static std::unique_ptr<LinearSolver> create(bool symmetric);
+  /// @param symmetric   the matrices hold their lower triangle only
+  /// @param indefinite  takes over where such a matrix is not positive definite; null: LU of all its entries
+  static std::unique_ptr<LinearSolver> create(bool symmetric,
+                                              std::unique_ptr<LinearSolver> indefinite = nullptr);
   virtual ~LinearSolver() = default;
 
   /// Ordering and symbolic factorisation; again only when the pattern changes.
-  virtual void analyze(const SparseSystem::Matrix& matrix) = 0;
+  virtual void analyze(const SparseMatrix& matrix) = 0;
+  /// Before `analyze`: an ordering that another solver has found, [equations], the first pivot first.
+  virtual void take_order(const int* /*order*/, int /*size*/) {}
   /// @return false if the matrix is singular to working precision
-  virtual bool factorize(const SparseSystem::Matrix& matrix) = 0;
+  virtual bool factorize(const SparseMatrix& matrix) = 0;
   /// @param right_hand_sides  [equations][any number]
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) = 0;
   /// "CHOLMOD supernodal Cholesky", for the run's header and result.

@@ -64,14 +64,14 @@ Eigen::VectorXd LayerBody::displacement(const Eigen::VectorXd& force) const {
   return transform_.filter(field, compliance_).reshaped();
 }
 
-bool LayerSolver::factorize(const SparseSystem::Matrix& matrix) {
+bool LayerSolver::factorize(const SparseMatrix& matrix) {
   const Eigen::Index nodes = body_->nodes();
   contact_ = matrix.topLeftCorner(nodes, nodes).triangularView<Eigen::Lower>();
   diagonal_ = body_->diagonal() + Eigen::VectorXd(contact_.diagonal());
   free_ = Eigen::ArrayXd::Ones(nodes);
   multipliers_.assign(static_cast<std::size_t>(matrix.cols() - nodes), {});
   for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-    for (SparseSystem::Matrix::InnerIterator entry(matrix, static_cast<int>(column)); entry; ++entry) {
+    for (SparseMatrix::InnerIterator entry(matrix, static_cast<int>(column)); entry; ++entry) {
       if (entry.row() < nodes && column < nodes) continue;
       Multiplier& multiplier =
           multipliers_[static_cast<std::size_t>(std::max<Eigen::Index>(entry.row(), column) - nodes)];
@@ -100,7 +100,7 @@ bool LayerSolver::make_definite() {
   // Gershgorin: a row whose diagonal is at least the sum of its other entries' sizes
   Eigen::VectorXd missing = -Eigen::VectorXd(contact_.diagonal());
   for (Eigen::Index column = 0; column < contact_.cols(); ++column)
-    for (SparseSystem::Matrix::InnerIterator entry(contact_, static_cast<int>(column)); entry; ++entry)
+    for (SparseMatrix::InnerIterator entry(contact_, static_cast<int>(column)); entry; ++entry)
       if (entry.row() != column) {
         missing[entry.row()] += std::abs(entry.value());
         missing[column] += std::abs(entry.value());

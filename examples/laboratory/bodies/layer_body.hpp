@@ -46,8 +46,8 @@ private:
 class LayerSolver final : public LinearSolver {
 public:
   explicit LayerSolver(std::shared_ptr<const LayerBody> body) : body_(std::move(body)) {}
-  void analyze(const SparseSystem::Matrix&) override {}
-  bool factorize(const SparseSystem::Matrix& matrix) override;
+  void analyze(const SparseMatrix&) override {}
+  bool factorize(const SparseMatrix& matrix) override;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) override;
   std::string name() const override { return "conjugate gradients on a layer's surface"; }
 
@@ -66,10 +66,10 @@ private:
   void set_open();
 
   std::shared_ptr<const LayerBody> body_;
-  SparseSystem::Matrix contact_; ///< of the displacements, lower triangle
-  Eigen::VectorXd diagonal_;     ///< of both
-  Eigen::ArrayXd free_;          ///< [nodes] 0: the displacement is prescribed, 1
-  Eigen::ArrayXd open_;          ///< [nodes] 1: free, and contact elements are soft there; 0
+  SparseMatrix contact_;     ///< of the displacements, lower triangle
+  Eigen::VectorXd diagonal_; ///< of both
+  Eigen::ArrayXd free_;      ///< [nodes] 0: the displacement is prescribed, 1
+  Eigen::ArrayXd open_;      ///< [nodes] 1: free, and contact elements are soft there; 0
   std::vector<Multiplier> multipliers_;
 };
 

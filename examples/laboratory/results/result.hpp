@@ -11,8 +11,8 @@
 #include "compare.hpp"
 #include "json_reader.hpp"
 #include "output/table.hpp"
-#include "vtu.hpp"
 #include "run.hpp"
+#include "vtu.hpp"
 
 namespace host {
 

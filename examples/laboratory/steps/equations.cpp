@@ -79,7 +79,10 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     const bool have = bulk_->linear() && !bulk_values_.empty();
     SparseSystem* system = want_tangent && !have ? system_.get() : nullptr;
     if (system != nullptr) system->set_zero();
-    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, system);
+    AddTangent add; // none
+    if (system != nullptr)
+      add = [system](const ElementTangent& of) { system->add(of.group, of.element, of.values); };
+    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, add);
     if (want_tangent && have) std::copy(bulk_values_.begin(), bulk_values_.end(), system_->values().begin());
     if (want_tangent && !have && bulk_->linear())
       bulk_values_.assign(system_->values().begin(), system_->values().end());

@@ -10,6 +10,7 @@
 #include "areas.hpp"
 #include "both_sides.hpp"
 #include "half_space.hpp"
+#include "indefinite_solver.hpp"
 #include "layer_body.hpp"
 #include "mesh_size.hpp"
 #include "simulation.hpp"
@@ -151,8 +152,9 @@ Simulation::Simulation(const Scene& scene, const EntsLibrary* library, int divis
         scene_->contact->model_where +
         ": with \"element\": \"layer\" multipliers are those of nodes; leave \"sampling\" out, or take "
         "the normal law penalty or augmented");
-  solver_ = layer_ ? std::make_unique<LayerSolver>(layer_) : LinearSolver::create(symmetric);
-  bulk_stencils_ = bulk_->stencils(*dofs_);
+  solver_ =
+      layer_ ? std::make_unique<LayerSolver>(layer_) : LinearSolver::create(symmetric, indefinite_solver());
+  bulk_stencils_ = stencils(mesh_, *dofs_);
   now_.displacement.assign(static_cast<std::size_t>(dofs_->dofs()), 0.0);
   if (contact_) {
     now_.multiplier.assign(contact_->multiplier_count(), 0.0);

@@ -17,6 +17,7 @@
 #include "resolution.hpp"
 #include "scene.hpp"
 #include "solver.hpp"
+#include "sparse_system.hpp"
 
 namespace host {
 

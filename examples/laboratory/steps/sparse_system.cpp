@@ -38,6 +38,19 @@ std::span<const int> columns(const SparseMatrix& matrix, std::size_t row) {
 
 } // namespace
 
+std::vector<StencilGroup> stencils(const Mesh& mesh, const DofMap& dofs) {
+  std::vector<StencilGroup> result;
+  for (const ElementGroup& group : mesh.groups) {
+    StencilGroup stencil;
+    stencil.dofs = node_count(group.type) * mesh.dimension;
+    stencil.equations.reserve(group.nodes.size() * static_cast<std::size_t>(mesh.dimension));
+    for (const int node : group.nodes)
+      for (int c = 0; c < mesh.dimension; ++c) stencil.equations.push_back(dofs.equation(node, c));
+    result.push_back(std::move(stencil));
+  }
+  return result;
+}
+
 SparseMatrix pattern_of(int size, bool lower, std::span<const StencilGroup* const> groups,
                         const MatrixPart& part) {
   const auto n = static_cast<std::size_t>(size);

@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/SparseCore>
+#include "dof_map.hpp"
+#include "mesh.hpp"
+#include "solver.hpp"
 
 namespace host {
 
@@ -18,7 +20,8 @@ struct StencilGroup {
   std::size_t size() const { return dofs == 0 ? 0 : equations.size() / static_cast<std::size_t>(dofs); }
 };
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+/// Equations of the bulk elements, one group per group of the mesh. The first groups of every SparseSystem.
+std::vector<StencilGroup> stencils(const Mesh& mesh, const DofMap& dofs);
 
 /// A matrix over other unknowns, of symmetric pattern in compressed rows, that is added as a whole.
 struct MatrixPart {

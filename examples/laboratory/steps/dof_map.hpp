@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From degrees of freedom (node, component) to equations: prescribed ones have none, tied nodes share theirs. Behind
-// the displacements of all nodes there may be one scalar per node (a temperature).
+// From degrees of freedom (node, component) to equations: prescribed ones have none, tied nodes share theirs.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +9,9 @@ namespace host {
 
 class DofMap {
 public:
-  DofMap(int nodes, int dimension, bool scalars = false)
+  DofMap(int nodes, int dimension)
       : dimension_(dimension), owner_(static_cast<std::size_t>(nodes)),
-        equation_(static_cast<std::size_t>(nodes * (dimension + (scalars ? 1 : 0))), 0) {
+        equation_(static_cast<std::size_t>(nodes * dimension), 0) {
     for (std::size_t i = 0; i < owner_.size(); ++i) owner_[i] = static_cast<int>(i);
   }
 
@@ -24,12 +23,6 @@ public:
 
   /// Prescribe one component, also of all nodes tied to this one.
   void prescribe(int node, int component) { equation_[dof(node, component)] = -1; }
-
-  /// The dof of the node's scalar.
-  std::size_t scalar(int node) const {
-    return owner_.size() * static_cast<std::size_t>(dimension_) + static_cast<std::size_t>(node);
-  }
-  void prescribe_scalar(int node) { equation_[scalar(node)] = -1; }
 
   /// Number the equations in node order. Call once, after `tie` and `prescribe`.
   void number() {
@@ -48,9 +41,6 @@ public:
           equation = size_++;
       }
     }
-    for (std::size_t scalar = owner_.size() * static_cast<std::size_t>(dimension_); scalar < equation_.size();
-         ++scalar)
-      if (equation_[scalar] >= 0) equation_[scalar] = size_++;
   }
 
   int dimension() const { return dimension_; }
