@@ -65,7 +65,7 @@ trap 'rm -f "$log"' EXIT
 # Compilers and build tools; libraries; pictures, and what the programs in Python import (tests/clients/commands.py compares).
 packages='g++ gfortran cmake ninja-build pkg-config
   libeigen3-dev nlohmann-json3-dev tao-pegtl-dev libcli11-dev libgtest-dev libbenchmark-dev libsuitesparse-dev libmumps-seq-dev libopenblas0-serial
-  gnuplot-nox python3-numpy python3-scipy python3-matplotlib'$with
+  python3-numpy python3-scipy python3-matplotlib'$with
 
 missing() { # PACKAGES
   for package in $1; do

@@ -166,7 +166,7 @@ file(WRITE ${generated}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_${name}_PACKAGE_CONTROL_EXTRA ${generated}/shlibs ${generated}/triggers)
 set(CPACK_DEBIAN_ENTS-ADAPTERS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ENTS-TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_ENTS-TOOLS_PACKAGE_RECOMMENDS "python3-matplotlib, gnuplot-nox, libopenblas0-serial")
+set(CPACK_DEBIAN_ENTS-TOOLS_PACKAGE_RECOMMENDS "python3-matplotlib, libopenblas0-serial")
 set(CPACK_DEBIAN_PYTHON3-ENTS_PACKAGE_ARCHITECTURE all)
 # What Python compiles is removed with the package.
 file(CONFIGURE OUTPUT ${generated}/postinst CONTENT "#!/bin/sh\nset -e\nif command -v py3compile >/dev/null 2>&1; then py3compile -p python3-ents; fi\n")

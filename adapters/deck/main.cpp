@@ -144,8 +144,8 @@ bool report(const Job& job, const Options& options) {
 void write(const Job& job, const CommandLine& line, bool admissible) {
   const auto files = write_job(job, line.options, line.out);
   std::printf("deck      %s\n", files.front().string().c_str());
-  for (std::size_t i = 0; line.pictures && i < job.contacts.size(); ++i) {
-    const Pictures pictures = draw(job, job.contacts[i], line.out, "pair_" + std::to_string(i + 1));
+  if (line.pictures) {
+    const Pictures pictures = draw(job, line.out);
     std::printf("pictures ");
     for (const auto& file : pictures.files) std::printf(" %s", file.string().c_str());
     std::printf("%s%s\n", pictures.problem.empty() ? "" : "; ", pictures.problem.c_str());

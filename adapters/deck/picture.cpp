@@ -2,12 +2,12 @@
 #include "picture.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
+
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
 
 #include "library.hpp"
 #include "write.hpp"
@@ -63,35 +63,43 @@ void write_vtu(const std::filesystem::path& path, const std::vector<Point>& poin
   if (!out.flush()) throw Error(path.string() + " cannot be written");
 }
 
-/// A file name between the quotes of gnuplot, and of the shell.
-bool plain_name(const string& name) {
-  return std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '/' || c == '.' || c == '_' || c == '-' || c == '+' || c >= 128;
-  });
+string quoted(const string& word) { // for the shell
+  string out = "'";
+  for (const char c : word) out += c == '\'' ? string("'\\''") : string(1, c);
+  return out + "'";
 }
 
-string gnuplot(const std::filesystem::path& script, const std::filesystem::path& picture) {
-  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0)
-    return "no PNG: gnuplot is not installed (package gnuplot-nox)";
-  if (!plain_name(script.string()))
-    return "no PNG: the folder's name has characters that the shell would take for its own";
-  const int code = std::system(("cd '" + script.parent_path().string() + "' && gnuplot '" +
-                                script.filename().string() + "' >/dev/null 2>&1")
-                                   .c_str());
-  return code == 0 && std::filesystem::exists(picture) ? "" : "no PNG: gnuplot failed on " + script.string();
+void write_text(const std::filesystem::path& path, const string& text) {
+  std::ofstream out(path, std::ios::binary);
+  if (!(out << text).flush()) throw Error(path.string() + " cannot be written");
 }
 
-} // namespace
+/// With the first Python that has matplotlib. @return empty, or why there are no pictures
+string run_script(const std::filesystem::path& script) {
+  const char* own = std::getenv("ENTS_PYTHON");
+  for (const string python : {own == nullptr ? "" : own, "python3", "/usr/bin/python3"}) {
+    if (python.empty()) continue;
+    constexpr int without_matplotlib = 3, without_python = 127; // ends of the script, and of the shell
+    const int status =
+        std::system((quoted(python) + " -B " + quoted(script.string()) + " >/dev/null 2>&1").c_str());
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (code == 0) return "";
+    if (code != without_matplotlib && code != without_python)
+      return "no PNG: python3 " + script.string() + " fails";
+  }
+  return "no PNG: matplotlib is missing (Debian package python3-matplotlib); with it, python3 " +
+         script.string() + " draws them";
+}
 
-Pictures draw(const Job& job, const Contact& contact, const std::filesystem::path& out, const string& name) {
-  Pictures pictures;
+/// The enriched master and the slave points of a pair.
+void write_pair(const Job& job, const Contact& contact, const std::filesystem::path& out,
+                const string& name) {
   const int d = dimension_of(contact.master);
   const double per_face = wanted_points / static_cast<double>(contact.master.faces.size());
   const int per_side =
       static_cast<int>(std::clamp(d == 2 ? per_face : std::sqrt(per_face), 1.0, d == 2 ? 400.0 : 120.0));
   const SampledSurface surface = sampled(job.mesh, contact, per_side);
   write_vtu(out / (name + "_master.vtu"), surface.points, surface.cells, {{"height", surface.heights}});
-  pictures.files.push_back(out / (name + "_master.vtu"));
 
   std::vector<Point> points;
   std::vector<std::vector<int>> cells;
@@ -106,44 +114,29 @@ Pictures draw(const Job& job, const Contact& contact, const std::filesystem::pat
         static_cast<double>(first_free_element(job) + static_cast<std::int64_t>(contact.first_element + i)));
   }
   write_vtu(out / (name + "_slave.vtu"), points, cells, fields);
-  pictures.files.push_back(out / (name + "_slave.vtu"));
+}
 
-  const std::filesystem::path script = std::filesystem::absolute(out / (name + ".gp")),
-                              picture = out / (name + ".png");
-  {
-    std::ofstream gp(script);
-    const auto number = [](const Point& p) { return exact(p[0]) + " " + exact(p[1]) + " " + exact(p[2]); };
-    gp << "set terminal pngcairo size 1200,900\nset output '" << picture.filename().string()
-       << "'\nset palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 "
-          "'#fde725')\nset cblabel 'height'\n"
-       << "set title '"
-       << (plain_name(contact.pair.slave + contact.pair.master)
-               ? "slave nodes " + contact.pair.slave + " on the enriched master " + contact.pair.master
-               : "")
-       << "' noenhanced\n";
-    gp << "$surface << EOD\n";
-    for (const auto& cell : surface.cells) { // each cell is a small mesh of its own: two lines of two points
-      const auto p = [&](std::size_t i) {
-        return number(surface.points[static_cast<std::size_t>(cell[i])]) + " " +
-               exact(surface.heights[static_cast<std::size_t>(cell[i])]) + "\n";
-      };
-      if (cell.size() == 2) gp << p(0) << p(1) << "\n";
-      if (cell.size() == 3) gp << p(0) << p(1) << "\n" << p(2) << p(2) << "\n\n";
-      if (cell.size() == 4) gp << p(0) << p(1) << "\n" << p(3) << p(2) << "\n\n";
-    }
-    gp << "EOD\n$slave << EOD\n";
-    for (const Point& p : points) gp << number(p) << "\n";
-    gp << "EOD\n";
-    if (d == 2)
-      gp << "set size ratio -1\nplot $surface using 1:2:4 with lines lw 2 palette title 'master', $slave "
-            "using 1:2 with points pt 7 ps 0.6 lc rgb '#c1121f' title 'slave nodes'\n";
-    else
-      gp << "set view equal xy\nset view 65,30\nset xyplane relative 0\nunset key\n"
-            "splot $surface using 1:2:3:4 with pm3d, $slave using 1:2:3 with points pt 7 ps 0.6 lc rgb "
-            "'#c1121f'\n";
+} // namespace
+
+Pictures draw(const Job& job, const std::filesystem::path& out) {
+  Pictures pictures;
+  nlohmann::json list = nlohmann::json::array();
+  std::vector<std::filesystem::path> drawn;
+  for (std::size_t i = 0; i < job.contacts.size(); ++i) {
+    const Contact& contact = job.contacts[i];
+    const string name = "pair_" + std::to_string(i + 1);
+    write_pair(job, contact, out, name);
+    list.push_back(
+        {{"name", name},
+         {"title", "slave points " + contact.pair.slave + " on the enriched master " + contact.pair.master}});
+    for (const char* file : {"_master.vtu", "_slave.vtu"}) pictures.files.push_back(out / (name + file));
+    drawn.push_back(out / (name + ".png"));
   }
-  pictures.problem = gnuplot(script, picture);
-  if (pictures.problem.empty()) pictures.files.push_back(picture);
+  write_text(out / "pictures.json",
+             list.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text(out / "pictures.py", pictures_script);
+  pictures.problem = run_script(out / "pictures.py");
+  if (pictures.problem.empty()) pictures.files.insert(pictures.files.end(), drawn.begin(), drawn.end());
   return pictures;
 }
 

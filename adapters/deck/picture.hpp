@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was made of a contact pair, to look at: slave nodes and the enriched master.
+// What was made of the contact pairs, to look at: slave points and the enriched masters.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,12 @@ struct Pictures {
   std::string problem; ///< one line; a picture never fails a conversion
 };
 
-/// NAME_slave.vtu (nodes with area, number of segments, element), NAME_master.vtu (the enriched surface with
-/// its height) and, through gnuplot if it is installed, NAME.png.
-Pictures draw(const Job& job, const Contact& contact, const std::filesystem::path& out,
-              const std::string& name);
+/// Of pair k: pair_k_slave.vtu (slave points with area, number of segments, element), pair_k_master.vtu (the
+/// enriched surface with its height), and pair_k.png, which pictures.py, left beside them, draws of both with
+/// matplotlib. To change a picture, edit pictures.py in the folder and run it.
+Pictures draw(const Job& job, const std::filesystem::path& out);
+
+/// Text of pictures.py.
+extern const char* const pictures_script;
 
 } // namespace ents_deck
