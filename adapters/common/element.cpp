@@ -283,6 +283,60 @@ bool find_begin(const Element& e, const Arguments& arguments, double* state) {
   return true;
 }
 
+/// What the library answers.
+struct Answer {
+  double residual[largest_dofs], tangent[largest_dofs * largest_dofs], state_end[largest_state];
+  double energy = 0, friction_energy = 0, dissipation = 0, gap = 0, normal[3] = {};
+  int32_t flags = 0;
+};
+
+/// @param checked  the tangent is compared with differences
+ents_output output_into(Answer& answer, const Element& e, bool checked) {
+  ents_output output{};
+  output.struct_size = sizeof output;
+  output.wanted = ENTS_FLAGS | ENTS_GAP | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) |
+                  (e.energy ? ENTS_ENERGY | ENTS_FRICTION_ENERGY : 0) |
+                  (e.dissipation ? ENTS_DISSIPATION : 0) | (e.history_end ? ENTS_STATE : 0) |
+                  (checked ? ENTS_NORMAL : 0);
+  output.flags = &answer.flags;
+  output.gap = &answer.gap;
+  output.normal = answer.normal;
+  output.residual = answer.residual;
+  output.tangent = answer.tangent;
+  output.energy = &answer.energy;
+  output.friction_energy = &answer.friction_energy;
+  output.dissipation = &answer.dissipation;
+  output.state_end = answer.state_end;
+  return output;
+}
+
+/// The answer in the host's own arrays.
+void hand_over(const Element& e, const Arguments& arguments, const Place& at, const Answer& answer) {
+  const ents_layout& layout = arguments.model->layout;
+  if (arguments.body) {
+    double of_body[largest_body_dofs], matrix[largest_body_dofs * largest_body_dofs];
+    ents_pose_element(layout.dimension, &at.body.pose, at.unknowns, answer.residual,
+                      e.tangent ? answer.tangent : nullptr, of_body, e.tangent ? matrix : nullptr, nullptr);
+    if (e.tangent && arguments.turn_node && layout.dimension == 3)
+      turn_columns(at.body, matrix, largest_body_dofs);
+    scatter_body(e, arguments, of_body, matrix);
+  } else {
+    scatter(e, arguments, answer.residual, answer.tangent);
+  }
+  if (e.energy) *e.energy = answer.energy + answer.friction_energy;
+  if (e.dissipation) *e.dissipation = answer.dissipation;
+  if (e.history_end)
+    for (int i = 0; i < layout.state_size; ++i) e.history_end(i) = answer.state_end[i];
+  if (e.history_end && arguments.body)
+    write_body(e, layout.dimension, arguments.turn_node, layout.state_size, at.body);
+}
+
+/// Ask for a smaller increment.
+void cut(Result& result, double step_factor) {
+  result.outcome = Outcome::cut;
+  result.step_factor = step_factor;
+}
+
 } // namespace
 
 Result evaluate(const Element& e) {
@@ -292,20 +346,16 @@ Result evaluate(const Element& e) {
   const ents_layout& layout = model.layout;
 
   Place at;
-  double state_begin[largest_state], state_end[largest_state];
-  double residual[largest_dofs], tangent[largest_dofs * largest_dofs], energy = 0, friction_energy = 0,
-                                                                       dissipation = 0;
+  double state_begin[largest_state];
+  Answer answer;
   const bool fresh = layout.state_size > 0 && !begin_state(e, model, state_begin);
   clear(e);
   Result result;
   result.message[0] = 0;
   describe(arguments, result);
   if (const std::string wrong = place(e, arguments, at); !wrong.empty()) return fail(e, wrong);
-  double* unknowns = at.unknowns;
-  const Body& body = at.body;
   if (!at.finite) { // a diverged iteration of the host
-    result.outcome = Outcome::cut;
-    result.step_factor = 0.5;
+    cut(result, 0.5);
     say(result, e, "the host's displacements are not finite");
     return result;
   }
@@ -316,24 +366,9 @@ Result evaluate(const Element& e) {
   ents_input input = input_at(e, arguments, at, state_begin);
   double start[2];
   if (find_start(model, input, start)) input.start = start;
-  int32_t flags = 0;
   const bool checked = (arguments.options & option_selfcheck) && e.tangent;
-  double gap = 0, normal[3] = {};
-  ents_output output{};
-  output.struct_size = sizeof output;
-  output.wanted = ENTS_FLAGS | ENTS_GAP | ENTS_RESIDUAL | (e.tangent ? ENTS_TANGENT : 0) |
-                  (e.energy ? ENTS_ENERGY | ENTS_FRICTION_ENERGY : 0) |
-                  (e.dissipation ? ENTS_DISSIPATION : 0) | (e.history_end ? ENTS_STATE : 0) |
-                  (checked ? ENTS_NORMAL : 0);
-  output.flags = &flags;
-  output.gap = &gap;
-  output.normal = normal;
-  output.residual = residual;
-  output.tangent = tangent;
-  output.energy = &energy;
-  output.friction_energy = &friction_energy;
-  output.dissipation = &dissipation;
-  output.state_end = state_end;
+  const int32_t& flags = answer.flags;
+  ents_output output = output_into(answer, e, checked);
   int32_t status = ents_evaluate(model.model, 0, 1, &input, &output, &report);
   if (status == ENTS_OK && (flags & ENTS_FLAG_NO_BEGIN) && find_begin(e, arguments, state_begin))
     status = ents_evaluate(model.model, 0, 1, &input, &output, &report);
@@ -344,46 +379,30 @@ Result evaluate(const Element& e) {
     return result;
   }
   result.contact = (flags & ENTS_FLAG_CONTACT) != 0;
-  if (has_left(arguments, input, flags, gap)) {
-    result.outcome = Outcome::cut;
+  if (has_left(arguments, input, flags, answer.gap)) {
+    cut(result, 0.5);
     result.left = true;
-    result.step_factor = 0.5;
     say(result, e,
-        model.file + ": the slave at " + place_of(unknowns, layout.dimension) +
+        model.file + ": the slave at " + place_of(at.unknowns, layout.dimension) +
             (arguments.body ? " in the frame of the body" : "") +
             " was in contact and has left its segments. Write a wider \"patch\", with the segments " +
             "that lie there; if the master ends there, add 16 to " + e.host->properties + "3");
     return result;
   }
-  result.beside = lies_beside(arguments, flags, gap, input.master);
-  result.depth = result.beside ? -gap : 0;
+  result.beside = lies_beside(arguments, flags, answer.gap, input.master);
+  result.depth = result.beside ? -answer.gap : 0;
   if (e.listed && e.number >= 0 && !arguments.body)
     if (const std::string wrong =
             note(e, model.patch, arguments.slave_nodes, result.contact, result.beside, result.depth);
         !wrong.empty())
       return fail(e, wrong);
-  if (arguments.body) {
-    double of_body[largest_body_dofs], matrix[largest_body_dofs * largest_body_dofs];
-    ents_pose_element(layout.dimension, &body.pose, unknowns, residual, e.tangent ? tangent : nullptr,
-                      of_body, e.tangent ? matrix : nullptr, nullptr);
-    if (e.tangent && arguments.turn_node && layout.dimension == 3)
-      turn_columns(body, matrix, largest_body_dofs);
-    scatter_body(e, arguments, of_body, matrix);
-  } else {
-    scatter(e, arguments, residual, tangent);
-  }
-  if (e.energy) *e.energy = energy + friction_energy;
-  if (e.dissipation) *e.dissipation = dissipation;
-  if (e.history_end)
-    for (int i = 0; i < layout.state_size; ++i) e.history_end(i) = state_end[i];
-  if (e.history_end && arguments.body)
-    write_body(e, layout.dimension, arguments.turn_node, layout.state_size, body);
+  hand_over(e, arguments, at, answer);
   if (checked) {
     char text[512];
     if (result.contact)
-      selfcheck(model.model, layout, input, unknowns, at.temperatures, tangent, text, sizeof text);
+      selfcheck(model.model, layout, input, at.unknowns, at.temperatures, answer.tangent, text, sizeof text);
     else
-      say_open((flags & ENTS_FLAG_OUTSIDE) == 0, gap, normal, text, sizeof text);
+      say_open((flags & ENTS_FLAG_OUTSIDE) == 0, answer.gap, answer.normal, text, sizeof text);
     say(result, e, text);
   }
   return result;

@@ -214,36 +214,22 @@ bool has_mixed_patch(const Contact& contact) {
   });
 }
 
-/// One pair: sides, law, patches.
-Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, const ordered_json& base,
-                std::vector<Move>& moves) {
-  Contact out;
-  out.remarks = check_pair(mesh, pair, options.program);
-  out.pair = pair;
-  out.slave = side_of(mesh, pair.slave, pair.line);
-  out.master = side_of(mesh, pair.master, pair.line);
-  check_elements_stay(mesh, out.slave);
-  check_elements_stay(mesh, out.master);
-  check_kinds(mesh, out.slave, options.program);
-  check_kinds(mesh, out.master, options.program);
-  if (out.master.faces.empty())
-    mesh.source.fail(out.master.place, "the master '" + pair.master + "' has no faces of a body");
-
-  adjust(mesh, out, moves);
+/// The model of the pair: `base` with segment, law and border of the deck. The law's rise and remarks go into `out`.
+void complete_model(const Mesh& mesh, const Options& options, const ordered_json& base, Contact& out) {
   Bodies bodies = bodies_of(mesh);
   bodies.face_size = mean_size(mesh, out.master);
   out.model = base;
   const string segment = segment_name(out.master.faces[0].shape);
   if (out.model.contains("segment") && out.model["segment"] != segment)
     throw Error("the model says \"segment\": " + out.model["segment"].dump() + ", the faces of '" +
-                pair.master + "' are " + segment + ": leave the key out");
+                out.pair.master + "' are " + segment + ": leave the key out");
   for (const char* key : {"patch", "surface_coordinates"})
     if (out.model.contains(key))
       throw Error(string("the model has \"") + key + "\", which follows from the deck" +
                   (key[0] == 's' ? " (--coordinates)" : "") + ": leave the key out");
   out.model["segment"] = segment;
   if (!out.model.contains("contact")) {
-    Law law = law_of(mesh, pair, bodies, options.program, options.stiffness);
+    Law law = law_of(mesh, out.pair, bodies, options.program, options.stiffness);
     out.model["contact"] = std::move(law.contact);
     out.remarks.insert(out.remarks.end(), law.remarks.begin(), law.remarks.end());
     out.rise = law.clearance;
@@ -251,8 +237,10 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
     throw Error("--stiffness and \"contact\" of the model contradict each other: leave one out");
   }
   if (!out.model.contains("border")) out.model["border"] = default_border;
+}
 
-  const bool height = out.model.contains("height") && !out.model["height"].is_null();
+/// What the patches have to cover.
+PatchRequest request_of(const Mesh& mesh, const Options& options, bool height, Contact& out) {
   PatchRequest request;
   const Motion motion = prescribed_motion(mesh);
   request.motion = motion.range;
@@ -261,13 +249,15 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
   if (motion.rotates && !options.slide)
     out.remarks.push_back("the deck prescribes rotations, which the slide does not count: write --slide");
   request.slide = options.slide;
-  if (const auto known = options.slides.find(pair.slave + ", " + pair.master); known != options.slides.end())
+  if (const auto known = options.slides.find(out.pair.slave + ", " + out.pair.master);
+      known != options.slides.end())
     request.least = known->second;
   request.largest = largest_element(options.program);
-  const ordered_json& law = out.model["contact"];
-  out.plane_coordinates =
-      !height && options.coordinates.empty() && law.contains("friction") && !law["friction"].is_null();
   request.turn = !height || !options.coordinates.empty();
+  return request;
+}
+
+void find_patches(const Mesh& mesh, const Options& options, const PatchRequest& request, Contact& out) {
   for (int points = points_per_direction(out, options, out.remarks);;) {
     out.points = points == 0 ? slave_nodes(mesh, out.slave, out.master, options.program, out.remarks)
                              : points_in_faces(mesh, out.slave, points, options.program);
@@ -289,8 +279,33 @@ Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, con
         " slave points have the faces along their straight way alone: all within the slide are too "
         "many for an element");
   if (out.patches.list.empty())
-    mesh.source.fail(out.slave.place, "no node of '" + pair.slave + "' lies ahead of '" + pair.master +
-                                          "', nor within its slide of it");
+    mesh.source.fail(out.slave.place, "no node of '" + out.pair.slave + "' lies ahead of '" +
+                                          out.pair.master + "', nor within its slide of it");
+}
+
+/// One pair: sides, law, patches.
+Contact prepare(Mesh& mesh, const ContactPair& pair, const Options& options, const ordered_json& base,
+                std::vector<Move>& moves) {
+  Contact out;
+  out.remarks = check_pair(mesh, pair, options.program);
+  out.pair = pair;
+  out.slave = side_of(mesh, pair.slave, pair.line);
+  out.master = side_of(mesh, pair.master, pair.line);
+  check_elements_stay(mesh, out.slave);
+  check_elements_stay(mesh, out.master);
+  check_kinds(mesh, out.slave, options.program);
+  check_kinds(mesh, out.master, options.program);
+  if (out.master.faces.empty())
+    mesh.source.fail(out.master.place, "the master '" + pair.master + "' has no faces of a body");
+
+  adjust(mesh, out, moves);
+  complete_model(mesh, options, base, out);
+  const bool height = out.model.contains("height") && !out.model["height"].is_null();
+  const PatchRequest request = request_of(mesh, options, height, out);
+  const ordered_json& law = out.model["contact"];
+  out.plane_coordinates =
+      !height && options.coordinates.empty() && law.contains("friction") && !law["friction"].is_null();
+  find_patches(mesh, options, request, out);
   if (height && options.coordinates.empty() && out.master.faces.size() > 1)
     out.remarks.push_back(
         "the height repeats on every face of the master (s = xi); --coordinates spreads it over the surface");

@@ -239,6 +239,37 @@ double slide_of(const PatchRequest& request, const Point& normal) {
   return std::max(std::sqrt(std::max(sum, 0.0)) + request.any_direction, request.least);
 }
 
+[[noreturn]] void refuse_many(const Mesh& mesh, const Side& master, const PatchRequest& request,
+                              const SlavePoint& node, double slide, std::size_t faces, std::size_t nodes) {
+  const std::string largest = std::to_string(request.largest - static_cast<int>(node.nodes.size()));
+  mesh.source.fail(master.place, label_of(mesh, node) + " slides by up to " + shown(slide) +
+                                     ": the faces of '" + master.name + "' within that distance are " +
+                                     std::to_string(faces) + " with " + std::to_string(nodes) +
+                                     " nodes, and an element may have " + largest +
+                                     " master nodes. A coarser master with a height instead of its mesh "
+                                     "has fewer, --points 0 leaves " +
+                                     std::to_string(request.largest - 1) +
+                                     " of them, or write a smaller --slide if the job slides less");
+}
+
+/// The ring around the chosen faces, nearest first, as far as it fits: bodies deform.
+void add_ring(const FacetTree& tree, const Neighbours& all, const FacetTree::Closest& under, int largest,
+              std::set<int>& chosen, std::set<int>& nodes) {
+  std::vector<std::pair<double, int>> ring;
+  for (const int f : std::set<int>(chosen))
+    for (const int other : all.around(f))
+      if (chosen.count(other) == 0) ring.emplace_back(tree.distance(under.point, other), other);
+  std::sort(ring.begin(), ring.end());
+  for (const auto& [distance, f] : ring) {
+    if (chosen.count(f) != 0) continue;
+    if (!go_together(all.face(f).shape, all.face(under.face).shape)) continue;
+    std::set<int> with = nodes_with(all, nodes, f);
+    if (static_cast<int>(with.size()) > largest) continue;
+    nodes = std::move(with);
+    chosen.insert(f);
+  }
+}
+
 } // namespace
 
 Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const Side& master,
@@ -283,29 +314,8 @@ Patches patches_of(const Mesh& mesh, const std::vector<SlavePoint>& slave, const
         ++out.narrow;
       }
     if (static_cast<int>(nodes.size()) > largest)
-      mesh.source.fail(master.place, label_of(mesh, node) + " slides by up to " + shown(slide) +
-                                         ": the faces of '" + master.name + "' within that distance are " +
-                                         std::to_string(chosen.size()) + " with " +
-                                         std::to_string(nodes.size()) + " nodes, and an element may have " +
-                                         std::to_string(largest) +
-                                         " master nodes. A coarser master with a height instead of its mesh "
-                                         "has fewer, --points 0 leaves " +
-                                         std::to_string(request.largest - 1) +
-                                         " of them, or write a smaller --slide if the job slides less");
-    // Then the ring around, nearest first, as far as it fits: bodies deform.
-    std::vector<std::pair<double, int>> ring;
-    for (const int f : std::set<int>(chosen))
-      for (const int other : all.around(f))
-        if (chosen.count(other) == 0) ring.emplace_back(tree.distance(under.point, other), other);
-    std::sort(ring.begin(), ring.end());
-    for (const auto& [distance, f] : ring) {
-      if (chosen.count(f) != 0) continue;
-      if (!go_together(all.face(f).shape, all.face(under.face).shape)) continue;
-      std::set<int> with = nodes_with(all, nodes, f);
-      if (static_cast<int>(with.size()) > largest) continue;
-      nodes = std::move(with);
-      chosen.insert(f);
-    }
+      refuse_many(mesh, master, request, node, slide, chosen.size(), nodes.size());
+    add_ring(tree, all, under, largest, chosen, nodes);
     for (const int f : chosen) {
       if (!go_together(all.face(f).shape, all.face(under.face).shape))
         mesh.source.fail(master.place, "'" + master.name + "' has faces of several shapes (" +

@@ -45,6 +45,25 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
     : slave_(std::move(slave)), master_(std::move(master)), dofs_(dofs), reach_(options.reach) {
   auto report = made<ents_report>();
   require(ents_check_contract(ENTS_CONTRACT_MAJOR, ENTS_CONTRACT_MINOR, &report), report);
+  make_segments(read_model(model), options);
+  make_tree(options);
+  const std::size_t n = slave_.vertices.size();
+  areas_.resize(n);
+  require(ents_tributary_areas("line2", edges(slave_), slave_.edges.data(), nodes(slave_),
+                               slave_.start.data(), options.thickness, areas_.data(), &report),
+          report);
+  segment_.assign(n, -1);
+  segment_begin_ = segment_;
+  xi_.assign(n, 0.0);
+  xi_begin_ = xi_;
+  state_begin_.assign(n * static_cast<std::size_t>(layout_.state_size), 0.0);
+  require(ents_state_init(model_.get(), signed_size(n), state_begin_.data(), layout_.state_size, &report),
+          report);
+  state_end_ = state_begin_;
+}
+
+std::string BorderContact::read_model(const std::string& model) {
+  auto report = made<ents_report>();
   std::string text = model;
   ents_model* created = nullptr;
   const std::size_t first = model.find_first_not_of(" \t\r\n");
@@ -72,7 +91,11 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
     throw std::runtime_error(
         "the model has \"heat\", which takes a temperature in each node, and a space [P1, P1] "
         "has displacements alone: remove \"heat\" from \"contact\"");
+  return basis;
+}
 
+void BorderContact::make_segments(const std::string& basis, const Options& options) {
+  auto report = made<ents_report>();
   if (basis.empty()) {
     segments_ = master_.edges;
     for (std::int64_t i = 0; i < nodes(master_); ++i)
@@ -92,6 +115,10 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
                         weights_.data(), &report),
             report);
   }
+}
+
+void BorderContact::make_tree(const Options& options) {
+  auto report = made<ents_report>();
   const std::vector<double> at_rest(static_cast<std::size_t>(dofs_), 0.0);
   points_ = points_begin_ = points(at_rest.data());
   now_ = now_begin_ = positions(slave_, at_rest.data());
@@ -112,20 +139,6 @@ BorderContact::BorderContact(const std::string& model, Border slave, Border mast
                  *b = &master_.start[2 * static_cast<std::size_t>(master_.edges[e + 1])];
     reach_ = std::max(reach_, std::hypot(b[0] - a[0], b[1] - a[1]));
   }
-
-  const std::size_t n = slave_.vertices.size();
-  areas_.resize(n);
-  require(ents_tributary_areas("line2", edges(slave_), slave_.edges.data(), nodes(slave_),
-                               slave_.start.data(), options.thickness, areas_.data(), &report),
-          report);
-  segment_.assign(n, -1);
-  segment_begin_ = segment_;
-  xi_.assign(n, 0.0);
-  xi_begin_ = xi_;
-  state_begin_.assign(n * static_cast<std::size_t>(layout_.state_size), 0.0);
-  require(ents_state_init(model_.get(), signed_size(n), state_begin_.data(), layout_.state_size, &report),
-          report);
-  state_end_ = state_begin_;
 }
 
 std::vector<double> BorderContact::positions(const Border& border, const double* u) const {
@@ -274,30 +287,34 @@ Forces BorderContact::evaluate(const double* u, double* r) {
       found = find_begin(closed[e], state.data() + e * size) || found;
   if (found && evaluate_all() != ENTS_OK) return cut(report);
 
-  std::vector<Term> rows, columns;
   for (std::size_t e = 0; e < closed.size(); ++e) {
     std::copy_n(end.data() + e * size, size, state_end_.data() + closed[e] * size);
-    for (std::size_t a = 0; a < dofs; ++a) {
-      terms(closed[e], a / 2, rows);
+    add_element(closed[e], residual.data() + e * dofs, tangent.data() + e * dofs * dofs, r, result);
+    // An open node is searched anew: it may move over another flank, or leave the master.
+    if ((outcome[e] & ENTS_FLAG_CONTACT) == 0) segment_[closed[e]] = -1;
+  }
+  return result;
+}
+
+void BorderContact::add_element(std::size_t k, const double* residual, const double* tangent, double* r,
+                                Forces& to) const {
+  const auto dofs = static_cast<std::size_t>(layout_.dofs);
+  std::vector<Term> rows, columns;
+  for (std::size_t a = 0; a < dofs; ++a) {
+    terms(k, a / 2, rows);
+    for (const Term& row : rows) r[row.dof + static_cast<long>(a % 2)] += row.weight * residual[a];
+    for (std::size_t b = 0; b < dofs; ++b) {
+      const double stiffness = tangent[b * dofs + a]; // column-major
+      if (stiffness == 0) continue;
+      terms(k, b / 2, columns);
       for (const Term& row : rows)
-        r[row.dof + static_cast<long>(a % 2)] += row.weight * residual[e * dofs + a];
-      for (std::size_t b = 0; b < dofs; ++b) {
-        const double k = tangent[(e * dofs + b) * dofs + a]; // column-major
-        if (k == 0) continue;
-        terms(closed[e], b / 2, columns);
-        for (const Term& row : rows)
-          for (const Term& column : columns) {
-            result.row.push_back(row.dof + static_cast<long>(a % 2));
-            result.column.push_back(column.dof + static_cast<long>(b % 2));
-            result.value.push_back(row.weight * column.weight * k);
-          }
-      }
+        for (const Term& column : columns) {
+          to.row.push_back(row.dof + static_cast<long>(a % 2));
+          to.column.push_back(column.dof + static_cast<long>(b % 2));
+          to.value.push_back(row.weight * column.weight * stiffness);
+        }
     }
   }
-  // Open nodes are searched anew: they may move over another flank, or leave the master.
-  for (std::size_t e = 0; e < closed.size(); ++e)
-    if ((outcome[e] & ENTS_FLAG_CONTACT) == 0) segment_[closed[e]] = -1;
-  return result;
 }
 
 void BorderContact::accept() {

@@ -61,11 +61,17 @@ private:
     long dof;
     double weight;
   };
+  /// @return basis of the model's smoothed segment, or ""
+  std::string read_model(const std::string& model);
+  void make_segments(const std::string& basis, const Options& options);
+  void make_tree(const Options& options);
   std::vector<double> positions(const Border& border, const double* u) const;
   std::vector<double> points(const double* u) const;
   std::int32_t transfer(std::size_t slave, double* state, ents_report& report) const;
   bool find_begin(std::size_t slave, double* state) const;
   void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
+  /// The element of slave node k: residual [dofs] and tangent [dofs][dofs], column by column.
+  void add_element(std::size_t k, const double* residual, const double* tangent, double* r, Forces& to) const;
 
   /// A constructor that throws has no destructor: the model goes with this.
   struct Destroy {
