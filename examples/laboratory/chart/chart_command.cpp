@@ -98,6 +98,42 @@ std::vector<Work> measure_all(const EntsLibrary& library, const ChartOptions& op
   return works;
 }
 
+Json heights_json(const std::vector<WrongHeight>& heights) {
+  Json out = Json::array();
+  for (const WrongHeight& row : heights)
+    out.push_back({{"panel", row.panel},
+                   {"what", row.what},
+                   {"example", row.example},
+                   {"surface_check", row.check},
+                   {"on_the_way", row.running},
+                   {"flagged", row.flagged}});
+  return out;
+}
+
+void write_chart(const ChartOptions& options, const Json& json) {
+  write_text(options.out / "chart.json", json.dump() + "\n");
+  for (const auto& [name, text] : {std::pair{"chart.py", pictures::chart_script},
+                                   {"page.html", pictures::page_text},
+                                   {"pictures.py", pictures::pictures_script}})
+    write_text(options.out / name, text);
+  const std::string problem =
+      pictures::run_script(options.out, "chart.py", options.pictures ? "" : "--no-pictures");
+  if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
+}
+
+void print_chart(const std::vector<Work>& works, const std::vector<WrongHeight>& heights, const Table& maps) {
+  for (const Work& work : works) {
+    std::printf("%s: %s\n", work.problem.name.c_str(), work.problem.quantity.c_str());
+    for (const std::string& line : advice(work, advised_errors)) std::printf("  %s\n", line.c_str());
+    for (const std::string& line : comparisons(work)) std::printf("  %s\n", line.c_str());
+  }
+  if (const std::string text = maps.text(); !text.empty()) std::printf("\n%s", text.c_str());
+  Table wrong_table;
+  wrong_table.column("Fig. 4").column("wrong because").column("ents_surface_check").column("on the way");
+  for (const WrongHeight& row : heights) wrong_table.row({row.panel, row.what, row.check, row.running});
+  std::printf("\n%s", wrong_table.text().c_str());
+}
+
 } // namespace
 
 int chart_command(const CommonOptions& common, const ChartOptions& options) {
@@ -141,41 +177,15 @@ int chart_command(const CommonOptions& common, const ChartOptions& options) {
     json["stability"].push_back(map_json(map));
   }
   json["silently_wrong"] = wrong;
-  bool covered = true;
-  json["wrong_heights"] = Json::array();
-  for (const WrongHeight& row : heights) {
-    covered = covered && row.flagged;
-    json["wrong_heights"].push_back({{"panel", row.panel},
-                                     {"what", row.what},
-                                     {"example", row.example},
-                                     {"surface_check", row.check},
-                                     {"on_the_way", row.running},
-                                     {"flagged", row.flagged}});
-  }
+  json["wrong_heights"] = heights_json(heights);
+  const bool covered =
+      std::all_of(heights.begin(), heights.end(), [](const WrongHeight& row) { return row.flagged; });
 
-  if (!options.out.empty()) {
-    write_text(options.out / "chart.json", json.dump() + "\n");
-    for (const auto& [name, text] : {std::pair{"chart.py", pictures::chart_script},
-                                     {"page.html", pictures::page_text},
-                                     {"pictures.py", pictures::pictures_script}})
-      write_text(options.out / name, text);
-    const std::string problem =
-        pictures::run_script(options.out, "chart.py", options.pictures ? "" : "--no-pictures");
-    if (!problem.empty()) std::fprintf(stderr, "%s\n", problem.c_str());
-  }
+  if (!options.out.empty()) write_chart(options, json);
   if (common.json) {
     std::printf("%s\n", json.dump().c_str());
   } else {
-    for (const Work& work : works) {
-      std::printf("%s: %s\n", work.problem.name.c_str(), work.problem.quantity.c_str());
-      for (const std::string& line : advice(work, advised_errors)) std::printf("  %s\n", line.c_str());
-      for (const std::string& line : comparisons(work)) std::printf("  %s\n", line.c_str());
-    }
-    if (!maps.empty()) std::printf("\n%s", table.text().c_str());
-    Table wrong_table;
-    wrong_table.column("Fig. 4").column("wrong because").column("ents_surface_check").column("on the way");
-    for (const WrongHeight& row : heights) wrong_table.row({row.panel, row.what, row.check, row.running});
-    std::printf("\n%s", wrong_table.text().c_str());
+    print_chart(works, heights, maps.empty() ? Table() : table);
     std::printf("\nchart: %lld silently wrong, %.1f s%s\n", static_cast<long long>(wrong), watch.seconds(),
                 options.out.empty() ? "" : (", " + (options.out / "chart.html").string()).c_str());
   }
