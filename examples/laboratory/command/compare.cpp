@@ -145,21 +145,9 @@ Comparison compare(const Scene& scene, const EntsLibrary& library, const std::ve
   return comparison;
 }
 
-int compare_command(const CommonOptions& common, const RunOptions& options) {
-  const Scene scene = read_scene(options.scene, options.variant);
-  const std::vector<int>& divisions =
-      options.compare_divisions.empty() ? scene.compare.divisions : options.compare_divisions;
-  if (divisions.empty()) throw InputError("--compare: give N1,N2,...; the scene has no list of its own");
-  const OutputFolder folder(options.out);
-  const EntsLibrary library(common.library);
-  RunObserver observer;
-  if (!common.json)
-    observer.line = [](const std::string& line) {
-      std::printf("%s\n", line.c_str());
-      std::fflush(stdout);
-    };
-  const Comparison comparison = compare(scene, library, divisions, true, observer);
+namespace {
 
+Table table_of(const Scene& scene, const Comparison& comparison) {
   Table table;
   table.column("master").column("contact elements").column("segments").column("total dofs");
   table.column("wall time", "s", 3).column("contact", "s", 2);
@@ -192,7 +180,10 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   for (const CompareRow& row : comparison.explicit_meshes) add(row, label(row));
   for (const CompareRow& row : comparison.equal_error) add(row, label(row) + ", equal error");
   for (const CompareRow& row : comparison.missed) add(row, label(row) + ", from the fit");
+  return table;
+}
 
+Json json_of(const Scene& scene, const Comparison& comparison) {
   Json result{{"title", scene.title},
               {"order", std::isnan(comparison.order) ? Json() : Json(comparison.order)},
               {"equal_error", comparison.error},
@@ -205,26 +196,18 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
   for (const CompareRow& row : comparison.equal_error)
     result["explicit_at_equal_error"].push_back(row_json(row));
   for (const CompareRow& row : comparison.missed) result["explicit_from_fit"].push_back(row_json(row));
-  if (!options.out.empty()) {
-    write_text(options.out / "compare.json", result.dump(2) + "\n");
-    write_text(options.out / "compare.md", table.markdown());
-    if (options.pictures)
-      if (const std::string problem = draw_comparison(scene, comparison, options.out); !problem.empty())
-        std::fprintf(stderr, "%s\n", problem.c_str());
-  }
-  if (common.json) {
-    std::printf("%s\n", result.dump(2).c_str());
-    return 0;
-  }
-  std::printf("\n%s\n", table.text().c_str());
+  return result;
+}
+
+void print_order(const Comparison& comparison) {
   const std::string wanted = format_number(comparison.error, 2);
   if (std::isnan(comparison.order)) {
     std::printf("one mesh shows no order of convergence; give two or more\n");
-    return 0;
+    return;
   }
   if (!(comparison.order > least_order)) {
     std::printf("the differences do not fall with the segment length: there is no order of convergence\n");
-    return 0;
+    return;
   }
   std::printf("the explicit meshes converge to the enriched segment with order %s in their segment length\n",
               format_number(comparison.order, 3).c_str());
@@ -239,6 +222,40 @@ int compare_command(const CommonOptions& common, const RunOptions& options) {
                 comparison.unsolved.c_str());
   else if (comparison.equal_error.empty())
     std::printf("an explicit mesh that comes within %s of it is out of reach here\n", wanted.c_str());
+}
+
+} // namespace
+
+int compare_command(const CommonOptions& common, const RunOptions& options) {
+  const Scene scene = read_scene(options.scene, options.variant);
+  const std::vector<int>& divisions =
+      options.compare_divisions.empty() ? scene.compare.divisions : options.compare_divisions;
+  if (divisions.empty()) throw InputError("--compare: give N1,N2,...; the scene has no list of its own");
+  const OutputFolder folder(options.out);
+  const EntsLibrary library(common.library);
+  RunObserver observer;
+  if (!common.json)
+    observer.line = [](const std::string& line) {
+      std::printf("%s\n", line.c_str());
+      std::fflush(stdout);
+    };
+  const Comparison comparison = compare(scene, library, divisions, true, observer);
+
+  const Table table = table_of(scene, comparison);
+  const Json result = json_of(scene, comparison);
+  if (!options.out.empty()) {
+    write_text(options.out / "compare.json", result.dump(2) + "\n");
+    write_text(options.out / "compare.md", table.markdown());
+    if (options.pictures)
+      if (const std::string problem = draw_comparison(scene, comparison, options.out); !problem.empty())
+        std::fprintf(stderr, "%s\n", problem.c_str());
+  }
+  if (common.json) {
+    std::printf("%s\n", result.dump(2).c_str());
+    return 0;
+  }
+  std::printf("\n%s\n", table.text().c_str());
+  print_order(comparison);
   return 0;
 }
 
