@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ents-host: the command line.
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
 #include <CLI/CLI.hpp>
 
-#include "check.hpp"
-#include "error.hpp"
 #include "result.hpp"
 
 namespace {
@@ -47,11 +46,33 @@ int run(const Options& options) {
   return 0;
 }
 
+/// Is the master surface admissible? @return exit code: 1 if a condition is violated
 int check(const Options& options) {
   const host::Scene scene = host::read_scene(options.scene, options.variant);
   if (!scene.contact) throw host::InputError(options.scene + ": the scene has no contact");
   host::Equations equations(scene);
-  return host::check_surface(*equations.contact(), scene.unit_of_length);
+  const host::Contact& contact = *equations.contact();
+  const ents_master_mesh mesh = contact.mesh();
+  auto result = ents::make<ents_surface_admissibility>();
+  ents::require(ents::linked(), ents_surface_check, contact.model().get(), &mesh, &result);
+  std::printf("%lld segments, height %g to %g %s, %d samples per direction\n",
+              static_cast<long long>(mesh.segments), result.height_min, result.height_max,
+              scene.unit_of_length.c_str(), result.samples);
+#define HOST_CONDITION(name, index, text) {index, text},
+  static constexpr struct {
+    int index;
+    const char* text;
+  } conditions[] = {ENTS_CONDITION_TABLE(HOST_CONDITION)};
+#undef HOST_CONDITION
+  for (const auto& [index, text] : conditions) {
+    const bool judged = (result.judged >> index & 1) != 0, violated = (result.violated >> index & 1) != 0;
+    if (!judged && !std::isfinite(result.value[index])) continue;
+    std::printf("%-9s %11.4g  %s", violated ? "violated" : judged ? "holds" : "", result.value[index], text);
+    if (violated && result.segment[index] >= 0)
+      std::printf(" (segment %lld)", static_cast<long long>(result.segment[index]));
+    std::printf("\n");
+  }
+  return result.violated != 0 ? 1 : 0;
 }
 
 } // namespace
