@@ -18,8 +18,11 @@ void save_text(const std::filesystem::path& file, const std::string& text) {
   std::ofstream stream(beside, std::ios::binary);
   stream << text;
   stream.close();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
-  std::filesystem::rename(beside, file);
+  if (stream) return std::filesystem::rename(beside, file);
+  const int why = errno;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored); // a part of it
+  throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(why));
 }
 
 } // namespace host

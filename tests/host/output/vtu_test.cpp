@@ -212,7 +212,7 @@ TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
   };
   vtu::Series series(folder, "result"), rest(folder, "result");
   write(series, 1, 3, 0.25);
-  resume(rest, 3);
+  host::resume(rest, 3);
   write(rest, 3, 4, 0.5);
   std::ifstream stream(rest.file());
   std::stringstream text;
@@ -227,9 +227,9 @@ TEST(VtuSeries, ARunThatGoesOnKeepsEarlierSteps) {
                                           "1.5 0 result_bulk_0003.vtu",  "1.5 1 result_slave_0003.vtu",
                                           "2 0 result_bulk_0004.vtu",    "2 1 result_slave_0004.vtu"};
   EXPECT_EQ(found, expected);
-  EXPECT_EQ(whole_steps(rest), (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(host::whole_steps(rest), (std::vector<int>{1, 2, 3, 4}));
   rest.add(5, 1, "bulk", plane_grid()); // a part is missing
-  EXPECT_EQ(whole_steps(rest), (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(host::whole_steps(rest), (std::vector<int>{1, 2, 3, 4}));
   std::filesystem::remove_all(folder);
 }
 
