@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 
 #include "library.hpp"
+#include "run_job.hpp"
 #include "write.hpp"
 
 namespace ents_deck {
@@ -61,12 +62,6 @@ void write_vtu(const std::filesystem::path& path, const std::vector<Point>& poin
   }
   out << "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   if (!out.flush()) throw Error(path.string() + " cannot be written");
-}
-
-string quoted(const string& word) { // for the shell
-  string out = "'";
-  for (const char c : word) out += c == '\'' ? string("'\\''") : string(1, c);
-  return out + "'";
 }
 
 void write_text(const std::filesystem::path& path, const string& text) {

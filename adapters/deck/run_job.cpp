@@ -19,8 +19,6 @@ using Path = std::filesystem::path;
 constexpr int most_runs = 12;
 constexpr const char* log_name = "ccx.log";
 
-string quoted(const string& text) { return '"' + text + '"'; }
-
 string program_of(const RunRequest& request) {
   if (!request.ccx.empty()) {
     if (!std::filesystem::exists(request.ccx))
@@ -90,6 +88,12 @@ string complaint(const Path& log) {
 }
 
 } // namespace
+
+string quoted(const string& word) {
+  string out = "'";
+  for (const char c : word) out += c == '\'' ? string("'\\''") : string(1, c);
+  return out + "'";
+}
 
 WantedSlides wanted_slides(const Path& folder) {
   WantedSlides out;

@@ -27,4 +27,7 @@ struct WantedSlides {
 };
 WantedSlides wanted_slides(const std::filesystem::path& folder);
 
+/// A word between quotes, as the shell takes it.
+std::string quoted(const std::string& word);
+
 } // namespace ents_deck
