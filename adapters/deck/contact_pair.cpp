@@ -28,7 +28,7 @@ std::vector<ContactPair> contact_pairs(const Mesh& mesh) {
         mesh.source.fail(line.place, "expected slave surface, master surface; " + string(own_surface));
       if (canonical(fields[0]) == canonical(fields[1]))
         mesh.source.fail(line.place,
-                         "'" + string(fields[0]) + "' is slave and master: " + string(own_surface));
+                         string("'").append(fields[0]) + "' is slave and master: " + string(own_surface));
       ContactPair pair{string(fields[0]), string(fields[1]), s.value("INTERACTION"), &s, line.place, {}};
       if (const string adjust = s.value("ADJUST"); !adjust.empty()) {
         double value = 0;
