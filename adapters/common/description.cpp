@@ -234,4 +234,20 @@ int options(const Row<const double>& properties, int count) {
   return value >= 0 && value <= 63 && value == std::floor(value) ? static_cast<int>(value) : -1;
 }
 
+bool has_left(const Arguments& arguments, const ents_input& input, int32_t flags, double gap) {
+  constexpr int32_t left = ENTS_FLAG_OUTSIDE | ENTS_FLAG_CHANGED;
+  return input.state_begin && (flags & left) == left && gap < 0 && !(arguments.options & option_may_leave);
+}
+
+bool lies_beside(const Arguments& arguments, int32_t flags, double gap, const double* master) {
+  if (!arguments.model->patch || !(flags & ENTS_FLAG_OUTSIDE) || (flags & ENTS_FLAG_CONTACT) || !(gap < 0) ||
+      (arguments.options & option_may_leave))
+    return false;
+  const int d = arguments.model->layout.dimension;
+  double width = 0;
+  for (int node = 1; node < arguments.model->layout.nodes; ++node)
+    for (int i = 0; i < d; ++i) width = std::max(width, std::abs(master[d * node + i] - master[i]));
+  return -gap <= width;
+}
+
 } // namespace ents_adapter

@@ -29,4 +29,12 @@ struct Arguments {
 /// @return what is wrong with the element's description; "" if nothing
 std::string read(const Element& e, Arguments& arguments);
 
+/// A slave that was in contact at the begin of the increment and is now beyond the border of its segments,
+/// below the surface that goes on there: the contact would be lost without a word. (Above it, it has lifted
+/// off.)
+bool has_left(const Arguments& arguments, const ents_input& input, int32_t flags, double gap);
+
+/// An open slave beside its patch, below the surface as it goes on there, no deeper than the patch is wide.
+bool lies_beside(const Arguments& arguments, int32_t flags, double gap, const double* master);
+
 } // namespace ents_adapter

@@ -134,31 +134,11 @@ void scatter_body(const Element& e, const Arguments& arguments, const double* re
     }
 }
 
-/// A slave that was in contact at the begin of the increment and is now beyond the border of its segments,
-/// below the surface that goes on there: the contact would be lost without a word. (Above it, it has lifted
-/// off.)
-bool has_left(const Arguments& arguments, const ents_input& input, int32_t flags, double gap) {
-  constexpr int32_t left = ENTS_FLAG_OUTSIDE | ENTS_FLAG_CHANGED;
-  return input.state_begin && (flags & left) == left && gap < 0 && !(arguments.options & option_may_leave);
-}
-
 std::string place_of(const double* slave, int dimension) {
   char text[120];
   std::snprintf(text, sizeof text, dimension == 2 ? "(%.6g, %.6g)" : "(%.6g, %.6g, %.6g)", slave[0], slave[1],
                 slave[2]);
   return text;
-}
-
-/// An open slave beside its patch, below the surface as it goes on there, no deeper than the patch is wide.
-bool lies_beside(const Arguments& arguments, int32_t flags, double gap, const double* master) {
-  if (!arguments.model->patch || !(flags & ENTS_FLAG_OUTSIDE) || (flags & ENTS_FLAG_CONTACT) || !(gap < 0) ||
-      (arguments.options & option_may_leave))
-    return false;
-  const int d = arguments.model->layout.dimension;
-  double width = 0;
-  for (int node = 1; node < arguments.model->layout.nodes; ++node)
-    for (int i = 0; i < d; ++i) width = std::max(width, std::abs(master[d * node + i] - master[i]));
-  return -gap <= width;
 }
 
 /// The host's history as a state block; hosts begin with zeros.

@@ -114,12 +114,12 @@ LIBRARIES = [
                 Mutant("a mistake is not told", "ansys/userelem/userelem.cpp", "result.outcome == Outcome::failed ? 1 : 0", "0")]),
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/model_cache.cpp",
                             "common/selfcheck.cpp"], [], HOSTS, "Uel.Selfcheck*", [
-                                Mutant("selfcheck of a wrong K", "common/element.cpp", "    scatter(e, arguments, residual, tangent);",
-                                       "  tangent[1] *= 1.01;\n  scatter(e, arguments, residual, tangent);"),
-                                Mutant("selfcheck of a transposed K", "common/element.cpp", "    scatter(e, arguments, residual, tangent);",
+                                Mutant("selfcheck of a wrong K", "common/element.cpp", "  hand_over(e, arguments, at, answer);",
+                                       "  answer.tangent[1] *= 1.01;\n  hand_over(e, arguments, at, answer);"),
+                                Mutant("selfcheck of a transposed K", "common/element.cpp", "  hand_over(e, arguments, at, answer);",
                                        "  for (int i = 0; i < layout.dofs; ++i)\n    for (int j = 0; j < i; ++j)\n"
-                                       "      std::swap(tangent[i + layout.dofs * j], tangent[j + layout.dofs * i]);\n"
-                                       "    scatter(e, arguments, residual, tangent);")]),
+                                       "      std::swap(answer.tangent[i + layout.dofs * j], answer.tangent[j + layout.dofs * i]);\n"
+                                       "  hand_over(e, arguments, at, answer);")]),
     # Temperatures
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp"], [], HEAT, "*", [
         Mutant("heat: temperature of another node", "common/element.cpp", "e.moved(e.temperature, slave_nodes + node)",
