@@ -99,7 +99,7 @@ LIBRARIES = [
                 tangent=("{stiff + b, nlq, nlq * rows}", "{stiff + b, nlq * rows, nlq}"),
                 coordinates=("e.position = {position, 1, 3}", "e.position = {position + 2, -1, 3}"),
                 nodes=("e.position = {position, 1, 3}", "e.position = {position + 21, 1, -3}"),
-                forces=("{force + b, nlq, 3 * nlq}", "{force + b + 2 * nlq, -nlq, 3 * nlq}"),
+                forces=("{force + b, nlq, dofs * nlq}", "{force + b + 2 * nlq, -nlq, dofs * nlq}"),
                 history=("e.history = {hsv + b, nlq}", "e.history = {hsv + b * *nhsv, 1}"))),
     # What all share, through one of them.
     Library("ents_ansys", ["ansys/userelem/userelem.cpp", "common/element.cpp", "common/description.cpp", "common/model_cache.cpp", "common/selfcheck.cpp"], [], HOSTS,
