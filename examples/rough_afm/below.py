@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """below.py [ENTS-LAB] [--out FOLDER] [SURFACE ...] [coarse]: does a result depend on where the height is cut? Waves shorter than the cut are a
 law (the key "below"). Mean pressure, stiffness and real contact area over a factor of 8 of the cut, against boundary elements with all waves, on
-64 x 64 cells, or ("coarse") on meshes of four nodes in a wave as long as the cut; surfaces: afm, spectrum, two_scales.
+64 x 64 cells, or ("coarse") on meshes of four nodes in a wave as long as the cut; surfaces: afm, spectrum, two_scales,
+and unseen, a spectrum that nothing was ever adjusted to.
 """
 import json
 import pathlib
@@ -16,9 +17,11 @@ CELLS, NODES_IN_WAVE, POINTS = 64, 4, 256
 ROUGH = {"type": "roughness", "seed": 33, "rms": 0.002, "hurst": 0.8, "wavelengths": [0.025, 0.5, 0.5], "size": [1, 1]}
 WAVES = {"type": "sum", "of": [{"type": "sine", "amplitude": 0.002, "wave_vector": [2, 0]}, {"type": "sine", "amplitude": 0.002, "wave_vector": [0, 2]},
                                {"type": "roughness", "seed": 5, "rms": 0.0005, "hurst": 0.4, "wavelengths": [0.025, 0.3, 0.3], "size": [1, 1]}]}
+UNSEEN = {"type": "roughness", "seed": 7041, "rms": 0.002, "hurst": 0.5, "wavelengths": [0.025, 0.5, 0.5], "size": [1, 1]}
 SURFACES = {"afm": (None, 5, (0.15625, 0.3125, 0.625, 1.25), (0.03, 0.045, 0.06, 0.08, 0.1)),
             "spectrum": (ROUGH, 1, (0.03125, 0.0625, 0.125, 0.25), (0.004, 0.005, 0.007, 0.01, 0.014)),
-            "two_scales": (WAVES, 1, (0.03125, 0.0625, 0.125, 0.25), (0.003, 0.004, 0.005, 0.007, 0.009))}
+            "two_scales": (WAVES, 1, (0.03125, 0.0625, 0.125, 0.25), (0.003, 0.004, 0.005, 0.007, 0.009)),
+            "unseen": (UNSEEN, 1, (0.03125, 0.0625, 0.125, 0.25), (0.004, 0.005, 0.007, 0.01, 0.014))}
 
 
 def scene(surface, cut, coarse, exact):
