@@ -207,7 +207,7 @@ Json result_of(const Scan& scan, const SublawOptions& options, const std::vector
 std::string draw(const std::vector<Row>& rows, const SublawOptions& options) {
   using namespace pictures;
   Curve law{"boundary elements", {}, {}, Style::both}, area{"boundary elements", {}, {}, Style::both},
-      low{"scatter of the gap", {}, {}, Style::dashed}, high{"", {}, {}, Style::dashed};
+      low{"gap - its scatter", {}, {}, Style::dashed}, high{"gap + its scatter", {}, {}, Style::dashed};
   for (const Row& row : rows) {
     law.x.push_back(row.gap), law.y.push_back(row.pressure);
     low.x.push_back(row.gap - row.gap_scatter), low.y.push_back(row.pressure);
