@@ -114,6 +114,7 @@ public:
     if (!definite_) return indefinite_->solve(right_hand_sides);
     return cholesky_.solve(right_hand_sides);
   }
+  bool indefinite() const override { return !definite_; }
 
 private:
   /// Without memory there are no factors, of an indefinite matrix neither; but it is no fault of the matrix.

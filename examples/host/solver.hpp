@@ -28,6 +28,8 @@ public:
   virtual bool factorize(const SparseMatrix& matrix) = 0;
   /// @param right_hand_sides  [equations][any number]
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) = 0;
+  /// Is the matrix of the factors known not to be positive definite?
+  virtual bool indefinite() const { return false; }
   /// "CHOLMOD supernodal Cholesky", for the run's header and result.
   virtual std::string name() const = 0;
 };

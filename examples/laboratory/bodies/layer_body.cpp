@@ -88,32 +88,8 @@ bool LayerSolver::factorize(const SparseMatrix& matrix) {
       diagonal_[multiplier.node] -= multiplier.f * multiplier.g / multiplier.h;
     }
   }
-  set_open();
-  return diagonal_.minCoeff() > 0 || make_definite();
-}
-
-void LayerSolver::set_open() {
   open_ = free_ * (diagonal_.array() < 1.1 * body_->diagonal().array()).cast<double>();
-}
-
-bool LayerSolver::make_definite() {
-  // Gershgorin: a row whose diagonal is at least the sum of its other entries' sizes
-  Eigen::VectorXd missing = -Eigen::VectorXd(contact_.diagonal());
-  for (Eigen::Index column = 0; column < contact_.cols(); ++column)
-    for (SparseMatrix::InnerIterator entry(contact_, static_cast<int>(column)); entry; ++entry)
-      if (entry.row() != column) {
-        missing[entry.row()] += std::abs(entry.value());
-        missing[column] += std::abs(entry.value());
-      }
-  bool any = false;
-  for (Eigen::Index node = 0; node < missing.size(); ++node) {
-    if (!(contact_.coeff(static_cast<int>(node), static_cast<int>(node)) < 0)) continue;
-    contact_.coeffRef(static_cast<int>(node), static_cast<int>(node)) += missing[node];
-    diagonal_[node] += missing[node];
-    any = true;
-  }
-  set_open();
-  return any && diagonal_.minCoeff() > 0;
+  return diagonal_.minCoeff() > 0;
 }
 
 Eigen::VectorXd LayerSolver::product(const Eigen::VectorXd& displacement) const {
@@ -164,8 +140,7 @@ Eigen::MatrixXd LayerSolver::solve(const Eigen::MatrixXd& right_hand_sides) {
     }
     const bool any = prescribed.any();
     const Eigen::VectorXd by_prescribed = any ? product(prescribed) : prescribed;
-    Eigen::VectorXd moved = free_displacement(force - by_prescribed);
-    if (moved.size() == 0 && make_definite()) moved = free_displacement(force - by_prescribed);
+    const Eigen::VectorXd moved = free_displacement(force - by_prescribed);
     if (moved.size() == 0) return Eigen::MatrixXd::Constant(solution.rows(), solution.cols(), std::nan(""));
     const Eigen::VectorXd x = prescribed + moved;
     solution.col(column).head(nodes) = x;

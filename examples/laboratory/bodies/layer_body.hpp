@@ -40,9 +40,8 @@ private:
 /// Conjugate gradients for the layer's stiffness plus the matrix of the contact elements. Preconditioner: the
 /// layer's compliance on the nodes that are free, which makes the number of iterations nearly independent of
 /// the mesh; the diagonal on those that contact elements hold. Multipliers, one for each node, are
-/// eliminated: where contact is closed their equation prescribes the displacement. Where tension of an adhesive law
-/// falls with the gap the matrix may not be positive definite: no equilibrium nearby is stable, and the surfaces jump.
-/// Then what is not is left out of the contact elements' matrix, row by row, so that the step descends.
+/// eliminated: where contact is closed their equation prescribes the displacement. Of a
+/// matrix that is not positive definite `factorize` says no, or the solution is not finite.
 class LayerSolver final : public LinearSolver {
 public:
   explicit LayerSolver(std::shared_ptr<const LayerBody> body) : body_(std::move(body)) {}
@@ -61,9 +60,6 @@ private:
   /// Displacements of the free nodes for forces; the others' are zero. Empty: the matrix is not positive
   /// definite.
   Eigen::VectorXd free_displacement(const Eigen::VectorXd& force) const;
-  /// Leaves out of the contact elements' matrix what may make it indefinite. @return was there any?
-  bool make_definite();
-  void set_open();
 
   std::shared_ptr<const LayerBody> body_;
   SparseMatrix contact_;     ///< of the displacements, lower triangle

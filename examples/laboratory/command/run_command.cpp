@@ -30,6 +30,7 @@ void print_report(const Simulation& simulation, const std::vector<StepRecord>& r
                   const StepFailure* failure) {
   const Scene& scene = simulation.scene();
   if (!records.empty()) std::printf("\n%s", result_table(scene, records).text().c_str());
+  if (!records.empty() && scene.contact) std::printf("\n%s", resultants_table(scene, records).text().c_str());
   if (const std::string exact = exact_table(records); !exact.empty()) std::printf("\n%s", exact.c_str());
   if (!records.empty() && simulation.resolution().too_coarse() && std::isfinite(records.back().area.fraction))
     std::printf(
@@ -124,6 +125,7 @@ int run_command(const CommonOptions& common, const RunOptions& options) {
     result["restarted_after"] = plan.first - 1;
     result["steps"].insert(result["steps"].begin(), files.earlier().begin(), files.earlier().end());
   }
+  add_energy_of_run(result);
   files.finish(result);
   if (scene.probe > 0 && !options.out.empty()) write_gaps(records, scene.dimension, options.out);
   std::string problem;

@@ -34,6 +34,9 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
   state_size_ = static_cast<std::size_t>(layout.state_size);
   normal_stiffness_ = stiffness_of(spec.model, "normal");
   tangential_stiffness_ = stiffness_of(spec.model, "friction");
+  const Json normal = find_json(spec.model, "/contact/normal/type");
+  for (const char* law : {"dugdale", "separation", "lennard_jones", "cohesive"})
+    pulls_ = pulls_ || normal == law;
   sliding_ = parameter_of(find_json(spec.model, "/contact/wear/sliding"));
   if (cut_.per_direction > 0) {
     cut_at_.displacement.assign(dofs(), 0.0);
@@ -173,14 +176,6 @@ double Contact::multiplier_scale(std::size_t index) const {
   return index % multipliers_ == 0 ? normal_stiffness_ : tangential_stiffness_;
 }
 
-std::array<double, 3> Contact::position_of(std::size_t k, const std::vector<double>& displacement) const {
-  if (!points_.heights.empty()) return raised_position(k, displacement);
-  std::array<double, 3> position = points_.place(k, *mesh_);
-  const std::array<double, 3> moved = points_.combine(k, displacement, d_);
-  for (std::size_t i = 0; i < d_; ++i) position[i] += moved[i];
-  return position;
-}
-
 void Contact::place(const Configuration& at) {
   bind(at);
   slave_positions_ = slave_points(at);
@@ -195,34 +190,29 @@ std::vector<double> Contact::nodes_at(const std::vector<double>& displacement) c
   return nodes;
 }
 
-std::array<double, 3> Contact::raised_position(std::size_t k, const std::vector<double>& displacement) const {
-  const std::size_t q = points_.nodes_per_point;
-  std::vector<double> face; // [q][d]: of its face alone
-  std::vector<std::int64_t> nodes;
-  for (std::size_t a = 0; a < q; ++a) {
-    const std::size_t node = static_cast<std::size_t>(points_.nodes[k * q + a]);
-    nodes.push_back(static_cast<std::int64_t>(a));
-    for (std::size_t i = 0; i < d_; ++i)
-      face.push_back(mesh_->coordinates[node * d_ + i] + displacement[node * d_ + i]);
+std::vector<double> Contact::positions(const std::vector<double>& displacement) const {
+  std::vector<double> positions(points_.size() * d_);
+  if (points_.heights.empty()) {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const std::array<double, 3> place = points_.place(k, *mesh_),
+                                  moved = points_.combine(k, displacement, d_);
+      for (std::size_t i = 0; i < d_; ++i) positions[k * d_ + i] = place[i] + moved[i];
+    }
+    return positions;
   }
-  const std::array<std::int64_t, 2> begin{0, stride(q)};
-  auto point = ents_struct<ents_combination>();
-  point.points = 1, point.begin = begin.data(), point.nodes = nodes.data(),
-  point.weights = &points_.weights[k * q];
-  point.heights = &points_.heights[k], point.slopes = &points_.slopes[k * q * parameters_];
-  std::array<double, 3> position{};
+  std::vector<std::int64_t> begin, nodes;
+  const ents_combination points = points_.combination(begin, nodes);
+  const std::vector<double> at = nodes_at(displacement);
   const ents::Library& library = master_.model->library();
   auto report = ents_struct<ents_report>();
-  const std::int32_t status = library.combine(&point, static_cast<std::int32_t>(d_), stride(q), face.data(),
-                                              position.data(), &report);
+  const std::int32_t status = library.combine(&points, static_cast<std::int32_t>(d_), stride(at.size() / d_),
+                                              at.data(), positions.data(), &report);
   if (status != ENTS_OK) throw JobError("slave_height: " + describe(library, status, report));
-  return position;
+  return positions;
 }
 
 std::vector<double> Contact::slave_points(const Configuration& at) {
-  std::vector<double> positions(points_.size() * d_);
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    std::copy_n(position_of(k, at.displacement).begin(), d_, positions.data() + k * d_);
+  std::vector<double> positions = this->positions(at.displacement);
   see_from_master(at, positions);
   return positions;
 }
@@ -302,9 +292,10 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   lost_.clear();
   lost_behind_edge_ = lost.behind_edge;
   if (lost.slave >= 0) {
-    const std::array<double, 3> position = position_of(static_cast<std::size_t>(lost.slave), at.displacement);
+    const std::vector<double> places = positions(at.displacement);
     std::string text;
-    for (std::size_t i = 0; i < d_; ++i) text += (i > 0 ? ", " : "") + format_number(position[i], 6);
+    for (std::size_t i = 0; i < d_; ++i)
+      text += (i > 0 ? ", " : "") + format_number(places[static_cast<std::size_t>(lost.slave) * d_ + i], 6);
     lost_ = "the slave node at (" + text + ") " +
             (lost.crossed       ? "passes through the surface within the increment"
              : lost.behind_edge ? "lies behind a concave edge between two segments and projects on neither"
@@ -354,6 +345,7 @@ ents_input Contact::input(const ents_master_mesh& where) const {
   in.segment = at_.segment.data(), in.segment_stride = 1;
   in.start = at_.xi.data(), in.start_stride = stride(parameters_);
   in.area = points_.areas.data(), in.area_stride = 1;
+  in.time_increment = time_increment_;
   if (state_size_ > 0) in.state_begin = state_in_.data(), in.state_begin_stride = stride(state_size_);
   if (multipliers_ > 0)
     in.multiplier = multiplier_values_.data(), in.multiplier_stride = stride(multipliers_);

@@ -31,6 +31,13 @@ struct RigidCoupling {
   double diagonal = 0;        ///< d(force)/d(motion) = sum e K_s e
 };
 
+/// Of all elements together.
+struct ContactEnergy {
+  double stored = 0;     ///< by the laws of normal contact and friction [F L]
+  double dissipated = 0; ///< within the increment [F L]
+  double size = 0;       ///< sum of the elements' sizes: the measure of rounding
+};
+
 /// Fields on the slave nodes, in their order.
 struct ContactFields {
   std::vector<double> gap, normal_gap,
@@ -39,6 +46,7 @@ struct ContactFields {
   std::vector<char> closed;          ///< [slaves] carries pressure
   std::vector<double> traction;      ///< [slaves][d] tangential, on the master
   std::vector<double> slip, age;     ///< [slaves] accumulated; increments since the last change of status
+  double dissipation = 0;            ///< of friction within the increment, all points [F L]
   std::vector<double> worn;          ///< [slaves] depth lost by the slave surface [L]; empty: no wear
   std::vector<std::int32_t> flags;   ///< [slaves] ENTS_FLAG_...; no segment: ENTS_FLAG_OUTSIDE
   std::vector<std::int64_t> segment; ///< [slaves] -1: none
@@ -84,8 +92,8 @@ public:
   const Master& master() const { return master_; }
   const SlavePoints& slaves() const { return points_; }
   const std::vector<double>& areas() const { return points_.areas; } ///< [slaves]
-  /// Current position.
-  std::array<double, 3> position_of(std::size_t slave, const std::vector<double>& displacement) const;
+  /// Current positions of the slave points, [slaves][d].
+  std::vector<double> positions(const std::vector<double>& displacement) const;
   double total_area() const;
   /// Positions [n][d] in the frame of a rigid body that turns, in space at its present place.
   void to_space(std::vector<double>& points) const;
@@ -100,6 +108,21 @@ public:
   /// of their own, they stay those of the reference configuration.
   bool cuts_again() const { return cut_.per_direction > 0 && !has_history() && multipliers_ == 0; }
   bool augmentable() const { return master_.model->layout().augmentable != 0; }
+  /// Is there tension at positive gaps, so that surfaces may jump together or apart?
+  bool pulls() const { return pulls_; }
+  /// The forces are derivatives of an energy; with `friction` all but its own are.
+  bool conservative(bool friction) const {
+    return (friction || symmetric_tangent()) && master_.body_node < 0 && !augmentable() && !wears() &&
+           multipliers_ == 0;
+  }
+  /// Of the last `assemble`, if the law pulls.
+  const ContactEnergy& energy() const { return energy_; }
+  /// Rows that may make the tangent of the last `assemble` indefinite get a diagonal as large as the sum of the sizes
+  /// of their other entries (Gershgorin).
+  /// @param every_row  false: only those whose diagonal is negative
+  /// @param coupling   optional, becomes that of the changed tangent
+  /// @return what has been added, of the tangent's pattern
+  SparseMatrix make_definite(bool every_row, RigidCoupling* coupling);
   /// Does the model wear?
   bool wears() const { return master_.model->layout().worn >= 0; }
   /// Volumes that slave and master have lost until the last accepted increment, of this mesh [L^3].
@@ -121,6 +144,8 @@ public:
   /// @return false: the points are those of this configuration already, or stay
   bool cut_again(const Configuration& begin);
 
+  /// How long increments take from now on: friction may depend on the rate of the slip.
+  void take_time(double increment) { time_increment_ = increment; }
   /// An increment begins here, whatever was tried before.
   void begin_increment(const Configuration& begin);
 
@@ -224,8 +249,6 @@ private:
   void see_from_master(const Configuration& at, std::vector<double>& positions);
   /// Positions of the slave points, of a rigid master that moves in its frame
   std::vector<double> slave_points(const Configuration& at);
-  /// Of a point above its face.
-  std::array<double, 3> raised_position(std::size_t slave, const std::vector<double>& displacement) const;
   /// Positions of the mesh's nodes [nodes][d].
   std::vector<double> nodes_at(const std::vector<double>& displacement) const;
   /// Out of the slave's body in these points, [points][d] of any length, as the master sees them; empty: a sheet
@@ -270,7 +293,11 @@ private:
   /// within it slips from there.
   void find_begin(const std::vector<std::size_t>& points);
   void count_changes(const std::vector<std::int32_t>& flags);
-  void couple(const std::vector<double>& force, RigidCoupling& coupling) const;
+  /// @param energies  three of each point: stored, stored by friction, dissipated
+  void ask_for_energy(ents_output& out, std::vector<double>& energies) const;
+  void add_up(const std::vector<double>& energies);
+  /// The tangent's part of the coupling.
+  void couple(RigidCoupling& coupling) const;
 
   Master master_;
   const Mesh* mesh_;
@@ -280,7 +307,7 @@ private:
   SlavePoints points_;
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
-  double thickness_, worn_master_ = 0;
+  double thickness_, worn_master_ = 0, time_increment_ = 1;
   ents_pose pose_{}; ///< of a rigid body that turns, at present
   std::vector<std::int64_t> body_equations_;
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
@@ -320,6 +347,8 @@ private:
   std::vector<std::int64_t> dof_equations_;    ///< [dofs of the mesh] -1: none
   std::vector<std::int64_t> slave_equations_, multiplier_equations_, point_begin_, point_nodes_, places_;
   SparseMatrix tangent_;
+  bool pulls_ = false;
+  ContactEnergy energy_;
   ContactFields accepted_;
 };
 

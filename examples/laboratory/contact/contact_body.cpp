@@ -100,11 +100,11 @@ void Contact::to_space(std::vector<double>& points) const {
 void Contact::put_in_space(const Configuration& at, ContactFields& fields) const {
   turn(fields.normal), turn(fields.traction), to_space(fields.point);
   fields.moment.assign(d_ == 2 ? 1 : 3, 0.0);
+  const std::vector<double> places = positions(at.displacement);
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const std::array<double, 3> position = position_of(k, at.displacement);
     std::array<double, 3> arm{}, force{};
     for (std::size_t i = 0; i < d_; ++i) {
-      arm[i] = position[i] - pose_.point[i], force[i] = fields.node_forces[k * d_ + i];
+      arm[i] = places[k * d_ + i] - pose_.point[i], force[i] = fields.node_forces[k * d_ + i];
     }
     for (std::size_t i = 0; i < fields.moment.size(); ++i) {
       const std::size_t b = d_ == 2 ? 0 : (i + 1) % 3, c = d_ == 2 ? 1 : (i + 2) % 3;

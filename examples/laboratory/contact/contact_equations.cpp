@@ -119,6 +119,8 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     out.wanted |= ENTS_STATE;
     out.state_end = state_out_.data(), out.state_end_stride = stride(state_size_);
   }
+  std::vector<double> energies;
+  if (pulls_) ask_for_energy(out, energies);
   std::vector<double> nodes;
   if (!points_.heights.empty()) {
     nodes = nodes_at(at.displacement);
@@ -151,13 +153,15 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   const std::int32_t status = add_elements(out, system, report);
   if (status != ENTS_OK) return status;
   count_changes(flags);
+  if (pulls_) add_up(energies);
   if (system.values != nullptr) turn_images(), columns_of_turns(at);
   squared_force = 0;
   for (std::size_t i = 0; i < slave_dofs_; ++i) squared_force += force[i] * force[i];
   if (coupling != nullptr) {
-    coupling->column.assign(residual.size(), 0.0);
-    coupling->row.assign(residual.size(), 0.0);
-    couple(force, *coupling);
+    coupling->column.resize(residual.size()), coupling->row.resize(residual.size());
+    coupling->force = 0;
+    for (std::size_t i = 0; i < slave_dofs_; ++i) coupling->force -= force[i] * master_.direction[i % d_];
+    couple(*coupling);
   }
   for (std::size_t i = 0; i < force.size(); ++i) residual[unknowns_[i]] += signs_[i] * force[i];
   return ENTS_OK;
@@ -222,12 +226,13 @@ void Contact::count_changes(const std::vector<std::int32_t>& flags) {
 
 // Only the relative position of slave and master counts: moving the master is moving all slave points back,
 // and the weights of a point's nodes add to one.
-void Contact::couple(const std::vector<double>& force, RigidCoupling& coupling) const {
-  coupling.force = coupling.diagonal = 0;
-  std::vector<double> direction(force.size(), 0.0);
+void Contact::couple(RigidCoupling& coupling) const {
+  coupling.diagonal = 0;
+  std::fill(coupling.column.begin(), coupling.column.end(), 0.0);
+  std::fill(coupling.row.begin(), coupling.row.end(), 0.0);
+  std::vector<double> direction(unknowns_.size(), 0.0);
   for (std::size_t i = 0; i < slave_dofs_; ++i) direction[i] = master_.direction[i % d_];
-  for (std::size_t i = 0; i < force.size(); ++i) {
-    coupling.force -= force[i] * direction[i];
+  for (std::size_t i = 0; i < direction.size(); ++i)
     for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at) {
       const auto j = static_cast<std::size_t>(tangent_.innerIndexPtr()[at]);
       const double value = tangent_.valuePtr()[at];
@@ -235,7 +240,6 @@ void Contact::couple(const std::vector<double>& force, RigidCoupling& coupling) 
       coupling.row[unknowns_[j]] -= direction[i] * value;
       coupling.diagonal += direction[i] * value * direction[j];
     }
-  }
 }
 
 } // namespace host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contact: what a person wants to know about every slave node.
 #include <limits>
+#include <numeric>
 
 #include "contact.hpp"
 
@@ -27,6 +28,11 @@ ContactFields Contact::fields(const Configuration& at) {
   out.slip = fields.slip.data(), out.slip_stride = 1;
   out.age = fields.age.data(), out.age_stride = 1;
   out.flags = fields.flags.data(), out.flags_stride = 1;
+  std::vector<double> dissipation;
+  if (master_.model->layout().friction != 0) {
+    dissipation.resize(slaves), out.wanted |= ENTS_DISSIPATION;
+    out.dissipation = dissipation.data(), out.dissipation_stride = 1;
+  }
   std::vector<std::int32_t> status(slaves);
   out.status = status.data(), out.status_stride = 1;
 
@@ -46,6 +52,7 @@ ContactFields Contact::fields(const Configuration& at) {
   auto report = ents_struct<ents_report>();
   add_elements(out, system, report);
 
+  fields.dissipation = std::accumulate(dissipation.begin(), dissipation.end(), 0.0);
   if (master_.body_node >= 0) put_in_space(at, fields);
   fields.closed.assign(slaves, 0);
   fields.segment = at_.segment;

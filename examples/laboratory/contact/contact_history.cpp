@@ -108,6 +108,7 @@ void Contact::find_begin(const std::vector<std::size_t>& points) {
   in.slave = slaves.data(), in.slave_stride = stride(d_);
   in.mesh = &where;
   in.segment = segments.data(), in.segment_stride = 1;
+  in.time_increment = time_increment_;
   in.start = xi.data(), in.start_stride = stride(parameters_);
   in.state_begin = states.data(), in.state_begin_stride = stride(state_size_);
   if (multipliers_ > 0) in.multiplier = none.data(), in.multiplier_stride = stride(multipliers_);

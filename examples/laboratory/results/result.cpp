@@ -52,7 +52,27 @@ Json nodes_json(const StepRecord& record) {
   return nodes;
 }
 
-Json step_json(const StepRecord& record, bool nodes) {
+Json resultants_json(const ents_resultants& sum, int dimension) {
+  const auto vector = [](const double* from, int size) { return std::vector<double>(from, from + size); };
+  return {{"normal", vector(sum.normal, dimension)},
+          {"tangential", vector(sum.tangential, dimension)},
+          {"moment", vector(sum.moment, dimension == 2 ? 1 : 3)},
+          {"centre", vector(sum.centre, dimension)},
+          {"area", sum.area},
+          {"largest_pressure", sum.largest_pressure},
+          {"open", sum.open},
+          {"contact", sum.contact},
+          {"stick", sum.stick},
+          {"slip", sum.slip}};
+}
+
+Json energy_json(const EnergyBalance& energy) {
+  return {{"work", energy.work},   {"stored", energy.stored},           {"dissipated", energy.dissipated},
+          {"lost", energy.lost()}, {"uncertainty", energy.uncertainty}, {"jumped", energy.jumped},
+          {"torn", energy.gained}};
+}
+
+Json step_json(const Scene& scene, const StepRecord& record, bool nodes) {
   Json step{{"step", record.step},
             {"value", record.value},
             {"approach", record.approach},
@@ -85,6 +105,13 @@ Json step_json(const StepRecord& record, bool nodes) {
                                {"turns", std::vector(turns, record.body_moved.end())},
                                {"rotation", record.body_rotation}};
   }
+  if (scene.contact) step["resultants"] = resultants_json(record.resultants, scene.dimension);
+  if (record.dissipated != 0) step["dissipated"] = record.dissipated;
+  if (record.heat != 0)
+    step["heat"] = {{"power", record.heat},
+                    {"slave", scene.contact->heat_slave * record.heat},
+                    {"master", (1 - scene.contact->heat_slave) * record.heat}};
+  if (const auto energy = record.energy()) step["energy"] = energy_json(*energy);
   step["increments"] = Json::array();
   for (const IncrementRecord& increment : record.increments) {
     const Convergence rate = convergence(increment.residuals);
@@ -94,6 +121,7 @@ Json step_json(const StepRecord& record, bool nodes) {
                                   {"last_reductions", {number(rate.before), number(rate.last)}},
                                   {"order", number(rate.order)}});
     if (increment.rounding > 0) step["increments"].back()["rounding"] = increment.rounding;
+    if (increment.descents > 0) step["increments"].back()["descents"] = increment.descents;
     if (increment.halvings > 0) step["increments"].back()["halvings"] = increment.halvings;
     for (const Augmentation& augmentation : increment.augmentations)
       step["increments"].back()["augmentations"].push_back(
@@ -150,7 +178,7 @@ Json result_json(const Simulation& simulation, const std::vector<StepRecord>& re
   result["failure"] =
       failure == nullptr ? Json() : Json{{"step", failure->step}, {"reason", failure->what()}};
   result["steps"] = Json::array();
-  for (const StepRecord& record : records) result["steps"].push_back(step_json(record, nodes));
+  for (const StepRecord& record : records) result["steps"].push_back(step_json(scene, record, nodes));
   return result;
 }
 
@@ -161,6 +189,29 @@ bool wears(const std::vector<StepRecord>& records) {
 }
 
 } // namespace
+
+void add_energy_of_run(Json& result) {
+  double work = 0, stored = 0, dissipated = 0, lost = 0, in_jumps = 0, uncertainty = 0;
+  int jumps = 0, steps = 0;
+  for (const Json& step : result.at("steps")) {
+    if (!step.contains("energy")) continue; // the first, where the surfaces overlap before it
+    const Json& energy = step.at("energy");
+    ++steps;
+    work += energy.at("work").get<double>(), stored += energy.at("stored").get<double>();
+    dissipated += energy.at("dissipated").get<double>(), lost += energy.at("lost").get<double>();
+    if (!energy.at("jumped").get<bool>()) continue;
+    ++jumps;
+    in_jumps += energy.at("lost").get<double>(), uncertainty += energy.at("uncertainty").get<double>();
+  }
+  if (steps == 0) return;
+  result["energy"] = {{"work", work},
+                      {"stored", stored},
+                      {"dissipated", dissipated},
+                      {"lost", lost},
+                      {"lost_in_jumps", in_jumps},
+                      {"uncertainty_of_jumps", uncertainty},
+                      {"steps_with_jumps", jumps}};
+}
 
 Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
   Table table;
@@ -183,6 +234,9 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
     if (wears(records))
       table.column("worn depth", scene.units.length).column("worn volume", cubic(scene.units.length));
   }
+  const bool energies = !records.empty() && records.back().energy().has_value();
+  const std::string unit = scene.units.force + (scene.units.force.empty() ? "" : " ") + scene.units.length;
+  if (energies) table.column("lost in jumps", unit, 4).column("+-", unit, 1).beside();
   table.column("iterations").column("reduction", "last but one", 2).beside();
   table.column("reduction", "last", 2).beside();
   for (const StepRecord& record : records) {
@@ -203,8 +257,38 @@ Table result_table(const Scene& scene, const std::vector<StepRecord>& records) {
                              100 * record.area.error, record.mean_gap});
     if (scene.contact && scene.probe > 0) row.insert(row.end(), {record.mean_cubed_gap, record.conductance});
     if (wears(records)) row.insert(row.end(), {record.worn_depth, record.worn_slave + record.worn_master});
+    if (energies) {
+      const auto energy = record.energy();
+      const bool jumped = energy && energy->jumped;
+      row.insert(row.end(), {jumped ? energy->lost() : 0.0, jumped ? energy->uncertainty : 0.0});
+    }
     const Convergence rate = convergence(record.increments.back().residuals);
     row.insert(row.end(), {static_cast<std::int64_t>(record.iterations()), rate.before, rate.last});
+    table.row(std::move(row));
+  }
+  return table;
+}
+
+Table resultants_table(const Scene& scene, const std::vector<StepRecord>& records) {
+  const UnitNames& units = scene.units;
+  const std::string moment = units.force + (units.force.empty() ? "" : " ") + units.length;
+  const bool rubs = !find_json(scene.contact->model, "/contact/friction").is_null();
+  Table table;
+  table.column("step").column("normal force", units.force);
+  if (rubs) table.column("tangential", units.force);
+  table.column("moment", moment).column("largest pressure", units.pressure);
+  for (int c = 0; c < scene.dimension; ++c) table.column(std::string("centre ") + "xyz"[c], units.length, 4);
+  table.column("open").column("contact");
+  if (rubs) table.column("stick").column("slip");
+  const auto norm = [](const double* v) { return std::hypot(v[0], v[1], v[2]); };
+  for (const StepRecord& record : records) {
+    const ents_resultants& sum = record.resultants;
+    std::vector<Table::Cell> row{static_cast<std::int64_t>(record.step), norm(sum.normal)};
+    if (rubs) row.emplace_back(norm(sum.tangential));
+    row.insert(row.end(), {norm(sum.moment), sum.largest_pressure});
+    for (int c = 0; c < scene.dimension; ++c) row.emplace_back(sum.centre[c]);
+    row.insert(row.end(), {sum.open, sum.contact});
+    if (rubs) row.insert(row.end(), {sum.stick, sum.slip});
     table.row(std::move(row));
   }
   return table;

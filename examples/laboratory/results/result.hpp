@@ -22,11 +22,18 @@ namespace host {
 Json result_json(const Simulation& simulation, const std::vector<StepRecord>& records, bool nodes = false,
                  const StepFailure* failure = nullptr);
 
+/// The key "energy" of a run whose steps have one: sums over all of them, and over those with jumps.
+void add_energy_of_run(Json& result);
+
 /// 0 open, 1 stick (without friction: closed), 2 slip, 3 slip at the shear limit.
 int status_number(std::int32_t flags);
 
 /// One row per step.
 Table result_table(const Scene& scene, const std::vector<StepRecord>& records);
+
+/// What the contact carries together in each step, of this mesh: forces and moment (about the origin) on the slave.
+/// @param scene  with a contact
+Table resultants_table(const Scene& scene, const std::vector<StepRecord>& records);
 
 /// Exact quantities of every step; empty text if the scene has none.
 std::string exact_table(const std::vector<StepRecord>& records);

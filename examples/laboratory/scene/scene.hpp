@@ -91,7 +91,9 @@ struct ContactSpec {
   bool two_pass = false;                               ///< the points of the master faces are slaves, too
   bool gap_only = false; ///< the height changes the gap and nothing else, see Master::profile
   bool hard = false; ///< "law": "hard": the model has augmented multipliers, and Simulation their stiffness
-  Json model;        ///< passed on to the library
+  double heat_share = 0; ///< of what friction dissipates that is heat: "heat" of the model
+  double heat_slave = 0; ///< of this heat that enters the slave
+  Json model;            ///< passed on to the library
   std::string model_where;
 };
 
@@ -183,6 +185,7 @@ struct Scene {
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images; forces are those of all
   Control control = Control::load_factor;
   std::vector<double> steps;
+  std::vector<double> durations; ///< [steps] time that each takes
   double probe = 0; ///< part by which each step's load is changed for its incremental conductance; 0: none
   std::vector<HistorySpec> history;
   ExactSpec exact;

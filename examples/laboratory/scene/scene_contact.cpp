@@ -79,6 +79,30 @@ void read_below(const JsonValue& value, ContactSpec& contact) {
   object.finish();
 }
 
+/// "heat" of the model. Bodies here have no temperatures: it says what of the work of friction is heat, and where that
+/// goes.
+void read_heat(const JsonValue& model, ContactSpec& contact) {
+  if (find_json(contact.model, "/contact/heat").is_null()) return;
+  JsonObject heat(JsonObject(JsonObject(model).at("contact")).at("heat"));
+  const auto names = heat.all_keys();
+  if (names != std::vector<std::string>{"friction"})
+    heat.fail("bodies have no temperatures here, only \"friction\" may stand in \"heat\"; examples/host "
+              "conducts heat "
+              "through the gap");
+  JsonObject friction(heat.at("friction"));
+  if (find_json(contact.model, "/contact/friction").is_null())
+    heat.at("friction").fail("heats a contact with \"friction\" beside \"heat\"");
+  const auto share = [&](const char* key, double otherwise) {
+    if (!friction.has(key)) return otherwise;
+    const JsonValue value = friction.at(key);
+    if (!(value.number() >= 0 && value.number() <= 1)) value.fail("a share between 0 and 1 is expected");
+    return value.number();
+  };
+  contact.heat_share = share("share", 1), contact.heat_slave = share("slave", 0.5);
+  friction.finish();
+  contact.model["contact"].erase("heat");
+}
+
 void read_law(const JsonValue& value, ContactSpec& contact) {
   contact.hard = value.word({"hard"}) == "hard";
   if (contact.cut_off.wavelength > 0)
@@ -176,6 +200,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (!model.is_object()) model.fail("an object is expected: the library's model");
   contact.model = model.json();
   contact.model_where = model.where();
+  read_heat(model, contact);
   // One place says whether the master is rigid: the scene.
   contact.model["master"] = contact.rigid.empty() && !contact.body ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])

@@ -15,7 +15,7 @@ namespace {
 Json physics_of(const Scene& scene) {
   Json json = scene.definition;
   for (const char* key : {"title", "units", "exact", "compare", "variants", "solver"}) json.erase(key);
-  if (json.contains("steps")) json["steps"].erase("values");
+  if (json.contains("steps")) json["steps"].erase("values"), json["steps"].erase("duration");
   json.erase("history"); // of later steps; the present values are in the checkpoint
   if (scene.contact)
     for (const char* key : {"tangent", "penetration_limit"}) json["contact"]["model"].erase(key);
@@ -135,6 +135,7 @@ void Simulation::restore(const Json& checkpoint) {
     if ((!contact_->master().rigid && !fit) || contact_->cuts_again()) build_pattern();
   }
   now_ = at;
+  last_.reset();
   rate_ = rate;
   factors_fit_ = fit;
 }

@@ -65,7 +65,8 @@ double Simulation::relative_residual(const Evaluation& at) const {
   // Where the surfaces overlap and no multiplier presses yet, these are the only forces. In equilibrium they
   // are zero.
   const double gaps = residual.tail(residual.size() - dofs_->size()).norm();
-  return norm == 0 ? 0 : norm / std::max(at.force_scale, gaps);
+  const double scale = std::max(at.force_scale, gaps);
+  return norm == 0 ? 0 : scale > 0 ? norm / scale : 1; // a body springs back from where it was let go
 }
 
 Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::vector<double>& direction,
@@ -82,7 +83,8 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     AddTangent add; // none
     if (system != nullptr)
       add = [system](const ElementTangent& of) { system->add(of.group, of.element, of.values); };
-    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, add);
+    double* energy = contact_ && contact_->pulls() ? &result.stored : nullptr;
+    const bool ok = bulk_->assemble(at.displacement, direction, result.residual, add, energy);
     if (want_tangent && have) std::copy(bulk_values_.begin(), bulk_values_.end(), system_->values().begin());
     if (want_tangent && !have && bulk_->linear())
       bulk_values_.assign(system_->values().begin(), system_->values().end());
@@ -101,6 +103,7 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     const Eigen::VectorXd force = layer_->force(displacement);
     for (Eigen::Index node = 0; node < displacement.size(); ++node)
       result.residual[static_cast<std::size_t>(3 * node + 2)] += force[node];
+    result.stored += 0.5 * force.dot(displacement);
     timings_.bulk += watch.seconds();
   }
   if (!springs_.empty()) {
@@ -138,6 +141,7 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     if (dofs_->equation(dof) < 0) squared_reactions += result.residual[dof] * result.residual[dof];
   }
   result.force_scale = std::sqrt(std::max({squared_contact, squared_loads, squared_reactions}));
+  if (contact_ && contact_->pulls()) add_energies(at, result);
   result.ok = true;
   return result;
 }

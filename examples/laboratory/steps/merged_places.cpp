@@ -38,7 +38,8 @@ std::vector<std::size_t> merge_places(const SlavePoints& points, StepRecord& rec
     }
     for (auto* values : {&fields.gap, &fields.normal_gap, &fields.slip, &fields.age})
       (*values)[k] = (*values)[begin];
-    fields.flags[k] = fields.flags[begin], fields.segment[k] = fields.segment[begin];
+    fields.flags[k] = fields.flags[begin] | (closed ? ENTS_FLAG_CONTACT : 0),
+    fields.segment[k] = fields.segment[begin];
   }
   record.areas.resize(first.size());
   for (auto* values : {&fields.gap, &fields.normal_gap, &fields.pressure, &fields.slip, &fields.age})

@@ -98,14 +98,20 @@ std::string Simulation::nothing_holds(const Configuration& begin) {
 
 NewtonOutcome Simulation::advance(const Target& target, bool keep) {
   const LineSearch search = scene_->solver.line_search;
-  const bool always = search == LineSearch::always;
+  if (contact_ && contact_->pulls() && search != LineSearch::never && contact_->conservative(true))
+    return attempt(target, keep, false, contact_->conservative(false) ? Search::energy : Search::work);
+  const Search always = search == LineSearch::always ? Search::residual : Search::none;
   if (scene_->solver.extrapolate && !rate_.empty()) {
     NewtonOutcome outcome = attempt(target, keep, true, always);
     if (outcome.converged) return outcome;
   }
   NewtonOutcome outcome = attempt(target, keep, false, always);
   if (outcome.converged || search != LineSearch::when_needed || !outcome.line_search_may_help) return outcome;
-  NewtonOutcome searched = attempt(target, keep, false, true);
+  NewtonOutcome searched = attempt(target, keep, false, Search::residual);
+  if (!searched.converged && contact_ && contact_->pulls() && outcome.advice.empty())
+    outcome.advice =
+        "surfaces may jump here, and there is no energy to descend with wear, multipliers or a rigid body "
+        "that turns";
   return searched.converged ? searched : outcome;
 }
 

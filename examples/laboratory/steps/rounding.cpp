@@ -4,6 +4,7 @@
 // refinement (xGERFS). x are the positions whose differences the gaps are.
 #include <cmath>
 
+#include "layer_body.hpp"
 #include "simulation.hpp"
 
 namespace host {
@@ -25,7 +26,8 @@ double Simulation::rounding_of_forces() const {
     squared += (high - low) * (high - low);
   }
   constexpr double roundings = 16 * unit_roundoff;
-  return roundings * std::sqrt(squared) * system_->matrix().diagonal().norm();
+  return roundings * std::sqrt(squared) *
+         (layer_ ? layer_->diagonal() : Eigen::VectorXd(system_->matrix().diagonal())).norm();
 }
 
 Simulation::Rounding Simulation::rounding_of_residual(const Evaluation& at,

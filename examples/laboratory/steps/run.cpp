@@ -11,7 +11,6 @@
 
 #include "advice.hpp"
 #include "conductance.hpp"
-#include "merged_places.hpp"
 #include "output/table.hpp"
 #include "stopwatch.hpp"
 
@@ -68,13 +67,22 @@ std::string step_line(const Scene& scene, const StepRecord& record) {
     add("load factor", record.value, "");
   }
   text += "  |r|";
-  for (const double residual : record.increments.back().residuals) {
+  const std::vector<double>& residuals = record.increments.back().residuals;
+  constexpr std::size_t first = 4, last = 8; // of many, as a jump takes
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
     char number[16];
-    std::snprintf(number, sizeof number, " %.0e", residual);
-    text += number;
+    std::snprintf(number, sizeof number, " %.0e", residuals[i]);
+    if (residuals.size() <= 24 || i < first || i + last >= residuals.size())
+      text += number;
+    else if (i == first)
+      text += " ... (" + std::to_string(residuals.size() - first - last) + " more) ...";
   }
   if (const double rounding = record.increments.back().rounding; rounding > 0)
     text += "  (rounding leaves up to " + format_number(rounding, 2) + ")";
+  if (const auto energy = record.energy(); energy && (energy->jumped || energy->gained))
+    text += (energy->jumped ? "  (surfaces jumped: energy lost "
+                            : "  (torn off by too large a step: energy gained ") +
+            format_number(std::abs(energy->lost()), 3) + " +- " + format_number(energy->uncertainty, 1) + ")";
   if (!record.cuts.empty()) text += "  (cut " + std::to_string(record.cuts.size()) + " times)";
   const Convergence rate = convergence(record.increments.back().residuals);
   if (std::isfinite(rate.order)) {
@@ -83,109 +91,6 @@ std::string step_line(const Scene& scene, const StepRecord& record) {
     text += numbers;
   }
   return text;
-}
-
-void fill_contact_results(Simulation& simulation, StepRecord& record) {
-  Contact* contact = simulation.contact();
-  if (contact == nullptr) return;
-  const Scene& scene = simulation.scene();
-  record.fields = contact->accepted();
-  record.contact_force = record.fields.force;
-  for (double& component : record.contact_force) component *= scene.symmetry_copies;
-  record.moment = record.fields.moment;
-  if (const int node = contact->master().body_node; node >= 0) {
-    const auto first =
-        simulation.now().displacement.begin() + static_cast<std::ptrdiff_t>(node) * scene.dimension;
-    record.body_moved.assign(first, first + RigidBodySpec::components(scene.dimension));
-    record.body_rotation = simulation.now().rotation;
-  }
-  record.force = simulation.now().force * scene.symmetry_copies;
-  record.approach = simulation.now().motion - simulation.first_touch();
-  record.mean_pressure = simulation.now().force / simulation.contact_area();
-  if (!contact->master()
-           .translates()) { // the load is not ours to prescribe: what the contact carries, in size
-    double squared = 0;
-    for (const double component : record.contact_force) squared += component * component;
-    record.force = std::sqrt(squared);
-    record.mean_pressure = record.force / (simulation.contact_area() * scene.symmetry_copies);
-  }
-  double closed = 0, gap = 0, gap_area = 0;
-  record.areas = contact->areas();
-  const std::vector<std::size_t> points = merge_places(contact->slaves(), record);
-  for (std::size_t k = 0; k < record.areas.size(); ++k) {
-    const double area = record.areas[k];
-    if (record.fields.closed[k]) {
-      closed += area;
-      record.penetration = std::max(record.penetration, std::abs(record.fields.gap[k]));
-    }
-    if (!std::isnan(record.fields.gap[k])) gap += area * record.fields.gap[k], gap_area += area;
-    record.peak_pressure = std::max(record.peak_pressure, record.fields.pressure[k]);
-    const auto position = contact->position_of(points[k], simulation.now().displacement);
-    record.positions.insert(record.positions.end(), position.begin(), position.begin() + scene.dimension);
-    const auto place = contact->slaves().place(points[k], simulation.mesh());
-    record.places.insert(record.places.end(), place.begin(), place.begin() + scene.dimension);
-  }
-  record.contact_fraction = closed / simulation.contact_area();
-  if (const RemovedWaves* waves =
-          simulation.removed_waves()) { // nodes are closed that are in contact in part
-    double area = 0;
-    const auto d = static_cast<std::size_t>(scene.dimension);
-    for (std::size_t k = 0; k < record.areas.size(); ++k)
-      area += record.areas[k] *
-              waves->share(record.places[k * d], record.places[k * d + 1], record.fields.pressure[k]);
-    record.contact_fraction = record.area.fraction = area / simulation.contact_area();
-  } else {
-    record.area = estimate_area(simulation, record.fields);
-  }
-  record.mean_gap = gap / gap_area;
-  record.mean_cubed_gap = gap_means(record.fields.gap, record.areas).cubed;
-  record.worn_slave = contact->worn_slave() * scene.symmetry_copies;
-  record.worn_master = contact->worn_master() * scene.symmetry_copies;
-  for (const double depth : record.fields.worn) record.worn_depth = std::max(record.worn_depth, depth);
-  record.motion = simulation.now().motion;
-  const SurfaceState state = surface_state(simulation, record);
-  const ExactLayer* layer = simulation.exact_layer();
-  if (layer == nullptr) {
-    record.exact = compare_with_exact(scene, state);
-    return;
-  }
-  LayerAnswer answer = layer->compare(layer->truth(record.motion), state);
-  if (simulation.removed_waves() != nullptr) // nodes are not what counts
-    for (Quantity& q : answer.quantities)
-      if (q.name == "contact fraction") q = exact_quantity(q.name, q.unit, record.contact_fraction, q.exact);
-  record.exact = std::move(answer.quantities), record.exact_pressure = std::move(answer.pressure);
-}
-
-/// Of a sine, beside its other exact quantities
-void add_exact_conductance(const Scene& scene, StepRecord& record) {
-  if (scene.exact.type != ExactSpec::Type::westergaard) return;
-  const double wave = scene.exact.wavelength, height = scene.exact.amplitude;
-  const double part = record.mean_pressure / westergaard_full_contact(height, wave, contact_modulus(scene));
-  if (!(part < 1)) return;
-  record.exact.push_back(
-      exact_quantity("h_c lambda / k_s", "", record.conductance * wave, westergaard_conductance(part)));
-  record.exact.push_back(exact_quantity("<g^3> / amplitude^3", "",
-                                        record.mean_cubed_gap / (height * height * height),
-                                        westergaard_cubed_gap(part)));
-}
-
-/// Of a rigid body that turns: moment, mean radius of its contact, and which way it turns.
-void set_turning(const Simulation& simulation, const StepRecord& record, SurfaceState& state) {
-  const auto d = static_cast<std::size_t>(simulation.scene().dimension);
-  state.moment = record.fields.moment.back();
-  double sum = 0, weights = 0;
-  for (std::size_t k = 0; k < record.fields.closed.size(); ++k) {
-    const double weight = record.fields.node_forces[k * d + d - 1];
-    sum += weight * std::hypot(record.positions[k * d], record.positions[k * d + 1]);
-    weights += weight;
-  }
-  state.mean_radius = weights != 0 ? sum / weights : 0;
-  const double now = simulation.now().load_factor;
-  for (const BodyComponent& c : simulation.scene().contact->body->prescribed) {
-    if (c.component != RigidBodySpec::components(static_cast<int>(d)) - 1) continue;
-    const double step = c.value * (c.path.at(now) - c.path.at(now - 1e-6 * (1 + std::abs(now))));
-    state.turning = step > 0 ? 1 : step < 0 ? -1 : 0;
-  }
 }
 
 /// Value of a parameter before the first step.
@@ -261,6 +166,18 @@ bool quadratic(const std::vector<double>& residuals, double constant, double flo
   return last <= std::max(constant * before * before, floor);
 }
 
+std::optional<EnergyBalance> StepRecord::energy() const {
+  EnergyBalance sum;
+  for (const IncrementRecord& increment : increments) {
+    if (!increment.energy) return {};
+    const EnergyBalance& part = *increment.energy;
+    sum.work += part.work, sum.stored += part.stored, sum.dissipated += part.dissipated;
+    sum.uncertainty += part.uncertainty;
+    sum.jumped = sum.jumped || part.jumped, sum.gained = sum.gained || part.gained;
+  }
+  return sum;
+}
+
 int StepRecord::iterations() const {
   return std::accumulate(increments.begin(), increments.end(), 0,
                          [](int sum, const IncrementRecord& increment) {
@@ -270,40 +187,8 @@ int StepRecord::iterations() const {
                          });
 }
 
-SurfaceState surface_state(Simulation& simulation, const StepRecord& record) {
-  const Contact& contact = *simulation.contact();
-  const auto d = static_cast<std::size_t>(simulation.mesh().dimension);
-  SurfaceState state;
-  for (std::size_t k = 0; k < record.areas.size(); ++k) {
-    const double* place = record.places.data() + k * d;
-    state.distance.push_back(d == 2
-                                 ? distance_from(simulation.exact_axis(), simulation.scene().exact, place[0])
-                                 : std::hypot(place[0], place[1]));
-  }
-  state.load.assign(d, 0.0);
-  const std::vector<double> loads = simulation.loads(simulation.now().load_factor);
-  for (std::size_t dof = 0; dof < loads.size(); ++dof) state.load[dof % d] += loads[dof];
-  for (std::size_t k = 0; k < record.areas.size(); ++k) {
-    state.place.push_back(record.places[k * d]);
-    state.place_y.push_back(record.places[k * d + 1]);
-    state.moved.push_back(record.positions[k * d] - record.places[k * d]);
-    state.shear.push_back(record.fields.traction[k * d]);
-    state.sticks.push_back(record.fields.closed[k] && (record.fields.flags[k] & ENTS_FLAG_SLIP) == 0);
-  }
-  state.contact_force = record.fields.force;
-  if (simulation.scene().contact->body) set_turning(simulation, record, state);
-  state.pressure = record.fields.pressure;
-  state.gap = record.fields.gap;
-  state.area = record.areas;
-  state.closed = record.fields.closed;
-  state.approach = record.approach;
-  state.force = record.force;
-  state.mean_pressure = record.mean_pressure;
-  state.slid = contact.slid();
-  state.worn_volume = record.worn_slave, state.worn_depth = record.worn_depth;
-  state.contact_estimate = record.area.fraction;
-  return state;
-}
+/// Part of a step: a jump in it is no mistake of a large step.
+constexpr double smallest_followed = 1. / 16;
 
 std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observer, const StepPlan& plan) {
   const Scene& scene = simulation.scene();
@@ -321,11 +206,11 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     const double from = step == 1 ? 0 : scene.steps[index - 1], to = scene.steps[index];
     // The last part ends on the step's value exactly, whatever rounding did to the sum of the parts.
     const auto value_at = [&](double part) { return part >= 1 - 1e-12 ? to : from + (to - from) * part; };
-    const auto target_at = [&](double part) {
-      const double value = value_at(part);
-      std::vector<double> parameters = parameters_at(simulation, step, part);
-      if (scene.control == Control::load_factor) return Target{value, value, std::move(parameters)};
-      return Target{value, last != 0 ? value / last : 1, std::move(parameters)};
+    const auto target_at = [&](double part, double share) { // of the step, and of it in this increment
+      const double value = value_at(part), factor = last != 0 ? value / last : 1;
+      return Target{value, scene.control == Control::load_factor ? value : factor,
+                    parameters_at(simulation, step, part), share * scene.durations[index],
+                    share <= smallest_followed};
     };
     parts.next_step();
     if (step < plan.first) continue; // drawn all the same: a run continued is the run itself
@@ -339,13 +224,15 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     const auto take = [&] {
       double done = 0, size = parts.size(done);
       while (done < 1) {
-        for (const double other : parts.discarded(done)) simulation.advance(target_at(other), false);
+        for (const double other : parts.discarded(done))
+          simulation.advance(target_at(other, other - done), false);
         const double part = done + size;
         if (done == 0 && part < 1 && begin.is_null()) begin = simulation.checkpoint();
-        const NewtonOutcome outcome = simulation.advance(target_at(part));
+        const NewtonOutcome outcome = simulation.advance(target_at(part, part - done));
         if (outcome.converged) {
           record.increments.push_back({value_at(part), outcome.residuals, outcome.status_changes,
-                                       outcome.augmentations, outcome.halvings, outcome.rounding});
+                                       outcome.augmentations, outcome.halvings, outcome.rounding,
+                                       outcome.dissipated, outcome.descents, outcome.energy});
           done = part >= 1 - 1e-12 ? 1 : part;
           size = plan.cut == StepPlan::Cut::none ? std::min(2 * size, 1 - done) : parts.size(done);
           continue;
@@ -369,9 +256,11 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
       if (!begin.is_null()) simulation.restore(begin);
       throw StepFailure(step, error.what(), std::move(records));
     }
+    for (const IncrementRecord& increment : record.increments) record.dissipated += increment.dissipated;
+    if (scene.contact) record.heat = scene.contact->heat_share * record.dissipated / scene.durations[index];
     fill_contact_results(simulation, record);
     if (scene.probe > 0) {
-      Target higher = target_at(1), lower = higher;
+      Target higher = target_at(1, 1), lower = higher;
       higher.value *= 1 + scene.probe, lower.value *= 1 - scene.probe;
       record.conductance = incremental_conductance(simulation, higher, lower);
       add_exact_conductance(scene, record);

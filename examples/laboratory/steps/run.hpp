@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct IncrementRecord {
   std::vector<int> status_changes;         ///< slave nodes that opened or closed, at each iteration
   std::vector<Augmentation> augmentations; ///< Uzawa
   int halvings = 0;                        ///< of steps by the line search
-  double rounding = 0; ///< the last residual is above the tolerance, and rounding may leave this much; or 0
+  double rounding = 0;   ///< the last residual is above the tolerance, and rounding may leave this much; or 0
+  double dissipated = 0; ///< by friction, all symmetric copies [F L]
+  int descents = 0;      ///< iterations whose tangent was not positive definite
+  std::optional<EnergyBalance> energy = {};
 };
 
 /// The last two residual reductions r[n-1]/r[n-2], r[n]/r[n-1], and the order of convergence they show:
@@ -52,6 +56,8 @@ struct StepRecord {
          worn_depth = 0;             ///< volumes, all symmetric copies; deepest slave [L]
   double penetration = 0;            ///< largest |gap| of a node that carries pressure [L]
   std::vector<double> contact_force; ///< [d] of the slave nodes on the master, all symmetric copies
+  ents_resultants resultants{};      ///< of this mesh
+  double dissipated = 0, heat = 0;   ///< by friction, all symmetric copies [F L]; power of it that is heat
   std::vector<double> moment;        ///< [3], 2D [1] of these about a rigid body's reference point; or empty
   std::vector<double> body_moved;    ///< displacement and turns of a rigid body, [6], 2D [3]; or empty
   std::vector<double> body_rotation; ///< [d][d] row by row, its columns are the body's axes; or empty
@@ -64,6 +70,8 @@ struct StepRecord {
   double wall_time = 0;
 
   int iterations() const;
+  /// Of its increments together; empty: not known.
+  std::optional<EnergyBalance> energy() const;
 };
 
 /// Where the run tells what it does; empty functions say nothing.
@@ -103,5 +111,11 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
 
 /// The state of the slave surface, for the exact solutions.
 SurfaceState surface_state(Simulation& simulation, const StepRecord& record);
+
+/// What the last accepted increment left on the slave surface, beside its exact solution.
+void fill_contact_results(Simulation& simulation, StepRecord& record);
+
+/// Of a sine, beside its other exact quantities
+void add_exact_conductance(const Scene& scene, StepRecord& record);
 
 } // namespace host

@@ -46,12 +46,27 @@ struct Target {
   double value = 0; ///< of the scene's control
   double load_factor = 0;
   std::vector<double> parameters = {}; ///< of the contact model, see Configuration
+  double duration = 1;                 ///< time that the increment takes
+  bool may_jump =
+      true; ///< false: an increment in which surfaces jump fails, and is looked at in smaller parts
 };
 
 /// Uzawa: one solution with given multipliers.
 struct Augmentation {
   double error = 0;   ///< largest change of a multiplier over the stiffness: penetration or elastic slip [L]
   int iterations = 0; ///< of Newton, after the change
+};
+
+/// The energies of an increment of a scene whose law pulls, all symmetric copies [F L]: the work of the master's motion,
+/// of supports and loads (trapezoidal rule) goes into what is stored and dissipated, or is lost in jumps.
+struct EnergyBalance {
+  double work = 0, stored = 0, dissipated = 0;
+  double uncertainty = 0; ///< of the work: forces within those at the begin and at the end
+  bool jumped = false;    ///< surfaces jumped together or apart
+  bool gained =
+      false; ///< more is stored than any work explains: the increment is too large to follow the surfaces
+
+  double lost() const { return work - stored - dissipated; }
 };
 
 struct NewtonOutcome {
@@ -65,6 +80,9 @@ struct NewtonOutcome {
   double step_factor = 0.5;          ///< suggested for the next try; 0: a smaller step does not help
   bool line_search_may_help = false; ///< the iteration diverged, or met what cannot be evaluated
   int halvings = 0;                  ///< of steps by the line search
+  int descents = 0; ///< iterations whose tangent was not positive definite, so that a part was left out of it
+  double dissipated = 0;               ///< by friction, all symmetric copies [F L]
+  std::optional<EnergyBalance> energy; ///< empty: the law does not pull, or its parameters change
   /// The residual is above the tolerance and all rounding, which may leave this much of it; 0: it is below.
   double rounding = 0;
 };
@@ -128,6 +146,9 @@ private:
     std::vector<double> residual; ///< [dofs]
     RigidCoupling coupling;
     double force_scale = 0; ///< norm of the forces present: contact, loads, reactions
+    /// Where the law pulls: of bodies, springs and contact [F L]; with the loads' and the prescribed force's, which the
+    /// unknowns make smallest; sum of the sizes of its parts
+    double stored = 0, dissipated = 0, potential = 0, potential_size = 0;
     bool ok = false;
     std::string reason, advice; ///< as of NewtonOutcome
     double step_factor = 0.5;
@@ -150,8 +171,14 @@ private:
   void build_pattern();
   double find_first_touch();
   class Attempt;
-  /// @param searches  with a line search
-  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate, bool searches);
+  /// What a line search makes smaller.
+  enum class Search {
+    none,
+    residual,
+    energy,
+    work, ///< of the residual along the step (trapezoidal rule): the energy, where friction has none
+  };
+  NewtonOutcome attempt(const Target& target, bool keep, bool extrapolate, Search search);
   /// Unknowns are the displacements, then the multipliers; -1 for a prescribed one.
   int equation(std::size_t unknown) const {
     const auto dofs = static_cast<std::size_t>(dofs_->dofs());
@@ -175,6 +202,12 @@ private:
   /// @param where  of the evaluation
   Rounding rounding_of_residual(const Evaluation& at, const Configuration& where) const;
   Evaluation evaluate(const Configuration& at, const std::vector<double>& direction, bool want_tangent);
+  /// Energies of an evaluation, but for the bodies' that have elements.
+  void add_energies(const Configuration& at, Evaluation& result) const;
+  /// Of the increment from `last_` to `end`. Empty: its begin is not known.
+  std::optional<EnergyBalance> balance(const Evaluation& end, const Configuration& to) const;
+  /// By `step`, the first-order change of the potential.
+  double slope(const Evaluation& at, double force_error, const Increment& step) const;
   /// Prescribed displacements for a load factor and a force on the master, other dofs as in `displacement`.
   void prescribe(Configuration& at) const;
   /// Displacement of a dof by the turn of its support.
@@ -203,6 +236,10 @@ private:
   bool factorize_again(const Factored& where);
   /// @param factorize  false: the factors at hand will do
   bool solve(const Evaluation& at, bool factorize, double motion_step, double force_error, Increment& step);
+  /// The same without a step of the motion; where the tangent is not positive definite what makes it so is left out of
+  /// the contact elements' part, so that the step descends the potential.
+  /// @param left_out  was something?
+  bool solve_downhill(Evaluation& at, double force_error, Increment& step, bool& left_out);
   void move(Configuration& at, const Increment& step, double share) const;
 
   const Scene* scene_;
@@ -236,6 +273,7 @@ private:
   std::vector<Load> loads_;
   std::vector<double> springs_; ///< [dofs] stiffness against the ground, or empty
   Configuration now_;
+  std::optional<Evaluation> last_; ///< at `now_`, where the law pulls; empty: not known
   double first_touch_ = 0;
   std::vector<double>
       rate_; ///< [dofs] displacement per load factor in the last increment; empty: not known, not wanted
