@@ -223,17 +223,17 @@ Json block(const Json& friction) {
 TEST(Adhesion, AMeshJumpsWithAndWithoutFriction) {
   const Json values{-1e-3, {{"to", 0}, {"count", 50}}, {{"to", -1e-3}, {"count", 50}}};
   const Loop without = loop_of(solved(block(nullptr), values));
-  EXPECT_GE(without.jumps, 2); // single nodes, too
-  EXPECT_NEAR(without.work, without.in_jumps, 0.02 * without.in_jumps);
+  EXPECT_EQ(without.jumps, 2); // single nodes jump between, which takes 4 %
+  EXPECT_NEAR(without.work, without.in_jumps, 0.06 * without.in_jumps);
   const std::vector<StepRecord> records = solved(
       block({{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 2e6}, {"adhesion", true}}), values);
   const Loop with = loop_of(records);
   double dissipated = 0;
   for (const StepRecord& record : records) dissipated += record.energy() ? record.energy()->dissipated : 0;
   std::cout << "friction dissipates " << dissipated << "\n";
-  EXPECT_GE(with.jumps, 2);
+  EXPECT_EQ(with.jumps, 2);
   EXPECT_GT(dissipated, 0);
-  EXPECT_NEAR(with.work, with.in_jumps + dissipated, 0.02 * with.in_jumps);
+  EXPECT_NEAR(with.work, with.in_jumps + dissipated, 0.06 * with.in_jumps);
 }
 
 } // namespace
