@@ -23,6 +23,16 @@ template <class Random> bool is_taken(Random& random) {
   return sample_divisor == 1 || random.below(static_cast<int>(sample_divisor)) == 0;
 }
 
+/// Sweeps over many kinds: with sanitizers one of `every` in turn is taken, else each.
+class Turns {
+public:
+  explicit Turns(int every) : every_(sample_divisor == 1 ? 1 : every) {}
+  bool take() { return at_++ % every_ == 0; }
+
+private:
+  int every_, at_ = 0;
+};
+
 /// The tests that take longest take a fifth of their samples in an ordinary build; with ENTS_TEST_SAMPLES=all in the
 /// environment all of them.
 inline std::int64_t long_divisor() {

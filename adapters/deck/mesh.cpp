@@ -15,8 +15,8 @@ using std::string_view;
 using Names = std::vector<string_view>;
 using Index = std::unordered_map<std::int64_t, int>;
 
-template <class T> bool contains(const std::vector<T>& names, string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+template <class T> bool contains(const std::vector<T>& known, string_view name) {
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 /// Fills a mesh in passes over the statements: nodes; elements and the sets they name; node and element sets;

@@ -38,10 +38,12 @@ void expect_singles(const Model& model, const Batch& batch, std::size_t first, s
 
 TEST(Batch, EveryPatternOfStrides) {
   Random random(81);
+  test::Turns turns(7);
   for (const ModelKind& kind : some_kinds()) {
     const Model model(text(kind));
     const std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, true);
     for (unsigned shared = 0; shared < 1u << input_count; ++shared) {
+      if (!turns.take()) continue;
       Batch batch(model, elements, shared, shared % 3, random.below(2) == 0 ? want_all : in_blocks);
       const int32_t status = call::evaluate(model.get(), int64_t{0}, static_cast<int64_t>(count),
                                             &batch.input, &batch.output, nullptr);
@@ -54,7 +56,9 @@ TEST(Batch, EveryPatternOfStrides) {
 
 TEST(Batch, EveryKindOfModelWithoutHistory) {
   Random random(82);
+  test::Turns turns(7);
   for (const ModelKind& kind : all_kinds()) {
+    if (!turns.take()) continue;
     const Model model(text(kind));
     const std::vector<Element> elements = draw_batch(model, basis(kind.basis), random, false);
     for (const int32_t wanted : {want_all, in_blocks})
