@@ -202,7 +202,7 @@ Json block(const Json& friction) {
        {{{"name", "block"},
          {"material", "block"},
          {"element", "quad4"},
-         {"x", test::axis(0, 0.5, 64)},
+         {"x", test::axis(0, 0.5, 128)},
          {"y", {{"from", -0.5}, {"pieces", {{{"to", 0}, {"divisions", 16}, {"growth", 0.8}}}}}}}}},
       {"supports",
        {{{"nodes", "block.y_min"}, {"x", 0}, {"y", 0}},
@@ -221,10 +221,10 @@ Json block(const Json& friction) {
 
 // The direct solvers of meshes, and friction, which has no energy.
 TEST(Adhesion, AMeshJumpsWithAndWithoutFriction) {
-  const Json values{-1e-3, {{"to", 0}, {"count", 50}}, {{"to", -1e-3}, {"count", 50}}};
+  const Json values{-1e-3, {{"to", 0}, {"count", 20}}, {{"to", -1e-3}, {"count", 20}}};
   const Loop without = loop_of(solved(block(nullptr), values));
-  EXPECT_EQ(without.jumps, 2); // single nodes jump between, which takes 4 %
-  EXPECT_NEAR(without.work, without.in_jumps, 0.06 * without.in_jumps);
+  EXPECT_EQ(without.jumps, 2); // on half as many cells single nodes jump between, which takes 4 %
+  EXPECT_NEAR(without.work, without.in_jumps, 0.02 * without.in_jumps);
   const std::vector<StepRecord> records = solved(
       block({{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 2e6}, {"adhesion", true}}), values);
   const Loop with = loop_of(records);
@@ -233,7 +233,7 @@ TEST(Adhesion, AMeshJumpsWithAndWithoutFriction) {
   std::cout << "friction dissipates " << dissipated << "\n";
   EXPECT_EQ(with.jumps, 2);
   EXPECT_GT(dissipated, 0);
-  EXPECT_NEAR(with.work, with.in_jumps + dissipated, 0.06 * with.in_jumps);
+  EXPECT_NEAR(with.work, with.in_jumps + dissipated, 0.02 * with.in_jumps);
 }
 
 } // namespace
