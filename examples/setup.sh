@@ -19,7 +19,7 @@ tests/configurations/README.md says what each costs:
   -DCMAKE_BUILD_TYPE=Debug               instead of Release
   -DENTS_INSTRUCTION_SETS=all            kernels for every processor of this family, as in packages; default: for this processor, in
                                          about half the time
-  -DENTS_GROUPED=OFF                     every source file of ents-lab and of the tests on its own: sooner built after a change of
+  -DENTS_GROUPED=OFF                     every source file of library, ents-lab and tests on its own: sooner built after a change of
                                          one, in twice the time from nothing
 They stay in force until changed or until the folder is removed. Packages that are used where they are installed:
   --with libtrilinos-sacado-dev          Sacado, which ents-bench --differentiation compares with
