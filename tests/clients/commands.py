@@ -37,6 +37,7 @@ LONG = {  # a part of a command: why it is not run
     "area_bounds.py": "minutes; host.area_bounds runs it with --quick",
     "rough_afm/below.py": "minutes; Below.* runs two of its cases on a part of the scan", "ents-lab sublaw": "a minute; Below.SublawWritesThePartOfAModel runs one",
     "adhesion.py": "minutes, for the gallery; Adhesion.* has its cases",
+    "sheet/sheet.py": "a minute, for the gallery", "--variant below": "Below.* runs such scenes",
     "rough_afm/cut_off.py": "minutes; RemovedWaves.* runs one of its cases on a part of the scan",
     "ridges/polar.py": "24 runs, for the gallery", "sheet/friction.py": "a minute, for the gallery",
     "screw/": "minutes; RigidBody.AScrewHasItsTorque turns it a little", "rough_afm/scene.json --variant block": "minutes, for the gallery", "ENTS_": "a longer run of a test",
