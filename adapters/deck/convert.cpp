@@ -11,6 +11,7 @@
 
 #include "facet_tree.hpp"
 #include "library.hpp"
+#include "point_counts.hpp"
 #include "surface_coordinates.hpp"
 
 namespace ents_deck {
@@ -98,8 +99,6 @@ void check_kinds(const Mesh& mesh, const Side& side, Program program) {
   }
 }
 
-bool is_linear(Shape shape) { return node_count(shape) == corner_count(shape); }
-
 double mean_size(const Mesh& mesh, const Side& side) {
   double sum = 0;
   for (const Face& face : side.faces) {
@@ -148,41 +147,6 @@ void adjust(Mesh& mesh, Contact& contact, std::vector<Move>& moves) {
                 "ADJUST: %d nodes are put on the master in their *NODE lines, the farthest by %.4g", moved,
                 farthest);
   contact.remarks.push_back(text);
-}
-
-constexpr std::size_t most_quadratic_points = 20000; ///< each has a stiffness of 60 x 60 in ccx's adapter
-
-/// Points inside of faces carry what a face carries to all its nodes, as contact between surfaces does. Nodes
-/// have their shares of areas alone, and where both meshes match they lie on kinks of the master. A face that lies
-/// over edges of the master has jumps of the pressure: so many points keep a uniform pressure within 0.5 % (linear
-/// faces) and 1 % (quadratic ones) where meshes do not match.
-int points_per_direction(const Contact& contact, const Options& options, std::vector<string>& remarks) {
-  if (contact.slave.faces.empty()) {
-    if (options.points && *options.points > 0)
-      throw Error("--points: the slave '" + contact.pair.slave + "' is of nodes alone");
-    return 0;
-  }
-  const Shape shape = contact.slave.faces[0].shape;
-  int suggested = corner_count(shape) == 2 ? 8 : is_linear(shape) ? 3 : 7;
-  const auto total = [&] {
-    return static_cast<std::size_t>(suggested * suggested) * contact.slave.faces.size();
-  };
-  if (!options.points && suggested == 7 && total() > most_quadratic_points) {
-    while (suggested > 3 && total() > most_quadratic_points) suggested -= 2;
-    remarks.push_back(std::to_string(suggested) + " points per direction in " +
-                      std::to_string(contact.slave.faces.size()) +
-                      " quadratic faces: stresses where meshes do not match are exact to " +
-                      (suggested == 5 ? "1.5 %" : "7.5 %") + " (7: 0.3 %, with more elements; --points)");
-  }
-  const int points = options.points.value_or(suggested);
-  if (points < 2)
-    remarks.push_back((points == 0 ? string("an element per node") : string("one point in a face")) +
-                      " does not carry a uniform pressure: stresses were wrong by " +
-                      (is_linear(shape) ? "6 to 54 % where linear meshes do not match"
-                                        : "13 to 140 % on quadratic faces, matching ones included") +
-                      "; --points " + std::to_string(suggested) + " keeps them within " +
-                      (is_linear(shape) ? "0.5 %" : "1 %"));
-  return points;
 }
 
 /// Bodies that share nodes: a slave node that is a node of the master needs no contact with it. In ccx a point in a
@@ -258,16 +222,16 @@ PatchRequest request_of(const Mesh& mesh, const Options& options, bool height, C
 }
 
 void find_patches(const Mesh& mesh, const Options& options, const PatchRequest& request, Contact& out) {
-  for (int points = points_per_direction(out, options, out.remarks);;) {
-    out.points = points == 0 ? slave_nodes(mesh, out.slave, out.master, options.program, out.remarks)
-                             : points_in_faces(mesh, out.slave, points, options.program);
+  for (std::vector<int> counts = point_counts(mesh, out, options, out.remarks);;) {
+    out.points = counts.empty() ? slave_nodes(mesh, out.slave, out.master, options.program, out.remarks)
+                                : points_in_faces(mesh, out.slave, counts, options.program);
     share_nodes(mesh, out, options.program);
     try {
       out.patches = patches_of(mesh, out.points, out.master, request);
       break;
     } catch (const Error&) { // points near the edge of their face need more faces than those near its middle
-      if (options.points || points <= 2) throw;
-      points = 2;
+      if (options.points || std::all_of(counts.begin(), counts.end(), [](int n) { return n <= 2; })) throw;
+      counts.assign(counts.size(), 2);
       out.remarks.push_back(
           "2 points per direction in each face: more of them need more master nodes than an element may "
           "have; stresses where meshes do not match are less exact (--points)");

@@ -13,6 +13,7 @@
 #include "convert.hpp"
 #include "library.hpp"
 #include "picture.hpp"
+#include "point_counts.hpp"
 #include "run_job.hpp"
 #include "write.hpp"
 
@@ -228,8 +229,9 @@ int program(int argc, char** argv) {
         ->type_name("PROGRAM");
   app.add_option("--points", line.points,
                  "elements per direction of a slave face, at points inside of it; 0: one per slave node [3, "
-                 "7 on quadratic faces, 8 in the plane; nodes where the slave is of nodes alone]")
-      ->check(CLI::Range(0, 8))
+                 "7 on quadratic faces, 8 in the plane, more over finer masters; nodes where the slave is of "
+                 "nodes alone]")
+      ->check(CLI::Range(0, most_points))
       ->type_name("N");
   app.add_option("--first-model", line.options.first_model,
                  "k of the first ents_k.json, for jobs that have others [1]")

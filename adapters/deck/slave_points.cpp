@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <unordered_map>
 
 #include <ents.h>
@@ -63,13 +64,15 @@ struct Group {
 };
 
 struct Groups {
-  std::map<std::pair<Shape, double>, Group> all; ///< by shape and thickness; below zero: axisymmetric
-  std::unordered_map<int, int64_t> index;        ///< of Mesh::nodes
-  std::vector<double> positions;                 ///< [nodes][d]
+  std::map<std::tuple<Shape, double, int>, Group>
+      all;                                ///< by shape, thickness (below zero: axisymmetric), points
+  std::unordered_map<int, int64_t> index; ///< of Mesh::nodes
+  std::vector<double> positions;          ///< [nodes][d]
   std::size_t dimension = 3;
 };
 
-Groups groups_of(const Mesh& mesh, const Side& slave, Program program) {
+/// @param counts  points per direction of each face; empty: no matter
+Groups groups_of(const Mesh& mesh, const Side& slave, const std::vector<int>& counts, Program program) {
   Groups out;
   out.dimension = !slave.faces.empty() && corner_count(slave.faces[0].shape) == 2 ? 2 : 3;
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
@@ -78,12 +81,13 @@ Groups groups_of(const Mesh& mesh, const Side& slave, Program program) {
     out.positions.insert(out.positions.end(), x.begin(),
                          x.begin() + static_cast<std::ptrdiff_t>(out.dimension));
   }
-  for (const Face& face : slave.faces) {
+  for (std::size_t f = 0; f < slave.faces.size(); ++f) {
+    const Face& face = slave.faces[f];
     const Kind kind = mesh.kind(face.element);
     const double width = kind == Kind::solid          ? 0
                          : kind == Kind::axisymmetric ? -1
                                                       : thickness_of(mesh, face.element);
-    Group& group = out.all[{face.shape, width}];
+    Group& group = out.all[{face.shape, width, counts.empty() ? 0 : counts[f]}];
     group.thickness = std::max(width, 0.0);
     group.share = kind == Kind::axisymmetric && program == Program::calculix ? ccx_wedge : 1;
     group.faces.push_back(&face);
@@ -130,10 +134,11 @@ void without_faces(const Mesh& mesh, const Side& slave, const Side& master, Prog
 
 std::vector<SlavePoint> slave_nodes(const Mesh& mesh, const Side& slave, const Side& master, Program program,
                                     std::vector<std::string>& remarks) {
-  const Groups groups = groups_of(mesh, slave, program);
+  const Groups groups = groups_of(mesh, slave, {}, program);
   std::vector<double> areas(slave.nodes.size());
   for (const auto& [key, group] : groups.all) {
-    if (is_quadratic(key.first) && program == Program::calculix) {
+    const Shape shape = std::get<Shape>(key);
+    if (is_quadratic(shape) && program == Program::calculix) {
       for (const Face* face : group.faces)
         for (std::size_t i = 0; i < face->nodes.size(); ++i)
           areas[static_cast<std::size_t>(groups.index.at(face->nodes[i]))] +=
@@ -143,7 +148,7 @@ std::vector<SlavePoint> slave_nodes(const Mesh& mesh, const Side& slave, const S
     std::vector<double> part(areas.size());
     ents_report report{};
     report.struct_size = sizeof report;
-    if (ents_tributary_areas(segment_name(key.first), static_cast<int64_t>(group.faces.size()),
+    if (ents_tributary_areas(segment_name(shape), static_cast<int64_t>(group.faces.size()),
                              group.connectivity.data(), static_cast<int64_t>(areas.size()),
                              groups.positions.data(), group.thickness, part.data(), &report) != ENTS_OK)
       mesh.source.fail(slave.place, "areas of '" + slave.name + "': " + report.message);
@@ -161,13 +166,15 @@ std::vector<SlavePoint> slave_nodes(const Mesh& mesh, const Side& slave, const S
   return out;
 }
 
-std::vector<SlavePoint> points_in_faces(const Mesh& mesh, const Side& slave, int per_direction,
+std::vector<SlavePoint> points_in_faces(const Mesh& mesh, const Side& slave, const std::vector<int>& counts,
                                         Program program) {
-  const Groups groups = groups_of(mesh, slave, program);
+  const Groups groups = groups_of(mesh, slave, counts, program);
   std::vector<SlavePoint> out;
   for (const auto& [key, group] : groups.all) {
-    const std::size_t m = static_cast<std::size_t>(node_count(key.first));
-    const std::size_t per_face = corner_count(key.first) == 2
+    const Shape shape = std::get<Shape>(key);
+    const int per_direction = std::get<int>(key);
+    const std::size_t m = static_cast<std::size_t>(node_count(shape));
+    const std::size_t per_face = corner_count(shape) == 2
                                      ? static_cast<std::size_t>(per_direction)
                                      : static_cast<std::size_t>(per_direction * per_direction);
     const std::size_t count = per_face * group.faces.size();
@@ -175,7 +182,7 @@ std::vector<SlavePoint> points_in_faces(const Mesh& mesh, const Side& slave, int
     std::vector<double> weights(count * m), areas(count);
     ents_report report{};
     report.struct_size = sizeof report;
-    if (ents_sampling_points(segment_name(key.first), per_direction, static_cast<int64_t>(group.faces.size()),
+    if (ents_sampling_points(segment_name(shape), per_direction, static_cast<int64_t>(group.faces.size()),
                              group.connectivity.data(), static_cast<int64_t>(slave.nodes.size()),
                              groups.positions.data(), group.thickness, begin.data(), nodes.data(),
                              weights.data(), areas.data(), &report) != ENTS_OK)

@@ -22,9 +22,9 @@ struct SlavePoint {
 std::vector<SlavePoint> slave_nodes(const Mesh& mesh, const Side& slave, const Side& master, Program program,
                                     std::vector<std::string>& remarks);
 
-/// Points of the library (ents_sampling_points) inside of the slave's faces: per_direction or its square
-/// each.
-std::vector<SlavePoint> points_in_faces(const Mesh& mesh, const Side& slave, int per_direction,
+/// Points of the library (ents_sampling_points) inside of the slave's faces.
+/// @param counts  [faces], 1 or more: points of a line; their square in a face
+std::vector<SlavePoint> points_in_faces(const Mesh& mesh, const Side& slave, const std::vector<int>& counts,
                                         Program program);
 
 /// "17", or "the point of face S2 of element 4".
