@@ -114,7 +114,7 @@ def compare(name, path, build, out):
     text = deck_text(path)
     deck = folder / f"{name}.inp"
     deck.write_text(text, encoding="latin-1")
-    made = subprocess.run([build / "bin/ents-deck", deck, "--for", "calculix", "--out", own], capture_output=True, text=True)
+    made = subprocess.run([build / "bin/ents-deck", deck, "--for", "calculix", "--out", own, "--no-pictures"], capture_output=True, text=True)
     (folder / "ents-deck.log").write_text(made.stdout + made.stderr)
     if made.returncode:
         reason = made.stderr.strip().replace("ents-deck: ", "").replace(str(folder) + "/", "")
