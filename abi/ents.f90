@@ -61,6 +61,7 @@ module ents
   integer(c_int32_t), parameter :: ENTS_NEEDS_MULTIPLIERS = 128
   integer(c_int32_t), parameter :: ENTS_NEEDS_ONE_BY_ONE = 256
   integer(c_int32_t), parameter :: ENTS_NEEDS_TEMPERATURES = 512
+  integer(c_int32_t), parameter :: ENTS_NEEDS_FIRST_STATE = 1024
   integer(c_int32_t), parameter :: ENTS_SHARED_SLAVE = 1
   integer(c_int32_t), parameter :: ENTS_SHARED_SEGMENT = 2
   integer(c_int32_t), parameter :: ENTS_SHARED_AREA = 4

@@ -254,6 +254,8 @@ typedef struct ents_layout {
                                             power law and the consistent tangent */
 
 #define ENTS_NEEDS_TEMPERATURES (1 << 9) /* "heat": a temperature per node, and elements that are evaluated one by one. Since contract 1.10 */
+#define ENTS_NEEDS_FIRST_STATE (1 << 10) /* bonds form where the undeformed bodies are close ("tied", "cohesive"): see "The first increment"
+                                            at ents_input. Since contract 1.11 */
 
 ENTS_API int32_t ents_model_layout(const ents_model *model, ents_layout *layout, ents_report *report);
 
@@ -440,7 +442,7 @@ ENTS_API int32_t ents_thickness(const ents_model *model, const ents_master_mesh 
  * The first increment. Friction and wear of a slave that touches within an increment begin at the touch, which takes where it was at the
  * begin: before the first increment evaluate the elements once at its begin, with states of ents_state_init and ENTS_STATE; the states
  * that this returns are the increment's state_begin (ents_iterate: `slave_begin`). Without it such an element has no friction in that
- * increment, and ENTS_FLAG_NO_BEGIN. */
+ * increment, and ENTS_FLAG_NO_BEGIN; and what opens in the first increment has no bond (ENTS_NEEDS_FIRST_STATE). */
 typedef struct ents_input {
   int32_t struct_size;
   int32_t reserved;                  /* 0 */

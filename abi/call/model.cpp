@@ -21,7 +21,8 @@ static_assert(need::height == ENTS_NEEDS_HEIGHT && need::slope == ENTS_NEEDS_SLO
 static_assert(need::iteration == ENTS_NEEDS_ITERATION && need::master == ENTS_NEEDS_MASTER &&
               need::friction == ENTS_NEEDS_FRICTION);
 static_assert(need::history == ENTS_NEEDS_HISTORY && need::multipliers == ENTS_NEEDS_MULTIPLIERS);
-static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE);
+static_assert(need::one_by_one == ENTS_NEEDS_ONE_BY_ONE && need::temperatures == ENTS_NEEDS_TEMPERATURES);
+static_assert(need::first_state == ENTS_NEEDS_FIRST_STATE);
 
 std::int32_t finish(PatchedModel&& checked, ents_model** model, ents_report* report) {
   const auto shared = std::make_shared<SharedModel>(SharedModel{std::move(checked), Plan{}, Plan{}});

@@ -10,7 +10,8 @@ bool MovedState::moves(const ElementCall& call, std::int64_t e) {
          is_segment_number(at(call.in->state_begin, call.in->state_begin_stride, e)[call.plan->state.size]);
 }
 bool MovedState::begins(const ElementCall& call, std::int64_t e) {
-  if (!call.in->slave_begin || !call.in->state_begin || !call.keeps_history) return false;
+  if (!call.in->slave_begin || !call.in->state_begin) return false;
+  if (!call.keeps_history && !call.plan->law.bonds) return false;
   const double* state = at(call.in->state_begin, call.in->state_begin_stride, e);
   return is_state(call.plan->state, state) && is_segment_number(state[call.plan->state.size]) &&
          (state[StateLayout::history_at] == static_cast<double>(History::none) ||
@@ -55,6 +56,7 @@ std::int32_t MovedState::begin(std::int64_t e, const SegmentNodes& nodes, ents_r
   take(StateLayout::history_at, 1);
   take(StateLayout::xi_at, plan.parameters);
   take(layout.anchor_at, plan.parameters);
+  take(layout.bond_at, 1);
   if (layout.wear_at >= 0) {
     take(layout.wear_at + StateLayout::worn_pressure, 1);
     take(layout.wear_at + StateLayout::worn_anchor, plan.parameters);

@@ -342,7 +342,7 @@ Result evaluate(const Element& e) {
 
   ents_report report{};
   report.struct_size = sizeof report;
-  if (fresh && model.bonds) find_begin(e, arguments, state_begin); // bonds of the undeformed bodies
+  if (fresh && (layout.needs & ENTS_NEEDS_FIRST_STATE) != 0) find_begin(e, arguments, state_begin);
   ents_input input = input_at(e, arguments, at, state_begin);
   double start[2];
   if (find_start(model, input, start)) input.start = start;

@@ -175,8 +175,6 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
   std::ifstream in(loaded->file, std::ios::binary);
   if (auto model = nlohmann::json::parse(in, nullptr, false); model.is_object()) {
     loaded->patch = model.contains("patch");
-    const auto law = model.value(nlohmann::json::json_pointer("/contact/normal/type"), std::string());
-    loaded->bonds = law == "tied" || law == "cohesive";
     loaded->base = without_height(std::move(model), directory);
   }
   return loaded;

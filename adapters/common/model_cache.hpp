@@ -38,7 +38,6 @@ struct LoadedModel {
   int slave_nodes = 1;          ///< of each row
   bool offsets = false;         ///< in each row
   bool patch = false;           ///< the element has several segments
-  bool bonds = false;           ///< its normal law holds what was close at the begin
   std::vector<double> body;     ///< [m][d] master nodes about the reference node; empty: they are the host's
 
   /// @return null if there is no such line

@@ -251,7 +251,9 @@ Forces BorderContact::evaluate(const double* u, double* r) {
       return cut(report);
     }
     if (segment_[k] < 0) continue;
-    if (transfer(k, state.data() + closed.size() * size, report) != ENTS_OK) return cut(report);
+    double* const of_slave = state.data() + closed.size() * size;
+    if (transfer(k, of_slave, report) != ENTS_OK) return cut(report);
+    if (undeformed_ && (layout_.needs & ENTS_NEEDS_FIRST_STATE) != 0) find_begin(k, of_slave);
     closed.push_back(k);
     segment.push_back(segment_[k]);
     position.insert(position.end(), {slave[2 * k], slave[2 * k + 1]});
@@ -323,6 +325,7 @@ void BorderContact::accept() {
   state_begin_ = state_end_;
   points_begin_ = points_;
   now_begin_ = now_;
+  undeformed_ = false;
 }
 
 void BorderContact::reject() {

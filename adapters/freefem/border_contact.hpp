@@ -92,6 +92,7 @@ private:
   // Where slave nodes are and their history: at the begin of the increment, and as of the last evaluation.
   std::vector<std::int64_t> segment_, segment_begin_;
   std::vector<double> xi_, xi_begin_, state_begin_, state_end_, points_begin_, now_, now_begin_;
+  bool undeformed_ = true; ///< the increment begins there
 };
 
 } // namespace freefem

@@ -21,7 +21,8 @@ enum : std::int32_t {
   history = 1 << 6,
   multipliers = 1 << 7,
   one_by_one = 1 << 8,
-  temperatures = 1 << 9
+  temperatures = 1 << 9,
+  first_state = 1 << 10
 };
 }
 
@@ -55,7 +56,7 @@ inline std::int32_t needs_of(const ModelSpec& model, const Plan& plan) {
          if_so(enriched || !flat, need::iteration) | // SurfaceAt::closed_form, and project()
          if_so(!model.rigid_master, need::master) | if_so(law.has_friction(), need::friction) |
          if_so(has_history(plan), need::history) | if_so(plan.multipliers > 0, need::multipliers) |
-         if_so(plan.heat != nullptr, need::temperatures);
+         if_so(plan.heat != nullptr, need::temperatures) | if_so(plan.law.bonds, need::first_state);
 }
 
 } // namespace ents

@@ -32,10 +32,10 @@ def draw(folder, result):
         axes.axis("off")
 
     def force(axes):
-        lifts = [LIFT * s["value"] for s in result["steps"][1:]]
+        lifts = [LIFT * s["value"] for s in result["steps"]]
         exact = [(2 * BENDING * ENERGY) ** 0.5 / (3 * d * (BENDING / (2 * ENERGY)) ** 0.5) ** 0.5 for d in lifts]
         axes.plot(lifts, exact, color=runs.GREY, linewidth=5, label="a beam that is clamped where the bond begins")
-        axes.plot(lifts, [-s["force"] for s in result["steps"][1:]], color=runs.BLUE, label="ents")
+        axes.plot(lifts, [-s["force"] for s in result["steps"]], color=runs.BLUE, label="ents")
         axes.set(xlabel="lift of the end [mm]", ylabel="force [N/mm]", ylim=(0, 0.5))
         axes.legend(frameon=False)
 

@@ -95,6 +95,26 @@ class OneSurface(unittest.TestCase):
             self.assertLess(np.abs(contact.residual.reshape(-1, 2).sum(axis=0)).max(), 1e-13)
             self.assertGreater((contact.pressure > 0).sum(), 20)
 
+    def test_waves_meet_their_mirror_images(self):
+        """The fold is rough inside: its points lie on the height of the model. The half has waves, too, on a smooth plane: its forces have other
+        directions by the slope."""
+        half, whole = Fold(False), Fold(True)
+        for amplitude, number in ((0.005, 1.5), (0.01, 3.0)):
+            waves, slope = {"type": "sine", "amplitude": amplitude, "wave_vector": [number]}, amplitude * number
+            plane = ents.Contact({**model(stiffness=100.0), "master": "rigid"}, half.x, half.inner[:21], [[0, 1]], master_positions=[[-1.0, 0.0], [5.0, 0.0]],
+                                 reach=0.3, sampling=4, slave_height=waves, slave_surface_coordinates="x")
+            right, force = press(plane, half.K, half.x.shape, half.fixed, half.target, 20)
+            contact = ents.Contact({**model(), "height": waves}, whole.x, whole.skin, whole.skin, sampling=4, surface_coordinates="x")
+            u, forces = press(contact, whole.K, whole.x.shape, whole.fixed, whole.target, 20)
+            self.assertEqual((contact.pressure > 0).sum(), 2 * (plane.pressure > 0).sum())
+            self.assertLess(abs(forces[whole.top, 1].sum() / force[half.top, 1].sum() - 1), slope ** 2)
+            self.assertLess(np.abs(u[whole.numbers] - u[whole.numbers[:, ::-1]] * [1, -1]).max(), 1e-12)
+            self.assertLess(np.abs(contact.residual.reshape(-1, 2).sum(axis=0)).max(), 1e-13)
+            e = np.random.default_rng(1).normal(size=u.size) * 1e-7
+            change = contact.update(u.ravel() + e)[0] - contact.update(u.ravel() - e)[0]
+            _, tangent = contact.update(u.ravel())
+            self.assertLess(np.abs(change - 2 * (tangent @ e)).max(), 1e-8 * np.abs(tangent @ e).max())
+
     def test_a_strip_like_a_c_closed_on_itself(self):
         """A ring with a slit: its ends are pressed on each other. The upper half, on a plane, is the same."""
         slit = 0.03
@@ -175,12 +195,15 @@ class OneSurface(unittest.TestCase):
     def test_refusals(self):
         x = np.array([[0.0, 0], [1, 0], [2, 0], [0, 1], [1, 1]])
         faces = np.array([[0, 1], [1, 2]])
-        for law, words in (({**model(), "height": {"type": "constant", "value": 0.1}}, "height"),
-                           (model(), "deforms"),
+        for law, words in ((model(), "deforms"),
                            ({"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 5.0}}}, "over-constraint")):
             rigid = {"master": "rigid"} if words == "deforms" else {}
             with self.subTest(words), self.assertRaisesRegex(ents.Error, words):
                 ents.Contact({**law, **rigid}, x, faces, faces)
+        with self.assertRaisesRegex(ents.Error, "its height varies .a."):
+            ents.Contact({**model(), "parameters": {"a": 0.1}, "height": {"type": "constant", "value": "a"}}, x, faces, faces)
+        with self.assertRaisesRegex(ents.Error, "leave it out, or write it into the model"):
+            ents.Contact(model(), x, faces, faces, slave_height={"type": "constant", "value": 0.1})
         with self.assertRaisesRegex(ents.Error, "all of them"):
             ents.Contact(model(), x, faces, faces[:1])
         contact = ents.Contact(model(), x, faces, faces)

@@ -53,6 +53,19 @@ CASES = {  # name: mesh, model, options
 }
 
 
+class Bonds(unittest.TestCase):
+    def test_what_opens_in_the_first_increment_is_held(self):
+        positions = np.array([[0.0, 0], [1, 0], [0.1, 0], [0.9, 0]])
+        model = {"segment": "line2", "contact": {"normal": {"type": "tied", "stiffness": 100.0, "range": 1e-6}}}
+        contact = ents.Contact(model, positions, [[3, 2]], [[0, 1]], reach=1.0)
+        for gap in (0.1, 0.2):
+            u = np.zeros((4, 2))
+            u[2:, 1] = gap
+            residual, _ = contact.update(u)
+            np.testing.assert_allclose(residual.reshape(-1, 2)[:, 1], 100 * gap * 0.4 * np.array([-1, -1, 1, 1]), atol=1e-13)
+            contact.commit()
+
+
 class Offsets(unittest.TestCase):
     def test_a_coating_and_a_clearance(self):
         positions = np.array([[-1.0, 0], [2, 0], [0, 0.01], [0.5, 0.01], [1, -0.05]])

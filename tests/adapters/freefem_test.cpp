@@ -102,6 +102,24 @@ TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
 }
 
 /// A space [P1, P1] has no temperatures.
+// What opens in the first increment has the bonds of the undeformed borders.
+TEST(Border, ABondHoldsFromTheFirstIncrementOn) {
+  const char model[] =
+      R"({"segment": "line2", "contact": {"normal": {"type": "tied", "stiffness": 100, "range": 1e-6}}})";
+  Options options;
+  options.reach = 0.5;
+  BorderContact contact(model, {{2, 3}, {0.9, 0, 0.1, 0}, {0, 1}}, {{0, 1}, {0, 0, 1, 0}, {0, 1}}, 8,
+                        options);
+  std::vector<double> u(8), r(8);
+  for (const double gap : {0.1, 0.2}) {
+    u[5] = u[7] = gap;
+    r.assign(8, 0);
+    EXPECT_EQ(contact.evaluate(u.data(), r.data()).step_factor, 1);
+    EXPECT_NEAR(r[5] + r[7], 100 * gap * 0.8, 1e-12) << gap;
+    contact.accept();
+  }
+}
+
 TEST(Border, WithHeatIsRefused) {
   const Border master{{0, 1}, {-1, 0, 1, 0}, {0, 1}}, slave{{2, 3}, {0.5, 0, -0.5, 0}, {0, 1}};
   try {

@@ -87,10 +87,24 @@ def refuse_one_sided(model: Model, one_surface: bool, rigid: bool) -> None:
     if model.layout.augmentable or model.layout.multipliers:
         raise Error(Status.BAD_VALUE, f"{what}: two multipliers, one from each side, would hold one gap (over-constraint), and grow without bound; write the normal law "
                     '"penalty"' + ("" if one_surface else ", or leave two_pass out"))
-    if text.get("height") is not None:
+    if text.get("height") is not None and not one_surface:
         raise Error(Status.BAD_VALUE, f'{what}: the model has a "height", and a point of a surface is where the surface is without it: each pass would see the roughness '
-                    "of one side alone. Leave the height out" + ("" if one_surface else ", or two_pass"))
+                    "of one side alone. Leave the height out, or two_pass")
     if contact.get("wear") is not None:
         raise Error(Status.BAD_VALUE, f'{what}: each pass would see the wear of one side alone; leave "wear" out' + ("" if one_surface else ", or two_pass"))
     if (text.get("projection") or {}).get("type", "normal") != "normal":
         raise Error(Status.BAD_VALUE, f'{what}: the two sides look against each other, and one ray cannot light both; leave "projection" out')
+
+
+def of_one_surface(model: Model, slave_height: Any, surface_coordinates: Any) -> tuple[Any, Any]:
+    """Arguments slave_height and slave_surface_coordinates: the points of a surface in contact with itself lie on its own height."""
+    if slave_height is not None:
+        raise Error(Status.BAD_VALUE, 'slave_height: slave and master are one surface, whose height is that of the model; leave it out, or write it into the model ("height")')
+    height = json.loads(model._text).get("height")
+    if height is None:
+        return None, None
+    varying = [name for name in model.parameters if json.dumps(name) in json.dumps(height)]
+    if varying or model.layout.fields:
+        raise Error(Status.BAD_VALUE, f"a surface in contact with itself: its height varies ({', '.join(varying) or 'a field'}), and its points keep the height with which "
+                    "they were made; write numbers into the height")
+    return model, surface_coordinates

@@ -67,6 +67,7 @@ class Need(enum.IntFlag):
     MULTIPLIERS = 128
     ONE_BY_ONE = 256
     TEMPERATURES = 512
+    FIRST_STATE = 1024
 
 
 class Shared(enum.IntFlag):

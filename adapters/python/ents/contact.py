@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _count, _frozen
-from ._both_sides import BothSides, is_one_surface, joined, refuse_one_sided
+from ._both_sides import BothSides, is_one_surface, joined, of_one_surface, refuse_one_sided
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
 from ._rows import Rows
 from ._side_pairs import SidePairs, warn_of_deep
-from ._structs import ENDS_STRAIGHT, Flag, Status
+from ._structs import ENDS_STRAIGHT, Flag, Need, Status
 from ._surface import Tree
 from ._surfaces import MasterSurface, SlavePoints, slave_model
 from ._temperatures import Temperatures
@@ -111,7 +111,8 @@ class Contact(ContactResults):
 
         A surface in contact with itself: the same facets as slave and as master, all that may touch. A point finds facets that look against it, and not
         its own ones and those that share a node with them; the other side of a thin body is no contact, because a point penetrates by no more than
-        half the thickness of the body below it (measured where an increment begins: .body_thickness). The undeformed surface must not overlap itself.
+        half the thickness of the body below it (measured where an increment begins: .body_thickness). The undeformed surface must not overlap itself. With a
+        height in the model its points lie on that height, too.
 
         Errors (ents.Error, with what to write): facets of which some are on both sides and some are not, that name a node twice, that do not exist, whose sides cross, or (master) without area or not oriented like their neighbours; slave and master that look the same way; every
         argument of another shape. A slave facet without area is left out with a warning.
@@ -145,6 +146,8 @@ class Contact(ContactResults):
             refuse_one_sided(model, one_surface, self.rigid)
             slave = master  # places in one list
         _refuse_models(model)
+        if one_surface:
+            slave_height, slave_surface_coordinates = of_one_surface(model, slave_height, surface_coordinates)
         rough = slave_model(model, slave_height)
         if rough is not None and two_pass:
             raise Error(Status.BAD_VALUE, "slave_height is of one side, and two_pass makes slaves of both: leave one of them out")
@@ -240,7 +243,7 @@ class Contact(ContactResults):
         if self._both is None or not self._both.one_surface:
             warn_of_deep(self.tree, self._pairs, points, np.flatnonzero(self._elements & (segment < 0)), self.reach)
         closed = (found["flags"] & Flag.CONTACT != 0) & ~bad
-        kept = bad[:, None] | (not self.model.layout.friction)
+        kept = bad[:, None] | (not (self.model.layout.friction or self.model.layout.needs & Need.FIRST_STATE))
         state, worn = np.where(kept, self._state_begin, found["state_end"]), self.model.layout.worn
         if self.model.layout.augmentable:
             self.model.state_augment(state, self._state_begin)  # multipliers of 0

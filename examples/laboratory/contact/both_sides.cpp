@@ -61,7 +61,7 @@ void refuse_one_sided(const ContactSpec& spec) {
     throw InputError(what +
                      "two multipliers, one from each side, would hold one gap (over-constraint); give the "
                      "normal law \"penalty\"");
-  if (!find_json(spec.model, "/height").is_null() || spec.gap_only)
+  if ((!find_json(spec.model, "/height").is_null() && !is_one_surface(spec)) || spec.gap_only)
     throw InputError(
         what + "the model has a \"height\", and each pass would see that of one side alone; leave it out");
   if (!find_json(spec.model, "/contact/wear").is_null())

@@ -168,8 +168,7 @@ double Contact::total_area() const {
 }
 
 bool Contact::has_history() const {
-  const ents_layout& layout = master_.model->layout();
-  return layout.friction != 0 || layout.augmentable != 0 || layout.worn >= 0;
+  return (master_.model->layout().needs & ENTS_NEEDS_HISTORY) != 0;
 }
 
 double Contact::multiplier_scale(std::size_t index) const {

@@ -142,6 +142,21 @@ void read_ends(JsonObject& master, int dimension, ContactSpec& contact) {
   if (contact.mirror.empty()) planes.fail("a plane of symmetry is expected: {\"x\": place} or another axis");
 }
 
+/// A surface in contact with itself: its points lie on its own height.
+void raise_one_surface(const JsonValue& model, ContactSpec& contact) {
+  const Json height = find_json(contact.model, "/height");
+  if (contact.master != contact.slave || height.is_null() || contact.gap_only) return;
+  if (!contact.slave_height.is_null())
+    model.fail(
+        "slave and master are one surface, and its height is that of the model; leave out \"slave_height\"");
+  if (contact.sampling == 0)
+    model.fail(
+        "a rough surface in contact with itself has its points inside its faces; write \"sampling\": 2");
+  contact.slave_height = height;
+  contact.slave_height_where = contact.model_where + "/height";
+  contact.slave_coordinates = contact.coordinates;
+}
+
 ContactSpec read_contact(const JsonValue& value, int dimension) {
   JsonObject object(value);
   ContactSpec contact;
@@ -216,6 +231,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
                                                                    : nullptr;
     if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
   }
+  raise_one_surface(model, contact);
   if (object.has("law")) read_law(object.at("law"), contact);
   check_cut_off(contact);
   object.finish();
