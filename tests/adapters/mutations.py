@@ -147,12 +147,15 @@ LIBRARIES = [
 
 
 def build(library, tree, build_folder, output, compiler):
-    """@return the mutant's path"""
+    """@return the mutant's path
+
+    The archive of what adapters share may be one object, with the file that a mutant has another of: the first definition counts.
+    """
     symbols = build_folder / "adapters" / (library.name + ".map")
     own = [str(tree / source) for source in library.sources + (["common/point.cpp"] if library.name == "ents_abaqus" else [])]
     subprocess.run([compiler, "-std=c++20", "-O1", "-w", "-fPIC", "-shared", "-fvisibility=hidden", "-ffp-contract=off",
-                    "-I", str(ADAPTERS.parent / "abi"), *own, "-o", str(output), f"-Wl,--version-script={symbols}", "-L",
-                    str(build_folder / "lib"), "-lents_adapter_common", "-lents", *library.flags], check=True)
+                    "-I", str(ADAPTERS.parent / "abi"), *own, "-o", str(output), f"-Wl,--version-script={symbols},--allow-multiple-definition", "-L",
+                    str(build_folder / "lib"), "-lents_adapter_common", "-lents_deck_reader", "-lents", *library.flags], check=True)
     return output
 
 

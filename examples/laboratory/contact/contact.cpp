@@ -269,6 +269,8 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (closed_[k] == 0 || (!only_lost && !master_.covers(at_.xi.data() + k * parameters_)))
       at_.segment[k] = -1;
+  if (one_surface_)
+    left_out_.slave_begin = slave_begin_.data(), left_out_.positions_begin = master_begin_.data();
   if (base_detector_) {
     // A search on a rough surface takes long, and finds points that are closer somewhere else, or two that
     // are equally close. The one straight ahead of the node is near its projection on the segment without the
@@ -284,8 +286,6 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
         std::copy_n(straight.xi.data() + k * parameters_, parameters_, at_.xi.data() + k * parameters_);
       }
   }
-  if (one_surface_)
-    left_out_.slave_begin = slave_begin_.data(), left_out_.positions_begin = master_begin_.data();
   Lost lost = detector_.find(where, slave_positions_, slave_normals_, left_out_, at_);
   if (lost.slave < 0) lost = find_lost_since_begin(where);
   lost_.clear();
