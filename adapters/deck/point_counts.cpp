@@ -74,7 +74,7 @@ struct Finer {
     if (faces == 0) return {};
     const string points = "up to " + std::to_string(most) + " points per direction";
     return std::to_string(faces) + " slave faces lie over much finer faces of the master: " +
-           (hopeless > 0 ? "stresses are wrong by 10 % and more there"
+           (hopeless > 0 ? "stresses are wrong by 4 to 40 % there"
             : few > 0    ? "a uniform pressure wants " + points + ", and stresses are wrong with fewer"
                          : "they have " + points) +
            "; the slave is best the finer surface (--pair " + contact.pair.master + "," + contact.pair.slave +

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-constexpr int32_t all_bits = (1 << 9) - 1;
+constexpr int32_t all_bits = (1 << 11) - 1;
 
 bool needs(const Model& model, int32_t bit) { return (model.layout.needs & bit) != 0; }
 
@@ -50,6 +50,8 @@ TEST(Needs, AreThoseOfTheModel) {
        plain | ENTS_NEEDS_FRICTION | ENTS_NEEDS_HISTORY},
       {"augmented", normal(R"({"type": "augmented", "stiffness": 1})"), plain | ENTS_NEEDS_HISTORY},
       {"multiplier", normal(R"({"type": "multiplier", "stiffness": 1})"), plain | ENTS_NEEDS_MULTIPLIERS},
+      {"tied", normal(R"({"type": "tied", "stiffness": 1, "range": 0.01})"),
+       plain | ENTS_NEEDS_HISTORY | ENTS_NEEDS_FIRST_STATE},
       {"exponential", normal(R"({"type": "exponential", "pressure": 1, "clearance": 0.01})"), plain},
       {"shadow",
        line(R"("projection": {"type": "shadow_direction", "direction": [0, 1]}, )" + law(unit_penalty)),
