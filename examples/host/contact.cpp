@@ -67,8 +67,9 @@ void Contact::warm(const Configuration& at) {
                                      : nodes;
 }
 
-void Contact::begin_increment(const Configuration& begin) {
+void Contact::begin_increment(const Configuration& begin, double duration) {
   place(begin);
+  duration_ = duration;
   slave_begin_ = slave_now_, master_begin_ = master_now_;
   segment_ = accepted_.segment, xi_ = accepted_.xi, flags_ = accepted_.flags;
 }
@@ -91,6 +92,7 @@ ents_input Contact::input() const {
   in.area = areas_.data(), in.area_stride = 1;
   in.state_begin = states_.begin.data(), in.state_begin_stride = states_.size;
   in.positions_begin = master_begin_.data(), in.slave_begin = slave_begin_.data();
+  in.time_increment = duration_;
   if (heat_) in.slave_temperature = slave_temperature_.data(), in.slave_temperature_stride = 1;
   return in;
 }
@@ -149,7 +151,8 @@ void Contact::build_pattern() {
   tangent_.setFromTriplets(zeros.begin(), zeros.end());
 }
 
-Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual, double& squared) {
+Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual, double& squared,
+                          double& squared_power) {
   place(at);
   std::fill_n(tangent_.valuePtr(), tangent_.nonZeros(), 0.0);
   std::fill(own_force_.begin(), own_force_.end(), 0.0);
@@ -172,11 +175,14 @@ Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual
   const Outcome found = outcome(ents::call(ents_iterate, model_.get(), &surface, tree_.data(), tree_.size(),
                                            0, ssize_of(points()), &io, &in, &out, &system));
   if (!found.ok) return found;
-  for (const int node : slave_nodes_)
+  for (const int node : slave_nodes_) {
     for (std::size_t i = 0; i < d_; ++i) {
       const double force = own_force_[static_cast<std::size_t>(node) * d_ + i];
       squared += force * force;
     }
+    const double power = heat_ ? own_force_[bodies_->coordinates.size() + static_cast<std::size_t>(node)] : 0;
+    squared_power += power * power;
+  }
   for (std::size_t i = 0; i < residual.size(); ++i) residual[i] += own_force_[i];
   return found;
 }
@@ -224,7 +230,7 @@ ContactResults Contact::results(const Configuration& at) {
   out.normal = r.normal.data(), out.traction = r.traction.data();
   out.normal_stride = out.traction_stride = ssize_of(d_);
   if (heat_) {
-    r.heat.assign(2 * n, 0.0); // through the gap; made by friction, which there is none of
+    r.heat.assign(2 * n, 0.0); // through the gap, made by friction
     out.wanted |= ENTS_HEAT;
     out.heat = r.heat.data(), out.heat_stride = 2;
   }
@@ -236,7 +242,8 @@ ContactResults Contact::results(const Configuration& at) {
   if (!found.ok) throw JobError(found.reason);
   for (std::size_t k = 0; k < n; ++k)
     if (segment_[k] < 0) r.gap[k] = std::nan(""); // nothing is opposite
-  for (std::size_t k = 0; k < n && heat_; ++k) r.heat[k] = r.heat[2 * k];
+  for (std::size_t k = 0; k < n && heat_; ++k)
+    r.friction_heat += r.heat[2 * k + 1], r.heat[k] = r.heat[2 * k];
   r.heat.resize(heat_ ? n : 0);
   r.force = force();
   r.position = slave_now_;

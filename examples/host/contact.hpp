@@ -43,6 +43,7 @@ struct ContactResults {
   std::vector<double> position, normal, traction; ///< [points][d]
   std::vector<double> gap, pressure, slip;        ///< [points]
   std::vector<double> heat;                       ///< [points] power from slave to master; empty: no "heat"
+  double friction_heat = 0;                       ///< power that friction makes, both sides together
   std::vector<double> force;                      ///< [d] of the slave points on the master
   std::vector<std::int32_t> flags;                ///< [points] ENTS_FLAG_...
 };
@@ -68,8 +69,8 @@ public:
   const ents::Model& model() const { return model_; }
   ents_master_mesh mesh() const; ///< the master as it is now
 
-  /// An increment begins here: positions that friction and wear start from.
-  void begin_increment(const Configuration& begin);
+  /// An increment begins here: positions that friction and wear start from. It takes the time `duration` > 0.
+  void begin_increment(const Configuration& begin, double duration);
   /// The increment is accepted: states of its end are the begin of the next one.
   void accept();
 
@@ -83,8 +84,9 @@ public:
 
   /// Contact forces are added to the residual; `tangent` is that of these forces.
   /// @param residual  [dofs] of all nodes, prescribed ones, too
-  /// @param squared   |R|^2 of the slave points' nodes is added: the size of the forces
-  Outcome assemble(const Configuration& at, std::vector<double>& residual, double& squared);
+  /// @param squared, squared_power  |R|^2 of the slave points' nodes is added: the size of the forces, the powers
+  Outcome assemble(const Configuration& at, std::vector<double>& residual, double& squared,
+                   double& squared_power);
 
   /// Force of the slave points on the master, [d], of the last `assemble`.
   std::vector<double> force() const;
@@ -122,7 +124,7 @@ private:
   ents::Combination net_;                  ///< smoothed: control points over nodes
   std::vector<double> surface_coordinates_, fixed_;
   ents::Tree tree_;
-  double reach_ = 0;
+  double reach_ = 0, duration_ = 1; ///< of the search; of the increment
   // Changes with the configuration.
   std::vector<double> slave_now_, master_now_, slave_begin_, master_begin_;
   std::vector<double> slave_temperature_,

@@ -76,7 +76,7 @@ Contact::Contact(const Scene& scene, const Mesh& mesh)
   accepted_.flags.assign(points(), 0);
   states_ = ents::States(model_, ssize_of(points()));
   const Configuration begin{std::vector<double>(own_force_.size(), 0.0), 0, 0, 0};
-  begin_increment(begin);
+  begin_increment(begin, 1);
   // Farther than any slave point is from the master: twice the diagonal of the box round both.
   double squared = 0;
   for (std::size_t i = 0; i < d_; ++i) {

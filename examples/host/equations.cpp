@@ -24,7 +24,7 @@ void Equations::build_mesh() {
     setups.push_back(part.setup);
   }
   bulk_ = std::make_unique<Bulk>(mesh_, setups);
-  if (scene_->heat) heat_ = std::make_unique<Heat>(mesh_, setups);
+  if (scene_->heat) heat_ = std::make_unique<Heat>(mesh_, setups, scene_->temperature);
 }
 
 void Equations::hold_and_load() {
@@ -114,7 +114,7 @@ Equations::State Equations::evaluate(const Configuration& at, const std::vector<
   const double warmth = heat_ ? heat_->assemble(at.displacement, jump, state.residual, add) : 0;
   double squared_contact = 0, squared_loads = 0, squared_reactions = 0, squared_power = 0;
   if (contact_) {
-    state.outcome = contact_->assemble(at, state.residual, squared_contact);
+    state.outcome = contact_->assemble(at, state.residual, squared_contact, squared_power);
     if (!state.outcome.ok) return state;
     const SparseMatrix& tangent = contact_->tangent();
     add_contact(tangent);

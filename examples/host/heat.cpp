@@ -67,7 +67,9 @@ double Heat::assemble_group(std::size_t index, const std::vector<double>& values
     const Eigen::VectorXd force = K * moved;
     for (std::size_t k = 0; k < dof.size(); ++k) residual[dof[k]] += force[static_cast<Eigen::Index>(k)];
     add({index, e, dof, K.data()});
-    squared += (K.bottomRightCorner(nodes, nodes).cwiseAbs() * moved.tail(nodes).cwiseAbs()).squaredNorm();
+    squared +=
+        (K.bottomRightCorner(nodes, nodes).cwiseAbs() * (moved.tail(nodes).array() + start_).abs().matrix())
+            .squaredNorm();
   }
   return squared;
 }

@@ -12,7 +12,9 @@ namespace host {
 class Heat {
 public:
   /// @param setups  one per part of the mesh, of materials with a conductivity
-  Heat(const Mesh& mesh, const std::vector<ElementSetup>& setups) : mesh_(&mesh), setups_(setups) {}
+  /// @param start   temperature from which `values` are counted
+  Heat(const Mesh& mesh, const std::vector<ElementSetup>& setups, double start)
+      : mesh_(&mesh), setups_(setups), start_(start) {}
 
   /// Add the power that leaves each node and the stress of expansion to `residual`, hand the elements' tangents on.
   /// @param values     [dofs] displacements and changes of temperature
@@ -29,6 +31,7 @@ private:
 
   const Mesh* mesh_;
   std::vector<ElementSetup> setups_;
+  double start_;
 };
 
 } // namespace host

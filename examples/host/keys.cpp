@@ -197,6 +197,16 @@ std::vector<double> read_steps(JsonObject& object, bool movable, Control& contro
   return steps;
 }
 
+std::vector<double> read_durations(JsonObject& object, std::size_t steps) {
+  if (!object.has("duration")) return std::vector<double>(steps, 1.0);
+  const JsonValue value = object.at("duration");
+  const std::vector<double> given =
+      value.json().is_array() ? value.numbers(steps) : std::vector<double>(steps, value.number());
+  for (const double duration : given)
+    if (!(duration > 0)) value.fail("times above 0 are expected; left out a step takes 1");
+  return given;
+}
+
 Json read_variant(const std::filesystem::path& file, const std::string& variant) {
   Json json = parse_json_file(file);
   if (variant.empty()) return json;

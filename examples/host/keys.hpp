@@ -91,6 +91,9 @@ std::vector<double> read_step_values(const JsonValue& values, double start);
 /// @param movable  there is a rigid master that moves along a line
 std::vector<double> read_steps(JsonObject& object, bool movable, Control& control);
 
+/// The key "duration" of the steps: one time for all, or one of each; left out 1.
+std::vector<double> read_durations(JsonObject& object, std::size_t steps);
+
 /// The file's text, changed by one of its variants (RFC 7386); empty: as it is.
 /// @throws InputError naming the file and the variants that there are
 Json read_variant(const std::filesystem::path& file, const std::string& variant);

@@ -51,7 +51,7 @@ void Newton::touch(Configuration& at) {
   at.motion += std::max(0., smallest + std::max(0.01 * (sum / count - smallest), 1e-6 * std::abs(smallest)));
 }
 
-Outcome Newton::attempt(double value, Increment& increment) {
+Outcome Newton::attempt(double value, double duration, Increment& increment) {
   const Scene& scene = equations_->scene();
   const double last = scene.steps.back();
   Contact* contact = equations_->contact();
@@ -60,7 +60,7 @@ Outcome Newton::attempt(double value, Increment& increment) {
   if (scene.control == Control::force) at.force = next.force = value / scene.symmetry_copies;
   if (scene.control == Control::mean_pressure) at.force = next.force = value * equations_->slave_area();
   equations_->prescribe(next);
-  if (contact) contact->begin_increment(now_);
+  if (contact) contact->begin_increment(now_, duration);
   if (const Outcome found = equations_->search(at); !found.ok) return found;
   if (scene.by_force() && now_.force <= 0) {
     touch(at), next.motion = at.motion;
@@ -105,7 +105,7 @@ Step Newton::solve(int number) {
   while (done < 1) {
     const double part = done + size < 1 - 1e-12 ? done + size : 1;
     Increment increment{part == 1 ? to : from + (to - from) * part, {}};
-    Outcome outcome = attempt(increment.value, increment);
+    Outcome outcome = attempt(increment.value, (part - done) * scene.durations[index], increment);
     if (outcome.ok) {
       if (Contact* contact = equations_->contact()) {
         if (part == 1) step.contact = contact->results(now_);

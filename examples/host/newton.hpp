@@ -40,8 +40,9 @@ public:
   Step solve(int step);
 
 private:
-  /// From `now_` to a value of the control. @return not ok: nothing has changed, take a smaller increment
-  Outcome attempt(double value, Increment& increment);
+  /// From `now_` to a value of the control, in the time `duration`.
+  /// @return not ok: nothing has changed, take a smaller increment
+  Outcome attempt(double value, double duration, Increment& increment);
   void touch(Configuration& at);
 
   Equations* equations_;

@@ -59,6 +59,7 @@ Json step_json(Equations& equations, const Step& step) {
     double power = 0;
     for (const double point : step.contact.heat) power += point;
     out["heat"] = power * scene.symmetry_copies;
+    out["friction_heat"] = step.contact.friction_heat * scene.symmetry_copies;
   }
   out["resultants"] = resultants_json(sum, scene.dimension);
   out["mean_gap"] = number(gap / gap_area);

@@ -97,9 +97,6 @@ ContactInput read_contact(const JsonValue& value, const Scene& scene) {
   const Json heat = find_json(contact.model, "/contact/heat");
   if (!heat.is_null() && !scene.heat)
     model.fail("\"heat\" is for bodies with temperatures; give each of /materials a \"conductivity\"");
-  if (heat.contains("friction"))
-    model.fail(
-        "friction heats in time, and the steps of a scene have none; leave \"friction\" out of \"heat\"");
   // One place says whether the master is rigid: the scene.
   contact.model["master"] = contact.rigid.empty() ? "deformable" : "rigid";
   if (model.json().contains("master") && model.json().at("master") != contact.model["master"])
@@ -149,6 +146,7 @@ Scene read(const Json& json, const std::filesystem::path& file) {
   JsonObject steps(object.at("steps"));
   leave_keys(steps, {"probe"});
   scene.steps = read_steps(steps, scene.contact && !scene.contact->rigid.empty(), scene.control);
+  scene.durations = read_durations(steps, scene.steps.size());
   steps.finish();
   if (object.has("units")) {
     JsonObject units(object.at("units"));

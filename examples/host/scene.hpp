@@ -36,8 +36,8 @@ struct Scene {
   double temperature = 0;  ///< of everything before the first step, without stress
   int symmetry_copies = 1; ///< the mesh is one of so many mirror images
   Control control = Control::load_factor;
-  std::vector<double> steps;
-  double tolerance = 1e-10; ///< of the residual, relative to the forces present
+  std::vector<double> steps, durations; ///< values, and the time that each takes
+  double tolerance = 1e-10;             ///< of the residual, relative to the forces present
   int max_iterations = 25;
   double min_step = 1e-3; ///< smallest part of a step before the run gives up
 

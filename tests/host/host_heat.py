@@ -1,7 +1,10 @@
 """host_heat.py ENTS-HOST: two bars with temperatures, one on the other, against their exact solution in one dimension: a conductance that is constant, and
-one that depends on the pressure that thermal expansion makes."""
+one that depends on the pressure that thermal expansion makes. And a block that is dragged: friction heats it and what it lies on by mu N v."""
+import base64
 import json
 import pathlib
+import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -54,6 +57,72 @@ def exact(conductance, bars):
     return state(low)[0], low
 
 
+SHARE, TO_SLAVE, MU, WAY, PRESSED, DURATIONS = 0.9, 0.3, 0.2, 0.3, 0.01, (1.0, 0.5, 0.5, 2.0)
+
+
+def dragged(conductance, master, durations):
+    """A block of width 2 on another one of width 6, or on a rigid segment: the first step presses, each of the next drags by WAY."""
+    def part(name, x, y):
+        axes = {axis: {"from": low, "pieces": [{"to": high, "divisions": n}]} for axis, (low, high, n) in (("x", x), ("y", y))}
+        return {"name": name, "material": name, "element": "quad4", **axes}
+    steps = range(1, len(DURATIONS) + 1)
+    body = {"law": "linear_elastic", "young": YOUNG, "poisson": 0}
+    return {"dimension": 2, "formulation": "plane_strain", "temperature": COLD,
+            "materials": {"block": {**body, "conductivity": CONDUCTIVITIES[0]}, "ground": {**body, "conductivity": CONDUCTIVITIES[1]}},
+            "parts": [part("block", (0, 2, 4), (0, LENGTHS[0], 2)), part("ground", (-1, 5, 20), (-LENGTHS[1], 0, 2))],
+            "supports": [{"nodes": "block.y_max", "y": -PRESSED, "path": [[0, 0], [1, 1]]}, {"nodes": "block.y_max", "temperature": COLD},
+                         {"nodes": "block.y_max", "x": WAY, "path": [[i, i - 1] for i in steps]},
+                         {"nodes": "ground", "x": 0, "y": 0}, {"nodes": "ground.y_min", "temperature": COLD}],
+            "contact": {"slave": "block.y_min",
+                        "master": {"faces": "ground.y_max"} if master == "faces" else {"nodes": [[-1, 0], [5, 0]], "direction": [0, 1], "temperature": COLD},
+                        "model": {"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": STIFFNESS},
+                                                                  "friction": {"type": "coulomb", "coefficient": MU, "stiffness": STIFFNESS},
+                                                                  "heat": {"conductance": conductance, "friction": {"share": SHARE, "slave": TO_SLAVE}}}}},
+            "steps": {"control": "load_factor", "values": list(steps), "duration": durations}}
+
+
+def powers(folder, step):
+    """Power that leaves the block through its upper and the ground through its lower side, which are cold. The mean of the temperature over a body's
+    width is linear in its height, wherever heat enters the other side."""
+    text = sorted((folder / "out").rglob("*bulk*.vtu"))[step].read_text()
+
+    def array(name):
+        content = base64.b64decode(re.search(rf'<DataArray[^>]*Name="{name}"[^>]*>([^<]*)<', text)[1])[8:]
+        return struct.unpack(f"<{len(content) // 8}d", content)
+    places, warm = array("Points"), array("temperature")
+    nodes, result = [(places[3 * k], places[3 * k + 1], warm[k]) for k in range(len(warm))], []
+    for own, wide, length, conductivity in zip((nodes[:15], nodes[15:]), (2.0, 6.0), LENGTHS, CONDUCTIVITIES):
+        row = sorted((x, t) for x, y, t in own if y == 0)
+        mean = sum(t * (0.5 if k in (0, len(row) - 1) else 1) for k, (_, t) in enumerate(row)) / (len(row) - 1)
+        result.append((mean - COLD) * conductivity * wide / length)
+    return result
+
+
+def check_friction(host, folder):
+    for master, conductance, iterations in (("faces", 0, 25), ("faces", 10, 25), ("rigid", 0, 25), ("rigid", 10, 3)):
+        name = f"dragged, {master}, conductance {conductance}"
+        text = dragged(conductance, master, list(DURATIONS))
+        text["solver"] = {"max_iterations": iterations}
+        done = run(host, text, folder)
+        expect(done.returncode == 0, f"{name}: {done.stderr}")
+        if done.returncode:
+            continue
+        steps = json.loads((folder / "out" / "result.json").read_text())["steps"]
+        for i in (2, 3):  # in the step before the block shears
+            made = SHARE * MU * sum(x * x for x in steps[i]["resultants"]["normal"]) ** 0.5 * WAY / DURATIONS[i]
+            through, (block, ground) = steps[i]["heat"], powers(folder, i)
+            wanted = [(steps[i]["friction_heat"], made, "friction_heat"), (block, TO_SLAVE * made - through, "the block")]
+            if master == "faces":
+                wanted.append((ground, (1 - TO_SLAVE) * made + through, "the ground"))
+            expect(made > 0.3 and (through > 0.1 * made if conductance else through == 0), f"{name}: powers {made}, {through}")
+            expect(bool(steps[i]["cuts"]) == (iterations == 3), f"{name}: parts of steps were tried: {steps[i]['cuts']}")
+            for value, exact_value, what in wanted:
+                expect(abs(value - exact_value) < 1e-10 * made, f"{name}, step {i + 1}, {what}: {value}, exact {exact_value}")
+    for durations, words in (([1, 1, 0, 1], "/steps/duration: times above 0"), ([1, 1], "/steps/duration")):
+        done = run(host, dragged(1, "rigid", durations), folder)
+        expect(done.returncode == 2 and words in done.stderr, f"{done.returncode}: {done.stderr} (wanted: {words})")
+
+
 def expect(holds, text):
     if not holds:
         failures.append(text)
@@ -93,10 +162,7 @@ def main():
             wrong["contact"]["master"].pop("temperature")
             done = run(host, {**wrong, **change}, folder)
             expect(done.returncode == 2 and words in done.stderr, f"{done.returncode}: {done.stderr} (wanted: {words})")
-        rubbed = scene(2, {"conductance": 1, "friction": {"share": 1}}, "faces")
-        rubbed["contact"]["model"]["contact"]["friction"] = {"type": "coulomb", "coefficient": 0.1, "stiffness": 10}
-        done = run(host, rubbed, folder)
-        expect(done.returncode == 2 and "friction heats in time" in done.stderr, done.stderr)
+        check_friction(host, folder)
     for text in failures:
         print(text, file=sys.stderr)
     return 1 if failures else 0

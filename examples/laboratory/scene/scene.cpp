@@ -39,17 +39,6 @@ SupportSpec read_support(const JsonValue& value, const Scene& scene, Formulation
   return support;
 }
 
-/// The key "duration" of the steps: one time for all, or one of each.
-std::vector<double> read_durations(JsonObject& object, std::size_t steps) {
-  if (!object.has("duration")) return std::vector<double>(steps, 1.0);
-  const JsonValue value = object.at("duration");
-  const std::vector<double> given =
-      value.json().is_array() ? value.numbers(steps) : std::vector<double>(steps, value.number());
-  for (const double duration : given)
-    if (!(duration > 0)) value.fail("times above 0 are expected; left out a step takes 1");
-  return given;
-}
-
 /// The key "history". Wear beside the motion of the mesh has to be one of them: a step that is cut would
 /// slide twice as far.
 void read_history(JsonObject& scene_object, Scene& scene) {
