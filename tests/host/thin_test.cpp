@@ -51,8 +51,8 @@ TEST(ThinSheet, EachSideIsFound) {
 }
 
 std::string refusal_of_simulation(const Json& json) {
-  const Scene scene = test::scene_from(json);
   try {
+    const Scene scene = test::scene_from(json);
     Simulation simulation(scene, &test::library());
   } catch (const InputError& error) {
     return error.what();
