@@ -39,22 +39,16 @@ std::vector<int> body_of(const DeckMesh& deck, const std::string& element_set) {
 /// The bulk element of a deck's element. A wedge is a brick of which two edges are points.
 ElementType type_of(const DeckMesh& deck, int e, std::vector<int>& nodes) {
   nodes = deck.elements[static_cast<std::size_t>(e)].nodes;
-  switch (deck.shape(e)) {
-  case Shape::tri3:
-    return ElementType::tri3;
-  case Shape::quad4:
-    return ElementType::quad4;
-  case Shape::tet4:
-    return ElementType::tet4;
-  case Shape::hex8:
-    return ElementType::hex8;
-  case Shape::wedge6:
+  if (deck.shape(e) == Shape::wedge6) {
     nodes = {nodes[0], nodes[1], nodes[2], nodes[2], nodes[3], nodes[4], nodes[5], nodes[5]};
     return ElementType::hex8;
-  default:
+  }
+  const auto found = std::find_if(element_types.begin(), element_types.end(),
+                                  [&](const ElementTraits& type) { return type.shape == deck.shape(e); });
+  if (found == element_types.end())
     deck.source.fail(deck.elements[static_cast<std::size_t>(e)].place,
                      "element " + deck.element_label(e) + " is of second order; take linear elements");
-  }
+  return static_cast<ElementType>(found - element_types.begin());
 }
 
 /// Does the first corner see the others as the element's shape says?

@@ -11,22 +11,17 @@ namespace {
 /// Faces of the elements whose nodes all lie on one side.
 std::vector<Face> faces_on(const ElementGroup& group, const std::vector<char>& on_side) {
   std::vector<Face> result;
-  const LocalFaces local = faces(group.type);
-  for (std::size_t e = 0; e < group.size(); ++e) {
-    const auto nodes = group.element(e);
-    for (int f = 0; f < local.count; ++f) {
+  const ents_deck::Shape shape = traits(group.type).shape;
+  for (std::size_t e = 0; e < group.size(); ++e)
+    for (int f = 0; f < ents_deck::face_count(shape); ++f) {
       Face face;
-      face.count = local.nodes_per_face;
-      bool inside = true;
-      for (int a = 0; a < face.count; ++a) {
-        const int local_node = local.nodes[static_cast<std::size_t>(f)][static_cast<std::size_t>(a)];
-        const int node = nodes[static_cast<std::size_t>(local_node)];
-        face.nodes[static_cast<std::size_t>(a)] = node;
-        inside = inside && on_side[static_cast<std::size_t>(node)] != 0;
-      }
-      if (inside) result.push_back(face);
+      for (const int local : ents_deck::face_nodes(shape, f))
+        face.nodes[static_cast<std::size_t>(face.count++)] =
+            group.element(e)[static_cast<std::size_t>(local)];
+      if (std::all_of(face.nodes.begin(), face.nodes.begin() + face.count,
+                      [&](int node) { return on_side[static_cast<std::size_t>(node)] != 0; }))
+        result.push_back(face);
     }
-  }
   return result;
 }
 
@@ -71,35 +66,19 @@ void add_block(Mesh& mesh, const std::string& name, ElementType type, const std:
   ElementGroup group;
   group.type = type;
   group.part = part;
-  const auto add = [&](std::initializer_list<int> nodes) {
-    group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
-  };
+  // Of each cell; tet4: Kuhn's six tetrahedra round the diagonal 0-6.
+  static const std::map<ElementType, std::vector<std::size_t>> corners{
+      {ElementType::tri3, {0, 1, 2, 0, 2, 3}},
+      {ElementType::quad4, {0, 1, 2, 3}},
+      {ElementType::tet4, {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6}},
+      {ElementType::hex8, {0, 1, 2, 3, 4, 5, 6, 7}}};
   for (int k = 0; k < std::max(1, points[2] - 1); ++k)
     for (int j = 0; j + 1 < points[1]; ++j)
       for (int i = 0; i + 1 < points[0]; ++i) {
         const std::array<int, 8> c{
             index(i, j, k),     index(i + 1, j, k),     index(i + 1, j + 1, k),     index(i, j + 1, k),
             index(i, j, k + 1), index(i + 1, j, k + 1), index(i + 1, j + 1, k + 1), index(i, j + 1, k + 1)};
-        switch (type) {
-        case ElementType::quad4:
-          add({c[0], c[1], c[2], c[3]});
-          break;
-        case ElementType::tri3:
-          add({c[0], c[1], c[2]});
-          add({c[0], c[2], c[3]});
-          break;
-        case ElementType::hex8:
-          add({c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]});
-          break;
-        case ElementType::tet4: // Kuhn's six tetrahedra round the diagonal 0-6
-          add({c[0], c[1], c[2], c[6]});
-          add({c[0], c[2], c[3], c[6]});
-          add({c[0], c[3], c[7], c[6]});
-          add({c[0], c[7], c[4], c[6]});
-          add({c[0], c[4], c[5], c[6]});
-          add({c[0], c[5], c[1], c[6]});
-          break;
-        }
+        for (const std::size_t corner : corners.at(type)) group.nodes.push_back(c[corner]);
       }
 
   static constexpr std::array<const char*, 6> side_names{"x_min", "x_max", "y_min",

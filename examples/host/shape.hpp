@@ -4,59 +4,37 @@
 
 #include <array>
 #include <cmath>
-#include <string_view>
 
 #include <Eigen/Core>
+
+#include "deck/element_types.hpp"
 
 namespace host {
 
 enum class ElementType { tri3, quad4, tet4, hex8 };
 
-constexpr int node_count(ElementType type) {
-  return type == ElementType::tri3 ? 3 : type == ElementType::hex8 ? 8 : 4;
+struct ElementTraits {
+  const char* name; ///< in scenes
+  int dimension, nodes;
+  ents_deck::Shape shape; ///< of the reader of decks, which knows its faces and its number in VTK
+};
+inline constexpr std::array element_types{ElementTraits{"tri3", 2, 3, ents_deck::Shape::tri3},
+                                          ElementTraits{"quad4", 2, 4, ents_deck::Shape::quad4},
+                                          ElementTraits{"tet4", 3, 4, ents_deck::Shape::tet4},
+                                          ElementTraits{"hex8", 3, 8, ents_deck::Shape::hex8}};
+
+constexpr const ElementTraits& traits(ElementType type) {
+  return element_types[static_cast<std::size_t>(type)];
 }
-constexpr int dimension(ElementType type) {
-  return type == ElementType::tri3 || type == ElementType::quad4 ? 2 : 3;
-}
-constexpr std::string_view name(ElementType type) {
-  constexpr std::array<std::string_view, 4> names{"tri3", "quad4", "tet4", "hex8"};
-  return names[static_cast<std::size_t>(type)];
-}
+constexpr int node_count(ElementType type) { return traits(type).nodes; }
+constexpr int dimension(ElementType type) { return traits(type).dimension; }
 
 /// Call a generic lambda with the type as a constant: `with_type(type, []<ElementType Type>() { ... })`.
-template <class Function> auto with_type(ElementType type, const Function& function) {
-  switch (type) {
-  case ElementType::tri3:
-    return function.template operator()<ElementType::tri3>();
-  case ElementType::quad4:
-    return function.template operator()<ElementType::quad4>();
-  case ElementType::tet4:
-    return function.template operator()<ElementType::tet4>();
-  case ElementType::hex8:
-    break;
-  }
-  return function.template operator()<ElementType::hex8>();
-}
-
-/// Faces (edges in 2D) as local node numbers, -1 fills up; their normal points out of the element, where
-/// normal = tangent turned by +90 degrees in 2D and rho_,1 x rho_,2 in 3D.
-struct LocalFaces {
-  int count = 0, nodes_per_face = 0;
-  std::array<std::array<int, 4>, 6> nodes{};
-};
-
-constexpr LocalFaces faces(ElementType type) {
-  switch (type) {
-  case ElementType::tri3:
-    return {3, 2, {{{1, 0, -1, -1}, {2, 1, -1, -1}, {0, 2, -1, -1}}}};
-  case ElementType::quad4:
-    return {4, 2, {{{1, 0, -1, -1}, {2, 1, -1, -1}, {3, 2, -1, -1}, {0, 3, -1, -1}}}};
-  case ElementType::tet4:
-    return {4, 3, {{{0, 2, 1, -1}, {0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}}}};
-  case ElementType::hex8:
-    break;
-  }
-  return {6, 4, {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
+template <std::size_t First = 0, class Function> auto with_type(ElementType type, const Function& function) {
+  constexpr auto candidate = static_cast<ElementType>(First);
+  if constexpr (First + 1 < element_types.size())
+    if (type != candidate) return with_type<First + 1>(type, function);
+  return function.template operator()<candidate>();
 }
 
 /// One quadrature point: weight, N [nodes], dN/dxi [nodes][dimension].

@@ -23,7 +23,7 @@ std::string case_name(const testing::TestParamInfo<Case>& info) {
                                                                {Formulation::plane_stress, "plane_stress"},
                                                                {Formulation::axisymmetric, "axisymmetric"},
                                                                {Formulation::solid, "solid"}};
-  return std::string(name(info.param.type)) + "_" + formulations.at(info.param.formulation) +
+  return std::string(traits(info.param.type).name) + "_" + formulations.at(info.param.formulation) +
          (info.param.law == Material::Law::neo_hooke ? "_neo_hooke" : "_linear");
 }
 
