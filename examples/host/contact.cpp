@@ -275,12 +275,7 @@ void Contact::sample_surface(const Configuration& at, int divisions, vtu::Grid& 
     if (!surface_coordinates_.empty()) surface.surface_coordinates = &surface_coordinates_[s * m * (d_ - 1)];
     surface.point = points.data(), surface.height = heights.data();
     if (!outcome(ents::call(ents_surface_evaluate, model_.get(), ssize_of(count), &surface)).ok) continue;
-    const vtu::Grid part =
-        vtu::sampled_surface(static_cast<int>(d_), divisions + 1, d_ == 2 ? 1 : divisions + 1, points);
-    vtu::Cells cells = part.cells[0];
-    for (std::int64_t& node : cells.connectivity) node += ssize_of(grid.points.size() / d_);
-    grid.cells.push_back(std::move(cells));
-    grid.points.insert(grid.points.end(), points.begin(), points.end());
+    grid.add_surface(divisions + 1, d_ == 2 ? 1 : divisions + 1, points);
     grid.point_data[0].values.insert(grid.point_data[0].values.end(), heights.begin(), heights.end());
   }
 }

@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output.hpp"
+
 namespace host {
 namespace {
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); } // JSON has no NaN
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + unit + "]";
-}
 
 /// What the slave points carry together, of this mesh.
 ents_resultants resultants_of(const Contact& contact, const ContactResults& r, int dimension) {
@@ -20,18 +16,6 @@ ents_resultants resultants_of(const Contact& contact, const ContactResults& r, i
                 r.position.data(), r.normal.data(), r.pressure.data(), r.traction.data(),
                 contact.areas().data(), r.flags.data(), static_cast<const double*>(nullptr), &sum);
   return sum;
-}
-
-Json resultants_json(const ents_resultants& sum, int dimension) {
-  const auto vector = [](const double* from, int size) { return std::vector<double>(from, from + size); };
-  return {{"normal", vector(sum.normal, dimension)},
-          {"tangential", vector(sum.tangential, dimension)},
-          {"moment", vector(sum.moment, dimension == 2 ? 1 : 3)},
-          {"centre", vector(sum.centre, dimension)},
-          {"open", sum.open},
-          {"contact", sum.contact},
-          {"stick", sum.stick},
-          {"slip", sum.slip}};
 }
 
 Json step_json(Equations& equations, const Step& step) {
@@ -66,31 +50,9 @@ Json step_json(Equations& equations, const Step& step) {
   return out;
 }
 
-vtu::Cell vtk_cell(ElementType type) {
-  switch (type) {
-  case ElementType::tri3:
-    return vtu::Cell::triangle;
-  case ElementType::quad4:
-    return vtu::Cell::quad;
-  case ElementType::tet4:
-    return vtu::Cell::tetrahedron;
-  case ElementType::hex8:
-    break;
-  }
-  return vtu::Cell::hexahedron;
-}
-
 vtu::Grid bodies(const Equations& equations, const Configuration& at) {
   const Mesh& mesh = equations.mesh();
-  vtu::Grid grid;
-  grid.dimension = mesh.dimension;
-  grid.points = mesh.coordinates;
-  for (const ElementGroup& group : mesh.groups) {
-    vtu::Cells& cells = grid.cells.emplace_back();
-    cells.type = vtk_cell(group.type);
-    cells.nodes_per_cell = node_count(group.type);
-    cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
-  }
+  vtu::Grid grid = grid_of(mesh, mesh.node_count());
   const Scene& scene = equations.scene();
   const auto begin = at.displacement.begin(),
              temperatures = begin + static_cast<std::ptrdiff_t>(mesh.coordinates.size());

@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cstring>
 #include <fstream>
+#include <map>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -46,14 +48,9 @@ std::string base64(std::span<const unsigned char> bytes) {
 std::string attribute(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
+    static const std::map<char, const char*> names{{'&', "&amp;"}, {'<', "&lt;"}, {'"', "&quot;"}};
+    const auto found = names.find(c);
+    found == names.end() ? out += c : out += found->second;
   }
   return out;
 }
@@ -64,22 +61,14 @@ std::string number(double value) { // shortest text that reads back to the same 
   return {buffer.data(), end};
 }
 
-template <class T> constexpr const char* type_name() {
-  if constexpr (std::is_same_v<T, double>)
-    return "Float64";
-  else if constexpr (std::is_same_v<T, std::int64_t>)
-    return "Int64";
-  else
-    return "UInt8";
-}
-
 template <class T>
-void data_array(std::string& xml, std::string_view name, int components, const std::vector<T>& values) {
+void data_array(std::string& xml, const char* type, std::string_view name, int components,
+                const std::vector<T>& values) {
   const std::uint64_t size = values.size() * sizeof(T);
   std::vector<unsigned char> bytes(sizeof size + size);
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
-  xml += "<DataArray type=\"" + std::string(type_name<T>()) + "\" Name=\"" + attribute(name) + "\"";
+  xml += "<DataArray type=\"" + std::string(type) + "\" Name=\"" + attribute(name) + "\"";
   xml += " NumberOfComponents=\"" + std::to_string(components) + "\"";
   if (components == 6) {
     static constexpr std::array tensor{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
@@ -107,75 +96,33 @@ void attributes(std::string& xml, const std::vector<Array>& arrays, std::size_t 
       throw std::invalid_argument("array '" + array.name + "' has " + std::to_string(array.values.size()) +
                                   " values; " + std::to_string(n) + " x " + std::to_string(from) +
                                   " are needed");
-    data_array(xml, array.name, to,
+    data_array(xml, "Float64", array.name, to,
                padded(array.values, static_cast<std::size_t>(from), static_cast<std::size_t>(to)));
   }
   xml += "</PointData>\n";
 }
 
-/// The three arrays of VTK's cell list, all blocks one after the other.
-struct CellList {
-  std::vector<std::int64_t> connectivity, offsets;
-  std::vector<std::uint8_t> types;
-};
-
-CellList cell_list(const Grid& grid, std::size_t points) {
-  CellList list;
-  for (const Cells& block : grid.cells) {
-    const auto per_cell = static_cast<std::size_t>(block.nodes_per_cell);
-    if (block.nodes_per_cell < 1 || block.connectivity.size() % per_cell != 0)
-      throw std::invalid_argument(
-          "cells: " + std::to_string(block.connectivity.size()) +
-          " nodes are not a multiple of nodes_per_cell = " + std::to_string(block.nodes_per_cell));
-    for (std::size_t i = 0; i < block.connectivity.size(); ++i) {
-      const std::int64_t node = block.connectivity[i];
-      if (node < 0 || node >= static_cast<std::int64_t>(points))
-        throw std::invalid_argument("cells: node " + std::to_string(node) + " of " + std::to_string(points) +
-                                    " points");
-      list.connectivity.push_back(node);
-      if ((i + 1) % per_cell != 0) continue;
-      list.offsets.push_back(static_cast<std::int64_t>(list.connectivity.size()));
-      list.types.push_back(static_cast<std::uint8_t>(block.type));
-    }
-  }
-  return list;
-}
-
 constexpr const char* byte_order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-
-Grid one_block(int dimension, std::vector<double> points) {
-  Grid grid;
-  grid.dimension = dimension;
-  grid.points = std::move(points);
-  grid.cells.emplace_back();
-  return grid;
-}
 
 } // namespace
 
-Grid point_cloud(int dimension, std::vector<double> points) {
-  Grid grid = one_block(dimension, std::move(points));
-  grid.cells[0].connectivity.resize(grid.points.size() / static_cast<std::size_t>(dimension));
-  for (std::size_t i = 0; i < grid.cells[0].connectivity.size(); ++i)
-    grid.cells[0].connectivity[i] = static_cast<std::int64_t>(i);
-  return grid;
+void Grid::add_surface(int n1, int n2, const std::vector<double>& sampled) {
+  const auto first = static_cast<std::int64_t>(points.size()) / dimension;
+  points.insert(points.end(), sampled.begin(), sampled.end());
+  std::vector<std::int64_t> nodes;
+  for (int i = 0; n2 == 1 && i < n1; ++i) nodes.push_back(first + i);
+  for (int j = 0; j + 1 < n2; ++j)
+    for (int i = 0; i + 1 < n1; ++i)
+      for (const int node : {j * n1 + i, j * n1 + i + 1, (j + 1) * n1 + i + 1, (j + 1) * n1 + i})
+        nodes.push_back(first + node);
+  add_cells(n2 == 1 ? polyline : quad, n2 == 1 ? nodes.size() : 4, nodes);
 }
 
-Grid sampled_surface(int dimension, int n1, int n2, std::vector<double> points) {
-  Grid grid = one_block(dimension, std::move(points));
-  Cells& cells = grid.cells[0];
-  if (n2 == 1) {
-    cells.type = Cell::polyline, cells.nodes_per_cell = n1;
-    for (int i = 0; i < n1; ++i) cells.connectivity.push_back(i);
-    return grid;
-  }
-  cells.type = Cell::quad, cells.nodes_per_cell = 4;
-  for (int j = 0; j + 1 < n2; ++j)
-    for (int i = 0; i + 1 < n1; ++i) {
-      const int corner = j * n1 + i;
-      for (const int node : {corner, corner + 1, corner + 1 + n1, corner + n1})
-        cells.connectivity.push_back(node);
-    }
+Grid point_cloud(int dimension, std::vector<double> points) {
+  Grid grid{dimension, std::move(points), {}, {}, {}, {}};
+  std::vector<std::int64_t> nodes(grid.points.size() / static_cast<std::size_t>(dimension));
+  std::iota(nodes.begin(), nodes.end(), std::int64_t{0});
+  grid.add_cells(vertex, 1, nodes);
   return grid;
 }
 
@@ -186,20 +133,26 @@ std::string to_xml(const Grid& grid) {
   if (grid.points.size() % dimension != 0)
     throw std::invalid_argument("grid: the size of `points` is not a multiple of the dimension");
   const std::size_t points = grid.points.size() / dimension;
-  const CellList cells = cell_list(grid, points);
+  for (const std::int64_t node : grid.connectivity)
+    if (node < 0 || node >= static_cast<std::int64_t>(points))
+      throw std::invalid_argument("cells: node " + std::to_string(node) + " of " + std::to_string(points) +
+                                  " points");
+  if (!grid.offsets.empty() && grid.offsets.back() != std::ssize(grid.connectivity))
+    throw std::invalid_argument("cells: the last one ends at node " + std::to_string(grid.offsets.back()) +
+                                " of " + std::to_string(grid.connectivity.size()));
 
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                     "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"";
   xml += std::string(byte_order) + "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
   xml += "<Piece NumberOfPoints=\"" + std::to_string(points) + "\" NumberOfCells=\"" +
-         std::to_string(cells.types.size()) + "\">\n";
+         std::to_string(grid.types.size()) + "\">\n";
   attributes(xml, grid.point_data, points);
   xml += "<Points>\n";
-  data_array(xml, "Points", 3, padded(grid.points, dimension, 3));
+  data_array(xml, "Float64", "Points", 3, padded(grid.points, dimension, 3));
   xml += "</Points>\n<Cells>\n";
-  data_array(xml, "connectivity", 1, cells.connectivity);
-  data_array(xml, "offsets", 1, cells.offsets);
-  data_array(xml, "types", 1, cells.types);
+  data_array(xml, "Int64", "connectivity", 1, grid.connectivity);
+  data_array(xml, "Int64", "offsets", 1, grid.offsets);
+  data_array(xml, "UInt8", "types", 1, grid.types);
   xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return xml;
 }

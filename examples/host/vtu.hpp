@@ -21,24 +21,8 @@ void save_text(const std::filesystem::path& file, const std::string& text);
 
 namespace host::vtu {
 
-/// VTK cell types by their VTK numbers. Node order is that of the finite elements: counterclockwise in 2D,
-/// the first face counterclockwise seen from inside in 3D (hex8: bottom 0-3, top 4-7).
-enum class Cell : std::uint8_t {
-  vertex = 1,
-  line = 3,
-  polyline = 4,
-  triangle = 5,
-  quad = 9,
-  tetrahedron = 10,
-  hexahedron = 12,
-};
-
-/// Cells of one kind and size: `nodes_per_cell` is free for a polyline and the cell's own otherwise.
-struct Cells {
-  Cell type = Cell::vertex;
-  int nodes_per_cell = 1;
-  std::vector<std::int64_t> connectivity; ///< [cells][nodes_per_cell], 0-based into Grid::points
-};
+/// VTK's numbers of the cells that are no finite elements.
+inline constexpr int vertex = 1, polyline = 4, quad = 9;
 
 /// One named value per point.
 /// components: 1 scalar; 2 or 3 vector; 4 plane tensor xx yy zz xy; 6 tensor xx yy zz xy yz xz (VTK's order).
@@ -50,19 +34,30 @@ struct Array {
 };
 
 struct Grid {
-  int dimension = 3;          ///< 2 or 3; plane points get z = 0
-  std::vector<double> points; ///< [n][dimension], length
-  std::vector<Cells> cells;
+  int dimension = 3;                               ///< 2 or 3; plane points get z = 0
+  std::vector<double> points;                      ///< [n][dimension], length
+  std::vector<std::int64_t> connectivity, offsets; ///< nodes of all cells, from 0; where those of each end
+  std::vector<std::uint8_t> types;                 ///< of the cells, VTK's numbers
   std::vector<Array> point_data;
+
+  /// @param nodes  [cells][nodes_per_cell], counterclockwise in 2D, the first face counterclockwise seen from
+  ///               inside in 3D
+  template <class Nodes> void add_cells(int type, std::size_t nodes_per_cell, const Nodes& nodes) {
+    connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
+    for (std::size_t i = 0; i < nodes.size(); i += nodes_per_cell) {
+      offsets.push_back((offsets.empty() ? 0 : offsets.back()) + static_cast<std::int64_t>(nodes_per_cell));
+      types.push_back(static_cast<std::uint8_t>(type));
+    }
+  }
+
+  /// A surface sampled on a regular grid of parameters, first parameter fastest: one polyline in 2D
+  /// (n2 = 1), (n1-1)(n2-1) quads in 3D. Meant for the enriched surface rho_e.
+  /// @param sampled  [n2][n1][dimension], length
+  void add_surface(int n1, int n2, const std::vector<double>& sampled);
 };
 
 /// The slave nodes as a cloud: one vertex per point.
 Grid point_cloud(int dimension, std::vector<double> points);
-
-/// A surface sampled on a regular grid of parameters, first parameter fastest: one polyline in 2D
-/// (n2 = 1), (n1-1)(n2-1) quads in 3D. Meant for the enriched surface rho_e.
-/// @param points [n2][n1][dimension], length
-Grid sampled_surface(int dimension, int n1, int n2, std::vector<double> points);
 
 /// The file's text.
 /// @throws std::invalid_argument naming the array whose size does not fit, or a bad node number

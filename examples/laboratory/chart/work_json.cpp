@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "chart/work_json.hpp"
 
-#include <cmath>
-
 #include "chart/pareto.hpp"
 #include "chart/truth_table.hpp"
+#include "output.hpp"
 
 namespace host::chart {
 namespace {
 
 Json run_json(const Problem& problem, const WorkRun& run) {
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   const bool several = run.way.family == Family::enriched && run.way.divisions > 1;
   Json json{{"name", name_of(problem, run)},
             {"family", static_cast<int>(run.way.family)},

@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "output.hpp"
+
 namespace host {
 namespace {
-
-/// JSON has no NaN.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 const char* control_name(Control control) {
   switch (control) {
@@ -50,20 +49,6 @@ Json nodes_json(const StepRecord& record) {
              {"force", column(fields.node_forces)}};
   if (!fields.worn.empty()) nodes["worn"] = column(fields.worn);
   return nodes;
-}
-
-Json resultants_json(const ents_resultants& sum, int dimension) {
-  const auto vector = [](const double* from, int size) { return std::vector<double>(from, from + size); };
-  return {{"normal", vector(sum.normal, dimension)},
-          {"tangential", vector(sum.tangential, dimension)},
-          {"moment", vector(sum.moment, dimension == 2 ? 1 : 3)},
-          {"centre", vector(sum.centre, dimension)},
-          {"area", sum.area},
-          {"largest_pressure", sum.largest_pressure},
-          {"open", sum.open},
-          {"contact", sum.contact},
-          {"stick", sum.stick},
-          {"slip", sum.slip}};
 }
 
 Json energy_json(const EnergyBalance& energy) {

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output.hpp"
 #include "result.hpp"
 
 namespace host {
 namespace {
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + unit + "]";
-}
 
 /// The last nodes of the mesh, which no element has.
 int nodes_of_rigid_body(const Simulation& simulation) {
@@ -20,38 +17,20 @@ int nodes_of_rigid_body(const Simulation& simulation) {
 vtu::Grid bulk_grid(const Simulation& simulation) {
   const Mesh& mesh = simulation.mesh();
   const UnitNames& units = simulation.scene().units;
-  vtu::Grid grid;
-  grid.dimension = mesh.dimension;
-  const auto of_bodies = static_cast<std::size_t>(mesh.dimension) *
-                         static_cast<std::size_t>(mesh.node_count() - nodes_of_rigid_body(simulation));
-  grid.points.assign(mesh.coordinates.begin(),
-                     mesh.coordinates.begin() + static_cast<std::ptrdiff_t>(of_bodies));
-  for (const ElementGroup& group : mesh.groups) {
-    vtu::Cells cells;
-    cells.type = group.type == ElementType::tri3    ? vtu::Cell::triangle
-                 : group.type == ElementType::quad4 ? vtu::Cell::quad
-                 : group.type == ElementType::tet4  ? vtu::Cell::tetrahedron
-                                                    : vtu::Cell::hexahedron;
-    cells.nodes_per_cell = node_count(group.type);
-    cells.connectivity.assign(group.nodes.begin(), group.nodes.end());
-    grid.cells.push_back(std::move(cells));
-  }
+  const int nodes = mesh.node_count() - nodes_of_rigid_body(simulation);
+  vtu::Grid grid = grid_of(mesh, nodes);
   const std::vector<double>& moved = simulation.now().displacement;
   grid.point_data.push_back({with_unit("displacement", units.length),
                              mesh.dimension,
-                             {moved.begin(), moved.begin() + static_cast<std::ptrdiff_t>(of_bodies)}});
+                             {moved.begin(), moved.begin() + nodes * mesh.dimension}});
   if (mesh.groups.empty()) { // a layer: its surface, and no stress below it
-    vtu::Cells cells;
-    cells.type = vtu::Cell::quad;
-    cells.nodes_per_cell = 4;
     for (const Face& face : mesh.face_sets.at(simulation.scene().parts.front().name + ".z_max"))
-      cells.connectivity.insert(cells.connectivity.end(), face.nodes.begin(), face.nodes.end());
-    grid.cells.push_back(std::move(cells));
+      grid.add_cells(vtu::quad, 4, face.nodes);
     return grid;
   }
   std::vector<double> stress = simulation.bulk().nodal_stress(moved);
   const std::size_t components = mesh.dimension == 3 ? 6 : 4;
-  stress.resize(of_bodies / static_cast<std::size_t>(mesh.dimension) * components);
+  stress.resize(static_cast<std::size_t>(nodes) * components);
   grid.point_data.push_back(
       {with_unit("stress", units.pressure), static_cast<int>(components), std::move(stress)});
   return grid;
@@ -88,7 +67,9 @@ vtu::Grid surface_grid(Simulation& simulation) {
     positions[i] += simulation.now().motion * master.direction[i % static_cast<std::size_t>(d)];
   const SurfaceSample sample =
       sample_surface(*master.model, positions, {}, even_grid(d - 1, static_cast<std::size_t>(n1 - 1)));
-  vtu::Grid grid = vtu::sampled_surface(d, n1, n2, sample.point);
+  vtu::Grid grid;
+  grid.dimension = d;
+  grid.add_surface(n1, n2, sample.point);
   grid.point_data.push_back({with_unit("height", scene.units.length), 1, sample.height});
   grid.point_data.push_back({"normal", d, sample.normal});
   return grid;
@@ -129,9 +110,6 @@ vtu::Grid segments_grid(Simulation& simulation) {
                             points = present_points(simulation, master);
   vtu::Grid grid;
   grid.dimension = static_cast<int>(d);
-  vtu::Cells cells;
-  cells.type = d == 2 ? vtu::Cell::line : vtu::Cell::quad;
-  cells.nodes_per_cell = d == 2 ? 2 : 4;
   std::vector<double> height;
   for (std::size_t s = 0; s < master.segments(); ++s) {
     std::vector<double> nodes, coordinates;
@@ -143,19 +121,10 @@ vtu::Grid segments_grid(Simulation& simulation) {
                          master.surface_coordinates.begin() +
                              static_cast<std::ptrdiff_t>((s + 1) * m * (d - 1)));
     SurfaceSample sample = sample_surface(*master.model, nodes, coordinates, xi);
-    if (master.body_node >= 0) contact.to_space(sample.point);
-    const auto first = static_cast<std::int64_t>(grid.points.size() / d),
-               row = static_cast<std::int64_t>(n + 1);
-    grid.points.insert(grid.points.end(), sample.point.begin(), sample.point.end());
+    if (master.body_node >= 0) contact.frame().to_space(sample.point);
+    grid.add_surface(static_cast<int>(n) + 1, d == 2 ? 1 : static_cast<int>(n) + 1, sample.point);
     height.insert(height.end(), sample.height.begin(), sample.height.end());
-    for (std::int64_t j = 0; j < (d == 2 ? 1 : row - 1); ++j)
-      for (std::int64_t i = 0; i + 1 < row; ++i) {
-        const std::int64_t corner = first + j * row + i;
-        cells.connectivity.insert(cells.connectivity.end(), {corner, corner + 1});
-        if (d == 3) cells.connectivity.insert(cells.connectivity.end(), {corner + row + 1, corner + row});
-      }
   }
-  grid.cells.push_back(std::move(cells));
   grid.point_data.push_back({with_unit("height", simulation.scene().units.length), 1, std::move(height)});
   return grid;
 }

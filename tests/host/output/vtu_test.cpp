@@ -97,7 +97,8 @@ vtu::Grid plane_grid() {
   vtu::Grid grid;
   grid.dimension = 2;
   grid.points = {0, 0, 1, 0, 1, 1, 0, 1, 2, 0.5};
-  grid.cells = {{vtu::Cell::quad, 4, {0, 1, 2, 3}}, {vtu::Cell::triangle, 3, {1, 4, 2}}};
+  grid.add_cells(9, 4, std::vector{0, 1, 2, 3});
+  grid.add_cells(5, 3, std::vector{1, 4, 2});
   grid.point_data = {{"pressure [MPa]", 1, {0.1, 1.0 / 3.0, -0.0, 1e-300, 5}},
                      {"displacement", 2, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}},
                      {"a < \"b\" & c", 4, {1, 2, 3, 4, 5, 6, 7, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9}}};
@@ -143,11 +144,13 @@ TEST(Vtu, ListsMixedCellsInOrder) {
 }
 
 TEST(Vtu, SampledSurfaceIsALineInThePlaneAndQuadsInSpace) {
-  const vtu::Grid line = vtu::sampled_surface(2, 3, 1, {0, 0, 1, 1, 2, 0});
-  EXPECT_EQ(line.cells[0].type, vtu::Cell::polyline);
-  EXPECT_EQ(line.cells[0].connectivity, (std::vector<std::int64_t>{0, 1, 2}));
-  const vtu::Grid patch = vtu::sampled_surface(3, 3, 2, std::vector<double>(18, 0.0));
-  EXPECT_EQ(patch.cells[0].connectivity, (std::vector<std::int64_t>{0, 1, 4, 3, 1, 2, 5, 4}));
+  vtu::Grid line, patch;
+  line.dimension = 2;
+  for (int segment = 0; segment < 2; ++segment) line.add_surface(3, 1, {0, 0, 1, 1, 2, 0});
+  EXPECT_EQ(line.types, (std::vector<std::uint8_t>{4, 4})); // polylines
+  EXPECT_EQ(line.connectivity, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
+  patch.add_surface(3, 2, std::vector<double>(18, 0.0));
+  EXPECT_EQ(patch.connectivity, (std::vector<std::int64_t>{0, 1, 4, 3, 1, 2, 5, 4}));
   EXPECT_NO_THROW(vtu::to_xml(patch));
 }
 
@@ -170,11 +173,11 @@ TEST(Vtu, RefusesDataThatDoNotFitAndNamesThem) {
   grid.point_data[0].values.pop_back();
   EXPECT_EQ(message_of(grid), "array 'pressure [MPa]' has 4 values; 5 x 1 are needed");
   grid = plane_grid();
-  grid.cells[1].connectivity[2] = 5;
+  grid.connectivity[6] = 5;
   EXPECT_EQ(message_of(grid), "cells: node 5 of 5 points");
   grid = plane_grid();
-  grid.cells[0].connectivity.pop_back();
-  EXPECT_EQ(message_of(grid), "cells: 3 nodes are not a multiple of nodes_per_cell = 4");
+  grid.connectivity.pop_back();
+  EXPECT_EQ(message_of(grid), "cells: the last one ends at node 7 of 6");
 }
 
 TEST(VtuSeries, ListsEveryStepWithItsTimeAndPart) {
