@@ -20,20 +20,19 @@ bool Bulk::assemble_group(std::size_t group_index, const std::vector<double>& di
   constexpr std::size_t d = static_cast<std::size_t>(dimension(Type)), dofs = nodes * d;
   const ElementGroup& group = mesh_->groups[group_index];
   const ElementSetup& setup = setups_[static_cast<std::size_t>(group.part)];
-  std::array<double, dofs> X{}, u{};
   std::array<std::size_t, dofs> dof{};
   ElementResult<static_cast<int>(dofs)> result;
   for (std::size_t e = 0; e < group.size(); ++e) {
     const auto element = group.element(e);
+    const NodeMatrix<Type> X = gathered<Type>(element, mesh_->coordinates),
+                           u = gathered<Type>(element, displacement);
     bool moved = false;
-    for (std::size_t a = 0; a < nodes; ++a)
-      for (std::size_t i = 0; i < d; ++i) {
-        dof[d * a + i] = static_cast<std::size_t>(element[a]) * d + i;
-        X[d * a + i] = mesh_->coordinates[dof[d * a + i]];
-        u[d * a + i] = displacement[dof[d * a + i]];
-        moved = moved || (!direction.empty() && direction[dof[d * a + i]] != 0);
-      }
-    if (!evaluate_element<Type>(setup, X, u, add || moved, result)) return false;
+    for (std::size_t a = 0; a < dofs; ++a) {
+      dof[a] = static_cast<std::size_t>(element[a / d]) * d + a % d;
+      moved = moved || (!direction.empty() && direction[dof[a]] != 0);
+    }
+    if (!evaluate_element<Type>(setup, {X.data(), dofs}, {u.data(), dofs}, add || moved, result))
+      return false;
     if (moved) {
       Eigen::Matrix<double, static_cast<int>(dofs), 1> step;
       for (std::size_t a = 0; a < dofs; ++a) step[static_cast<Eigen::Index>(a)] = direction[dof[a]];
@@ -64,35 +63,26 @@ void Bulk::stress_of_group(const ElementGroup& group, const std::vector<double>&
   const std::size_t components = d == 3 ? 6 : 4;
   const ElementSetup& setup = setups_[static_cast<std::size_t>(group.part)];
   static const auto points = quadrature<Type>();
-  Eigen::Matrix<double, nodes, d, Eigen::RowMajor> X, u;
   MaterialPoint material_point;
   for (std::size_t e = 0; e < group.size(); ++e) {
     const auto element = group.element(e);
-    for (int a = 0; a < nodes; ++a)
-      for (int i = 0; i < d; ++i) {
-        const auto dof = static_cast<std::size_t>(element[static_cast<std::size_t>(a)] * d + i);
-        X(a, i) = mesh_->coordinates[dof];
-        u(a, i) = displacement[dof];
-      }
+    const NodeMatrix<Type> X = gathered<Type>(element, mesh_->coordinates),
+                           u = gathered<Type>(element, displacement);
     // Mean over the quadrature points: where linear elements are most accurate.
     Matrix3 mean = Matrix3::Zero();
     double volume = 0;
     for (const auto& point : points) {
-      const Eigen::Matrix<double, d, d> map = X.transpose() * point.derivatives;
+      const auto at = element_point<Type>(setup, X, point);
       Matrix3 H = Matrix3::Zero();
-      H.template topLeftCorner<d, d>() = u.transpose() * (point.derivatives * map.inverse());
-      if (setup.formulation == Formulation::axisymmetric)
-        H(2, 2) = u.col(0).dot(point.values) / X.col(0).dot(point.values);
-      const bool ok = setup.formulation == Formulation::plane_stress
-                          ? evaluate_plane_stress(setup.material, H, false, material_point)
-                          : evaluate(setup.material, H, false, material_point);
-      if (!ok) continue;
+      H.template topLeftCorner<d, d>() = u.transpose() * at.dN;
+      if (at.radius > 0) H(2, 2) = u.col(0).dot(point.values) / at.radius;
+      if (!evaluate(setup, H, false, material_point)) continue;
       Matrix3 cauchy = material_point.stress;
       if (setup.material.law != Material::Law::linear_elastic) {
         const Matrix3 F = Matrix3::Identity() + H;
         cauchy = material_point.stress * F.transpose() / F.determinant();
       }
-      const double part = point.weight * map.determinant();
+      const double part = point.weight * at.jacobian;
       mean += part * cauchy;
       volume += part;
     }

@@ -9,24 +9,13 @@ namespace {
 /// Derivatives of the residual of one element by its displacements and temperatures, all constant:
 ///   power of node a         R_a  = sum_b  integral of k grad N_a . grad N_b      T_b
 ///   force a, component i    R_ai = sum_b -integral of beta dN_a/dx_i N_b         T_b
-template <ElementType Type>
-Eigen::MatrixXd
-tangent_of(const ElementSetup& setup,
-           const Eigen::Matrix<double, node_count(Type), dimension(Type), Eigen::RowMajor>& X) {
+template <ElementType Type> Eigen::MatrixXd tangent_of(const ElementSetup& setup, const NodeMatrix<Type>& X) {
   constexpr int nodes = node_count(Type), d = dimension(Type), forces = nodes * d;
   static const auto points = quadrature<Type>();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(forces + nodes, forces + nodes);
   const double beta = setup.thermal_stress();
   for (const auto& point : points) {
-    const Eigen::Matrix<double, d, d> map = X.transpose() * point.derivatives;
-    const Eigen::Matrix<double, nodes, d> dN = point.derivatives * map.inverse();
-    double weight = point.weight * map.determinant(), radius = 0;
-    if (setup.formulation == Formulation::axisymmetric) {
-      radius = X.col(0).dot(point.values);
-      weight *= 2 * std::numbers::pi * radius;
-    } else if (d == 2) {
-      weight *= setup.thickness;
-    }
+    const auto [jacobian, weight, radius, dN] = element_point<Type>(setup, X, point);
     K.bottomRightCorner(nodes, nodes) += weight * setup.material.conductivity * dN * dN.transpose();
     for (int a = 0; a < nodes; ++a)
       for (int i = 0; i < d; ++i) {
@@ -47,7 +36,6 @@ double Heat::assemble_group(std::size_t index, const std::vector<double>& values
   constexpr int nodes = node_count(Type), d = dimension(Type);
   const ElementGroup& group = mesh_->groups[index];
   const auto displacements = mesh_->coordinates.size();
-  Eigen::Matrix<double, nodes, d, Eigen::RowMajor> X;
   std::vector<std::size_t> dof(static_cast<std::size_t>(nodes * (d + 1)));
   Eigen::VectorXd moved(nodes * (d + 1));
   double squared = 0;
@@ -55,13 +43,13 @@ double Heat::assemble_group(std::size_t index, const std::vector<double>& values
     const auto element = group.element(e);
     for (int a = 0; a < nodes; ++a) {
       const auto node = static_cast<std::size_t>(element[static_cast<std::size_t>(a)]);
-      for (int i = 0; i < d; ++i) {
-        const std::size_t own = node * static_cast<std::size_t>(d) + static_cast<std::size_t>(i);
-        X(a, i) = mesh_->coordinates[own], dof[static_cast<std::size_t>(d * a + i)] = own;
-      }
+      for (int i = 0; i < d; ++i)
+        dof[static_cast<std::size_t>(d * a + i)] =
+            node * static_cast<std::size_t>(d) + static_cast<std::size_t>(i);
       dof[static_cast<std::size_t>(nodes * d + a)] = displacements + node;
     }
-    const Eigen::MatrixXd K = tangent_of<Type>(setups_[static_cast<std::size_t>(group.part)], X);
+    const Eigen::MatrixXd K = tangent_of<Type>(setups_[static_cast<std::size_t>(group.part)],
+                                               gathered<Type>(element, mesh_->coordinates));
     for (std::size_t k = 0; k < dof.size(); ++k)
       moved[static_cast<Eigen::Index>(k)] = values[dof[k]] + (direction.empty() ? 0 : direction[dof[k]]);
     const Eigen::VectorXd force = K * moved;
