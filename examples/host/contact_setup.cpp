@@ -2,7 +2,6 @@
 // Contact, once: slave points, segments of the master, tree and states.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "contact.hpp"
@@ -16,7 +15,9 @@ std::size_t corners(const std::vector<Face>& faces) {
   for (const Face& face : faces) most = std::max(most, face.count);
   return static_cast<std::size_t>(most);
 }
-const char* facet_name(std::size_t nodes) { return nodes == 2 ? "line2" : nodes == 3 ? "tri3" : "quad4"; }
+const char* facet_name(std::size_t nodes, int dimension) {
+  return nodes == 2 ? "line2" : nodes == 4 ? "quad4" : dimension == 2 ? "line3" : "tri3";
+}
 
 /// What the library refuses while the scene is set up, with the place in the scene.
 template <class Ask> auto asked(const std::string& where, Ask ask) {
@@ -48,11 +49,11 @@ std::vector<double> node_areas(const Mesh& mesh, const std::vector<Face>& faces,
                                const std::string& where) {
   const std::size_t count = corners(faces);
   const std::vector<std::int64_t> connectivity = connectivity_of(faces, count);
-  const double thickness = setup.formulation == Formulation::axisymmetric ? 0 : setup.thickness;
   std::vector<double> areas(static_cast<std::size_t>(mesh.node_count()));
   asked(where, [&] {
-    ents::require(ents::linked(), ents_tributary_areas, facet_name(count), ssize_of(faces.size()),
-                  connectivity.data(), mesh.node_count(), mesh.coordinates.data(), thickness, areas.data());
+    ents::require(ents::linked(), ents_tributary_areas, facet_name(count, mesh.dimension),
+                  ssize_of(faces.size()), connectivity.data(), mesh.node_count(), mesh.coordinates.data(),
+                  setup.depth(), areas.data());
   });
   return areas;
 }
@@ -98,7 +99,6 @@ void Contact::read_slaves(const Scene& scene, const Mesh& mesh) {
   const std::vector<std::int64_t> connectivity = connectivity_of(faces, count);
   slave_nodes_ = nodes_of(faces);
   const ElementSetup& setup = scene.parts.front().setup;
-  const double thickness = setup.formulation == Formulation::axisymmetric ? 0 : setup.thickness;
   sampled_ = contact.sampling > 0;
   if (sampled_) {
     const auto n = static_cast<std::size_t>(contact.sampling), points = faces.size() * (d_ == 2 ? n : n * n);
@@ -106,9 +106,9 @@ void Contact::read_slaves(const Scene& scene, const Mesh& mesh) {
         slave_.weights.resize(points * count);
     areas_.resize(points);
     asked(contact.slave_where, [&] {
-      ents::require(ents::linked(), ents_sampling_points, facet_name(count), contact.sampling,
+      ents::require(ents::linked(), ents_sampling_points, facet_name(count, mesh.dimension), contact.sampling,
                     ssize_of(faces.size()), connectivity.data(), mesh.node_count(), mesh.coordinates.data(),
-                    thickness, slave_.begin.data(), slave_.nodes.data(), slave_.weights.data(),
+                    setup.depth(), slave_.begin.data(), slave_.nodes.data(), slave_.weights.data(),
                     areas_.data());
     });
     return;
@@ -159,25 +159,21 @@ void Contact::smooth(const Scene& scene, const std::vector<Face>& faces) {
   const ContactInput& contact = *scene.contact;
   const std::string segment = contact.model.value("segment", "");
   const char* facet = segment.ends_with("4") ? "line2" : segment == "bezier15" ? "tri3" : "quad4";
-  static const std::map<std::string, std::int32_t> ends{{"repeated", ENTS_ENDS_REPEATED},
-                                                        {"straight", ENTS_ENDS_STRAIGHT},
-                                                        {"quasi_cubic", ENTS_ENDS_QUASI_CUBIC},
-                                                        {"quasi_parabolic", ENTS_ENDS_QUASI_PARABOLIC}};
   const std::size_t count = corners(faces);
-  if (facet != std::string(facet_name(count)))
+  if (facet != std::string(facet_name(count, bodies_->dimension)))
     throw InputError(contact.master_where + ": segment " + segment + " lies on faces of type " + facet);
   const std::vector<std::int64_t> of_faces = connectivity_of(faces, count);
   const std::int64_t n = ssize_of(faces.size()), nodes = bodies_->node_count();
   std::int64_t points = 0, terms = 0;
   asked(contact.master_where, [&] {
-    ents::require(ents::linked(), ents_smooth_size, facet, segment.c_str(), ends.at(contact.ends), n,
-                  of_faces.data(), nodes, &points, &terms);
+    ents::require(ents::linked(), ents_smooth_size, facet, segment.c_str(), contact.ends, n, of_faces.data(),
+                  nodes, &points, &terms);
     connectivity_.resize(faces.size() * static_cast<std::size_t>(model_.layout().nodes));
     net_.begin.resize(static_cast<std::size_t>(points) + 1);
     net_.nodes.resize(static_cast<std::size_t>(terms)), net_.weights.resize(static_cast<std::size_t>(terms));
-    ents::require(ents::linked(), ents_smooth, facet, segment.c_str(), ends.at(contact.ends), n,
-                  of_faces.data(), nodes, points, terms, connectivity_.data(), net_.begin.data(),
-                  net_.nodes.data(), net_.weights.data());
+    ents::require(ents::linked(), ents_smooth, facet, segment.c_str(), contact.ends, n, of_faces.data(),
+                  nodes, points, terms, connectivity_.data(), net_.begin.data(), net_.nodes.data(),
+                  net_.weights.data());
   });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "json_reader.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -190,9 +189,6 @@ std::vector<std::string> JsonObject::all_keys() {
   return keys;
 }
 
-double JsonObject::number_or(const std::string& key, double otherwise) {
-  return has(key) ? at(key).number() : otherwise;
-}
 double JsonObject::positive_or(const std::string& key, double otherwise) {
   return has(key) ? at(key).positive() : otherwise;
 }

@@ -3,9 +3,12 @@
 // the JSON path.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -47,6 +50,13 @@ public:
   std::string string() const;
   /// One of the given words.
   std::string word(const std::vector<std::string>& words) const;
+  /// What stands beside the word that is given.
+  template <class T> T choice(std::initializer_list<std::pair<const char*, T>> of) const {
+    std::vector<std::string> words;
+    for (const auto& [name, value] : of) words.emplace_back(name);
+    const std::string chosen = word(words);
+    return std::find_if(of.begin(), of.end(), [&](const auto& one) { return one.first == chosen; })->second;
+  }
   std::vector<double> numbers() const;
   /// Exactly `size` numbers.
   std::vector<double> numbers(std::size_t size) const;
@@ -75,7 +85,6 @@ public:
   const std::string& where() const { return value_.where(); }
   [[noreturn]] void fail(const std::string& message) const { value_.fail(message); }
 
-  double number_or(const std::string& key, double otherwise);
   double positive_or(const std::string& key, double otherwise);
   int integer_or(const std::string& key, int min, int max, int otherwise);
   bool boolean_or(const std::string& key, bool otherwise);

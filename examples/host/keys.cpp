@@ -9,13 +9,12 @@ namespace host {
 namespace {
 
 Material read_material(const JsonValue& value, bool heat) {
-  static const std::map<std::string, Material::Law> laws{
-      {"linear_elastic", Material::Law::linear_elastic},
-      {"st_venant_kirchhoff", Material::Law::st_venant_kirchhoff},
-      {"neo_hooke", Material::Law::neo_hooke}};
   JsonObject object(value);
   Material material;
-  material.law = laws.at(object.at("law").word({"linear_elastic", "st_venant_kirchhoff", "neo_hooke"}));
+  material.law =
+      object.at("law").choice<Material::Law>({{"linear_elastic", Material::Law::linear_elastic},
+                                              {"st_venant_kirchhoff", Material::Law::st_venant_kirchhoff},
+                                              {"neo_hooke", Material::Law::neo_hooke}});
   material.young = object.at("young").positive();
   material.poisson = object.at("poisson").number();
   if (!(material.poisson > -1 && material.poisson < 0.5))
@@ -84,10 +83,10 @@ Path read_path(JsonObject& object) {
 ElementSetup read_formulation(JsonObject& scene, int dimension) {
   ElementSetup setup; // in space: solid
   if (dimension == 3) return setup;
-  const std::string word = scene.at("formulation").word({"plane_strain", "plane_stress", "axisymmetric"});
-  setup.formulation = word == "plane_strain"   ? Formulation::plane_strain
-                      : word == "plane_stress" ? Formulation::plane_stress
-                                               : Formulation::axisymmetric;
+  setup.formulation = scene.at("formulation")
+                          .choice<Formulation>({{"plane_strain", Formulation::plane_strain},
+                                                {"plane_stress", Formulation::plane_stress},
+                                                {"axisymmetric", Formulation::axisymmetric}});
   if (setup.formulation != Formulation::axisymmetric) setup.thickness = scene.positive_or("thickness", 1);
   return setup;
 }
@@ -106,10 +105,6 @@ Materials read_materials(const JsonValue& value, bool heat) {
 std::string read_part(JsonObject& object, int dimension, const Materials& materials,
                       const std::filesystem::path& folder, const std::vector<std::string>& others,
                       Part& part) {
-  static const std::map<std::string, ElementType> types{{"tri3", ElementType::tri3},
-                                                        {"quad4", ElementType::quad4},
-                                                        {"tet4", ElementType::tet4},
-                                                        {"hex8", ElementType::hex8}};
   part.name = object.at("name").string();
   const JsonValue material = object.at("material");
   const auto found = materials.find(material.string());
@@ -122,17 +117,19 @@ std::string read_part(JsonObject& object, int dimension, const Materials& materi
     return "";
   }
   const bool plane = dimension == 2;
-  std::vector<std::string> words =
-      plane ? std::vector<std::string>{"tri3", "quad4"} : std::vector<std::string>{"tet4", "hex8"};
+  std::vector<std::string> words;
+  for (const ElementTraits& type : element_types)
+    if (type.dimension == dimension) words.emplace_back(type.name);
   if (!plane) words.insert(words.end(), others.begin(), others.end());
   const std::string word = object.at("element").word(words);
-  const auto type = types.find(word);
-  if (type != types.end()) part.type = type->second;
+  const auto type = std::find_if(element_types.begin(), element_types.end(),
+                                 [&](const ElementTraits& one) { return one.name == word; });
+  if (type != element_types.end()) part.type = static_cast<ElementType>(type - element_types.begin());
   for (const char* axis : {"x", "y", "z"})
     if (axis != std::string("z") || !plane) part.lines.push_back(read_axis(object.at(axis)));
   if (part.setup.formulation == Formulation::axisymmetric && part.lines[0].front() < 0)
     object.at("x").fail("x is the radius of an axisymmetric body and starts at 0 or above");
-  return type == types.end() ? word : "";
+  return type == element_types.end() ? word : "";
 }
 
 bool read_support(JsonObject& object, int dimension, Support& support) {
@@ -180,12 +177,11 @@ std::vector<double> read_step_values(const JsonValue& values, double start) {
 }
 
 std::vector<double> read_steps(JsonObject& object, bool movable, Control& control) {
-  static const std::map<std::string, Control> controls{{"load_factor", Control::load_factor},
-                                                       {"approach", Control::approach},
-                                                       {"force", Control::force},
-                                                       {"mean_pressure", Control::mean_pressure}};
   const JsonValue word = object.at("control");
-  control = controls.at(word.word({"load_factor", "approach", "force", "mean_pressure"}));
+  control = word.choice<Control>({{"load_factor", Control::load_factor},
+                                  {"approach", Control::approach},
+                                  {"force", Control::force},
+                                  {"mean_pressure", Control::mean_pressure}});
   if (control != Control::load_factor && !movable)
     word.fail("only a rigid master can be moved; use load_factor");
   const JsonValue values = object.at("values");

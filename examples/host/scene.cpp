@@ -48,7 +48,10 @@ void read_master(const JsonValue& value, int dimension, bool heat, ContactInput&
     contact.master = master.at("faces").string();
     contact.master_where = master.at("faces").where();
     if (master.has("ends"))
-      contact.ends = master.at("ends").word({"repeated", "straight", "quasi_cubic", "quasi_parabolic"});
+      contact.ends = master.at("ends").choice<std::int32_t>({{"repeated", ENTS_ENDS_REPEATED},
+                                                             {"straight", ENTS_ENDS_STRAIGHT},
+                                                             {"quasi_cubic", ENTS_ENDS_QUASI_CUBIC},
+                                                             {"quasi_parabolic", ENTS_ENDS_QUASI_PARABOLIC}});
     if (master.has("surface_coordinates")) {
       const JsonValue rule = master.at("surface_coordinates");
       if (!rule.is_array()) leave_to_laboratory(rule.where());

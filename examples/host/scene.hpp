@@ -2,6 +2,8 @@
 // A scene: bodies, how they are held and loaded, one contact, and the steps. README.md lists the keys.
 #pragma once
 
+#include <ents.h>
+
 #include "keys.hpp"
 
 namespace host {
@@ -18,9 +20,9 @@ struct ContactInput {
   std::vector<double> rigid;        ///< [m][d] nodes of the segment; empty: master faces
   std::vector<double> direction;    ///< [d] unit vector of the rigid master's motion
   std::vector<int> coordinate_axes; ///< master faces: reference coordinates that are surface coordinates
-  std::string ends = "repeated";    ///< what a smoothed master does at its borders
-  double temperature = 0;           ///< of a rigid master
-  Json model;                       ///< for the library
+  std::int32_t ends = ENTS_ENDS_REPEATED; ///< what a smoothed master does at its borders
+  double temperature = 0;                 ///< of a rigid master
+  Json model;                             ///< for the library
   std::string model_where;
 };
 

@@ -158,13 +158,11 @@ void read_solver(const JsonValue& value, Scene& scene) {
   scene.solver.gap_tolerance = solver.positive_or("gap_tolerance", scene.solver.gap_tolerance);
   scene.solver.max_augmentations =
       solver.integer_or("max_augmentations", 1, 10000, scene.solver.max_augmentations);
-  if (solver.has("line_search")) {
-    const std::vector<std::string> words = {"when_needed", "always", "never"};
-    const std::string word = solver.at("line_search").word(words);
-    scene.solver.line_search = word == words[0]   ? LineSearch::when_needed
-                               : word == words[1] ? LineSearch::always
-                                                  : LineSearch::never;
-  }
+  if (solver.has("line_search"))
+    scene.solver.line_search = solver.at("line_search")
+                                   .choice<LineSearch>({{"when_needed", LineSearch::when_needed},
+                                                        {"always", LineSearch::always},
+                                                        {"never", LineSearch::never}});
   solver.finish();
 }
 
