@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes of the work-precision diagrams, the ways they are solved in, and their exact pressures.
+// The scenes of the work-precision diagrams and the ways they are solved in (work_problems.json), and their exact
+// pressures.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <tuple>
 
 #include "chart/work.hpp"
 #include "exact.hpp"
+#include "output/pictures.hpp"
 
 namespace host::chart {
 namespace {
@@ -60,26 +65,6 @@ double area_of_wave(const Scene& scene, const StepRecord& record) {
       westergaard_full_contact(scene.exact.amplitude, scene.exact.wavelength, contact_modulus(scene));
   return 2 * westergaard_half_width(full, record.mean_pressure, scene.exact.wavelength) /
          scene.exact.wavelength;
-}
-
-/// All levels by enriched segments, sampling points, plain and smoothed meshes; the tangents on one level.
-std::vector<Way> all_ways(const std::vector<SlaveMesh>& levels, const std::vector<int>& plain,
-                          const std::vector<int>& smooth, bool sampling) {
-  std::vector<Way> ways;
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    ways.push_back({Family::enriched, 1, level});
-    if (sampling) ways.push_back({Family::sampled, 1, level});
-    for (const int n : smooth) ways.push_back({Family::smoothed, n, level});
-    for (const int n : plain) ways.push_back({Family::facets, n, level});
-  }
-  const std::size_t middle = (levels.size() - 1) / 2;
-  // The finest plain mesh has points enough, and cutting at all its segments takes longest.
-  for (std::size_t k = 0; sampling && k + 1 < plain.size(); ++k)
-    for (const Family family : {Family::facets_sampled, Family::facets_cut})
-      ways.push_back({family, plain[k], middle});
-  for (const char* tangent : {"small_gap", "first_variation"})
-    ways.push_back({Family::enriched, 1, middle, tangent});
-  return ways;
 }
 
 /// A folder of this process alone, gone when it ends.
@@ -151,160 +136,44 @@ double pressure_of_two_bodies(const Scene& scene, const StepRecord& record,
                               1);
 }
 
-const char* const pieces_x = "/parts/0/x/pieces/0/divisions";
-
-// Three orders below the smallest error of the charts, for every way.
-const std::pair<std::string, Json> loose_tolerance{"/solver", {{"tolerance", 1e-6}}};
-
-SlaveMesh mesh_level(const std::string& name, std::vector<std::pair<std::string, Json>> settings) {
-  return SlaveMesh{name, std::move(settings)};
-}
-
-Problem westergaard_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "westergaard", p.title = "Westergaard: a sine on a half-plane";
-  p.text = "Three loads up to 0.9 p*; a segment of 1.5 waves.";
-  p.quantity = "contact pressure, L2 over the surface and the loads";
-  p.truth = "Westergaard's exact pressure";
-  p.period = "1.5 waves";
-  p.scene = scenes / "westergaard" / "scene.json";
-  p.settings = {loose_tolerance, {"/steps/values", {0.5178449, 1.0356899, 1.5535348}}};
-  for (const auto& [n, ny, growth] : {std::tuple{32, 16, 0.80}, {64, 22, 0.86}, {128, 30, 0.90}})
-    p.levels.push_back(mesh_level(
-        std::to_string(n) + " slave nodes",
-        {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", ny}, {"/parts/0/y/pieces/0/growth", growth}}));
-  if (quick) p.levels.resize(1);
-  p.ways = quick ? all_ways(p.levels, {15, 60}, {15}, true)
-                 : all_ways(p.levels, {7, 15, 30, 60, 120, 240, 480}, {7, 15, 30, 60}, true);
-  p.pressure = pressure_of_wave, p.area = area_of_wave;
-  return p;
-}
-
-Problem hertz2d_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "hertz2d", p.title = "Hertz: a cylinder on a block";
-  p.text = "Two forces; the master is 2 long, the contact at most 0.4.";
-  p.quantity = "contact pressure, L2 over the surface and the loads";
-  p.truth = "Hertz's exact pressure";
-  p.period = "2 mm, of which 0.4 touch";
-  p.scene = scenes / "hertz2d" / "scene.json";
-  p.settings = {loose_tolerance, {"/steps/values", {1.5, 3.5}}};
-  for (const auto& [n, ny] : {std::pair{15, 5}, {30, 10}, {60, 20}})
-    p.levels.push_back(mesh_level(std::to_string(n + 34) + " slave nodes",
-                                  {{pieces_x, n}, {"/parts/0/y/pieces/1/divisions", ny}}));
-  if (quick) p.levels.resize(1);
-  p.ways = quick ? all_ways(p.levels, {23, 95}, {23}, true)
-                 : all_ways(p.levels, {6, 11, 23, 47, 95, 191, 383}, {11, 23, 47}, true);
-  p.pressure = pressure_of_cylinder, p.area = area_of_cylinder;
-  return p;
-}
-
-Problem hertz3d_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "hertz3d", p.title = "Hertz: a sphere on a half-space";
-  p.text = "Two forces; the master is 4 x 4 large, the contact radius at most 0.2.";
-  p.quantity = "contact pressure, L2 over the surface and the loads";
-  p.truth = "Hertz's exact pressure";
-  p.period = "4 x 4 mm, of which 0.4 x 0.4 touch";
-  p.scene = scenes / "hertz3d" / "scene.json";
-  p.settings = {loose_tolerance, {"/steps/values", {0.6, 1.2}}};
-  for (const auto& [n, nz] : {std::pair{5, 2}, {8, 3}, {12, 5}})
-    p.levels.push_back(mesh_level(
-        std::to_string((n + 11) * (n + 11)) + " slave nodes",
-        {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", n}, {"/parts/0/z/pieces/1/divisions", nz}}));
-  if (quick) p.levels.resize(1);
-  p.ways = all_ways(p.levels, {23, 47, 95, 189}, {5, 11}, true);
-  if (quick) p.ways = {{Family::enriched, 1, 0}, {Family::facets, 12, 0}, {Family::facets, 47, 0}};
-  p.pressure = pressure_of_sphere, p.area = area_of_sphere;
-  return p;
-}
-
-Problem wavy3d_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "wavy3d", p.title = "Double sine on a half-space";
-  p.text = "Two loads of partial contact, then full contact, where the exact pressure is known.";
-  p.quantity = "contact pressure, L2 over the surface in full contact";
-  p.truth = "the exact pressure of Johnson, Greenwood and Higginson";
-  p.period = "one wave per direction";
-  p.scene = scenes / "wavy3d" / "scene.json";
-  p.settings = {loose_tolerance, {"/steps/values", {3.905831, 7.811662, 9.959869}}};
-  for (const auto& [n, nz] : {std::pair{6, 5}, {8, 6}, {12, 7}, {16, 9}})
-    p.levels.push_back(mesh_level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
-                                  {{pieces_x, n},
-                                   {"/parts/0/y/pieces/0/divisions", n},
-                                   {"/parts/0/z/pieces/0/divisions", nz},
-                                   {"/parts/0/z/pieces/0/growth", std::pow(0.75, 8. / nz)}}));
-  if (quick) p.levels.resize(1);
-  p.ways = quick ? all_ways(p.levels, {7, 29}, {7}, true)
-                 : all_ways(p.levels, {5, 9, 15, 19, 23, 29, 59}, {5, 9, 15}, true);
-  p.ways.push_back({Family::enriched, 1, (p.levels.size() - 1) / 2, automatic_tangent});
-  p.pressure = pressure_of_two_waves;
-  return p;
-}
-
-Problem elastic_master_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "elastic_master", p.title = "Westergaard with an elastic master, a thousand times as stiff";
-  p.text = "One wave, three loads up to about 0.9 p*. Plain segments are the surface of a body that is "
-           "meshed to follow the wave; the enriched body is flat, with "
-           "one to four elements.";
-  p.quantity = "contact pressure, L2 over the surface";
-  p.truth = "Westergaard's exact pressure with the compliance of both bodies";
-  p.period = "one wave";
-  p.scene = scenes / "westergaard" / "scene.json";
-  p.settings = {loose_tolerance};
-  for (const auto& [n, ny, growth] : {std::tuple{32, 16, 0.80}, {64, 22, 0.86}, {128, 30, 0.90}})
-    p.levels.push_back(mesh_level(
-        std::to_string(n) + " slave nodes",
-        {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", ny}, {"/parts/0/y/pieces/0/growth", growth}}));
-  if (quick) p.levels.resize(1);
-  p.adapt = elastic_master, p.forces = true;
-  for (std::size_t k = 0; k < p.levels.size(); ++k) {
-    for (const int n : {1, 4}) p.ways.push_back({Family::enriched, n, k});
-    for (const int n : quick ? std::vector<int>{8, 32} : std::vector<int>{8, 16, 32, 64, 128, 256})
-      p.ways.push_back({Family::facets, n, k});
+/// Rows [family or families, divisions ..., tangent]; without a tangent the consistent one.
+void add_ways(std::vector<Way>& ways, const Json& rows, std::size_t level) {
+  static constexpr std::array names{"enriched",   "layer",    "sampled",   "facets",     "facets_sampled",
+                                    "facets_cut", "smoothed", "on_facets", "on_smoothed"}; // as in Family
+  for (const Json& row : rows) {
+    const Json of = row[0].is_string() ? Json::array({row[0]}) : row[0];
+    const bool says = row.back().is_string();
+    for (std::size_t i = 1; i + (says ? 1 : 0) < row.size(); ++i)
+      for (const Json& family : of)
+        ways.push_back({static_cast<Family>(std::find(names.begin(), names.end(), family) - names.begin()),
+                        row[i].get<int>(), level, says ? row.back().get<std::string>() : Way().tangent});
   }
-  p.pressure = pressure_of_two_bodies;
-  return p;
 }
 
-Problem texture_problem(const std::filesystem::path& scenes, bool quick) {
+Problem problem_of(const std::string& name, const Json& data, const std::filesystem::path& scenes) {
+  static const std::map<std::string, std::pair<decltype(Problem::pressure), decltype(Problem::area)>> truths{
+      {"cylinder", {pressure_of_cylinder, area_of_cylinder}},
+      {"sphere", {pressure_of_sphere, area_of_sphere}},
+      {"two bodies", {pressure_of_two_bodies, {}}},
+      {"two waves", {pressure_of_two_waves, {}}}, // whose area in contact has no closed form
+      {"wave", {pressure_of_wave, area_of_wave}}};
+  const auto text = [&](const char* key) { return data.value(key, std::string()); };
   Problem p;
-  p.name = "texture", p.title = "Sliding with friction over a textured arch";
-  p.text = "Eight waves on an arch, pressed down, then 0.25 mm of sliding in 24 steps.";
-  p.quantity = "pressure and friction at the slave nodes, L2 over the surface and the way";
-  p.period = "8 waves";
-  p.scene = scenes / "texture" / "scene.json";
-  p.settings = {{"/solver/tolerance", 1e-6}};
-  p.levels = {mesh_level(quick ? "51 slave nodes" : "101 slave nodes", {{pieces_x, quick ? 50 : 100}})};
-  if (quick) p.settings.push_back({"/steps/values", {0.5, 1, 1.05, 1.1}});
-  p.exact = false, p.forces = true;
-  p.after = 1; // while it is pressed down, friction depends on the increments
-  p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{64} : std::vector<int>{32, 64, 128, 256}, false);
-  for (const int n : quick ? std::vector<int>{8} : std::vector<int>{4, 8, 16, 32}) {
-    p.ways.push_back({Family::on_smoothed, n, 0});
-    p.ways.push_back({Family::on_facets, n, 0});
+  p.name = name, p.title = text("title"), p.text = text("text"), p.quantity = text("quantity");
+  p.truth = text("truth"), p.period = text("period");
+  p.scene = scenes / text("scene") / "scene.json", p.variant = text("variant");
+  p.forces = data.value("forces", false), p.after = data.value("after", p.after);
+  p.exact = data.contains("truth_of");
+  if (p.exact) std::tie(p.pressure, p.area) = truths.at(text("truth_of"));
+  if (name == "elastic_master") p.adapt = elastic_master;
+  for (const auto& [place, value] : data.at("settings").items()) p.settings.emplace_back(place, value);
+  for (const auto& [level, values] : data.at("levels").items()) {
+    p.levels.push_back({level, {}});
+    for (std::size_t i = 0; i < values.size(); ++i)
+      p.levels.back().settings.emplace_back(data.at("places")[i].get<std::string>(), values[i]);
   }
-  for (const int n : quick ? std::vector<int>{64, 256} : std::vector<int>{32, 64, 128, 256, 512, 1024})
-    p.ways.push_back({Family::facets, n, 0});
-  return p;
-}
-
-Problem rough_afm_problem(const std::filesystem::path& scenes, bool quick) {
-  Problem p;
-  p.name = "rough_afm", p.title = "A measured rough surface";
-  p.text = "256 x 256 heights; four approaches up to 0.045 um.";
-  p.quantity = "contact pressure at the slave nodes, L2 over the surface and the loads";
-  p.period = "256 x 256 heights";
-  p.scene = scenes / "rough_afm" / "scene.json", p.variant = "block";
-  const int n = quick ? 8 : 28;
-  p.settings = {loose_tolerance, {"/steps/values", quick ? Json{0.045} : Json{0.01, 0.02, 0.03, 0.045}}};
-  p.levels = {mesh_level(std::to_string((n + 1) * (n + 1)) + " slave nodes",
-                         {{pieces_x, n}, {"/parts/0/y/pieces/0/divisions", n}})};
-  p.exact = false, p.forces = true;
-  p.ways = all_ways(p.levels, {}, quick ? std::vector<int>{8} : std::vector<int>{128, 256}, false);
-  for (const int m : quick ? std::vector<int>{32, 128} : std::vector<int>{64, 128, 256, 512, 1024})
-    p.ways.push_back({Family::facets, m, 0});
+  for (std::size_t level = 0; level < p.levels.size(); ++level) add_ways(p.ways, data.at("each"), level);
+  add_ways(p.ways, data.value("middle", Json::array()), (p.levels.size() - 1) / 2);
   return p;
 }
 
@@ -312,16 +181,12 @@ Problem rough_afm_problem(const std::filesystem::path& scenes, bool quick) {
 
 std::vector<Problem> work_problems(const std::filesystem::path& scenes, bool quick) {
   std::vector<Problem> problems;
-  for (const auto& problem : {westergaard_problem, hertz2d_problem, hertz3d_problem, wavy3d_problem,
-                              elastic_master_problem, texture_problem, rough_afm_problem})
-    problems.push_back(problem(scenes, quick));
-  for (Problem& p : problems)
-    if (!p.exact) {
-      const Way& last = p.ways.back();
-      const std::string n = std::to_string(last.divisions);
-      p.truth = "the finest mesh of plain segments, " + (p.name == "rough_afm" ? n + " x " + n : n) +
-                ", on the same slave nodes";
-    }
+  const Json all = Json::parse(pictures::work_problems_text);
+  for (const auto& [name, data] : all.items()) {
+    Json problem = data;
+    if (quick) problem.merge_patch(data.at("quick"));
+    problems.push_back(problem_of(name, problem, scenes));
+  }
   return problems;
 }
 

@@ -129,7 +129,7 @@ private:
 std::string run_script(const std::filesystem::path& folder, const std::string& script,
                        const std::string& option = "");
 
-/// Text of pictures.py, of chart.py, and of the page that the latter fills in.
-extern const char *const pictures_script, *const chart_script, *const page_text;
+/// Text of pictures.py, of chart.py, and of the page that the latter fills in; and of chart/work_problems.json.
+extern const char *const pictures_script, *const chart_script, *const page_text, *const work_problems_text;
 
 } // namespace host::pictures
