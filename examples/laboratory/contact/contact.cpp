@@ -24,7 +24,7 @@ double stiffness_of(const Json& model, const char* law) {
 
 Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const DofMap& dof_map,
                  SlavePoints points, CutSpec cut_spec, double thickness)
-    : master_(std::move(master)), mesh_(&mesh), dofs_(&dof_map), cut_(std::move(cut_spec)),
+    : master_(std::move(master)), frame_(master_), mesh_(&mesh), dofs_(&dof_map), cut_(std::move(cut_spec)),
       points_(std::move(points)), thickness_(thickness), detector_(*master_.model) {
   const ents_layout& layout = master_.model->layout();
   d_ = static_cast<std::size_t>(layout.dimension);
@@ -64,7 +64,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     if (scaled) slave_values_.push_back(own ? points_.scales[k] : spec.law_scale(place[0], place[1]));
   }
   read_both_sides(spec);
-  number_unknowns();
+  unknowns_ = {master_, points_, dofs()};
   master_begin_ = master_points(std::vector<double>(dofs(), 0.0));
   refuse_self_contact(spec);
   // Without the height both sides of a sheet are equally far from every slave.
@@ -212,7 +212,7 @@ std::vector<double> Contact::positions(const std::vector<double>& displacement) 
 
 std::vector<double> Contact::slave_points(const Configuration& at) {
   std::vector<double> positions = this->positions(at.displacement);
-  see_from_master(at, positions);
+  frame_.see(at, positions);
   return positions;
 }
 
@@ -278,7 +278,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
     Projections straight = at_;
     base_detector_->find(where, slave_positions_, slave_normals_, left_out_, straight);
     // A body may have turned on by several segments: a closed node is straight ahead of another one now.
-    const bool may_jump = master_.body_node >= 0;
+    const bool may_jump = frame_.turns();
     for (std::size_t k = 0; k < points_.size(); ++k)
       if (at_.segment[k] < 0 ||
           (may_jump && straight.segment[k] >= 0 && straight.segment[k] != at_.segment[k])) {

@@ -10,17 +10,16 @@
 #include <vector>
 
 #include "configuration.hpp"
+#include "contact_unknowns.hpp"
 #include "cut_points.hpp"
 #include "detector.hpp"
 #include "dof_map.hpp"
 #include "master.hpp"
+#include "master_frame.hpp"
 #include "slave_points.hpp"
 #include "sparse_system.hpp"
 
 namespace host {
-
-/// A size as the library counts.
-inline std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
 
 /// What a rigid master feels: total force along its direction of motion e, and how it and the forces on the
 /// other unknowns depend on its motion.  dW/d(motion) = -sum R_s . e
@@ -95,13 +94,10 @@ public:
   /// Current positions of the slave points, [slaves][d].
   std::vector<double> positions(const std::vector<double>& displacement) const;
   double total_area() const;
-  /// Positions [n][d] in the frame of a rigid body that turns, in space at its present place.
-  void to_space(std::vector<double>& points) const;
+  const MasterFrame& frame() const { return frame_; }
   /// Diagonal of the box round the slave nodes: the length that penetrations are measured by.
   double size() const { return size_; }
-  bool symmetric_tangent() const {
-    return master_.model->layout().symmetric_tangent != 0 && master_.body_node < 0;
-  }
+  bool symmetric_tangent() const { return master_.model->layout().symmetric_tangent != 0 && !frame_.turns(); }
   /// What an increment ends with depends on more than the configuration it starts from.
   bool has_history() const;
   /// Are the slave faces cut anew at the begin of each increment? If the points have a history or multipliers
@@ -112,7 +108,7 @@ public:
   bool pulls() const { return pulls_; }
   /// The forces are derivatives of an energy; with `friction` all but its own are.
   bool conservative(bool friction) const {
-    return (friction || symmetric_tangent()) && master_.body_node < 0 && !augmentable() && !wears() &&
+    return (friction || symmetric_tangent()) && !frame_.turns() && !augmentable() && !wears() &&
            multipliers_ == 0;
   }
   /// Of the last `assemble`, if the law pulls.
@@ -177,7 +173,7 @@ public:
   /// Tangent of the elements over `unknowns`, compressed rows.
   const SparseMatrix& tangent() const { return tangent_; }
   /// Those of [dofs, multipliers] that contact elements have.
-  const std::vector<std::size_t>& unknowns() const { return unknowns_; }
+  const std::vector<std::size_t>& unknowns() const { return unknowns_.dofs; }
 
   /// Add the contact forces to the residual; the tangents are in `tangent` then.
   /// @param residual  [dofs, multipliers]
@@ -207,9 +203,6 @@ public:
   /// Those that stayed closed on another segment.
   int moves() const { return moves_; }
 
-  /// An increment ends here: how a rigid body that turns lies then.
-  void keep_rotation(Configuration& at) const;
-
   /// The increment is accepted: what the last `assemble` left becomes the history.
   void accept(const Configuration& at);
 
@@ -230,7 +223,6 @@ public:
 private:
   std::size_t dofs() const { return static_cast<std::size_t>(dofs_->dofs()); }
   std::int64_t count() const { return static_cast<std::int64_t>(points_.size()); }
-  void number_unknowns();
   /// Of a surface that is slave and master: half of each area, and what the search leaves out.
   void read_both_sides(const ContactSpec& spec);
   /// Self-contact: an increment begins there.
@@ -245,8 +237,6 @@ private:
   /// Arrays over the slave points, for points that have been nowhere yet.
   void reset_points();
   SegmentCorners segment_corners() const;
-  /// Positions as the master sees them, [points][d]: it stays where it is.
-  void see_from_master(const Configuration& at, std::vector<double>& positions);
   /// Positions of the slave points, of a rigid master that moves in its frame
   std::vector<double> slave_points(const Configuration& at);
   /// Positions of the mesh's nodes [nodes][d].
@@ -277,14 +267,6 @@ private:
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
   std::int32_t add_elements(const ents_output& out, ents_system system, ents_report& report);
-  void turn(std::vector<double>& vectors) const;
-  void put_in_space(const Configuration& at, ContactFields& fields) const;
-  /// Where a rigid body is that moves and turns.
-  ents_pose pose_at(const Configuration& at) const;
-  /// What it has turned since the begin of the increment: a rotation vector in space, 2D one angle.
-  std::array<double, 3> spin(const Configuration& at) const;
-  /// From columns for the spin to columns for the displacements of the body's second node.
-  void columns_of_turns(const Configuration& at);
   /// Nodes [m][d] of a segment at the begin of the increment. A rigid master's are in its own frame.
   void gather(std::int64_t segment, std::vector<double>& positions) const;
   /// History of the elements as seen from their segments.
@@ -300,6 +282,7 @@ private:
   void couple(RigidCoupling& coupling) const;
 
   Master master_;
+  MasterFrame frame_;
   const Mesh* mesh_;
   const DofMap* dofs_;
   CutSpec cut_;
@@ -308,8 +291,6 @@ private:
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   double thickness_, worn_master_ = 0, time_increment_ = 1;
-  ents_pose pose_{}; ///< of a rigid body that turns, at present
-  std::vector<std::int64_t> body_equations_;
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
   std::vector<double> slave_values_; ///< [points][slave_numbers_], see ents_input; empty: none
   std::size_t slave_numbers_ = 3;    ///< 4: with the scale of a table
@@ -338,14 +319,8 @@ private:
   std::vector<double> master_begin_, slave_begin_; ///< positions at the begin of the increment
   std::vector<double> state_in_, state_out_;
   std::vector<double> pressure_, traction_; ///< [slaves], [slaves][d] multipliers of the begin states (Uzawa)
-  // The library's equations are `unknowns_`: dofs of slave nodes, prescribed ones too, those of master nodes,
-  // multipliers.
-  std::vector<std::size_t> unknowns_;
-  std::vector<double> signs_;  ///< of each: -1 if it is a mirror image's, that moves against its dof
-  std::size_t slave_dofs_ = 0; ///< so many come first
-  std::vector<std::int64_t> master_equations_; ///< [nodes of the mesh, images of the net][d]
-  std::vector<std::int64_t> dof_equations_;    ///< [dofs of the mesh] -1: none
-  std::vector<std::int64_t> slave_equations_, multiplier_equations_, point_begin_, point_nodes_, places_;
+  ContactUnknowns unknowns_;                ///< rows and columns of `tangent_`
+  std::vector<std::int64_t> point_begin_, point_nodes_, places_;
   SparseMatrix tangent_;
   bool pulls_ = false;
   ContactEnergy energy_;

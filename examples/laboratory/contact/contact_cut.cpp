@@ -30,7 +30,7 @@ SegmentCorners Contact::segment_corners() const {
 std::vector<double> Contact::slave_normals(const Configuration& at) {
   if (has_two_sides_) return {}; // a sheet has slaves on both
   std::vector<double> positions = nodes_at(at.displacement), result;
-  see_from_master(at, positions);
+  frame_.see(at, positions);
   const auto owner = [&](int node) { return static_cast<std::size_t>(dofs_->representative(node)); };
   std::vector<Eigen::Vector3d> of_nodes(positions.size() / d_, Eigen::Vector3d::Zero());
   for (const Face& face : cut_.faces) {
@@ -58,7 +58,7 @@ std::vector<double> Contact::slave_normals(const Configuration& at) {
 SlavePoints Contact::cut(const Configuration& at) {
   bind(at);
   std::vector<double> positions = nodes_at(at.displacement);
-  see_from_master(at, positions);
+  frame_.see(at, positions);
   SlavePoints points =
       cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry);
   if (cut_.raise) cut_.raise(points);
@@ -72,7 +72,7 @@ bool Contact::cut_again(const Configuration& begin) {
   cut_at_ = begin;
   master_begin_ = master_points(begin.displacement);
   points_ = cut(begin);
-  number_unknowns();
+  unknowns_ = {master_, points_, dofs()};
   reset_points();
   begin_increment(begin);
   auto report = ents_struct<ents_report>();

@@ -7,54 +7,6 @@
 
 namespace host {
 
-void Contact::number_unknowns() {
-  dof_equations_.assign(dofs(), -1);
-  for (auto* list : {&body_equations_, &slave_equations_}) list->clear();
-  unknowns_.clear();
-  const auto add_node = [&](std::int64_t node) {
-    for (std::size_t dof = static_cast<std::size_t>(node) * d_, i = 0; i < d_; ++i, ++dof)
-      if (dof_equations_[dof] < 0) {
-        dof_equations_[dof] = stride(unknowns_.size());
-        unknowns_.push_back(dof);
-      }
-  };
-  point_nodes_.assign(points_.nodes.begin(), points_.nodes.end());
-  for (const std::int64_t node : point_nodes_) add_node(node);
-  slave_dofs_ = unknowns_.size();
-  const ControlNet* net = master_.net.get();
-  for (const std::int64_t node : net != nullptr ? net->nodes : master_.connectivity)
-    if (!master_.rigid) add_node(net != nullptr ? net->origin(node) : node);
-  if (master_.body_node >= 0) {
-    add_node(master_.body_node), add_node(master_.body_node + 1);
-    for (std::size_t i = 0; i < (d_ == 2 ? 3 : 6); ++i)
-      body_equations_.push_back(dof_equations_[static_cast<std::size_t>(master_.body_node) * d_ + i]);
-  }
-  // A mirror image's components along its planes are its node's; across they are unknowns of their own here,
-  // which stand for the same one of the mesh with the other sign.
-  signs_.assign(unknowns_.size(), 1.0);
-  master_equations_ = dof_equations_;
-  for (std::size_t k = 0; net != nullptr && k < net->images.size(); ++k)
-    for (std::size_t i = 0; i < d_; ++i) {
-      const std::size_t dof = static_cast<std::size_t>(net->images[k].node) * d_ + i;
-      if (net->images[k].sign[i] > 0 || dof_equations_[dof] < 0) {
-        master_equations_.push_back(dof_equations_[dof]);
-        continue;
-      }
-      master_equations_.push_back(stride(unknowns_.size()));
-      unknowns_.push_back(dof);
-      signs_.push_back(-1);
-    }
-  multiplier_equations_.resize(multiplier_count());
-  for (std::size_t j = 0; j < multiplier_count(); ++j) {
-    multiplier_equations_[j] = stride(unknowns_.size());
-    unknowns_.push_back(dofs() + j);
-  }
-  signs_.resize(unknowns_.size(), 1.0);
-  for (const std::int64_t node : point_nodes_)
-    for (std::size_t i = 0; i < d_; ++i)
-      slave_equations_.push_back(dof_equations_[static_cast<std::size_t>(node) * d_ + i]);
-}
-
 void Contact::build_tangent() {
   pattern_segment_ = at_.segment;
   StencilGroup elements, open; // an element without a segment: the multipliers alone
@@ -68,35 +20,36 @@ void Contact::build_tangent() {
     nodes_of[s] = net != nullptr ? net->nodes_of(points, m_) : std::vector(points, points + m_);
     most = std::max(most, nodes_of[s].size());
   }
-  elements.dofs = static_cast<int>((q + most) * d_ + multipliers_ + body_equations_.size());
+  elements.dofs = static_cast<int>((q + most) * d_ + multipliers_ + unknowns_.of_body.size());
   open.dofs = static_cast<int>(multipliers_);
   for (std::size_t k = 0; k < points_.size(); ++k) {
     StencilGroup& group = master_.rigid || at_.segment[k] >= 0 ? elements : open;
     const auto add_node = [&](std::int64_t node) {
       for (std::size_t i = 0; i < d_; ++i)
         group.equations.push_back(
-            node < 0 ? -1 : static_cast<int>(master_equations_[static_cast<std::size_t>(node) * d_ + i]));
+            node < 0 ? -1 : static_cast<int>(unknowns_.of_master[static_cast<std::size_t>(node) * d_ + i]));
     };
-    for (std::size_t a = 0; a < q && &group == &elements; ++a) add_node(point_nodes_[k * q + a]);
+    for (std::size_t a = 0; a < q && &group == &elements; ++a) add_node(points_.nodes[k * q + a]);
     if (!master_.rigid && &group == &elements) {
       const std::vector<std::int64_t>& of = nodes_of[static_cast<std::size_t>(at_.segment[k])];
       for (std::size_t a = 0; a < most; ++a) add_node(a < of.size() ? of[a] : -1);
     }
     for (std::size_t j = 0; j < multipliers_; ++j)
-      group.equations.push_back(static_cast<int>(multiplier_equations_[k * multipliers_ + j]));
-    for (const std::int64_t equation : body_equations_) group.equations.push_back(static_cast<int>(equation));
+      group.equations.push_back(static_cast<int>(unknowns_.of_multipliers[k * multipliers_ + j]));
+    for (const std::int64_t equation : unknowns_.of_body)
+      group.equations.push_back(static_cast<int>(equation));
   }
   const StencilGroup* const groups[] = {&elements, &open};
   tangent_ =
-      pattern_of(static_cast<int>(unknowns_.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
+      pattern_of(static_cast<int>(unknowns_.dofs.size()), false, std::span(groups, multipliers_ > 0 ? 2 : 1));
   if (points_.are_nodes() && net == nullptr)
     places_.assign(points_.size() * (d_ * (m_ + 1) * (m_ + 1) + 1), 0);
 }
 
 std::int32_t Contact::add_elements(const ents_output& out, ents_system system, ents_report& report) {
   static constexpr std::int64_t none[6] = {-1, -1, -1, -1, -1, -1};
-  if (master_.body_node >= 0) {
-    system.pose = &pose_;
+  if (frame_.turns()) {
+    system.pose = &frame_.pose();
     if (system.body_equations == nullptr) system.body_equations = none;
   }
   const ents::Library& library = master_.model->library();
@@ -111,7 +64,7 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
                                RigidCoupling* coupling, double& squared_force, ents_report& report) {
   place(at);
   std::vector<std::int32_t> flags(points_.size());
-  std::vector<double> force(unknowns_.size());
+  std::vector<double> force(unknowns_.dofs.size());
   auto out = ents_struct<ents_output>();
   out.wanted = ENTS_FLAGS;
   out.flags = flags.data(), out.flags_stride = 1;
@@ -124,13 +77,13 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   std::vector<double> nodes;
   if (!points_.heights.empty()) {
     nodes = nodes_at(at.displacement);
-    if (master_.body_node < 0) see_from_master(at, nodes); // with a pose positions are in space
+    if (!frame_.turns()) frame_.see(at, nodes); // with a pose positions are in space
   }
   auto points = ents_struct<ents_combination>();
   auto system = ents_struct<ents_system>();
   system.index_size = sizeof(int);
   system.slave_nodes = points_.are_nodes() ? count() : mesh_->node_count();
-  system.slave_equations = points_.are_nodes() ? slave_equations_.data() : dof_equations_.data();
+  system.slave_equations = points_.are_nodes() ? unknowns_.of_slaves.data() : unknowns_.of_dofs.data();
   if (points_.are_nodes()) {
     if (!master_.net)
       system.places = places_.data(), system.places_size = stride(places_.size() / points_.size());
@@ -140,9 +93,9 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     if (!nodes.empty()) system.slave_positions = nodes.data();
   }
   auto net = ents_struct<ents_combination>();
-  set_master(system, net, master_equations_);
-  system.multiplier_equations = multiplier_equations_.data();
-  if (!body_equations_.empty()) system.body_equations = body_equations_.data();
+  set_master(system, net, unknowns_.of_master);
+  system.multiplier_equations = unknowns_.of_multipliers.data();
+  if (!unknowns_.of_body.empty()) system.body_equations = unknowns_.of_body.data();
   system.rows = stride(force.size());
   system.residual = force.data();
   if (want_tangent || coupling != nullptr) {
@@ -154,16 +107,17 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
   if (status != ENTS_OK) return status;
   count_changes(flags);
   if (pulls_) add_up(energies);
-  if (system.values != nullptr) turn_images(), columns_of_turns(at);
+  if (system.values != nullptr) turn_images(), frame_.columns_of_turns(at, unknowns_.of_body, tangent_);
   squared_force = 0;
-  for (std::size_t i = 0; i < slave_dofs_; ++i) squared_force += force[i] * force[i];
+  for (std::size_t i = 0; i < unknowns_.slave_dofs; ++i) squared_force += force[i] * force[i];
   if (coupling != nullptr) {
     coupling->column.resize(residual.size()), coupling->row.resize(residual.size());
     coupling->force = 0;
-    for (std::size_t i = 0; i < slave_dofs_; ++i) coupling->force -= force[i] * master_.direction[i % d_];
+    for (std::size_t i = 0; i < unknowns_.slave_dofs; ++i)
+      coupling->force -= force[i] * master_.direction[i % d_];
     couple(*coupling);
   }
-  for (std::size_t i = 0; i < force.size(); ++i) residual[unknowns_[i]] += signs_[i] * force[i];
+  for (std::size_t i = 0; i < force.size(); ++i) residual[unknowns_.dofs[i]] += unknowns_.signs[i] * force[i];
   return ENTS_OK;
 }
 
@@ -177,23 +131,24 @@ void Contact::set_master(ents_system& system, ents_combination& points,
 }
 
 void Contact::turn_images() {
-  for (std::size_t i = 0; master_.net && i < unknowns_.size(); ++i)
+  for (std::size_t i = 0; master_.net && i < unknowns_.dofs.size(); ++i)
     for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
-      tangent_.valuePtr()[at] *= signs_[i] * signs_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
+      tangent_.valuePtr()[at] *=
+          unknowns_.signs[i] * unknowns_.signs[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
 }
 
 void Contact::add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const {
-  for (std::size_t i = 0; i < unknowns_.size(); ++i)
+  for (std::size_t i = 0; i < unknowns_.dofs.size(); ++i)
     for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at)
-      if (const std::size_t j = unknowns_[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
+      if (const std::size_t j = unknowns_.dofs[static_cast<std::size_t>(tangent_.innerIndexPtr()[at])];
           j < direction.size())
-        residual[unknowns_[i]] += tangent_.valuePtr()[at] * direction[j];
+        residual[unknowns_.dofs[i]] += tangent_.valuePtr()[at] * direction[j];
 }
 
 std::vector<double> Contact::position_sizes(const Configuration& at) const {
-  std::vector<double> sizes(unknowns_.size(), 0.0);
-  for (std::size_t i = 0; i < unknowns_.size(); ++i)
-    if (unknowns_[i] < dofs()) sizes[i] = std::abs(mesh_->coordinates[unknowns_[i]]);
+  std::vector<double> sizes(unknowns_.dofs.size(), 0.0);
+  for (std::size_t i = 0; i < unknowns_.dofs.size(); ++i)
+    if (unknowns_.dofs[i] < dofs()) sizes[i] = std::abs(mesh_->coordinates[unknowns_.dofs[i]]);
   if (!master_.translates()) return sizes;
   std::vector<double> of_master(sizes.size(), 0.0);
   for (std::size_t k = 0; k < points_.size(); ++k)
@@ -201,12 +156,12 @@ std::vector<double> Contact::position_sizes(const Configuration& at) const {
       const auto node =
           static_cast<std::size_t>(master_.connectivity[static_cast<std::size_t>(at_.segment[k]) * m_ + a]);
       for (std::size_t j = 0; j < points_.nodes_per_point * d_; ++j)
-        if (const std::int64_t i = slave_equations_[k * points_.nodes_per_point * d_ + j]; i >= 0) {
+        if (const std::int64_t i = unknowns_.of_slaves[k * points_.nodes_per_point * d_ + j]; i >= 0) {
           double& size = of_master[static_cast<std::size_t>(i)];
           size = std::max(size, std::abs(master_.positions[node * d_ + j % d_]));
         }
     }
-  for (std::size_t i = 0; i < slave_dofs_; ++i)
+  for (std::size_t i = 0; i < unknowns_.slave_dofs; ++i)
     sizes[i] += of_master[i] + std::abs(at.motion * master_.direction[i % d_]);
   return sizes;
 }
@@ -230,14 +185,14 @@ void Contact::couple(RigidCoupling& coupling) const {
   coupling.diagonal = 0;
   std::fill(coupling.column.begin(), coupling.column.end(), 0.0);
   std::fill(coupling.row.begin(), coupling.row.end(), 0.0);
-  std::vector<double> direction(unknowns_.size(), 0.0);
-  for (std::size_t i = 0; i < slave_dofs_; ++i) direction[i] = master_.direction[i % d_];
+  std::vector<double> direction(unknowns_.dofs.size(), 0.0);
+  for (std::size_t i = 0; i < unknowns_.slave_dofs; ++i) direction[i] = master_.direction[i % d_];
   for (std::size_t i = 0; i < direction.size(); ++i)
     for (int at = tangent_.outerIndexPtr()[i]; at < tangent_.outerIndexPtr()[i + 1]; ++at) {
       const auto j = static_cast<std::size_t>(tangent_.innerIndexPtr()[at]);
       const double value = tangent_.valuePtr()[at];
-      coupling.column[unknowns_[i]] -= value * direction[j];
-      coupling.row[unknowns_[j]] -= direction[i] * value;
+      coupling.column[unknowns_.dofs[i]] -= value * direction[j];
+      coupling.row[unknowns_.dofs[j]] -= direction[i] * value;
       coupling.diagonal += direction[i] * value * direction[j];
     }
 }

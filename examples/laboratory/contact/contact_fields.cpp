@@ -38,7 +38,7 @@ ContactFields Contact::fields(const Configuration& at) {
 
   // The forces on the slave points, one equation for each of their dofs, and none for the master.
   fields.node_forces.assign(slaves * d_, 0.0);
-  const std::vector<std::int64_t> none(std::max(master_equations_.size(), multiplier_count()), -1);
+  const std::vector<std::int64_t> none(std::max(unknowns_.of_master.size(), multiplier_count()), -1);
   std::vector<std::int64_t> equations(slaves * d_);
   for (std::size_t i = 0; i < equations.size(); ++i) equations[i] = static_cast<std::int64_t>(i);
   auto system = ents_struct<ents_system>();
@@ -53,7 +53,10 @@ ContactFields Contact::fields(const Configuration& at) {
   add_elements(out, system, report);
 
   fields.dissipation = std::accumulate(dissipation.begin(), dissipation.end(), 0.0);
-  if (master_.body_node >= 0) put_in_space(at, fields);
+  if (frame_.turns()) { // the forces are in space already
+    frame_.turn(fields.normal), frame_.turn(fields.traction), frame_.to_space(fields.point);
+    fields.moment = frame_.moment(positions(at.displacement), fields.node_forces);
+  }
   fields.closed.assign(slaves, 0);
   fields.segment = at_.segment;
   fields.force.assign(d_, 0.0);

@@ -36,6 +36,8 @@ private:
 
 using ents::describe;
 template <class Struct> Struct ents_struct() { return ents::make<Struct>(); }
+/// A size as the library counts.
+inline std::int64_t stride(std::size_t value) { return static_cast<std::int64_t>(value); }
 
 /// A model, its sizes, and what of it changes: the values of its named parameters (at first those of the
 /// text) and its fields (at first zero everywhere).

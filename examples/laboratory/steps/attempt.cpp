@@ -362,7 +362,7 @@ void Simulation::Attempt::accept() {
     if (contact->pulls()) {
       sim_.last_ = state_;
     }
-    contact->keep_rotation(next_);
+    contact->frame().keep_rotation(next_);
     contact->accept(next_);
     outcome_.dissipated = contact->accepted().dissipation * sim_.scene_->symmetry_copies;
     if (contact->master().translates()) next_.force = state_.coupling.force;
