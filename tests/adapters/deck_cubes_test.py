@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Cubes on each other with faces that do not match, translated by ents-deck and solved by ccx with U1E: how far are the
 stresses of all integration points from the uniform pressure on top? Right: 0.
 
   deck_cubes_test.py --build build                            # the pairs of the test, at most .5 % (C3D8) and 1 % (C3D20)
   deck_cubes_test.py --build build --faces 1:4 2:5 --points 3  # slave faces per side on master faces; any error is printed
 """
-import argparse
-import pathlib
 import re
-import shutil
-import subprocess
 import sys
+
+import ccx_decks
 
 GATES = {"C3D8": 5e-3, "C3D20": 1e-2}
 # The last of each lie over much finer faces, which want more points than the others, or are refused to be right with a remark.
@@ -80,40 +79,31 @@ def deck(slave, master, kind):
     return "\n".join(lines) + "\n" + HEAD
 
 
-def error_of(folder, build, text, points):
+def error_of(programs, folder, text, points):
     """The largest |sigma_zz / pressure + 1|, and what ents-deck notes on finer faces."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
     (folder / "cubes.inp").write_text(text)
-    command = [build / "bin/ents-deck", "run", "cubes.inp", "--ccx", build / "calculix/ccx_ents", "--no-pictures"]
-    command += ["--points", str(points)] if points is not None else []
-    ran = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    if ran.returncode != 0:
-        sys.exit(f"{folder.name}: {ran.stdout[-500:]}{ran.stderr[-500:]}")
+    printed, message = programs.run(folder, "cubes.inp", *(["--points", str(points)] if points is not None else []))
+    if message:
+        sys.exit(f"{folder.name}: {message}")
     rows = [line.split() for line in (folder / "cubes_ents/cubes.dat").read_text().splitlines()]
     stresses = [float(row[4]) for row in rows if len(row) == 8 and row[0].isdigit()]
     assert len(stresses) > 100, f"{folder}: {len(stresses)} stresses"
-    return max(abs(stress / 0.1 + 1) for stress in stresses), re.search("much finer faces.*: (.*);", ran.stdout)
+    return max(abs(stress / 0.1 + 1) for stress in stresses), re.search("much finer faces.*: (.*);", printed)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    parser = ccx_decks.parser(__doc__)
     parser.add_argument("--faces", nargs="+", metavar="N:M", help="slave faces per side : master faces [those of the test]")
     parser.add_argument("--points", type=int, help="per direction of a slave face [those that ents-deck chooses]")
     arguments = parser.parse_args()
-    build = arguments.build.resolve()
-    if not (build / "calculix/ccx_ents").exists():
-        print(f"{build / 'calculix/ccx_ents'} is not here: sh adapters/calculix/run.sh --only-build")
-        return 3
+    programs = ccx_decks.Programs(arguments.build)
     free = arguments.faces is not None or arguments.points is not None
     wrong = 0
     print("element  slave:master  largest error of a stress")
     for kind, gate in GATES.items():
         for pair in arguments.faces or PAIRS[kind]:
             slave, master = (int(word) for word in pair.split(":"))
-            folder = build / "deck_cubes" / f"{kind}_{slave}_{master}"
-            error, note = error_of(folder, build, deck(slave, master, kind), arguments.points)
+            error, note = error_of(programs, programs.folder("deck_cubes", f"{kind}_{slave}_{master}"), deck(slave, master, kind), arguments.points)
             right = free or error <= gate
             print(f"{kind:8} {pair:13} {error:.2e}{'' if right else '   WRONG'}{'   ' + note[1] if note else ''}", flush=True)
             wrong += not right

@@ -7,15 +7,11 @@ usage: deck_laws_test.py [--build DIR]
 The lower cube is held, the upper one guided, without lateral strain: springs in series when it is pulled; when it slides, every node of it
 has the same speed. Prints a line per law: force, or tangential over normal force, and its exact value. Exit status: 0 all within 0.01 %;
 1 not; 3 ccx is not here."""
-import argparse
 import json
 import math
-import pathlib
-import shutil
-import subprocess
 import sys
 
-from deck_run_test import total
+import ccx_decks
 
 YOUNG, AREA, STIFFNESS = 1000.0, 0.64, 20000.0
 BODIES = YOUNG * AREA  # stiffness of the upper cube [F/L]; the lower one is held
@@ -110,28 +106,20 @@ LAWS = {"tied": tied, "cohesive": cohesive, "kinetic, slow": lambda: decay(0.1),
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
-    build = parser.parse_args().build.resolve()
-    ccx, ents_deck = build / "calculix/ccx_ents", build / "bin/ents-deck"
-    if not ccx.exists():
-        print(f"{ccx} is not here: sh adapters/calculix/run.sh --only-build")
-        return 3
+    programs = ccx_decks.Programs(ccx_decks.parser(__doc__).parse_args().build)
     wrong = 0
     print("law               in ccx        exact")
     for name, of in LAWS.items():
         contact, text, exact = of()
-        folder = build / "deck_laws" / name.replace(", ", "_")
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        folder = programs.folder("deck_laws", name.replace(", ", "_"))
         (folder / "cubes.inp").write_text(text)
         (folder / "model.json").write_text(json.dumps({"contact": contact}))
-        ran = subprocess.run([ents_deck, "run", "cubes.inp", "--model", "model.json", "--ccx", ccx, "--no-pictures"], cwd=folder, capture_output=True, text=True)
-        if ran.returncode != 0:
-            print(f"{name:14} {ran.stderr.strip()}{ran.stdout[-600:]}   WRONG")
+        _, message = programs.run(folder, "cubes.inp", "--model", "model.json")
+        if message:
+            print(f"{name:14} {message}   WRONG")
             wrong += 1
             continue
-        x, y, normal = total(folder / "cubes_ents/cubes.dat")
+        x, y, normal = ccx_decks.total(folder / "cubes_ents/cubes.dat")
         ours = math.hypot(x, y) / normal if callable(exact) else abs(normal)
         exact = exact(normal) if callable(exact) else exact
         right = abs(ours - exact) <= 1e-4 * exact

@@ -5,13 +5,13 @@
 usage: deck_run_test.py [--build DIR] [DECK ...]
 
 Prints a line per deck: reaction force of ccx's own contact, that of ents-deck run, runs. Exit status: 0 all within 0.5 % (geared: 1 %); 1 not; 3 ccx is not here."""
-import argparse
 import math
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
+
+import ccx_decks
 
 HERE = pathlib.Path(__file__).resolve().parent
 # Of the force: points in faces against ccx's cut faces. The face of `geared` ends its way with a kink of the master between two of its eight points.
@@ -20,43 +20,29 @@ TOLERANCE, WIDER = 5e-3, {"geared": 1e-2}
 RUNS = {"lever": 2, "geared": 3, "amplitude": 1, "transform": 1, "rotation": 1, "shared_tip": 1, "press": 1}
 
 
-def total(dat):
-    """The last total force that ccx has printed, where Fortran leaves the E of 1E-100 out."""
-    found = re.findall(r"total force.*\n\s*\n\s*(\S+)\s+(\S+)\s+(\S+)", dat.read_text())[-1]
-    return tuple(float(re.sub(r"(\d)([+-]\d{3})$", r"\1e\2", x)) for x in found)
-
-
 def force(dat):
-    return math.hypot(*total(dat))
+    return math.hypot(*ccx_decks.total(dat))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    parser = ccx_decks.parser(__doc__)
     parser.add_argument("decks", nargs="*", default=list(RUNS))
     arguments = parser.parse_args()
-    build = arguments.build.resolve()
-    ccx, ents_deck = build / "calculix/ccx_ents", build / "bin/ents-deck"
-    if not ccx.exists():
-        print(f"{ccx} is not here: sh adapters/calculix/run.sh --only-build")
-        return 3
+    programs = ccx_decks.Programs(arguments.build)
     wrong = 0
     print("deck         ccx's own   ents-deck run   runs")
     for name in arguments.decks:
-        folder = build / "deck_run" / name
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        folder = programs.folder("deck_run", name)
         paths = [HERE / "decks" / f"{name}.inp", HERE.parents[1] / "adapters/deck/example" / f"{name}.inp"]
         shutil.copy(next(path for path in paths if path.exists()), folder)
-        subprocess.run([ccx, name], cwd=folder, stdout=(folder / "own.log").open("w"), check=True)
-        ran = subprocess.run([ents_deck, "run", f"{name}.inp", "--ccx", ccx, "--no-pictures"], cwd=folder, capture_output=True, text=True)
-        (folder / "ents-deck.log").write_text(ran.stdout + ran.stderr)
-        if ran.returncode != 0:
-            print(f"{name:12} {ran.stderr.strip()}")
+        subprocess.run([programs.ccx, name], cwd=folder, stdout=(folder / "own.log").open("w"), check=True)
+        printed, message = programs.run(folder, f"{name}.inp")
+        if message:
+            print(f"{name:12} {message}")
             wrong += 1
             continue
         own, ours = force(folder / f"{name}.dat"), force(folder / f"{name}_ents/{name}.dat")
-        runs = ran.stdout.count("\nrun ")
+        runs = printed.count("\nrun ")
         right = own > 0 and abs(ours - own) <= WIDER.get(name, TOLERANCE) * own and runs == RUNS[name]
         print(f"{name:12} {own:9.4f}   {ours:13.4f}   {runs}{'' if right else '   WRONG'}")
         wrong += not right
