@@ -26,7 +26,7 @@ LONG = {  # a part of a command: why it is not run
     "mechanics_tests": "tests of this build", "laws_tests": "tests of this build", "host_scenes_test": "tests of this build",
     "host_chart_test": "tests of this build", "host_crash_test": "tests of this build", "promises_test": "tests of this build",
     "host_friction_test": "tests of this build", "adapters_scenes_table": "half an hour",
-    "mutations.py": "minutes", "compare_peers.py": "a test of its own", "deck_syntax_test.py": "a test of its own", "curved.py": "half an hour", "_block.py": "tests of their own",
+    "mutations.py": "minutes", "compare_peers.py": "a test of its own", "deck_syntax_test.py": "a test of its own", "deck_cubes_test.py": "a test of its own", "curved.py": "half an hour", "_block.py": "tests of their own",
     "ents-deck run": "adapters.deck_run does, with the ccx that adapters.calculix builds", "joint.py": "bolted_joint_test.py runs it with --quick", "torque.py": "minutes", "public/run.py": "public.* run its rows",
     "run.sh": "tests of their own", "compare_hosts.sh": "a test of its own", "quickstart.sh": "builds", "rough_afm/scene.json --out": "package.debian runs it", "gallery.sh": "minutes",
     "setup.sh": "builds", "-m venv": "prints nothing; package.wheel installs into an environment", "max_total_time": "an hour", "ents-bench": "measures, for minutes",
