@@ -34,6 +34,18 @@ def compare(name, variant, host, lab):
             expect(abs(a - b) <= SAME * scale, f"{name} {variant}, step {ours['step']}: {key} {a:.12g}, ents-lab has {b:.12g}")
 
 
+def run_with_ends(program, ends, examples, scratch):
+    """The upper block of fortran_host stands over the end of the smoothed master."""
+    scene = json.loads((examples / "fortran_host" / "scene.json").read_text())
+    scene["parts"][1]["x"] = {"from": 0.1, "pieces": [{"to": 1.95, "divisions": 5}]}
+    if ends:
+        scene["contact"]["master"]["ends"] = ends
+    (scratch / "ends.json").write_text(json.dumps(scene))
+    done = solve(program, scratch / "ends.json", None, scratch / program.name / str(ends))
+    expect(done.returncode == 0, f"{program.name} {ends}: {done.stderr.strip()}")
+    return json.loads((scratch / program.name / str(ends) / "result.json").read_text())["steps"]
+
+
 def main():
     host, lab, examples = (pathlib.Path(argument) for argument in sys.argv[1:4])
     with tempfile.TemporaryDirectory() as scratch:
@@ -49,6 +61,12 @@ def main():
                     expect((folder / "result.pvd").is_file(), f"{program.name} {name}: no result.pvd")
             if len(steps) == 2:
                 compare(name, variant, *steps)
+        forces = set()
+        for ends in (None, "repeated", "straight", "quasi_cubic", "quasi_parabolic"):
+            steps = [run_with_ends(program, ends, examples, scratch) for program in (host, lab)]
+            compare("fortran_host at the end of the row", ends, *steps)
+            forces.add(round(steps[0][-1]["contact_force"][1], 6))
+        expect(len(forces) == 4, f"ends make no difference, and nothing is compared: {forces}")
         left = 0
         for scene in sorted(examples.glob("*/scene.json")):
             done = subprocess.run([host, "check", scene], capture_output=True, text=True, check=False)
