@@ -253,7 +253,7 @@ typedef struct ents_layout {
                                             for segments of more than nine nodes unless the model has the normal projection, a penalty or
                                             power law and the consistent tangent */
 
-#define ENTS_NEEDS_TEMPERATURES (1 << 9) /* "heat": a temperature per node, and elements that are evaluated one by one. Since contract 1.10 */
+#define ENTS_NEEDS_TEMPERATURES (1 << 9) /* "heat": a temperature per node. Since contract 1.10 */
 #define ENTS_NEEDS_FIRST_STATE (1 << 10) /* bonds form where the undeformed bodies are close ("tied", "cohesive"): see "The first increment"
                                             at ents_input. Since contract 1.11 */
 

@@ -15,7 +15,13 @@ ElementBlock element_block_of(const ents_model& model, const ents_input& in, con
   ENTS_BLOCK_INPUT_ARRAYS(ENTS_COPY)
 #undef ENTS_COPY
   b.first = first;
-  if (model.plan.law.varying.by_rate()) b.time_increment = in.time_increment; // an older struct has none
+  if (model.plan.heat || model.plan.law.varying.by_rate())
+    b.time_increment = in.time_increment; // an older struct has none
+  if (model.plan.heat) {
+    b.slave_temperature = in.slave_temperature, b.slave_temperature_stride = in.slave_temperature_stride;
+    b.master_temperature = in.master_temperature, b.master_temperature_stride = in.master_temperature_stride;
+    b.heat = out.heat, b.heat_stride = out.heat_stride;
+  }
   b.wanted = block_results_of(model, out.wanted);
 #define ENTS_COPY(bit, public_name, name, field, type, size)                                                 \
   b.field = out.field, b.field##_stride = out.field##_stride;
@@ -25,22 +31,6 @@ ElementBlock element_block_of(const ents_model& model, const ents_input& in, con
   ENTS_OTHER_RESULTS(ENTS_COPY)
 #undef ENTS_COPY
   return b;
-}
-
-void begin_at_first(ElementBlock& b) noexcept {
-  const std::int64_t elements = b.first;
-  b.first = 0;
-  const auto move = [elements](auto*& data, std::int64_t stride) {
-    if (data) data += stride * elements;
-  };
-#define ENTS_MOVE(field, size) move(b.field, b.field##_stride);
-  ENTS_BLOCK_INPUT_ARRAYS(ENTS_MOVE)
-#undef ENTS_MOVE
-#define ENTS_MOVE(bit, public_name, name, field, type, size) move(b.field, b.field##_stride);
-  ENTS_FORCE_RESULTS(ENTS_MOVE)
-  if (only_forces(b.wanted)) return;
-  ENTS_OTHER_RESULTS(ENTS_MOVE)
-#undef ENTS_MOVE
 }
 
 namespace {
@@ -60,6 +50,7 @@ bool is_plain_call(const ents_model* model, std::int64_t first, std::int64_t cou
     return false;
   if (report && report->struct_size != static_cast<std::int32_t>(sizeof *report)) return false;
   const Plan& plan = model->plan;
+  if (plan.heat) return false;
   if (plan.law.varying.by_rate() &&
       (in->struct_size != static_cast<std::int32_t>(sizeof *in) || !is_time_increment(in->time_increment)))
     return false;

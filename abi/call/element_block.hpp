@@ -11,10 +11,6 @@ namespace ents {
 ElementBlock element_block_of(const ents_model& model, const ents_input& in, const ents_output& out,
                               std::int64_t first) noexcept;
 
-// The same elements, their arrays made to begin with them: for a caller who puts arrays of his own in the
-// place of some.
-void begin_at_first(ElementBlock& block) noexcept;
-
 // A call with nothing to complain of, done without looking at the arguments one by one.
 struct PlainCall {
   bool plain = false;     // false: nothing has been done, nothing is said of why

@@ -144,7 +144,7 @@ struct ElementCall {
   // Nodes of the segments of a block, side by side. False if a segment is bad.
   struct BlockNodes {
     static constexpr std::int64_t most = 16;
-    double positions[most][16 * 3], surface_coordinates[most][16 * 2];
+    double positions[most][16 * 3], surface_coordinates[most][16 * 2], temperatures[most][16];
   };
   bool gather_block(std::int64_t first, std::int64_t count, BlockNodes& nodes, ElementBlock& block) const;
 

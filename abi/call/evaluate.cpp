@@ -93,12 +93,16 @@ bool ElementCall::gather_block(std::int64_t first, std::int64_t count, BlockNode
     if (of_segment.surface_coordinates)
       std::copy_n(of_segment.surface_coordinates, size, nodes.surface_coordinates[k]);
     has_coordinates = of_segment.surface_coordinates != nullptr;
+    for (std::int32_t i = 0; plan->heat && i < plan->nodes; ++i)
+      nodes.temperatures[k][i] = mesh.temperature[mesh.connectivity[s * plan->nodes + i]];
   }
   begin_at_first(block);
   block.master = nodes.positions[0];
   block.master_stride = std::extent_v<decltype(nodes.positions), 1>;
   block.surface_coordinates = has_coordinates ? nodes.surface_coordinates[0] : nullptr;
   block.surface_coordinates_stride = std::extent_v<decltype(nodes.surface_coordinates), 1>;
+  if (plan->heat) block.master_temperature = nodes.temperatures[0];
+  block.master_temperature_stride = std::extent_v<decltype(nodes.temperatures), 1>;
   return true;
 }
 

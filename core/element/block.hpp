@@ -8,6 +8,23 @@
 
 namespace ents {
 
+// The same elements, inputs and wanted results made to begin with them: for a caller who puts arrays of his own in
+// the place of some.
+inline void begin_at_first(ElementBlock& b) {
+  const std::int64_t elements = b.first;
+  b.first = 0;
+  const auto move = [elements](auto*& data, std::int64_t stride) {
+    if (data) data += stride * elements;
+  };
+#define ENTS_MOVE(field, size) move(b.field, b.field##_stride);
+  ENTS_INPUT_ARRAYS(ENTS_MOVE)
+#undef ENTS_MOVE
+#define ENTS_MOVE(bit, public_name, name, field, type, size)                                                 \
+  if ((b.wanted & want::name) != 0) move(b.field, b.field##_stride);
+  ENTS_BLOCK_RESULTS(ENTS_MOVE) ENTS_HEAT_RESULTS(ENTS_MOVE)
+#undef ENTS_MOVE
+}
+
 // With a coefficient of friction of 0 the kernel with friction checks the states and writes stick and slip;
 // then the kernel without friction writes the rest, which so has the bits of a model without friction.
 inline std::uint64_t evaluate_without_friction(const Plan& plan, const ElementBlock& block,
@@ -33,7 +50,7 @@ inline std::uint64_t evaluate_block(const Plan& plan, const ElementBlock& block,
   if (plan.block_without_friction && !plan.law.has_friction_force())
     return evaluate_without_friction(plan, block, count);
   const std::uint64_t done = plan.block(plan, block, count);
-  if (plan.law.symmetrised && plan.law.has_friction() && (block.wanted & want::tangent) != 0 &&
+  if (plan.law.symmetrised && !plan.heat && plan.law.has_friction() && (block.wanted & want::tangent) != 0 &&
       has_fast_kernel(plan.law, plan.projection, plan.tangent))
     for (std::int32_t k = 0; k < count; ++k)
       if ((done >> k & 1) != 0)

@@ -14,8 +14,9 @@ inline constexpr std::int32_t forces_only = 1 << 30;
 static_assert((want::all & forces_only) == 0);
 
 struct BlockKernelsOfBasis {
-  BlockKernel of[2][2];   // [enriched][friction], of penalty and power law with the consistent tangent
-  BlockKernel general[2]; // [enriched], of any law and tangent
+  BlockKernel of[2][2];    // [enriched][friction], of penalty and power law with the consistent tangent
+  BlockKernel general[2];  // [enriched], of any law and tangent
+  HeatBlockKernel heat[2]; // [enriched]
 };
 struct BlockKernels {
   const char* instruction_set;

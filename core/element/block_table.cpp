@@ -10,6 +10,8 @@ template <class B, bool H, bool F> // fast_*.cpp
 std::uint64_t evaluate_fast(const Plan&, const ElementBlock&, std::int32_t count);
 template <class B, bool H> // general_*.cpp
 std::uint64_t evaluate_general(const Plan&, const ElementBlock&, std::int32_t count);
+template <class B, bool H> // heat_*.cpp
+std::uint64_t evaluate_heat(const Plan&, const ElementBlock&, std::int32_t count, HeatIngredients*);
 
 #if defined(ENTS_NO_BLOCKS) // evaluate_element() takes all elements
 static constexpr const BlockKernelsOfBasis* of_basis = nullptr;
@@ -19,7 +21,8 @@ template <class B>
 static constexpr BlockKernelsOfBasis kernels_of = {
     {{evaluate_fast<B, false, false>, evaluate_fast<B, false, true>},
      {evaluate_fast<B, true, false>, evaluate_fast<B, true, true>}},
-    {evaluate_general<B, false>, evaluate_general<B, true>}};
+    {evaluate_general<B, false>, evaluate_general<B, true>},
+    {evaluate_heat<B, false>, evaluate_heat<B, true>}};
 #define ENTS_BASIS(name, type, ...) kernels_of<KernelBasis<type>>,
 static constexpr BlockKernelsOfBasis of_basis[] = {ENTS_BASES(ENTS_BASIS)};
 #undef ENTS_BASIS

@@ -7,62 +7,75 @@
 
 namespace ents::ENTS_ISA {
 
-template <class Basis, bool Enriched> class HeatIngredientsOf {
+// Of one element, or of each lane's
+template <class Basis, bool Enriched, class Scalar> class HeatIngredientsOf {
 public:
-  static constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
-  using At = ContactPoint<Basis, Enriched, double>;
-  using Inputs = GeneralInputs<Basis, Enriched, double>;
+  static constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>, N = dof_count<Basis, false> + 1 + T,
+                       W = width_of<Scalar>;
+  using At = ContactPoint<Basis, Enriched, Scalar>;
+  using Inputs = GeneralInputs<Basis, Enriched, Scalar>;
 
-  HeatIngredientsOf(const Plan& plan, const At& at, const Inputs& begin, HeatIngredients& out)
-      : plan_(plan), at_(at), begin_(begin), n_(node_dofs(plan)), out_(out) {}
+  HeatIngredientsOf(const Plan& plan, const At& at, const Inputs& begin)
+      : plan_(plan), at_(at), begin_(begin), n_(node_dofs(plan)), contact_(bits_of(at.point.contact)),
+        outside_(bits_of(at.point.outside)) {}
 
-  void write() {
-    const auto& point = at_.point;
+  void evaluate() {
     first_.evaluate_first(at_);
-    out_.contact = point.contact, out_.outside = point.outside;
-    out_.gap = at_.law_gap + (begin_.has_wear ? begin_.worn.depth : 0.0);
-    out_.pressure = -at_.law.force;
+    for (int i = 0; i < plan_.dofs; ++i) pressure_by_[i] = dissipation_by_[i] = Scalar(0.0);
+    if (contact_) set_pressure();
+    dissipation_ = Scalar(0.0);
+    if (plan_.law.heat.has_friction) slips_ = bits_of(both(at_.friction.active, at_.friction.slip));
+    if (slips_) set_dissipation();
+  }
+
+  // Of lane k; all but the area, which a multiplier's law changes
+  void write(int k, HeatIngredients& out) const {
+    const auto& point = at_.point;
+    const bool contact = contact_ >> k & 1, slips = slips_ >> k & 1;
+    out.contact = contact, out.outside = outside_ >> k & 1;
+    out.gap = lane(at_.law_gap, k) + (begin_.has_wear ? lane(begin_.worn.depth, k) : 0.0);
+    out.pressure = -lane(at_.law.force, k);
+    out.dissipation = slips ? lane(dissipation_, k) : 0.0;
     const int count = node_count(point.nodes.basis);
     for (int i = 0; i < count; ++i) {
-      out_.shape[i] = point.projector.N.n[i];
-      for (int a = 0; a < T; ++a) out_.shape_slope[a][i] = point.projector.N.d1[a][i];
+      out.shape[i] = lane(point.projector.N.n[i], k);
+      for (int a = 0; a < T; ++a) out.shape_slope[a][i] = lane(point.projector.N.d1[a][i], k);
     }
     for (int i = 0; i < plan_.dofs; ++i) {
-      out_.gap_by[i] = i < n_ ? first_.dg[i] : 0.0;
-      for (int a = 0; a < T; ++a) out_.xi_by[a][i] = i < n_ ? first_.dxi[a][i] : 0.0;
-      out_.pressure_by[i] = out_.dissipation_by[i] = 0.0;
+      out.gap_by[i] = i < n_ ? lane(first_.dg[i], k) : 0.0;
+      for (int a = 0; a < T; ++a) out.xi_by[a][i] = i < n_ ? lane(first_.dxi[a][i], k) : 0.0;
+      out.pressure_by[i] = contact ? lane(pressure_by_[i], k) : 0.0;
+      out.dissipation_by[i] = slips ? lane(dissipation_by_[i], k) : 0.0;
     }
-    if (point.contact) set_pressure();
-    out_.dissipation = 0.0;
-    if (plan_.law.heat.has_friction && at_.friction.active && at_.friction.slip) set_dissipation();
   }
 
 private:
-  using Array = DofArray<Basis, false, double>;
+  using Array = DofArray<Basis, false, Scalar>;
 
   // dp = - dW'
   void set_pressure() {
-    for (int i = 0; i < n_; ++i) out_.pressure_by[i] = -at_.law.stiffness * first_.dg[i];
-    if (plan_.law.multiplier_is_dof()) out_.pressure_by[n_] = 1.0;
+    for (int i = 0; i < n_; ++i) pressure_by_[i] = -at_.law.stiffness * first_.dg[i];
+    if (plan_.law.multiplier_is_dof()) pressure_by_[n_] = Scalar(1.0);
     if (!begin_.has_wear) return;
-    double by_xi[T];
+    Scalar by_xi[T];
     at_.slid_by_xi(by_xi);
-    Vec<double, D> covector[T];
+    Vec<Scalar, D> covector[T];
     for (int b = 0; b < T; ++b) covector[b] = at_.wear.moved[b] * at_.wear.m;
-    add_slopes(-at_.wear.by_slid, covector, out_.pressure_by);
+    add_slopes(-at_.wear.by_slid, covector, pressure_by_);
     for (int i = 0; i < n_; ++i)
-      for (int a = 0; a < T; ++a) out_.pressure_by[i] -= at_.wear.by_slid * by_xi[a] * first_.dxi[a][i];
+      for (int a = 0; a < T; ++a)
+        pressure_by_[i] = pressure_by_[i] - at_.wear.by_slid * by_xi[a] * first_.dxi[a][i];
   }
 
   // to += factor covector[b] . (variation of rho_e,b at fixed xi)
-  void add_slopes(double factor, const Vec<double, D> (&covector)[T], double* to) const {
+  void add_slopes(const Scalar& factor, const Vec<Scalar, D> (&covector)[T], Scalar* to) const {
     unroll<T>([&](auto b) ENTS_LAMBDA_INLINE {
-      Form<Basis, double> f;
+      Form<Basis, Scalar> f;
       Array own;
       form_of_slope<b.value, Basis, Enriched>(at_.point.projector.s, covector[b], f);
       expand_to_dofs<false, parts_of_slope<Basis, Enriched>>(at_.point.nodes.basis, f, at_.point.projector.N,
                                                              own);
-      for (int i = 0; i < n_; ++i) to[i] += factor * own[i];
+      for (int i = 0; i < n_; ++i) to[i] = to[i] + factor * own[i];
     });
   }
 
@@ -70,24 +83,25 @@ private:
   static constexpr int by_metric = T, by_force = T + K, by_depth = T + K + 1, by_multiplier = T + K + 2,
                        most_arguments = 2 * T + K + 2;
 
-  // D with its derivative by one of them
-  Dual<double> dissipation_along(int argument) const {
+  // D of lane k with its derivative by one of them
+  ENTS_NOINLINE Dual<double> dissipation_along(int k, int argument) const {
     using S = Dual<double>;
     const auto seeded = [argument](double value, int place) {
       return S(value, argument == place ? 1.0 : 0.0);
     };
     const ContactLaw& law = plan_.law;
     S xi[T], metric[K], multiplier[T];
-    for (int a = 0; a < T; ++a) xi[a] = seeded(at_.point.xi[a], a);
-    for (int k = 0; k < K; ++k) metric[k] = seeded(at_.point.projector.metric[k], by_metric + k);
-    for (int a = 0; a < T; ++a) multiplier[a] = seeded(begin_.multiplier[1 + a], by_multiplier + a);
-    const S area(at_.point.area), force = seeded(pressing_force(), by_force);
+    for (int a = 0; a < T; ++a) xi[a] = seeded(lane(at_.point.xi[a], k), a);
+    for (int m = 0; m < K; ++m) metric[m] = seeded(lane(at_.point.projector.metric[m], k), by_metric + m);
+    for (int a = 0; a < T; ++a) multiplier[a] = seeded(lane(begin_.multiplier[1 + a], k), by_multiplier + a);
+    const S area(lane(at_.point.area, k)), force = seeded(pressing_force(k), by_force);
+    const double clearance = lane(begin_.begin.clearance, k);
     SlipBegin<S, T> from;
-    const bool touched = law.multiplier_is_dof() && begin_.begin.clearance > 0.0;
-    from.known = S(touched ? 0.0 : begin_.begin.known), from.clearance = S(begin_.begin.clearance);
-    for (int a = 0; a < T; ++a) from.from[a] = S(begin_.begin.from[a]);
+    const bool touched = law.multiplier_is_dof() && clearance > 0.0;
+    from.known = S(touched ? 0.0 : lane(begin_.begin.known, k)), from.clearance = S(clearance);
+    for (int a = 0; a < T; ++a) from.from[a] = S(lane(begin_.begin.from[a], k));
     SlipShare<S> slipping;
-    if (at_.slipping.some) slipping = slip_share(from.clearance, seeded(-at_.clearance, by_depth));
+    if (at_.slipping.some) slipping = slip_share(from.clearance, seeded(-lane(at_.clearance, k), by_depth));
     Friction<S, T> friction;
     from.time = begin_.begin.time;
     friction.template evaluate<true>(law, {xi, metric, area, true}, from, slipping, force,
@@ -96,46 +110,55 @@ private:
   }
 
   // That friction acts on
-  double pressing_force() const {
-    if (!plan_.law.pulls) return -(at_.point.area * at_.law.force);
-    return at_.point.area * rubbing_pressure(plan_.law, at_.law.force, at_.law_gap, begin_.scale);
+  double pressing_force(int k) const {
+    const double area = lane(at_.point.area, k), force = lane(at_.law.force, k);
+    if (!plan_.law.pulls) return -(area * force);
+    return area * rubbing_pressure(plan_.law, force, lane(at_.law_gap, k), lane(begin_.scale, k));
   }
 
   void set_dissipation() {
-    double by[most_arguments];
+    Scalar by[most_arguments];
     const int arguments = plan_.multipliers > 1 ? most_arguments : by_multiplier;
     for (int i = 0; i < arguments; ++i) {
-      const Dual<double> d = dissipation_along(i);
-      out_.dissipation = d.v, by[i] = d.d;
+      double value[W] = {}, slope[W] = {};
+      for (int k = 0; k < W; ++k)
+        if (slips_ >> k & 1) {
+          const Dual<double> d = dissipation_along(k, i);
+          value[k] = d.v, slope[k] = d.d;
+        }
+      dissipation_ = of_each<Scalar>([&](int k) ENTS_LAMBDA_INLINE { return value[k]; });
+      by[i] = of_each<Scalar>([&](int k) ENTS_LAMBDA_INLINE { return slope[k]; });
     }
     const auto& s = at_.point.projector.s;
-    Vec<double, D> covector[T];
+    Vec<Scalar, D> covector[T];
     for (int a = 0; a < T; ++a) { // A_ab = rho_e,a . rho_e,b
-      covector[a] = Vec<double, D>::zero();
+      covector[a] = Vec<Scalar, D>::zero();
       for (int b = 0; b < T; ++b)
         add_scaled(covector[a], (a == b ? 2.0 : 1.0) * by[by_metric + symmetric_index(a, b)], s.e[b]);
     }
-    double by_xi[T];
+    Scalar by_xi[T];
     for (int c = 0; c < T; ++c) {
       by_xi[c] = by[c];
-      for (int b = 0; b < T; ++b) by_xi[c] += dot(covector[b], s.e2[symmetric_index(b, c)]);
+      for (int b = 0; b < T; ++b) by_xi[c] = by_xi[c] + dot(covector[b], s.e2[symmetric_index(b, c)]);
     }
-    double* const to = out_.dissipation_by;
-    add_slopes(1.0, covector, to);
+    Scalar* const to = dissipation_by_;
+    add_slopes(Scalar(1.0), covector, to);
     for (int i = 0; i < n_; ++i) {
-      to[i] -= by[by_depth] * first_.dg[i];
-      for (int a = 0; a < T; ++a) to[i] += by_xi[a] * first_.dxi[a][i];
+      to[i] = to[i] - by[by_depth] * first_.dg[i];
+      for (int a = 0; a < T; ++a) to[i] = to[i] + by_xi[a] * first_.dxi[a][i];
     }
-    for (int i = 0; i < plan_.dofs; ++i) to[i] += by[by_force] * at_.point.area * out_.pressure_by[i];
-    for (int a = 0; a < T && plan_.multipliers > 1; ++a) to[n_ + 1 + a] += by[by_multiplier + a];
+    for (int i = 0; i < plan_.dofs; ++i) to[i] = to[i] + by[by_force] * at_.point.area * pressure_by_[i];
+    for (int a = 0; a < T && plan_.multipliers > 1; ++a)
+      to[n_ + 1 + a] = to[n_ + 1 + a] + by[by_multiplier + a];
   }
 
   const Plan& plan_;
   const At& at_;
   const Inputs& begin_;
   const int n_;
-  HeatIngredients& out_;
-  TangentSum<Basis, Enriched, double, true> first_;
+  std::uint32_t contact_, outside_, slips_ = 0; // bits of lanes
+  Scalar dissipation_, pressure_by_[N], dissipation_by_[N];
+  TangentSum<Basis, Enriched, Scalar, true> first_;
 };
 
 template <class Basis, bool Enriched>
@@ -164,7 +187,9 @@ Status evaluate_heat_ingredients(const Plan& plan, const ElementInput& in, const
     const GeneralInputs<Basis, Enriched, double> begin(plan, block, 0);
     at.evaluate_law(plan, begin.begin, begin.multipliers(), begin.worn_or_null(), begin.offset, begin.scale,
                     begin.bond);
-    HeatIngredientsOf<Basis, Enriched>(plan, at, begin, out).write();
+    HeatIngredientsOf<Basis, Enriched, double> heat(plan, at, begin);
+    heat.evaluate();
+    heat.write(0, out);
     return Status::ok;
   });
 }

@@ -21,15 +21,23 @@ constexpr const KernelSet& (*kernels_of[])() = {ENTS_BASES(ENTS_BASIS)}; // [bas
 } // namespace
 
 void set_block_kernels(const ModelSpec& model, const BlockKernels& kernels, Plan& plan) {
-  plan.block = plan.block_without_friction = nullptr;
-  if (!kernels.of_basis) return;
-  const bool enriched = plan.height != nullptr;
-  const ContactLaw& law = model.law;
-  const BlockKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
-  plan.block = of.general[enriched];
-  if (!has_fast_kernel(law, model.projection, model.tangent)) return;
-  plan.block = of.of[enriched][law.has_friction()];
-  if (law.friction == FrictionKind::coulomb) plan.block_without_friction = of.of[enriched][false];
+  BlockKernel block = nullptr, without_friction = nullptr;
+  plan.heat_block = nullptr;
+  if (kernels.of_basis) {
+    const bool enriched = plan.height != nullptr;
+    const ContactLaw& law = model.law;
+    const BlockKernelsOfBasis& of = kernels.of_basis[static_cast<std::int32_t>(model.basis)];
+    block = of.general[enriched];
+    if (has_fast_kernel(law, model.projection, model.tangent)) {
+      block = of.of[enriched][law.has_friction()];
+      if (law.friction == FrictionKind::coulomb) without_friction = of.of[enriched][false];
+    }
+    plan.heat_block = of.heat[enriched];
+  }
+  plan.block = block, plan.block_without_friction = without_friction;
+  if (!model.law.heat.on) return;
+  plan.unheated_block = block, plan.unheated_block_without_friction = without_friction;
+  plan.block = block ? evaluate_heated_block : nullptr, plan.block_without_friction = nullptr;
 }
 
 const BlockKernels& best_block_kernels() {
@@ -108,7 +116,7 @@ Plan make(const ModelSpec& model, bool enriched) {
   if (enriched && model.law.flattening.parameter != 0) {
     plan.unflattened = plan.element;
     plan.element = evaluate_flattened;
-    plan.block = nullptr;
+    plan.block = plan.unheated_block = nullptr;
   }
   if (model.law.heat.on) {
     plan.law.heat.by_pressure = model.conductance_by_pressure.data();
@@ -116,14 +124,14 @@ Plan make(const ModelSpec& model, bool enriched) {
     plan.law.heat.by_gap = model.conductance_by_gap.data();
     plan.law.heat.gaps = static_cast<std::int32_t>(model.conductance_by_gap.size());
     plan.heat = kernels.heat[enriched];
-    plan.unheated = plan.element, plan.unheated_block = plan.block;
+    plan.unheated = plan.element;
     plan.element = evaluate_heated;
-    plan.block = nullptr;
     plan.node_dofs = plan.dimension + 1;
     plan.dofs += temperatures_of(plan);
   }
   if (plan.block)
-    plan.block_results = want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0);
+    plan.block_results = (want::block & (model.law.normal == NormalKind::none ? ~want::needs_law : ~0)) |
+                         (plan.heat ? want::heat : 0);
   return plan;
 }
 

@@ -107,6 +107,10 @@ struct HeatIngredients {
 };
 // xi: of the projection; plan: without the dofs of temperatures
 using HeatKernel = Status (*)(const Plan&, const ElementInput&, const double* xi, HeatIngredients&);
+// The same of elements first .. first + count - 1, whose places are block.start: out[k] of element first + k. Bit k: it is
+// written; the others are left to the HeatKernel.
+using HeatBlockKernel = std::uint64_t (*)(const Plan&, const ElementBlock&, std::int32_t count,
+                                          HeatIngredients* out);
 
 struct Plan {
   ElementKernel element;
@@ -148,6 +152,8 @@ struct Plan {
   std::int32_t multipliers; // dofs after those of the nodes
   std::int32_t dofs;        // with multipliers
   StateLayout state;
+  HeatBlockKernel heat_block; // of `heat`; and as `unheated_block`
+  BlockKernel unheated_block_without_friction;
 };
 
 } // namespace ents

@@ -113,6 +113,10 @@ struct ElementBlock {
   const ElementInput* one = nullptr;
   const ElementOutput* rest = nullptr;
   DeferredCopy* last = nullptr; // results of the block before, still to be copied; or none
+  // Of elements with heat
+  const double *slave_temperature = nullptr, *master_temperature = nullptr;
+  std::int64_t slave_temperature_stride = 0, master_temperature_stride = 0, heat_stride = 0;
+  double* heat = nullptr;
 };
 
 // The same of one element. Its results beside those in `wanted` are the element kernel's.
@@ -127,6 +131,7 @@ inline ElementBlock block_of(const ElementInput& in, const ElementOutput& out, c
 #define ENTS_COPY(bit, public_name, name, field, type, size) b.field = out.field;
   ENTS_BLOCK_RESULTS(ENTS_COPY)
 #undef ENTS_COPY
+  b.slave_temperature = in.slave_temperature, b.master_temperature = in.master_temperature, b.heat = out.heat;
   b.leading = out.tangent_leading_dimension;
   b.time_increment = in.time_increment;
   return b;

@@ -23,6 +23,10 @@ struct Way {
 
 json stiff(const char* type) { return {{"type", type}, {"stiffness", 50.0}}; }
 
+json conductance_of_pressure() {
+  return {{"power", {{"coefficient", 3.0}, {"pressure", 1.0}, {"exponent", 0.95}}}};
+}
+
 std::vector<Way> ways(int nodes) {
   json patch = json::array({json::array()});
   for (int i = 0; i < nodes; ++i) patch[0].push_back(i);
@@ -38,6 +42,8 @@ std::vector<Way> ways(int nodes) {
       {"first_variation", stiff("penalty"), {{"tangent", "first_variation"}}},
       {"rigid master", stiff("penalty"), {{"master", "rigid"}}},
       {"patch of one", stiff("penalty"), {{"patch", patch}}},
+      {"heat", stiff("penalty"), {{"contact", {{"heat", {{"conductance", 3.0}}}}}}},
+      {"heat, of pressure", stiff("penalty"), {{"contact", {{"heat", conductance_of_pressure()}}}}},
   };
 }
 

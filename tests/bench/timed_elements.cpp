@@ -60,6 +60,13 @@ TimedElements::TimedElements(const char* basis, const Timed& timed) {
   multipliers_.assign(static_cast<std::size_t>(layout_.multipliers * count), -1.0); // a pressure
   input_.multiplier = multipliers_.empty() ? nullptr : multipliers_.data();
   input_.multiplier_stride = layout_.multipliers;
+  if (layout_.heat != 0) { // of the slave, then of the master's nodes
+    const std::int64_t size = 1 + layout_.nodes;
+    for (std::int64_t i = 0; i < size * count; ++i) temperatures_.push_back(random.uniform(0.0, 1.0));
+    input_.slave_temperature = temperatures_.data(), input_.slave_temperature_stride = size;
+    input_.master_temperature = temperatures_.data() + 1, input_.master_temperature_stride = size;
+    input_.time_increment = 1.0;
+  }
   assembly_input_ = input_; // that of the mesh
   input_.master = elements_.master.data(), input_.master_stride = layout_.nodes * d;
   residual_.assign(static_cast<std::size_t>(n * count), 1.0);

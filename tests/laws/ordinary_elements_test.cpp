@@ -27,7 +27,7 @@ void use(const mechanics::Model& model, const ents::BlockKernels* kernels) {
   const ents::ModelSpec& m = model.handle()->model;
   plan.block = plan.block_without_friction = nullptr;
   if (kernels) ents::set_block_kernels(m, *kernels, plan);
-  plan.block_results = plan.block ? std::int32_t{ents::want::block} : 0;
+  plan.block_results = plan.block ? ents::want::block | (plan.heat ? ents::want::heat : 0) : 0;
 }
 
 struct Case {
@@ -54,6 +54,9 @@ std::vector<Case> cases(std::size_t round = 0) {
     for (const Method& method : methods())
       for (const char* master : {"deformable", "rigid"}) add({basis, "", method, master});
     for (const Method& method : methods_with_wear()) add({basis, "", method, "deformable"});
+    std::size_t heated = first; // each fourth of the laws, on each basis others
+    for (const Method& method : methods_with_heat())
+      if (heated++ % 4 == 0) add({basis, "", method, "deformable"});
     for (const std::size_t law : {1u, 9u}) { // penalty and exponential law with Coulomb friction
       const Method method = methods()[law];
       for (const char* projection : {"shadow_point", "shadow_direction"})
@@ -71,7 +74,7 @@ std::vector<Case> fast_cases() {
   std::vector<Case> fast;
   for (const Case& c : cases())
     if ((c.method.normal["type"] == "penalty" || c.method.normal["type"] == "power") &&
-        c.method.wear.is_null() && std::string(c.projection) == "normal" &&
+        c.method.wear.is_null() && c.method.heat.is_null() && std::string(c.projection) == "normal" &&
         std::string(c.tangent) == "consistent" && !c.symmetrised)
       fast.push_back(c);
   return fast;
@@ -81,7 +84,10 @@ mechanics::Model model_of(const mechanics::Scene& scene, const Case& c) {
   json text = scene.model();
   text["master"] = c.master;
   text["tangent"] = c.tangent;
-  text["contact"] = {{"normal", c.method.normal}, {"friction", c.method.friction}, {"wear", c.method.wear}};
+  text["contact"] = {{"normal", c.method.normal},
+                     {"friction", c.method.friction},
+                     {"wear", c.method.wear},
+                     {"heat", c.method.heat}};
   if (c.symmetrised) text["contact"]["symmetrised"] = true;
   return mechanics::Model(text.dump());
 }
