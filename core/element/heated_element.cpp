@@ -59,7 +59,8 @@ public:
   }
   bool write_tangent(const double* mechanical, double* to, std::int64_t leading) const {
     if (at_.outside) { // nothing flows
-      for (int j = 0; j < n_; ++j) write_column(mechanical + j * n_, none, to + place(j) * leading);
+      for (int j = 0; j < n_; ++j)
+        write_column(mechanical + std::int64_t{j} * n_, none, to + place(j) * leading);
       for (int j = 0; j < nodes(); ++j) write_column(none, none, to + temperature(j) * leading);
       return true;
     }
@@ -85,7 +86,7 @@ public:
       }
       heat[0] = flow - heat_.slave * rub;
       for (int i = 0; i < nodes(); ++i) sums[i] += heat[i];
-      write_column(mechanical + j * n_, heat, to + place(j) * leading);
+      write_column(mechanical + std::int64_t{j} * n_, heat, to + place(j) * leading);
     }
     for (int j = 0; j < nodes(); ++j) {
       for (int i = 0; i < nodes(); ++i) sums[i] += heat[i] = conducts * weights[i] * weights[j];
@@ -231,7 +232,7 @@ std::uint64_t evaluate_block_in(const Plan& plan, const ElementBlock& block, std
       if ((out.wanted & want::tangent) != 0) out.tangent = here.tangent + i * here.tangent_stride;
       if ((out.wanted & want::heat) != 0) out.heat = here.heat + i * here.heat_stride;
       if (all_finite(in.slave_temperature, 1) && all_finite(in.master_temperature, plan.nodes) &&
-          write<D>(plan, in, at[i], residual + i * n, tangent + i * n * n, out))
+          write<D>(plan, in, at[i], residual + std::int64_t{i} * n, tangent + std::int64_t{i} * n * n, out))
         done |= std::uint64_t{1} << (k + i);
     }
   }
