@@ -56,12 +56,28 @@ constexpr int piece_at(int n, int width, int piece) {
 template <int W> struct Register { using type = Lanes<W>; };
 template <> struct Register<1> { using type = double; };
 
+template <class R> inline constexpr bool has_numbers = width_of<R> != 1;
+// (By way of the compiler's own vector: into an object of a class it copies 16 bytes at a time, and who reads that
+// waits for the stores.)
 template <class R> ENTS_INLINE R load(const void* from) {
-  R r;
-  std::memcpy(static_cast<void*>(&r), from, sizeof r);
-  return r;
+  if constexpr (has_numbers<R>) {
+    typename R::Numbers numbers;
+    std::memcpy(&numbers, from, sizeof numbers);
+    return R(numbers, 0);
+  } else {
+    R r;
+    std::memcpy(&r, from, sizeof r);
+    return r;
+  }
 }
-template <class R> ENTS_INLINE void store(double* to, const R& r) { std::memcpy(to, &r, sizeof r); }
+template <class R> ENTS_INLINE void store(double* to, const R& r) {
+  if constexpr (has_numbers<R>) {
+    const typename R::Numbers numbers = r.v;
+    std::memcpy(to, &numbers, sizeof numbers);
+  } else {
+    std::memcpy(to, &r, sizeof r);
+  }
+}
 
 template <int N, int Piece> using PieceOf = typename Register<piece_width(N, width_for(N), Piece)>::type;
 template <int N> struct Pieces {
