@@ -160,39 +160,43 @@ TEST_F(Check, SaysWhatTheSceneNeeds) {
                          {"friction", {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1}}}};
   const Json wave = {{"type", "sine"}, {"amplitude", 0.01}, {"wave_vector", {1, 0}}},
              even = {{"type", "constant"}, {"value", 0.01}};
-  const std::string enriched = "a height (not zero)", varies = "slopes of the height (it varies)",
-                    iterated = "iterations of the projection (no closed form)",
-                    turns = "a normal that turns (curved or warped segments)",
-                    deforms = "forces and stiffness of the master (it deforms)",
-                    frictionless = "friction (none in the model), history (forces follow from positions "
-                                   "alone), multipliers as unknowns (none in the law)",
-                    plain = "a height (zero everywhere), a normal that turns (flat segments), iterations of "
-                            "the projection (closed form)";
+  const std::string
+      enriched = "a height (not zero)",
+      varies = "slopes of the height (it varies)", iterated = "iterations of the projection (no closed form)",
+      turns = "a normal that turns (curved or warped segments)",
+      deforms = "forces and stiffness of the master (it deforms)",
+      frictionless = "friction (none in the model), history (forces follow from positions "
+                     "alone), multipliers as unknowns (none in the law), ",
+      rare = "temperatures of the nodes (no heat in the law), bonds of the undeformed bodies (none "
+             "in the law)",
+      plain = "a height (zero everywhere), a normal that turns (flat segments), iterations of "
+              "the projection (closed form)";
   struct {
     Json model;
     std::string needs, does_not_need;
   } const cases[] = {
-      {{{"segment", "line2"}, {"contact", penalty}}, deforms, plain + ", " + frictionless},
+      {{{"segment", "line2"}, {"contact", penalty}}, deforms, plain + ", " + frictionless + rare},
       {{{"segment", "tri3"},
         {"master", "rigid"},
         {"contact", penalty},
         {"height", {{"type", "constant"}, {"value", 0}}}},
        "positions alone",
-       plain + ", forces and stiffness of the master (it is rigid), " + frictionless},
+       plain + ", forces and stiffness of the master (it is rigid), " + frictionless + rare},
       {{{"segment", "quad4"}, {"contact", penalty}, {"height", wave}},
        enriched + ", " + varies + ", " + turns + ", " + iterated + ", " + deforms,
-       frictionless},
+       frictionless + rare},
       {{{"segment", "quad4"}, {"master", "rigid"}, {"contact", penalty}, {"height", even}},
        enriched + ", " + turns + ", " + iterated,
        "slopes of the height (it is constant), forces and stiffness of the master (it is rigid), " +
-           frictionless},
+           frictionless + rare},
       {{{"segment", "quad9"}, {"contact", friction}, {"height", wave}},
        enriched + ", " + varies + ", " + turns + ", " + iterated + ", " + deforms +
            ", friction (in the model), history (forces depend on it), multipliers as unknowns (in the law)",
-       ""},
+       rare},
   };
-  const char* const names[] = {"height",   "slope",   "curved",      "iteration", "master",
-                               "friction", "history", "multipliers", "one_by_one"};
+  const char* const names[] = {"height",     "slope",        "curved",     "iteration",
+                               "master",     "friction",     "history",    "multipliers",
+                               "one_by_one", "temperatures", "first_state"};
   const EntsLibrary library;
   for (const auto& c : cases) {
     const std::string file = write("model.json", c.model);
@@ -214,7 +218,7 @@ TEST_F(Check, SaysWhatTheSceneNeeds) {
     const Json json = result(file, "", text.exit_code);
     EXPECT_EQ(json.at("instruction_set").get<std::string>(), set);
     std::vector<std::string> by_bit[2]; // not needed, needed
-    for (int bit = 0; bit < 9; ++bit) by_bit[model.layout().needs >> bit & 1].push_back(names[bit]);
+    for (int bit = 0; bit < 11; ++bit) by_bit[model.layout().needs >> bit & 1].push_back(names[bit]);
     EXPECT_EQ(json.at("needs").get<std::vector<std::string>>(), by_bit[1]);
     EXPECT_EQ(json.at("does_not_need").get<std::vector<std::string>>(), by_bit[0]);
   }

@@ -18,9 +18,11 @@ constexpr Need all_needs[] = {
     {ENTS_NEEDS_FRICTION, "friction", "friction", "in the model", "none in the model"},
     {ENTS_NEEDS_HISTORY, "history", "history", "forces depend on it", "forces follow from positions alone"},
     {ENTS_NEEDS_MULTIPLIERS, "multipliers", "multipliers as unknowns", "in the law", "none in the law"},
+    {ENTS_NEEDS_ONE_BY_ONE, "one_by_one", nullptr, nullptr, nullptr}, // a sentence of its own
+    {ENTS_NEEDS_TEMPERATURES, "temperatures", "temperatures of the nodes", "heat in the law",
+     "no heat in the law"},
     {ENTS_NEEDS_FIRST_STATE, "first_state", "bonds of the undeformed bodies", "in the law",
      "none in the law"},
-    {ENTS_NEEDS_ONE_BY_ONE, "one_by_one", nullptr, nullptr, nullptr}, // a sentence of its own
 };
 
 bool has(const ents_layout& layout, const Need& need) { return (layout.needs & need.bit) != 0; }
