@@ -93,9 +93,10 @@ std::int32_t Assembly::add_evaluated(std::int64_t e, std::int32_t flags, const d
   if ((call_.out->wanted & ENTS_FLAGS) != 0) *at(call_.out->flags, call_.out->flags_stride, e) = flags;
   if (call_.out->status) *at(call_.out->status, call_.out->status_stride, e) = ENTS_OK;
   call_.mark_state(e);
+  if ((flags & ENTS_FLAG_CONTACT) == 0 && !plan_.heat) return ENTS_OK; // an open gap may conduct
   const bool symmetric =
-      !plan_.law.has_friction() && has_fast_kernel(plan_.law, plan_.projection, plan_.tangent);
-  return (flags & ENTS_FLAG_CONTACT) == 0 ? ENTS_OK : equations_.add(e, residual, tangent, symmetric);
+      !plan_.law.has_friction() && !plan_.heat && has_fast_kernel(plan_.law, plan_.projection, plan_.tangent);
+  return equations_.add(e, residual, tangent, symmetric);
 }
 
 // Bit k: element first + k is evaluated.
