@@ -65,7 +65,8 @@ private:
   ents_layout layout_{};
   ents_report report_{};
   mechanics::Elements elements_;
-  std::vector<double> starts_, states_, residual_, tangent_, values_, multipliers_, variations_, temperatures_;
+  std::vector<double> starts_, states_, residual_, tangent_, values_, multipliers_, variations_,
+      temperatures_;
   std::vector<std::int64_t> connectivity_, segment_, slave_equations_, master_equations_, places_;
   std::vector<std::int32_t> row_begin_, columns_;
   ents_input input_{}, assembly_input_{};

@@ -167,9 +167,7 @@ double Contact::total_area() const {
   return std::accumulate(points_.areas.begin(), points_.areas.end(), 0.0);
 }
 
-bool Contact::has_history() const {
-  return (master_.model->layout().needs & ENTS_NEEDS_HISTORY) != 0;
-}
+bool Contact::has_history() const { return (master_.model->layout().needs & ENTS_NEEDS_HISTORY) != 0; }
 
 double Contact::multiplier_scale(std::size_t index) const {
   return index % multipliers_ == 0 ? normal_stiffness_ : tangential_stiffness_;
