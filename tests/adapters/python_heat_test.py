@@ -100,6 +100,7 @@ class Heat(unittest.TestCase):
             self.assertLess(abs(bars.contact.heat[:, 0].sum() - flow), 1e-10 * flow)
             self.assertLess(np.abs(u[3 * bars.interface[1] + 2] - (7.0 - flow * 1.5 / 5.0)).max(), 1e-10)
             self.assertLess(np.abs(u[3 * bars.interface[0] + 2] - flow * 0.5).max(), 1e-10)
+            print(f"two bars, {len(sizes) - 1} iteration: flow {bars.contact.heat[:, 0].sum() / flow - 1:.1e}, bound 1e-10")
 
     def test_temperatures_beside_those_of_u(self):
         bars = Bars({"conductance": 10.0}, temperature=20.0)
@@ -138,6 +139,7 @@ class Heat(unittest.TestCase):
             if i > 1:
                 power = 0.2 * rigid.resultants()["normal"][1] * step / dt
                 self.assertLess(abs(rigid.heat[:, 1].sum() / power - 1), 1e-10)
+                print(f"a dragged block: power {rigid.heat[:, 1].sum() / power - 1:.1e}, bound 1e-10")
                 self.assertLess(abs(residual[2::3].sum() - (4.0 * (0 - 3.0) - power / 3)), 1e-10 * power)
                 self.assertLess(abs(rigid.energies["dissipated"] / (power * dt) - 1), 1e-10)
             rigid.commit()

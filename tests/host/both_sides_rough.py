@@ -13,6 +13,7 @@ failures = []
 
 
 def expect(name, value, exact, bound=0.005):
+    print(f"{name}: {value:.6g}, exact {exact:.6g}, error {value / exact - 1:+.2e}, bound {bound}")
     if not abs(value / exact - 1) < bound:
         failures.append(f"{name}: {value:.6g}, exact {exact:.6g}")
 
