@@ -15,15 +15,17 @@ namespace {
 // As in tests/mechanics/element_derivatives_test.cpp: rounding 1e-15 / step; truncation step^4 over the
 // fourth power of the length in which the response changes: the elastic slip, the distance of the gap from
 // the end of the law (0.005 here, but any smaller value occurs). An element that misses the tolerance is
-// repeated with an eighth of the step, at most three times (then rounding is 5e-9), and has to pass.
+// repeated with an eighth of the step, alone and extrapolated with the step before (Richardson 1911), at most
+// three times. Then rounding is 5e-9, which is what the few may have that need the smallest step.
 constexpr double step = 1e-4;
-constexpr double tolerance = 1e-7;
+constexpr double tolerance = 1e-9, of_the_smallest_step = 1e-8;
 constexpr std::int32_t branch =
     ENTS_FLAG_CONTACT | ENTS_FLAG_STICK | ENTS_FLAG_SLIP | ENTS_FLAG_SHEAR_LIMIT | ENTS_FLAG_OUTSIDE;
 
 struct Count {
   std::int64_t checked = 0, open = 0, touching = 0, stick = 0, slip = 0, limit = 0, crossing = 0, flagged = 0,
-               repeated = 0;
+               repeated = 0,
+               missed = 0; // of the tolerance, with the smallest step
 };
 
 class LawTangent : public testing::TestWithParam<Method> {
@@ -68,9 +70,9 @@ protected:
     return out;
   }
 
-  // Forces and powers apart, each over the largest entry of its rows.
-  static double error_of(const LawResults& centre, const LawResults& points, std::size_t e, const double* v,
-                         const ents_layout& layout, double t) {
+  // Forces and powers apart, each over the largest entry of its rows. coarse: of eight times the step, or null
+  static double error_of(const LawResults& centre, const LawResults& points, const LawResults* coarse,
+                         std::size_t e, const double* v, const ents_layout& layout, double t) {
     const std::size_t n = static_cast<std::size_t>(layout.dofs),
                       nodes = n - static_cast<std::size_t>(layout.multipliers),
                       own = static_cast<std::size_t>(layout.node_dofs);
@@ -82,9 +84,10 @@ protected:
         exact += centre.tangent[(e * n + j) * n + i] * v[j];
         test::raise(largest[power], std::fabs(centre.tangent[(e * n + j) * n + i]));
       }
-      test::raise(worst[power], std::fabs(mechanics::difference(
-                                              &points.residual[mechanics::stencil_points * e * n + i], n, t) -
-                                          exact));
+      const std::size_t first = mechanics::stencil_points * e * n + i;
+      double slope = mechanics::difference(&points.residual[first], n, t);
+      if (coarse) slope += (slope - mechanics::difference(&coarse->residual[first], n, 8.0 * t)) / 4095.0;
+      test::raise(worst[power], std::fabs(slope - exact));
     }
     double error = 0.0;
     for (const std::size_t part : {0u, 1u}) // open: nothing, and its derivative nothing
@@ -154,16 +157,20 @@ protected:
       count_.flagged += flagged;
       count_.crossing += !flagged && !same;
       if (flagged || !same) continue;
-      double error = error_of(centre, points, i, &v[i * n], e.layout, step);
+      double error = error_of(centre, points, nullptr, i, &v[i * n], e.layout, step);
       count_.repeated += !(error <= tolerance);
       double t = step;
+      const LawResults* before = &points;
       for (LawResults& again : finer) {
         if (error <= tolerance) break;
         t /= 8.0;
         if (again.status.empty())
           evaluate_near(model.handle(), moved(e, *scene.basis, v, t), ENTS_RESIDUAL | ENTS_FLAGS, again);
-        error = error_of(centre, again, i, &v[i * n], e.layout, t);
+        for (const LawResults* coarse : {static_cast<const LawResults*>(nullptr), before})
+          error = std::min(error, error_of(centre, again, coarse, i, &v[i * n], e.layout, t));
+        before = &again;
       }
+      count_.missed += !(error <= tolerance);
       ++count_.checked;
       count_.open += (centre.flags[i] & ENTS_FLAG_CONTACT) == 0;
       count_.touching += (centre.flags[i] & ENTS_FLAG_CONTACT) != 0 &&
@@ -202,8 +209,8 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
         }
   }
   EXPECT_GE(count_.checked, goal);
-  EXPECT_LE(worst_.error, tolerance) << worst_.where;
-  EXPECT_LE(count_.repeated, count_.checked / 50);
+  EXPECT_LE(worst_.error, of_the_smallest_step) << worst_.where;
+  EXPECT_LE(count_.missed, count_.checked / 500) << worst_.where;
   const std::string type = GetParam().normal["type"];
   const bool reaches = !GetParam().offset.is_null() && (type == "dugdale" || type == "lennard_jones");
   if (type != "separation" && !reaches) { // of these all are in the range
@@ -221,7 +228,7 @@ TEST_P(LawTangent, IsTheDerivativeOfTheResidual) {
             << count_.touching << " touching within the increment, " << count_.stick << " stick, "
             << count_.slip << " slip, " << count_.limit << " at the shear limit; skipped: " << count_.flagged
             << " flagged, " << count_.crossing << " across a border), worst error " << worst_.error << ", "
-            << count_.repeated << " repeated\n";
+            << count_.repeated << " repeated, " << count_.missed << " above " << tolerance << "\n";
 }
 
 std::vector<Method> methods_of_tangent() {
