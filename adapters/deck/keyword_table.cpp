@@ -11,7 +11,8 @@ using P = ParameterRule;
 using C = ColumnRule;
 
 const P any{"*", Use::no_effect, "*", ""}; ///< programs pass over others, or they concern other things
-const char* const law = "; write the law into a model, \"contact\": {...}, and name it with --model";
+const char* const written_by_hand =
+    "; write the law into a model, \"contact\": {...}, and name it with --model";
 const char* const no_heat =
     "contact elements conduct no heat in such a step; leave the pair to the program itself";
 const char* const linear =
@@ -237,7 +238,7 @@ KeywordRule abaqus_behavior() {
 }
 
 std::vector<KeywordRule> abaqus_rules() {
-  const std::string user = std::string("a subroutine of your own gives the tractions") + law;
+  const std::string user = std::string("a subroutine of your own gives the tractions") + written_by_hand;
   const std::string states =
       "states and numbers of a subroutine mean nothing to contact elements; leave them out";
   const std::string table =
@@ -245,13 +246,15 @@ std::vector<KeywordRule> abaqus_rules() {
                   "use") +
       " --model with another law";
   const std::string conductance =
-      std::string("a conductance that depends on it is no law of a contact element; write one table") + law;
+      std::string("a conductance that depends on it is no law of a contact element; write one table") +
+      written_by_hand;
   return {{"COUPLED TEMPERATURE-DISPLACEMENT", Use::used, "", {any}, {}},
           {"GAP CONDUCTANCE",
            Use::used,
            "",
            {{"PRESSURE", Use::used, "", ""},
-            {"USER", Use::refused, "*", std::string("a subroutine of your own gives the conductance") + law},
+            {"USER", Use::refused, "*",
+             std::string("a subroutine of your own gives the conductance") + written_by_hand},
             {"DEPENDENCIES", Use::refused, "*", conductance}},
            {{"conductance"}, {"clearance or pressure"}, {"temperature", Use::refused, "0", conductance}}},
           {"GAP HEAT GENERATION", Use::used, "", {}, {{"part that becomes heat"}, {"part of the slave"}}, 1},

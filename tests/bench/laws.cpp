@@ -82,16 +82,16 @@ void print_basis(std::ostream& out, const char* basis, bool enriched) {
       pieces.push_back(here ? std::function<void()>([here] { here->evaluate_all(); }) : [] {});
     }
   const std::vector<double> seconds = interleaved_seconds(pieces, 9, 1e-3);
-  constexpr std::size_t calls = 2, columns = calls * std::size(frictions);
-  constexpr double per[calls] = {1e9 / TimedElements::singles, 1e9 / TimedElements::count};
+  constexpr std::size_t kinds = 2, columns = kinds * std::size(frictions);
+  constexpr double per[kinds] = {1e9 / TimedElements::singles, 1e9 / TimedElements::count};
   for (std::size_t w = 0; w < all.size(); ++w) {
     out << std::left << std::setw(24) << all[w].name << std::right << std::fixed;
     for (std::size_t c = 0; c < columns; ++c) {
-      if (!elements[w * std::size(frictions) + c / calls]) {
+      if (!elements[w * std::size(frictions) + c / kinds]) {
         out << std::setw(13) << "-";
         continue;
       }
-      out << std::setw(7) << std::setprecision(0) << per[c % calls] * seconds[w * columns + c] << std::setw(6)
+      out << std::setw(7) << std::setprecision(0) << per[c % kinds] * seconds[w * columns + c] << std::setw(6)
           << std::setprecision(2) << seconds[w * columns + c] / seconds[c];
     }
     out << "\n";

@@ -88,7 +88,7 @@ void register_case(const bench::Case& c) {
     }
     using benchmark::Counter;
     const double elements = static_cast<double>(job->elements_per_call());
-    state.counters[bench::nanoseconds] =
+    state.counters[bench::time_counter] =
         Counter(1e-9 * elements, Counter::kIsIterationInvariantRate | Counter::kInvert);
     state.counters["surface_evaluations"] = job->mean_surface_evaluations();
   };

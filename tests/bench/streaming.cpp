@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t per_call = 64;
 constexpr double most_bytes = 3.8e9; // of results
-constexpr int rounds = 7;
+constexpr int turns = 7;
 
 struct Kind {
   std::string basis;
@@ -114,7 +114,7 @@ private:
 
 void run_streaming(std::ostream& out, std::int64_t most) {
   out << "residual and tangent in array calls, frictionless; ns per element (thread CPU time, medians of "
-      << rounds
+      << turns
       << " in turns)\n"
          "memory: one call for all, results one behind the other; plain, past: their bytes alone, stored to "
          "the same "
@@ -156,7 +156,7 @@ void run_streaming(std::ostream& out, std::int64_t most) {
       pieces.push_back([&elements, n] { elements.stream(n); });
     }
     pieces.push_back([&elements] { elements.copy(elements.count()); });
-    const std::vector<double> seconds = interleaved_seconds(pieces, rounds);
+    const std::vector<double> seconds = interleaved_seconds(pieces, turns);
     std::vector<double> reused, streamed;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       reused.push_back(seconds[2 + 2 * i]);

@@ -10,7 +10,7 @@ namespace bench {
 void Medians::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.run_type != Run::RT_Aggregate || run.aggregate_name != "median") continue;
-    const auto counter = run.counters.find(nanoseconds);
+    const auto counter = run.counters.find(time_counter);
     if (counter != run.counters.end()) medians_[run.run_name.function_name] = counter->second.value;
   }
 }
@@ -22,7 +22,7 @@ double Medians::of(const std::string& name) const {
 
 namespace {
 
-const char* const calls[] = {"single", "batch"};
+const char* const kinds_of_call[] = {"single", "batch"};
 const char* const variants[] = {"plain", "enriched"};
 
 void print_ratio(std::ostream& out, const Medians& medians, const std::string& above,
@@ -39,7 +39,7 @@ void print_ratio(std::ostream& out, const Medians& medians, const std::string& a
 void print_summary(std::ostream& out, const Medians& medians) {
   out << "ns per element (thread CPU time, median); C: with Coulomb friction\n"
       << std::setw(14) << std::left << "" << std::right;
-  for (const char* call : calls) out << std::setw(54) << call;
+  for (const char* call : kinds_of_call) out << std::setw(54) << call;
   out << "\n" << std::setw(14) << "";
   for (int call = 0; call < 2; ++call)
     for (const char* variant : variants) out << std::setw(27) << variant;
@@ -49,7 +49,7 @@ void print_summary(std::ostream& out, const Medians& medians) {
   out << "\n" << std::fixed << std::setprecision(1);
   for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
-    for (const char* call : calls)
+    for (const char* call : kinds_of_call)
       for (const char* variant : variants)
         for (const char* level : {"/R/", "/RK/", "_coulomb/RK/"}) {
           const double value = medians.of(basis + "/" + variant + level + call);
@@ -71,10 +71,10 @@ void print_summary(std::ostream& out, const Medians& medians) {
   for (const std::string& basis : basis_names()) {
     out << std::setw(14) << std::left << basis << std::right;
     out << std::setw(9) << "";
-    for (const char* call : calls)
+    for (const char* call : kinds_of_call)
       print_ratio(out, medians, basis + "/enriched/RK/" + call, basis + "/plain/RK/" + call);
     out << std::setw(9) << "";
-    for (const char* call : calls)
+    for (const char* call : kinds_of_call)
       print_ratio(out, medians, basis + "/enriched_coulomb/RK/" + call, basis + "/enriched/RK/" + call);
     out << std::setw(9) << "";
     for (const char* variant : {"/enriched", "/enriched_coulomb"})

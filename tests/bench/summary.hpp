@@ -10,7 +10,7 @@
 
 namespace bench {
 
-inline constexpr const char* nanoseconds = "ns_per_element";
+inline constexpr const char* time_counter = "ns_per_element";
 
 // Keeps the medians it is shown, prints nothing.
 class Medians : public benchmark::BenchmarkReporter {

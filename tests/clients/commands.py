@@ -37,6 +37,7 @@ LONG = {  # a part of a command: why it is not run
     "area_bounds.py": "minutes; host.area_bounds runs it with --quick",
     "rough_afm/below.py": "minutes; Below.* runs two of its cases on a part of the scan", "ents-lab sublaw": "a minute; Below.SublawWritesThePartOfAModel runs one",
     "adhesion.py": "minutes, for the gallery; Adhesion.* has its cases",
+    "rough/rough.py": "minutes, for the gallery", "running_in.py": "half a minute, for the gallery", "drum.py": "for the gallery",
     "sheet/sheet.py": "a minute, for the gallery", "--variant below": "Below.* runs such scenes",
     "rough_afm/cut_off.py": "minutes; RemovedWaves.* runs one of its cases on a part of the scan",
     "ridges/polar.py": "24 runs, for the gallery", "sheet/friction.py": "a minute, for the gallery",

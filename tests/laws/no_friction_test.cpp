@@ -153,7 +153,9 @@ void compare(const Case& c, const LawResults& none, const ents_layout& plain, co
 
 TEST(NoFriction, HasTheBitsOfAModelWithoutFriction) {
   std::int64_t slipping = 0, elements = 0;
+  Random half(7); // of the cases, all of them with ENTS_TEST_SAMPLES=all
   for (const Case& c : cases()) {
+    if (half.coin() && mechanics::long_divisor() > 1) continue;
     Random random(std::hash<std::string>{}(c.basis + c.height + c.method.name));
     const mechanics::Scene scene =
         mechanics::draw_scene(random, mechanics::basis_named(c.basis), c.height, c.projection);

@@ -116,7 +116,7 @@ protected:
     Setting s;
     s.text = scene.model();
     const mechanics::Model plain = model_of(scene, GetParam());
-    s.elements = draw(random, scene, plain, mechanics::samples(80), 0.05);
+    s.elements = draw(random, scene, plain, mechanics::long_samples(80), 0.05);
     s.text["height"] = height_with_names(basis.parameters());
     s.text["contact"] = law_with_names(GetParam());
     for (const Value& v : values) s.text["parameters"][v.name] = v.value;
@@ -235,7 +235,7 @@ TEST_P(Parameters, DerivativesAreThoseOfTheResults) {
             << values[p].name;
       }
     }
-  EXPECT_GT(checked, mechanics::samples(10000));
+  EXPECT_GT(checked, mechanics::long_samples(10000));
   EXPECT_GT(contact, checked / 4);
   EXPECT_LE(worst.error, tolerance) << worst.where;
   std::cout << GetParam().name << ": " << checked << " derivatives, worst error " << worst.error << " ("

@@ -8,6 +8,7 @@
 namespace mechanics {
 
 using test::long_divisor;
+using test::long_divisor;
 using test::long_samples;
 using test::sample_divisor;
 using test::samples;
