@@ -33,6 +33,7 @@ STRIPS = lambda x: np.floor(x[:, 0] * COMM.size / 6.0001).astype(int)
 SCATTERED = lambda x: np.floor(1e4 * np.abs(np.sin(1e3 * x).sum(axis=1))).astype(int)
 # Sums over up to 12 contributions in another order: some roundings of 1.1e-16 of the largest force; the tangents of slip hold differences of these.
 SAME = 1e-13
+differences = {"forces": 0.0, "tangents": 0.0}  # the largest ones, over the largest entry; printed at the end
 
 
 class Comparison:
@@ -47,6 +48,8 @@ class Comparison:
     def update(self, test, u):
         r, k = self.whole.update(u)
         residual, tangent = total(COMM, u.size, *self.contact.update(self.part.give(u)))
+        for name, difference, largest in (("forces", residual - r, np.abs(r).max()), ("tangents", tangent - k.toarray(), np.abs(k).max())):
+            differences[name] = max(differences[name], np.abs(difference).max() / (largest + 1e-300))
         test.assertLess(np.abs(residual - r).max(), SAME * np.abs(r).max() + 1e-300)
         test.assertLess(np.abs(tangent - k.toarray()).max(), SAME * np.abs(k).max() + 1e-300)
         pressed = COMM.allreduce(float(self.contact.pressure @ self.contact.areas))
@@ -246,6 +249,8 @@ class Messages(unittest.TestCase):
 
     def test_no_collective_grows_with_the_surface(self):
         (few, *_), (many, contact, _) = self.counted(12), self.counted(96)
+        if COMM.rank == 0:
+            print(f"bytes of a collective: {few.collective / few.calls:.1f} with 18 facets, {many.collective / many.calls:.1f} with 144")
         self.assertGreater(few.collective, 0)
         self.assertLess(many.collective, 200 * 8 * (12 + COMM.size))  # numbers of processes, in some 100 calls
         self.assertLessEqual(many.collective / many.calls, 1.5 * few.collective / few.calls)
@@ -259,9 +264,13 @@ class Messages(unittest.TestCase):
         for counting, nodes in ((few, 20), (many, 320)):
             x = np.zeros((nodes, 2))
             counting.Allreduce(x, np.empty_like(x), op=MPI.SUM)
+        if COMM.rank == 0:
+            print(f"the same, an Allreduce of all positions: {few.collective / few.calls:.1f} with 20 nodes, {many.collective / many.calls:.1f} with 320")
         self.assertGreater(many.collective / many.calls, 1.5 * few.collective / few.calls)
 
 
 if __name__ == "__main__":
     result = unittest.main(argv=[sys.argv[0], *sys.argv[2:]], exit=False, verbosity=1 if COMM.rank == 0 else 0).result
+    if COMM.rank == 0:
+        print("largest difference from one contact that knows all:", *(f"{name} {value:.1e}" for name, value in differences.items()))
     sys.exit(not COMM.allreduce(result.wasSuccessful(), op=MPI.LAND))
