@@ -815,6 +815,27 @@ module ents
       integer(c_int32_t) :: status
     end function ents_raise_points
 
+    ! Wear of a slave surface whose points lie above their facets by a height that has a field, as ents_wear_collect for the master.
+    function ents_wear_collect_slave(model, surface, points, coordinates, nodes, positions, thickness, areas, state, state_stride, &
+      name, block, size, volume, report) result(status) bind(c, name="ents_wear_collect_slave")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr, ents_combination, ents_report
+      type(c_ptr), value :: model, surface
+      type(ents_combination), intent(in), target :: points
+      type(c_ptr), value :: coordinates
+      integer(c_int64_t), value :: nodes
+      real(c_double), intent(in) :: positions(*)
+      real(c_double), value :: thickness
+      real(c_double), intent(in) :: areas(*)
+      real(c_double), intent(inout) :: state(*)
+      integer(c_int64_t), value :: state_stride
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: block(*)
+      integer(c_int64_t), value :: size
+      type(c_ptr), value :: volume
+      type(ents_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function ents_wear_collect_slave
+
     ! A smoothed master surface over ordinary facets.
     function ents_smooth_size(facet, basis, ends, facets, connectivity, nodes, points, terms, report) result(status) &
       bind(c, name="ents_smooth_size")

@@ -640,8 +640,9 @@ ENTS_API int32_t ents_state_transfer(const ents_model *model, const double *old_
                                      const double *state, double *moved, ents_report *report);
 
 /* Wear. A model with "wear" in its "contact" loses k p ds of height per increment (Archard), within the element: see the key. What the
- * slave surface has lost stays in the states of its points. What the master surface has lost is there, too, until this call moves it
- * into a field, for the place where it was lost: once per increment, for the states of the converged end (not for a step that is cut).
+ * slave surface has lost stays in the states of its points, or ents_wear_collect_slave moves it. What the master surface has lost is there,
+ * too, until this call moves it into a field, for the place where it was lost: once per increment, for the states of the converged end
+ * (not for a step that is cut).
  * The field loses exactly the volume depth x area of all elements, spread over the B-splines around each point.
  *   model         with wear, bound to the field
  *   first, count  range of elements, >= 0
@@ -840,11 +841,36 @@ ENTS_API int32_t ents_sampling_points(const char *facet, int32_t per_direction, 
  *   heights      [points] out, [L]
  *   slopes       [begin[points]][d-1] out
  * Put both into the combination, and the current positions of the nodes into ents_system.slave_positions.
- * Wear: what the state has as depth lost by the slave is subtracted from heights by the host, or stays in the state.
+ * Wear: what the state has as depth lost by the slave stays there, or ents_wear_collect_slave moves it into the height.
  * Errors: those of a combination; NULL_ARGUMENT; NON_FINITE (a coordinate, or a height that is not defined there); BAD_VALUE (weights that are
  * no shape functions of a facet, as those of slave nodes: report.element is the point). Since contract 1.11. */
 ENTS_API int32_t ents_raise_points(const ents_model *surface, const ents_combination *points, const double *coordinates, double *heights,
                                    double *slopes, ents_report *report);
+
+/* Wear of a slave surface whose points lie above their facets by a height that has a field, as ents_wear_collect for the master: what the
+ * slave has lost goes from the states into that field, and lowers the slave's height along the normals of its own facets. Once per increment, for
+ * the states of the converged end, before or after ents_wear_collect; then bind the field and call ents_raise_points again. Without this call
+ * the depth stays in the states and opens the gap along the normal of the master. The field loses exactly the volume depth x area.
+ *   model         with wear
+ *   surface       of the slave's height, as of ents_raise_points, with the field; may be bound or not
+ *   points        as of ents_raise_points
+ *   coordinates   as of ents_raise_points; null for points of one facet alone, for facets in natural coordinates share one height
+ *   nodes         number of nodes
+ *   positions     [nodes][d] of the nodes for which the areas are given, [L], finite
+ *   thickness     as of ents_wear_collect
+ *   areas         [points] as in the elements, [A]
+ *   state         [points] in and out: their depth lost by the slave becomes zero
+ *   state_stride  >= state_size
+ *   name          of the field of `surface`, zero-terminated
+ *   block, size   in and out: the field of ents_field_init
+ *   volume        out or null: what the field has lost in this call, [L^3]
+ * Errors: those of ents_raise_points and ents_field_sample; BAD_VALUE: a model without wear, coordinates that are missing; BAD_STATE.
+ * Positive statuses: DEGENERATE_SEGMENT (a facet without area, report.element is the point), OUT_OF_RANGE (areas or coordinates beyond all
+ * bounds). All points are checked before the field changes. Since contract 1.11. */
+ENTS_API int32_t ents_wear_collect_slave(const ents_model *model, const ents_model *surface, const ents_combination *points,
+                                         const double *coordinates, int64_t nodes, const double *positions, double thickness,
+                                         const double *areas, double *state, int64_t state_stride, const char *name, double *block,
+                                         int64_t size, double *volume, ents_report *report);
 
 /* What stands beyond a free end or border, x_0 on it, x_1, x_2, x_3 the nodes inside; and what the control points are. */
 #define ENTS_ENDS_STRAIGHT 0        /* 2 x_0 - x_1; control points are the nodes */

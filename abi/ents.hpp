@@ -65,7 +65,8 @@ struct Error : std::runtime_error {
                   X(contact_resultants) X(suggest) X(combine) X(sampling_points) X(raise_points)             \
                       X(smooth_size) X(smooth) X(smooth_mirrored_size) X(smooth_mirrored) X(pose_init)       \
                           X(pose_move) X(pose_to_body) X(pose_to_space) X(pose_element) X(assemble)          \
-                              X(iterate) X(surface_evaluate) X(model_check) X(surface_check)
+                              X(iterate) X(surface_evaluate) X(model_check) X(surface_check)                 \
+                                  X(wear_collect_slave)
 
 /// The addresses of these functions: those that the program is linked with, or those of a library that it has loaded.
 struct Library {

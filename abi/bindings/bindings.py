@@ -26,6 +26,7 @@ import sys
 # Argument types of functions that take null; the header says so in words. Fortran passes c_loc of them, or c_null_ptr.
 NULLABLE = {"ents_model_create": ("directory", "data"), "ents_assemble": ("output",), "ents_iterate": ("output", "system"),
             "ents_model_bind": ("parameters", "fields"), "ents_field_init": ("samples",), "ents_wear_collect": ("volume",),
+            "ents_wear_collect_slave": ("coordinates", "volume"),
             "ents_model_check": ("master", "surface_coordinates"), "ents_raise_points": ("coordinates",), "ents_contact_resultants": ("traction", "about"),
             "ents_state_transfer": ("old_surface_coordinates", "new_surface_coordinates")}
 FORTRAN = {"int32_t": ("integer(c_int32_t)", "0"), "int64_t": ("integer(c_int64_t)", "0"), "double": ("real(c_double)", "0"),

@@ -30,7 +30,8 @@ Status set_normal(RaisedPoint& point, const std::int64_t* nodes, const double* s
   const double area2 = dot(m, m);
   if (!(area2 > degenerate_size * degenerate_size * (T == 2 ? size2 * size2 : size2)))
     return Status::degenerate_segment;
-  const Vec<double, D> n = (1.0 / square_root(area2)) * m;
+  point.area = square_root(area2);
+  const Vec<double, D> n = (1.0 / point.area) * m;
   double metric[symmetric_size<T>], inverse[symmetric_size<T>];
   for (int k = 0; k < symmetric_size<T>; ++k) metric[k] = dot(a[k / 2], a[(k + 1) / 2]);
   invert(metric, area2, inverse);

@@ -18,6 +18,7 @@ inline constexpr int most_facet_nodes = 9;
 struct RaisedPoint {
   int dimension, count; // of space, and nodes of the facet
   double height, normal[3], place[3];
+  double area;                       // of the facet, per unit of its natural coordinates
   const double* weights;             // N_i [count]
   double along[most_facet_nodes][3]; // p_i
 
