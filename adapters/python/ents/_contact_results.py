@@ -65,7 +65,7 @@ class ContactResults:
         self._results = {**kept, "residual": residual}
         self._matrix, self._energy = matrix, None
         self._state = _frozen(result["state_end"])
-        self._pending = segment, self.tree.positions.copy()
+        self._pending, self._nodes_at, self._ahead = (segment, self.tree.positions.copy()), self._pairs.now, True
         # A closed point is followed; an open one is searched anew, for it may move over another flank.
         self._searched = result["segment"], result["xi"]
         self._hint, self._xi = closed, result["xi"]
@@ -146,7 +146,7 @@ class ContactResults:
         self._state_begin = self._state = _frozen(state)
         if self._points_begin is None:
             self._measure(self.points)
-        self._points_begin = self.points
+        self._points_begin, self._nodes_begin, self._ahead = self.points, None, False
         segments = state[:, -1] - 1  # a state knows its segment
         whole = (segments >= 0) & (segments < len(self.tree.connectivity)) & (segments == np.floor(segments))
         self._segment_begin, self._pending = np.where(whole, segments, -1).astype(np.int64), None
@@ -154,23 +154,31 @@ class ContactResults:
     def _history(self) -> dict[str, np.ndarray]:
         """All that the next increment depends on, at the last commit()."""
         own = np.zeros(0) if self._own is None else self._own
+        nothing = np.zeros((0, 0))
         thickness = np.zeros(0) if self._both is None else self._both.thickness
         return {"thickness": thickness, "state": self._state_begin, "segment_begin": self._segment_begin, "tree_begin": self._tree_begin, "hint": self._committed[0],
-                "xi": self._committed[1], "own": own, "points_begin": np.zeros((0, 0)) if self._points_begin is None else self._points_begin}
+                "xi": self._committed[1], "own": own, "points_begin": nothing if self._points_begin is None else self._points_begin,
+                "nodes_begin": nothing if self._nodes_begin is None else self._nodes_begin, **self._saved_fields()}
 
     def _restore(self, history: dict[str, np.ndarray]) -> None:
         now = self._history()
         for name in SAVED:
             if name not in history or np.shape(history[name]) != now[name].shape:
                 raise Error(Status.BAD_STATE, f"load: {name} is not that of this contact: the surfaces or the model are others")
+        fields = self._fields_of(history)
         self._state_begin = self._state = _frozen(np.array(history["state"]))
         self._segment_begin, self._tree_begin = np.array(history["segment_begin"]), np.array(history["tree_begin"])
         self._committed = self._hint, self._xi = np.array(history["hint"]), np.array(history["xi"])
         self._own = None if self._own is None else np.array(history["own"])
-        self._pending = None
+        self._pending, self._ahead = None, False
         if self._both is not None:
             self._both.thickness = np.array(history["thickness"])
         self._points_begin = np.array(history["points_begin"]) if history["points_begin"].size else None
+        self._nodes_begin = np.array(history["nodes_begin"]) if np.size(history.get("nodes_begin", ())) else None
+        if fields:
+            for block, saved in fields:
+                block[:] = saved
+            self._take_fields()
 
     def _name(self) -> str:
         """A fingerprint of the surfaces."""
@@ -178,7 +186,8 @@ class ContactResults:
         return hashlib.sha256(b"".join(np.ascontiguousarray(part).tobytes() for part in parts)).hexdigest()
 
     def save(self, file: Union[str, os.PathLike]) -> None:
-        """Write the history at the last commit() to a file (NumPy's .npz), for `load` in another run of the same program."""
+        """Write the history at the last commit() to a file (NumPy's .npz), for `load` in another run of the same program. With wear it has the blocks of the
+        fields of both heights, and load() writes them into those that are bound."""
         with open(file, "wb") as stream:
             np.savez(stream, surfaces=self._name(), segment=self.model.segment, **self._history())
 
@@ -191,8 +200,9 @@ class ContactResults:
         self._restore(history)
 
     def __getstate__(self) -> dict[str, Any]:
-        last = {name: getattr(self, name, None) for name in ("_results", "_matrix", "_state", "_pending", "_hint", "_xi", "_searched", "_energy", "_reach")}
-        return {"arguments": {**self._arguments, "model": self.model}, "history": self._history(), "last": last, "tree": self.tree.positions}
+        last = {name: getattr(self, name, None) for name in ("_results", "_matrix", "_state", "_pending", "_hint", "_xi", "_searched", "_energy", "_reach", "_nodes_at", "_ahead")}
+        height = {} if self._arguments["slave_height"] is None else {"slave_height": self._slave.surface}
+        return {"arguments": {**self._arguments, "model": self.model, **height}, "history": self._history(), "last": last, "tree": self.tree.positions}
 
     def __setstate__(self, saved: dict[str, Any]) -> None:
         self.__init__(**saved["arguments"])  # type: ignore[misc]

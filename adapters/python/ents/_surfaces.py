@@ -20,8 +20,12 @@ def slave_model(model: Model, height: Any) -> Optional[Model]:
     if height is None:
         return None
     d = model.layout.dimension
-    surface = height if isinstance(height, Model) else Model({"segment": "line2" if d == 2 else "quad4", "height": height}, model._data, model._directory,
-                                                             model.library)
+    if isinstance(height, Model):
+        surface = height
+    else:
+        surface = Model({"segment": "line2" if d == 2 else "quad4", "height": height}, model._data, model._directory, model.library)
+        if surface.layout.fields:  # nothing is lost yet
+            surface.bind({name: surface.field_init(name) for name in surface._field_points})
     if surface.layout.dimension != d:
         raise Error(Status.BAD_VALUE, f"slave_height: it is of a surface in {surface.layout.dimension}D, the model is in {d}D")
     return surface
@@ -32,6 +36,10 @@ class SlavePoints:
     they lie above their facets."""
 
     raised: Optional[Raised] = None
+    surface: Optional[Model] = None
+    """of the height"""
+    coordinates: Optional[np.ndarray] = None
+    """[entries of matrix][d-1] of the height; None: natural ones"""
 
     def __init__(self, model: Model, positions: np.ndarray, slave: Any, sampling: Optional[int], thickness: float, order: str) -> None:
         import scipy.sparse as sparse
@@ -83,8 +91,16 @@ class SlavePoints:
             given = positions[:, ["xyz".index(axis) for axis in given]]
         if given is not None:
             given = _array("slave_surface_coordinates", given, (len(positions), d - 1))[self.matrix.indices]
-        self._library = surface.library
-        self.raised = self._library.raise_points(surface, (self.matrix.indptr, self.matrix.indices, self.matrix.data), given)
+        self.surface, self.coordinates = surface, given
+        self.raise_again()
+
+    def raise_again(self) -> None:
+        """The height has changed."""
+        self.raised = self.surface.library.raise_points(self.surface, self.flat(), self.coordinates)
+
+    def flat(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The points in their facets, as combinations of the nodes."""
+        return self.matrix.indptr, self.matrix.indices, self.matrix.data
 
     def parts(self, numbers: np.ndarray) -> Any:
         """These points as a combination of the nodes."""
@@ -102,7 +118,7 @@ class SlavePoints:
     def at(self, now: np.ndarray) -> np.ndarray:
         """[points][d] at the positions `now` [nodes][d]."""
         if self.raised is not None:
-            return self._library.combine(self.raised, now)
+            return self.surface.library.combine(self.raised, now)
         return now[self.nodes] if self.nodes is not None else self.matrix @ now
 
     def normals(self, now: np.ndarray, points: np.ndarray) -> np.ndarray:

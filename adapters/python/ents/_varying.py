@@ -7,7 +7,7 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import Error, _address, _array, _new, _plain
+from ._arrays import Error, _address, _array, _combination, _new, _plain
 from ._structs import Data, Derivatives, Status
 
 
@@ -54,6 +54,11 @@ class Varying:
         self._call("field_sample", name.encode(), block, len(block), len(s), s, height)
         return height
 
+    @property
+    def fields(self) -> dict[str, np.ndarray]:
+        """{name: block} of the fields that are bound: the arrays themselves where these were contiguous and of float64. A new dict."""
+        return dict(self._blocks)
+
     def state_opened(self, state: Any) -> np.ndarray:
         """States [n][state_size] of points that were not evaluated: without history but for what has been worn off."""
         state = _array("state", state, (None, self.layout.state_size))
@@ -68,14 +73,33 @@ class Varying:
         per increment, with the states of its converged end. Other arguments as of evaluate. Returns the volume.
         CutStep: nothing has changed."""
         slave = _array("slave", slave, (None, self.layout.dimension))
-        for array, shape in ((state, (len(slave), self.layout.state_size)), (block, (np.size(block),))):
-            if not (isinstance(array, np.ndarray) and array.flags.writeable and array.shape == shape and array.dtype == np.float64 and array.flags.c_contiguous):
-                raise Error(Status.BAD_VALUE, "wear_collect: state and block are changed in their place: give float64 arrays of state_init and field_init")
+        self._refuse_copies("wear_collect", state, len(slave), block)
         given, block_in = self._input(slave, tree, segment, master=master, surface_coordinates=surface_coordinates, area=area)
         volume = ctypes.c_double()
         self._call("wear_collect", 0, len(slave), block_in, float(thickness), state, self.layout.state_size, name.encode(), block, len(block),
                    ctypes.addressof(volume))
         return volume.value
+
+    def wear_collect_slave(self, surface: Any, name: str, block: np.ndarray, state: np.ndarray, points: Any, coordinates: Any, positions: Any, areas: Any,
+                           thickness: float = 1.0) -> float:
+        """What the slave surface has lost goes from `state` [points][state_size] into `block`, the field `name` of the Model `surface` of its height: both
+        change in their place. points, coordinates: as of Library.raise_points; positions [nodes][d] for which the areas [points] hold. Then bind
+        the field and raise the points again. Returns the volume. CutStep: nothing has changed."""
+        combination = _combination(points)
+        d = self.layout.dimension
+        positions, areas = _array("positions", positions, (None, d)), _array("areas", areas, (combination.points,))
+        if coordinates is not None:
+            coordinates = _array("coordinates", coordinates, (len(combination.arrays[1]), d - 1))
+        self._refuse_copies("wear_collect_slave", state, combination.points, block)
+        volume = ctypes.c_double()
+        self._call("wear_collect_slave", surface._handle, combination, coordinates, len(positions), positions, float(thickness), areas, state,
+                   self.layout.state_size, name.encode(), block, len(block), ctypes.addressof(volume))
+        return volume.value
+
+    def _refuse_copies(self, what: str, state: Any, count: int, block: Any) -> None:
+        for array, shape in ((state, (count, self.layout.state_size)), (block, (np.size(block),))):
+            if not (isinstance(array, np.ndarray) and array.flags.writeable and array.shape == shape and array.dtype == np.float64 and array.flags.c_contiguous):
+                raise Error(Status.BAD_VALUE, f"{what}: state and block are changed in their place: give float64 arrays of state_init and field_init")
 
     def derivatives(self, slave: Any, master: Any = None, *, tree: Any = None, segment: Any = None, surface_coordinates: Any = None, start: Any = None,
                     area: Any = None, state: Any = None, slave_values: Any = None, adjoint: Any = None) -> dict[str, np.ndarray]:

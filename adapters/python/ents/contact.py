@@ -20,6 +20,7 @@ from ._structs import ENDS_STRAIGHT, Flag, Need, Status
 from ._surface import Tree
 from ._surfaces import MasterSurface, SlavePoints, slave_model
 from ._temperatures import Temperatures
+from ._worn_sides import WornSides
 
 if TYPE_CHECKING:
     import scipy.sparse
@@ -28,7 +29,7 @@ BORDER = 0.1
 LOST = Flag.LEFT | Flag.BEHIND_EDGE
 
 
-class Contact(ContactResults):
+class Contact(WornSides, ContactResults):
     """Contact elements between slave facets and master facets, with search, areas, history and assembly.
 
         contact = ents.Contact(model, positions, slave, master)
@@ -96,8 +97,9 @@ class Contact(ContactResults):
         mirror     smoothed masters: planes of symmetry, [("x", 0.0), ...], at which the surface goes on as its mirror image does
         temperature  of a model with "heat": a number or [nodes], the temperatures at u = 0, to which those of u are added; default: 0
         master_temperature   the same of the nodes of master_positions
-        slave_height  the slave is rough, too: a height as a model's (dict), or an ents.Model with that height (bound, say). Slave points lie so much
-                   above their facets, along normals that turn with them. sampling is 2 or what is given; 0 is refused
+        slave_height  the slave is rough, too: a height as a model's (dict; its fields begin with 0), or an ents.Model with that height (bound, say). Slave
+                   points lie so much above their facets, along normals that turn with them. sampling is 2 or what is given; 0 is refused. With a height of
+                   type "field" it wears: collect_wear()
         slave_surface_coordinates  in which slave_height is given: "x" (3D: "xy" ...), undeformed coordinates; or [nodes][d-1]; default: natural
                    coordinates of the facets
         two_pass   True: the points of the master's facets are slaves, too, and look for the slave's facets. Every point carries with half its area, both
@@ -346,7 +348,7 @@ class Contact(ContactResults):
         self._segment_begin, self._tree_begin = self._pending
         self._state_begin = self._state
         self._committed = self._hint, self._xi
-        self._points_begin = self.points
+        self._points_begin, self._nodes_begin, self._ahead = self.points, self._nodes_at, False
         if self._both is not None:
             self.tree.move(self._tree_begin)
             self._measure(self.points)
