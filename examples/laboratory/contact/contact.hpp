@@ -3,7 +3,6 @@
 // faces.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -59,9 +58,8 @@ struct ContactFields {
 struct CutSpec {
   std::vector<Face> faces;
   SlaveGeometry geometry;
-  int per_direction = 0; ///< 0: the slave points are given and stay
-  std::function<void(SlavePoints&)>
-      raise; ///< puts the points of a cut above their faces, if these have a height
+  int per_direction = 0;                 ///< 0: the slave points are given and stay
+  std::shared_ptr<SlaveSurface> surface; ///< what puts the points above their faces; null: they are in them
 };
 
 /// What a restart needs: the history at the end of the last accepted increment.
@@ -72,6 +70,8 @@ struct ContactHistory {
   double worn_master = 0;                            ///< volume that the master has lost [L^3]
   std::vector<double>
       thickness; ///< [slaves] self-contact: of the body at the begin of the increment [L]; else empty
+  std::map<std::string, std::vector<double>> slave_fields; ///< blocks of the fields of the slave's height
+  std::vector<double> given_away; ///< [slaves] depth that has gone into them [L]; empty: no wear that does
 };
 
 /// What the elements start from beside the configuration: the last choice, and the states of the increment's
@@ -213,9 +213,9 @@ public:
 
   /// Points that are cut again have none: the configuration says where they are.
   ContactHistory history() const {
-    if (cuts_again()) return {{}, {}, {}, {}, master_.model->fields(), worn_master_, {}};
-    return {begin_at_,    state_begin_,    accepted_.pressure, accepted_.traction, master_.model->fields(),
-            worn_master_, thickness_below_};
+    if (cuts_again()) return {{}, {}, {}, {}, master_.model->fields(), worn_master_, {}, slave_fields(), {}};
+    return {begin_at_,    state_begin_,     accepted_.pressure, accepted_.traction, master_.model->fields(),
+            worn_master_, thickness_below_, slave_fields(),     given_away_};
   }
   /// @throws InputError if the sizes or the state blocks are not of this model
   void restore(const ContactHistory& history, const Configuration& at);
@@ -247,8 +247,11 @@ private:
   /// The model with the parameters of a configuration, and what has been slid since the begin of the
   /// increment.
   void bind(const Configuration& at);
-  /// What the master has lost goes from the states into the model's field.
+  /// What the master has lost goes from the states into the model's field, what the slave has lost into that of
+  /// its height; a side without a field keeps it there.
   void collect_wear();
+  void collect_slave_wear();
+  std::map<std::string, std::vector<double>> slave_fields() const;
   /// The accepted depths, from the states.
   void set_worn();
   std::size_t parameter_of(const Json& name) const;
@@ -291,6 +294,7 @@ private:
   std::size_t d_, m_, parameters_, multipliers_, state_size_;
   double size_ = 0, normal_stiffness_ = 1, tangential_stiffness_ = 1;
   double thickness_, worn_master_ = 0, time_increment_ = 1;
+  std::vector<double> given_away_;   ///< see ContactHistory
   Path wear_factor_;                 ///< over the pressure, see ContactSpec
   std::vector<double> slave_values_; ///< [points][slave_numbers_], see ents_input; empty: none
   std::size_t slave_numbers_ = 3;    ///< 4: with the scale of a table

@@ -61,7 +61,7 @@ SlavePoints Contact::cut(const Configuration& at) {
   frame_.see(at, positions);
   SlavePoints points =
       cut_points(*mesh_, cut_.faces, positions, segment_corners(), cut_.per_direction, cut_.geometry);
-  if (cut_.raise) cut_.raise(points);
+  if (cut_.surface) cut_.surface->raise(points);
   return points;
 }
 

@@ -176,10 +176,23 @@ void Contact::set_worn() {
   accepted_.worn.clear();
   for (std::size_t k = 0; wears() && k < points_.size(); ++k)
     accepted_.worn.push_back(
-        state_begin_[k * state_size_ + static_cast<std::size_t>(master_.model->layout().worn)]);
+        state_begin_[k * state_size_ + static_cast<std::size_t>(master_.model->layout().worn)] +
+        (given_away_.empty() ? 0 : given_away_[k]));
+}
+
+std::map<std::string, std::vector<double>> Contact::slave_fields() const {
+  return cut_.surface ? cut_.surface->fields() : std::map<std::string, std::vector<double>>{};
+}
+
+void Contact::collect_slave_wear() {
+  if (!wears() || slave_fields().empty()) return;
+  given_away_ = accepted_.worn; // all that it has lost is in the field then
+  cut_.surface->collect(*master_.model, points_, thickness_, state_begin_);
+  cut_.surface->raise(points_);
 }
 
 void Contact::collect_wear() {
+  collect_slave_wear();
   if (!wears() || master_.model->fields().empty()) return;
   const ents::Library& library = master_.model->library();
   auto& [name, block] = *master_.model->fields().begin();
@@ -199,9 +212,11 @@ void Contact::collect_wear() {
 void Contact::restore(const ContactHistory& history, const Configuration& at) {
   if (cuts_again()) {
     if (!history.at.segment.empty() || !history.pressure.empty() ||
-        !fields_fit(history.fields, master_.model->fields()))
+        !fields_fit(history.fields, master_.model->fields()) ||
+        !fields_fit(history.slave_fields, slave_fields()))
       throw InputError("the contact's history is that of another scene: its sizes differ");
     master_.model->fields() = history.fields;
+    if (cut_.surface) cut_.surface->take(history.slave_fields);
     bound_.clear();
     cut_at_ = {};
     cut_again(at);
@@ -210,7 +225,9 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
   if (history.at.segment.size() != begin_at_.segment.size() || history.state.size() != state_begin_.size() ||
       history.at.xi.size() != begin_at_.xi.size() || history.pressure.size() != pressure_.size() ||
       history.traction.size() != traction_.size() || history.thickness.size() != thickness_below_.size() ||
-      !fields_fit(history.fields, master_.model->fields()))
+      !fields_fit(history.fields, master_.model->fields()) ||
+      !fields_fit(history.slave_fields, slave_fields()) ||
+      (!history.given_away.empty() && history.given_away.size() != points_.size()))
     throw InputError("the contact's history is that of another scene: its sizes differ");
   for (const std::int64_t segment : history.at.segment)
     if (segment < -1 || segment >= stride(master_.segments()))
@@ -223,6 +240,8 @@ void Contact::restore(const ContactHistory& history, const Configuration& at) {
     master_.model->fields() = taken.fields;
     worn_master_ = taken.worn_master;
     thickness_below_ = taken.thickness;
+    given_away_ = taken.given_away;
+    if (!taken.slave_fields.empty()) cut_.surface->take(taken.slave_fields), cut_.surface->raise(points_);
     bound_.clear();
     set_worn();
     begin_increment(begin);

@@ -38,23 +38,50 @@ ents_combination SlavePoints::combination(std::vector<std::int64_t>& begin,
   return points;
 }
 
-void raise_points(const EntsLibrary& library, const ContactSpec& spec, const std::filesystem::path& folder,
-                  const Mesh& mesh, SlavePoints& points) {
-  const Json text{{"segment", mesh.dimension == 2 ? "line2" : "quad4"}, {"height", spec.slave_height}};
-  const EntsModel surface(library, text.dump(), folder, spec.slave_height_where);
+SlaveSurface::SlaveSurface(const EntsLibrary& library, const ContactSpec& spec,
+                           const std::filesystem::path& folder, const Mesh& mesh)
+    : mesh_(&mesh), rule_(spec.slave_coordinates), where_(spec.slave_height_where),
+      model_(library,
+             Json{{"segment", mesh.dimension == 2 ? "line2" : "quad4"}, {"height", spec.slave_height}}.dump(),
+             folder, where_) {}
+
+std::vector<double> SlaveSurface::coordinates(const SlavePoints& points,
+                                              const std::vector<std::int64_t>& nodes) const {
+  return surface_coordinates(rule_, mesh_->dimension, mesh_->coordinates, nodes, points.nodes_per_point);
+}
+
+void SlaveSurface::raise(SlavePoints& points) const {
   points.heights.clear();
   std::vector<std::int64_t> begin, nodes;
   const ents_combination flat = points.combination(begin, nodes);
-  const std::vector<double> coordinates = surface_coordinates(
-      spec.slave_coordinates, mesh.dimension, mesh.coordinates, nodes, points.nodes_per_point);
+  const std::vector<double> places = coordinates(points, nodes);
   std::vector<double> heights(points.size()),
-      slopes(nodes.size() * static_cast<std::size_t>(mesh.dimension - 1));
+      slopes(nodes.size() * static_cast<std::size_t>(mesh_->dimension - 1));
   auto report = ents_struct<ents_report>();
-  const std::int32_t status =
-      library.raise_points(surface.get(), &flat, coordinates.empty() ? nullptr : coordinates.data(),
-                           heights.data(), slopes.data(), &report);
-  if (status != ENTS_OK) throw InputError(spec.slave_height_where + ": " + describe(library, status, report));
+  const std::int32_t status = model_.library().raise_points(
+      model_.get(), &flat, places.empty() ? nullptr : places.data(), heights.data(), slopes.data(), &report);
+  if (status != ENTS_OK) throw InputError(where_ + ": " + describe(model_.library(), status, report));
   points.heights = std::move(heights), points.slopes = std::move(slopes);
+}
+
+void SlaveSurface::take(const std::map<std::string, std::vector<double>>& fields) {
+  model_.fields() = fields;
+  model_.bind(model_.defaults());
+}
+
+void SlaveSurface::collect(const EntsModel& model, const SlavePoints& points, double thickness,
+                           std::vector<double>& state) {
+  auto& [name, block] = *model_.fields().begin();
+  std::vector<std::int64_t> begin, nodes;
+  const ents_combination flat = points.combination(begin, nodes);
+  const std::vector<double> places = coordinates(points, nodes);
+  auto report = ents_struct<ents_report>();
+  const std::int32_t status = model.library().wear_collect_slave(
+      model.get(), model_.get(), &flat, places.empty() ? nullptr : places.data(), mesh_->node_count(),
+      mesh_->coordinates.data(), thickness, points.areas.data(), state.data(), model.layout().state_size,
+      name.c_str(), block.data(), stride(block.size()), nullptr, &report);
+  if (status != ENTS_OK) throw JobError("wear of the slave: " + describe(model.library(), status, report));
+  model_.bind(model_.defaults());
 }
 
 SlavePoints slave_nodes(const Mesh& mesh, const DofMap& dofs, const std::vector<Face>& faces,

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "dof_map.hpp"
 #include "ents_library.hpp"
 #include "mesh.hpp"
+#include "surface_coordinates.hpp"
 
 namespace host {
 
@@ -57,9 +60,34 @@ SlavePoints sampling_points(const EntsLibrary& library, const Mesh& mesh, const 
                             int per_direction, const SlaveGeometry& geometry, const std::string& where);
 
 struct ContactSpec;
-/// Points inside faces get the heights of the scene's "slave_height".
-/// @param folder  where relative names of height maps start
-void raise_points(const EntsLibrary& library, const ContactSpec& spec, const std::filesystem::path& folder,
-                  const Mesh& mesh, SlavePoints& points);
+
+/// The height of the slave's faces: the scene's "slave_height". Its fields change, if the model wears.
+class SlaveSurface {
+public:
+  /// @param folder  where relative names of height maps start
+  /// @throws InputError with the library's message
+  SlaveSurface(const EntsLibrary& library, const ContactSpec& spec, const std::filesystem::path& folder,
+               const Mesh& mesh);
+  /// Points inside faces get its heights.
+  void raise(SlavePoints& points) const;
+  /// Blocks of its fields by name: see EntsModel::fields. Give new ones to `take`.
+  const std::map<std::string, std::vector<double>>& fields() const { return model_.fields(); }
+  void take(const std::map<std::string, std::vector<double>>& fields);
+  /// What the slave has lost goes from states into the first field.
+  /// @param model      of the contact
+  /// @param thickness  2D: of the bodies; axisymmetric ones: 0
+  /// @param state      [points][state_size]
+  void collect(const EntsModel& model, const SlavePoints& points, double thickness,
+               std::vector<double>& state);
+
+private:
+  /// Surface coordinates of the nodes of all points; empty: natural ones.
+  std::vector<double> coordinates(const SlavePoints& points, const std::vector<std::int64_t>& nodes) const;
+
+  const Mesh* mesh_;
+  CoordinateRule rule_;
+  std::string where_;
+  EntsModel model_;
+};
 
 } // namespace host

@@ -66,6 +66,9 @@ Json Simulation::checkpoint() const {
     if (!history.thickness.empty()) json["contact"]["thickness"] = history.thickness;
     if (!history.fields.empty())
       json["contact"]["fields"] = history.fields, json["contact"]["worn_master"] = history.worn_master;
+    if (!history.slave_fields.empty())
+      json["contact"]["slave_fields"] = history.slave_fields,
+      json["contact"]["given_away"] = history.given_away;
   }
   return json;
 }
@@ -123,6 +126,12 @@ void Simulation::restore(const Json& checkpoint) {
       JsonObject fields(contact.at("fields"));
       for (const std::string& name : fields.all_keys()) history.fields[name] = fields.at(name).numbers();
       history.worn_master = contact.at("worn_master").number();
+    }
+    if (contact.has("slave_fields")) {
+      JsonObject fields(contact.at("slave_fields"));
+      for (const std::string& name : fields.all_keys())
+        history.slave_fields[name] = fields.at(name).numbers();
+      history.given_away = contact.at("given_away").numbers();
     }
     contact.finish();
     factorize(history);
@@ -230,7 +239,8 @@ std::string Simulation::fingerprint() const {
     hash.add_all(history.pressure);
     hash.add_all(history.traction);
     hash.add_all(now_.parameters);
-    for (const auto& [name, block] : history.fields) hash.add_all(block);
+    for (const auto* fields : {&history.fields, &history.slave_fields})
+      for (const auto& [name, block] : *fields) hash.add_all(block);
   }
   return hash.text();
 }

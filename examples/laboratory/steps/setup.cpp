@@ -307,12 +307,10 @@ void Simulation::build_contact(const EntsLibrary* library, int divisions, const 
   SlavePoints points;
   CutSpec cut{slaves, geometry, contact.cut, {}};
   if (!contact.slave_height.is_null())
-    cut.raise = [this, library, contact](SlavePoints& of) {
-      raise_points(*library, contact, scene_->file.parent_path(), mesh_, of);
-    };
+    cut.surface = std::make_shared<SlaveSurface>(*library, contact, scene_->file.parent_path(), mesh_);
   if (contact.sampling > 0) {
     points = sampling_points(*library, mesh_, slaves, contact.sampling, geometry, contact.slave_where);
-    if (cut.raise) cut.raise(points);
+    if (cut.surface) cut.surface->raise(points);
   } else if (contact.cut == 0)
     points = slave_nodes(mesh_, *dofs_, slaves, geometry);
   if (removed_waves_) points = removed_waves_->points(std::move(points), mesh_);
