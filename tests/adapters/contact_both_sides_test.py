@@ -336,7 +336,7 @@ class TwoPasses(unittest.TestCase):
 
     def test_refusals(self):
         x, _, slave, master, _, _ = self.blocks()
-        for law, words in (({**model(), "height": {"type": "constant", "value": 0.1}}, "one side alone"),
+        for law, words in (({**model(), "height": {"type": "constant", "value": 0.1}}, "give the same one as slave_height"),
                            ({"segment": "line2", "contact": {"normal": {"type": "augmented", "stiffness": 5.0}}}, "over-constraint"),
                            (model(wear={"coefficient": 1e-3}, friction={"type": "coulomb", "coefficient": 0.3, "stiffness": 1.0}), "wear"),
                            ({**model(), "projection": {"type": "shadow_direction", "direction": [0, 1]}}, "one ray"),

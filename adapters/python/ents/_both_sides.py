@@ -7,12 +7,12 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import Error
+from ._arrays import Error, _array
 from ._model import Model
 from ._sides import Facets, read_facets, refuse_shared, same_facets
 from ._structs import Status
 from ._surface import Tree
-from ._surfaces import MasterSurface, SlavePoints
+from ._surfaces import SMOOTHED, MasterSurface, SlavePoints, axes_of
 
 
 class BothSides:
@@ -87,9 +87,6 @@ def refuse_one_sided(model: Model, one_surface: bool, rigid: bool) -> None:
     if model.layout.augmentable or model.layout.multipliers:
         raise Error(Status.BAD_VALUE, f"{what}: two multipliers, one from each side, would hold one gap (over-constraint), and grow without bound; write the normal law "
                     '"penalty"' + ("" if one_surface else ", or leave two_pass out"))
-    if text.get("height") is not None and not one_surface:
-        raise Error(Status.BAD_VALUE, f'{what}: the model has a "height", and a point of a surface is where the surface is without it: each pass would see the roughness '
-                    "of one side alone. Leave the height out, or two_pass")
     if contact.get("wear") is not None:
         raise Error(Status.BAD_VALUE, f'{what}: each pass would see the wear of one side alone; leave "wear" out' + ("" if one_surface else ", or two_pass"))
     if (text.get("projection") or {}).get("type", "normal") != "normal":
@@ -103,8 +100,48 @@ def of_one_surface(model: Model, slave_height: Any, surface_coordinates: Any) ->
     height = json.loads(model._text).get("height")
     if height is None:
         return None, None
+    _refuse_varying("a surface in contact with itself", model, height)
+    if model.layout.own_surface_coordinates and surface_coordinates is None:
+        raise Error(Status.BAD_VALUE, "a surface in contact with itself: its points have no surface coordinates of the model; give surface_coordinates here")
+    return model, surface_coordinates
+
+
+def of_two_passes(model: Model, slave_height: Any, of_slave: Any, of_master: Any, positions: np.ndarray, slave: Any) -> tuple[Optional[Model], Optional[np.ndarray]]:
+    """The model of the height of both sides, one height for all segments of a Model; and the surface coordinates [nodes][d-1] of the nodes of both. None:
+    both are plain; natural coordinates."""
+    height = json.loads(model._text).get("height")
+    if height is None:
+        if slave_height is not None or of_slave is not None:
+            raise Error(Status.BAD_VALUE, 'slave_height is of one side, and two_pass makes slaves of both: write the same height into the model ("height"), or leave one of them out')
+        return None, None
+    same = slave_height
+    if not isinstance(slave_height, Model):
+        same = None if slave_height is None else Model({"segment": model.segment, "height": slave_height}, model._data, model._directory, model.library)
+    if same is None or json.loads(same._text).get("height") != height or not _same_data(same, model):
+        raise Error(Status.BAD_VALUE, 'two_pass: the "height" of the model is that of both sides, since every facet is slave and master: give the same one as slave_height. '
+                    "Two different ones stand side by side in one map, and the surface coordinates say which part of it a side has")
+    _refuse_varying("two_pass", model, height)
+    if model.segment in SMOOTHED or model.layout.own_surface_coordinates:
+        raise Error(Status.BAD_VALUE, "two_pass: with a height the segments are plain, and surface_coordinates are given here, not in the model")
+    if of_slave is None and of_master is None:
+        return model, None
+    d = positions.shape[1]
+    if not isinstance(of_master, str) or of_slave is None:
+        raise Error(Status.BAD_VALUE, f'two_pass: with a height give surface_coordinates as {d - 1} of {", ".join("xyz"[:d])}, and slave_surface_coordinates of the same kind or '
+                    "[nodes][d-1]; or none of them")
+    coordinates = axes_of("surface_coordinates", of_master, positions).copy()
+    ours = axes_of("slave_surface_coordinates", of_slave, positions) if isinstance(of_slave, str) else _array("slave_surface_coordinates", of_slave, coordinates.shape)
+    nodes = np.unique([node for facet in slave for node in facet])
+    coordinates[nodes] = ours[nodes]
+    return model, coordinates
+
+
+def _same_data(one: Model, other: Model) -> bool:
+    return one._data.keys() == other._data.keys() and all(np.array_equal(one._data[name], other._data[name]) for name in one._data)
+
+
+def _refuse_varying(what: str, model: Model, height: Any) -> None:
     varying = [name for name in model.parameters if json.dumps(name) in json.dumps(height)]
     if varying or model.layout.fields:
-        raise Error(Status.BAD_VALUE, f"a surface in contact with itself: its height varies ({', '.join(varying) or 'a field'}), and its points keep the height with which "
-                    "they were made; write numbers into the height")
-    return model, surface_coordinates
+        raise Error(Status.BAD_VALUE, f"{what}: its height varies ({', '.join(varying) or 'a field'}), and its points keep the height with which they were made; write "
+                    "numbers into the height")

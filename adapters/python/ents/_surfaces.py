@@ -31,6 +31,14 @@ def slave_model(model: Model, height: Any) -> Optional[Model]:
     return surface
 
 
+def axes_of(name: str, axes: str, positions: np.ndarray) -> np.ndarray:
+    """[nodes][d-1] components of the positions, as surface coordinates."""
+    d = positions.shape[1]
+    if len(axes) != d - 1 or not set(axes) <= set("xyz"[:d]):
+        raise Error(Status.BAD_VALUE, f'{name}: "{axes}"; wanted are {d - 1} of {", ".join("xyz"[:d])}')
+    return positions[:, ["xyz".index(axis) for axis in axes]]
+
+
 class SlavePoints:
     """Slave points: nodes (`nodes` [points]), or points inside the facets (`nodes` None). `matrix` [points][nodes] makes them of the nodes; `raised`:
     they lie above their facets."""
@@ -86,9 +94,7 @@ class SlavePoints:
             return
         d = positions.shape[1]
         if isinstance(given, str):
-            if len(given) != d - 1 or not set(given) <= set("xyz"[:d]):
-                raise Error(Status.BAD_VALUE, f'slave_surface_coordinates: "{given}"; wanted are {d - 1} of {", ".join("xyz"[:d])}')
-            given = positions[:, ["xyz".index(axis) for axis in given]]
+            given = axes_of("slave_surface_coordinates", given, positions)
         if given is not None:
             given = _array("slave_surface_coordinates", given, (len(positions), d - 1))[self.matrix.indices]
         self.surface, self.coordinates = surface, given
@@ -216,11 +222,8 @@ class MasterSurface:
 
     def coordinates(self, given: Any) -> Any:
         """Surface coordinates [segments][m][d-1] from the argument surface_coordinates."""
-        d = self.start.shape[1]
         if isinstance(given, str):
-            if len(given) != d - 1 or not set(given) <= set("xyz"[:d]):
-                raise Error(Status.BAD_VALUE, f'surface_coordinates: "{given}"; wanted are {d - 1} of {", ".join("xyz"[:d])}')
-            return self.start[:, ["xyz".index(axis) for axis in given]][self.segments]
+            return axes_of("surface_coordinates", given, self.start)[self.segments]
         if given is not None and self.smoothed:
             raise Error(Status.BAD_VALUE, 'surface_coordinates: of a smoothed master they are undeformed coordinates; give "x", say')
         return given

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 import numpy as np
 
 from ._arrays import CutStep, Error, _array, _count, _frozen
-from ._both_sides import BothSides, is_one_surface, joined, of_one_surface, refuse_one_sided
+from ._both_sides import BothSides, is_one_surface, joined, of_one_surface, of_two_passes, refuse_one_sided
 from ._contact_results import ContactResults
 from ._heights import warn_of_size
 from ._model import Model
@@ -105,7 +105,7 @@ class Contact(WornSides, ContactResults):
         two_pass   True: the points of the master's facets are slaves, too, and look for the slave's facets. Every point carries with half its area, both
                    points of a pressing pair with the whole pressure; friction and heat are halved in the same way. The points of both sides are
                    slave points of this Contact. Twice the cost; results do not depend on which side is the slave. With stiff penalties two passes
-                   hold more points than can be held, and meshes that do not match lock: multipliers are refused. Same facets as slave and as master,
+                   hold more points than can be held, and meshes that do not match lock: multipliers are refused. Both sides may have the same height, in the model and as slave_height. Same facets as slave and as master,
                    a surface in contact with itself: always in this way
         order      "ring": corners one after the other around a facet; "tensor": corners of quadrilaterals in rows, (0 1 / 2 3), as in dolfinx, basix, deal.II
         comm       an mpi4py communicator: the surfaces are distributed over its processes. What comes back is an ents.DistributedContact, with
@@ -150,9 +150,9 @@ class Contact(WornSides, ContactResults):
         _refuse_models(model)
         if one_surface:
             slave_height, slave_surface_coordinates = of_one_surface(model, slave_height, surface_coordinates)
+        if two_pass:
+            slave_height, slave_surface_coordinates = of_two_passes(model, slave_height, slave_surface_coordinates, surface_coordinates, self._positions, self._arguments["slave"])
         rough = slave_model(model, slave_height)
-        if rough is not None and two_pass:
-            raise Error(Status.BAD_VALUE, "slave_height is of one side, and two_pass makes slaves of both: leave one of them out")
         if sampling is None and (one_surface or rough is not None):
             sampling = 2  # nodes at the corners of a body have the areas of faces that do not touch
         if two_pass:
@@ -164,6 +164,8 @@ class Contact(WornSides, ContactResults):
                         "leave out slave_height")
         points.raise_by(rough, slave_surface_coordinates, self._positions)
         self._master = MasterSurface(model, self._positions if self._own is None else self._own, master, ends, mirror, order, self._kept)
+        if two_pass and slave_surface_coordinates is not None:
+            surface_coordinates = slave_surface_coordinates[self._master.segments]
         if two_pass or one_surface:
             self._both = BothSides(points, self._master, sides)
         self._pairs = SidePairs(points, self._master, self._positions, self._own is None, self._both)
