@@ -61,9 +61,7 @@ void refuse_one_sided(const ContactSpec& spec) {
     throw InputError(what +
                      "two multipliers, one from each side, would hold one gap (over-constraint); give the "
                      "normal law \"penalty\"");
-  if ((!find_json(spec.model, "/height").is_null() && !is_one_surface(spec)) || spec.gap_only)
-    throw InputError(
-        what + "the model has a \"height\", and each pass would see that of one side alone; leave it out");
+  if (spec.gap_only) throw InputError(what + "\"gap_only\" is for one slave and one master; leave it out");
   if (!find_json(spec.model, "/contact/wear").is_null())
     throw InputError(what + "each pass would see the wear of one side alone; leave \"wear\" out");
   if (!find_json(spec.model, "/projection").is_null())

@@ -157,6 +157,25 @@ void raise_one_surface(const JsonValue& model, ContactSpec& contact) {
   contact.slave_coordinates = contact.coordinates;
 }
 
+/// Two passes over two sides: each face is slave and master of one model, and its points lie on the height of that.
+void check_one_height(JsonObject& object, const ContactSpec& contact) {
+  if (!contact.two_pass || contact.master == contact.slave) return;
+  const Json height = find_json(contact.model, "/height");
+  if (contact.slave_height != height)
+    object.at("two_pass")
+        .fail("both sides are slaves of one model, whose height is that of both; write the same \"height\" "
+              "into "
+              "\"model\" and \"slave_height\", or leave both out");
+  const Json of_slave = object.has("slave_height")
+                            ? find_json(object.at("slave_height").json(), "/surface_coordinates")
+                            : Json(),
+             of_master = find_json(object.at("master").json(), "/surface_coordinates");
+  if (!height.is_null() && of_slave != of_master)
+    object.at("two_pass")
+        .fail("both sides have one height, in one kind of coordinates; write the \"surface_coordinates\" of "
+              "\"slave_height\" into \"master\", too");
+}
+
 ContactSpec read_contact(const JsonValue& value, int dimension) {
   JsonObject object(value);
   ContactSpec contact;
@@ -173,9 +192,6 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
   if (object.has("enrichment"))
     contact.gap_only = object.at("enrichment").word({"full", "gap_only"}) == "gap_only";
   if (object.has("two_pass")) contact.two_pass = object.at("two_pass").boolean();
-  if (contact.two_pass && !contact.slave_height.is_null())
-    object.at("slave_height")
-        .fail("is of one side, and \"two_pass\" makes slaves of both; leave one of them out");
   if (object.has("cut_off")) read_cut_off(object.at("cut_off"), contact);
   if (object.has("below")) read_below(object.at("below"), contact);
   if (object.has("wear_factor")) {
@@ -232,6 +248,7 @@ ContactSpec read_contact(const JsonValue& value, int dimension) {
     if (of) object.at("enrichment").fail(std::string("\"gap_only\" needs ") + of);
   }
   raise_one_surface(model, contact);
+  check_one_height(object, contact);
   if (object.has("law")) read_law(object.at("law"), contact);
   check_cut_off(contact);
   object.finish();
