@@ -9,8 +9,8 @@
 
 #include "mesh.hpp"
 #include "scene.hpp"
-#include "solver.hpp"
-#include "vtu.hpp"
+#include "toolbox/solver.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host {
 

@@ -10,7 +10,7 @@
 #include "contact.hpp"
 #include "heat.hpp"
 #include "scene.hpp"
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 
 namespace host {
 

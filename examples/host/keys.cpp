@@ -203,18 +203,4 @@ std::vector<double> read_durations(JsonObject& object, std::size_t steps) {
   return given;
 }
 
-Json read_variant(const std::filesystem::path& file, const std::string& variant) {
-  Json json = parse_json_file(file);
-  if (variant.empty()) return json;
-  const Json variants = find_json(json, "/variants");
-  if (!variants.is_object() || !variants.contains(variant)) {
-    std::string names;
-    for (const auto& item : variants.items()) names += (names.empty() ? "" : ", ") + item.key();
-    throw InputError(file.string() + ": no variant \"" + variant +
-                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
-  }
-  json.merge_patch(variants.at(variant));
-  return json;
-}
-
 } // namespace host

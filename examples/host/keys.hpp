@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "element.hpp"
-#include "json_reader.hpp"
 #include "mesh.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 
@@ -93,10 +93,6 @@ std::vector<double> read_steps(JsonObject& object, bool movable, Control& contro
 
 /// The key "duration" of the steps: one time for all, or one of each; left out 1.
 std::vector<double> read_durations(JsonObject& object, std::size_t steps);
-
-/// The file's text, changed by one of its variants (RFC 7386); empty: as it is.
-/// @throws InputError naming the file and the variants that there are
-Json read_variant(const std::filesystem::path& file, const std::string& variant);
 
 /// Add the block or the deck of a part.
 void add_part(Mesh& mesh, const Part& part, int index);

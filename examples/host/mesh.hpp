@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "error.hpp"
 #include "shape.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

@@ -2,24 +2,15 @@
 // What result.json and the files for ParaView have in common in this program and in the laboratory.
 #pragma once
 
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include <ents.h>
 
-#include "json_reader.hpp"
 #include "mesh.hpp"
-#include "vtu.hpp"
+#include "toolbox/json_reader.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host {
-
-/// JSON has no NaN.
-inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-inline std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + unit + "]";
-}
 
 /// What the slave points carry together, of this mesh.
 inline Json resultants_json(const ents_resultants& sum, int dimension) {

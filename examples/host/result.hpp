@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "newton.hpp"
-#include "vtu.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host {
 

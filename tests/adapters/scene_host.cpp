@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.hpp"
-#include "error.hpp"
 #include "scene_route.hpp"
+#include "toolbox/error.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Solve a scene of ents-lab with the contact through the adapter of another program, which is "

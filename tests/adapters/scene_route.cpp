@@ -14,11 +14,11 @@
 #include <unistd.h>
 
 #include "abaqus_services.hpp"
-#include "error.hpp"
 #include "guarded.hpp"
 #include "hosts.hpp"
-#include "json_reader.hpp"
 #include "own_elements.hpp"
+#include "toolbox/error.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace adapters {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "error.hpp"
 #include "mesh.hpp"
+#include "toolbox/error.hpp"
 
 namespace host::deck_mesh_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <sys/resource.h>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host::json_reader_test {
 namespace {

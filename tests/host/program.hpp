@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host::test {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ents_library.hpp"
-#include "json_reader.hpp"
 #include "run.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host::test {
 

@@ -48,11 +48,14 @@ for folder in core/*/; do
   case "|$before|" in *"|$(basename "$folder")|"*) ;; *) echo "$folder is not in the order above" >&2; bad=1 ;; esac
 done
 
-# The laboratory stands on the reference host, never the other way.
-includes examples/host | grep -oE '"[^"]*"$' | tr -d '"' | sort -u | while read -r header; do
-  case $header in deck/*) continue ;; esac
-  [ -f "examples/host/$header" ] || echo "examples/host includes \"$header\", which is not its own"
+# The laboratory stands on the reference host, and both on the toolbox, never the other way.
+for folder in toolbox host; do
+  includes examples/$folder | grep -oE '"[^"]*"$' | tr -d '"' | sort -u | while read -r header; do
+    case "$folder $header" in "host deck/"*) continue ;; *" toolbox/"*) file=examples/$header ;; *) file=examples/$folder/$header ;; esac
+    [ -f "$file" ] || echo "examples/$folder includes \"$header\", which is not its own"
+  done
 done | sort | { ! grep . >&2; } || bad=1
+forbid "the toolbox knows no contact" '[<"](.*/)?ents\.h(pp)?[>"]' examples/toolbox
 
 # The reader of decks serves ents-deck and the reference host: it knows neither the library nor a host.
 reader=$(cd adapters/deck && ls source.?pp spelling.cpp element_types.?pp scopes.?pp mesh.?pp faces.?pp facet_tree.?pp)

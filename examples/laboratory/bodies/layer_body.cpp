@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "elastic_layer.hpp"
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "mesh.hpp"
 #include "scene.hpp"
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 #include "wave_transform.hpp"
 
 namespace host {

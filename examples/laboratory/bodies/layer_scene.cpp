@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "json_reader.hpp"
 #include "keys.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

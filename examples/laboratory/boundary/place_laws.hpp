@@ -14,8 +14,8 @@
 #include <array>
 #include <vector>
 
-#include "json_reader.hpp"
 #include "slave_points.hpp"
+#include "toolbox/json_reader.hpp"
 #include "wave_law.hpp"
 
 namespace host {

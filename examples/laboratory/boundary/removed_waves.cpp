@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "error.hpp"
 #include "output/table.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

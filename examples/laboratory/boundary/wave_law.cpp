@@ -15,8 +15,8 @@
 
 #include <unistd.h>
 
-#include "error.hpp"
 #include "hash.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

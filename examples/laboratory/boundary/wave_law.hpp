@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "elastic_layer.hpp"
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

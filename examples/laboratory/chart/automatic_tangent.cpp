@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "error.hpp"
 #include "own_elements.hpp"
+#include "toolbox/error.hpp"
 
 namespace host::chart {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "error.hpp"
-#include "json_reader.hpp"
 #include "output/table.hpp"
+#include "toolbox/error.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host::chart {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "check_mesh.hpp"
-#include "json_reader.hpp"
 #include "scene.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

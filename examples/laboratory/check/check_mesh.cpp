@@ -4,7 +4,7 @@
 #include <map>
 
 #include "deck/mesh.hpp"
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ents_library.hpp"
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

@@ -8,8 +8,8 @@
 #include "check_mesh.hpp"
 #include "commands.hpp"
 #include "ents_library.hpp"
-#include "json_reader.hpp"
 #include "resolution.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

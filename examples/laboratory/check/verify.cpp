@@ -8,8 +8,8 @@
 
 #include "commands.hpp"
 #include "ents_library.hpp"
-#include "json_reader.hpp"
 #include "output/table.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 namespace {

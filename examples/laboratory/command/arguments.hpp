@@ -12,8 +12,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "error.hpp"
 #include "nearest_word.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

@@ -7,10 +7,10 @@
 
 #include "check_extent.hpp"
 #include "commands.hpp"
-#include "error.hpp"
 #include "output/text_file.hpp"
 #include "output_folder.hpp"
 #include "result.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

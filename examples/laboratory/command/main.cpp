@@ -11,8 +11,8 @@
 
 #include "arguments.hpp"
 #include "commands.hpp"
-#include "error.hpp"
 #include "sublaw_options.hpp"
+#include "toolbox/error.hpp"
 
 namespace {
 

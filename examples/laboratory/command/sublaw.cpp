@@ -7,13 +7,13 @@
 
 #include "command/commands.hpp"
 #include "ents_library.hpp"
-#include "error.hpp"
-#include "json_reader.hpp"
 #include "map_file.hpp"
 #include "output/pictures.hpp"
 #include "output/table.hpp"
 #include "output_folder.hpp"
 #include "removed_waves.hpp"
+#include "toolbox/error.hpp"
+#include "toolbox/json_reader.hpp"
 #include "wave_law.hpp"
 
 namespace host {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "error.hpp"
 #include "polygon.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <dlfcn.h>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

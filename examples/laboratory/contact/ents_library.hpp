@@ -10,7 +10,7 @@
 
 #include <ents.hpp>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

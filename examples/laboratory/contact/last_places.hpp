@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

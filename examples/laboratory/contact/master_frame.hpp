@@ -7,7 +7,7 @@
 
 #include "configuration.hpp"
 #include "master.hpp"
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 
 namespace host {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "areas.hpp"
-#include "error.hpp"
 #include "scene.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 namespace {

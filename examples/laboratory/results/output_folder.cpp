@@ -7,7 +7,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

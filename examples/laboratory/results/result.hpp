@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "compare.hpp"
-#include "json_reader.hpp"
 #include "output/table.hpp"
 #include "run.hpp"
-#include "vtu.hpp"
+#include "toolbox/json_reader.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host {
 

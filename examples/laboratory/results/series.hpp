@@ -2,7 +2,7 @@
 // The VTU series of a run that goes on after it was stopped.
 #pragma once
 
-#include "vtu.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host {
 

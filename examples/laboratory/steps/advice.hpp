@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 namespace host {
 

@@ -2,7 +2,7 @@
 // L D L^T of symmetric matrices that are not positive definite, with MUMPS: a tenth of the time of LU.
 #pragma once
 
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 
 namespace host {
 

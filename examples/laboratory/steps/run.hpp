@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "contact_area.hpp"
-#include "error.hpp"
 #include "exact.hpp"
 #include "simulation.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 

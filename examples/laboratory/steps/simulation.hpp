@@ -16,8 +16,8 @@
 #include "removed_waves.hpp"
 #include "resolution.hpp"
 #include "scene.hpp"
-#include "solver.hpp"
 #include "sparse_system.hpp"
+#include "toolbox/solver.hpp"
 
 namespace host {
 

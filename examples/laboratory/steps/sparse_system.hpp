@@ -8,7 +8,7 @@
 
 #include "dof_map.hpp"
 #include "mesh.hpp"
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 
 namespace host {
 

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "vtu.hpp"
+#include "toolbox/vtu.hpp"
 
 namespace host::text_file_test {
 namespace {

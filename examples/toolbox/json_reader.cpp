@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_reader.hpp"
+#include "toolbox/json_reader.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -101,6 +101,20 @@ Json parse_json(std::string_view text, const std::string& name) {
 }
 
 Json parse_json_file(const std::filesystem::path& file) { return parse_json(read_text(file), file.string()); }
+
+Json read_variant(const std::filesystem::path& file, const std::string& variant) {
+  Json json = parse_json_file(file);
+  if (variant.empty()) return json;
+  const Json variants = find_json(json, "/variants");
+  if (!variants.is_object() || !variants.contains(variant)) {
+    std::string names;
+    for (const auto& item : variants.items()) names += (names.empty() ? "" : ", ") + item.key();
+    throw InputError(file.string() + ": no variant \"" + variant +
+                     "\" in /variants; there are: " + (names.empty() ? "none" : names));
+  }
+  json.merge_patch(variants.at(variant));
+  return json;
+}
 
 void JsonValue::fail(const std::string& message) const {
   throw InputError(where_ + (where_.ends_with(": ") ? "" : ": ") +

@@ -13,6 +13,11 @@
 
 namespace host {
 
+/// The name of an array, for people.
+inline std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
+}
+
 /// Write a file whole: the text goes to FILE.new, which then takes its name. Who reads FILE meanwhile sees the old one.
 /// @throws std::runtime_error naming the file that cannot be written, and why
 void save_text(const std::filesystem::path& file, const std::string& text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver.hpp"
+#include "toolbox/solver.hpp"
 
 #include <limits>
 #include <new>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -13,7 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "error.hpp"
+#include "toolbox/error.hpp"
 
 namespace host {
 
@@ -27,12 +28,19 @@ Json parse_json_file(const std::filesystem::path& file);
 /// The same from text; `name` stands for the file in messages.
 Json parse_json(std::string_view text, const std::string& name);
 
+/// The file's text, changed by one of its variants (RFC 7386); empty: as it is.
+/// @throws InputError naming the file and the variants that there are
+Json read_variant(const std::filesystem::path& file, const std::string& variant);
+
 /// What stands at a JSON pointer such as "/contact/wear"; null where nothing does. For values that another
 /// reader checks, and may not have checked yet.
 inline Json find_json(const Json& value, const char* pointer) {
   const Json::json_pointer place(pointer);
   return value.contains(place) ? value.at(place) : Json();
 }
+
+/// JSON has no NaN.
+inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// One JSON value together with where it was found.
 class JsonValue {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtu.hpp"
+#include "toolbox/vtu.hpp"
 
 #include <algorithm>
 #include <array>
