@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact: surfaces that are slave and master. Each point carries with half its area, for each pressing pair of places is
-// seen from both.
+// Each point of surfaces that are slave and master carries with half its area, for each pressing pair of places is seen
+// from both.
 #include "both_sides.hpp"
 
 #include <set>
 
-#include "contact.hpp"
+#include "contact_sides.hpp"
 #include "smoothing.hpp"
 
 namespace host {
@@ -71,41 +71,29 @@ void refuse_one_sided(const ContactSpec& spec) {
   if (is_smoothed(segment)) throw InputError(what + "the segments have to be plain faces, not " + segment);
 }
 
-void Contact::read_both_sides(const ContactSpec& spec) {
-  if (!has_both_sides(spec)) return;
-  refuse_one_sided(spec);
-  one_surface_ = is_one_surface(spec);
-  for (double& area : points_.areas) area *= 0.5;
-  const std::size_t each = points_.are_nodes() ? 1 : points_.size() / cut_.faces.size();
-  if (one_surface_) {
-    for (std::size_t k = 0; k < points_.size(); ++k)
-      if (points_.are_nodes())
-        left_out_.node.push_back(points_.nodes[k]);
+LeftOut left_out_of(const ContactSpec& spec, const ContactSides& sides) {
+  LeftOut out;
+  const SlavePoints& points = sides.points;
+  const std::vector<Face>& faces = sides.cut.faces;
+  const std::size_t each = points.are_nodes() ? 1 : points.size() / faces.size();
+  if (is_one_surface(spec)) {
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (points.are_nodes())
+        out.node.push_back(points.nodes[k]);
       else
-        left_out_.segment.push_back(stride(k / each));
-    return;
+        out.segment.push_back(stride(k / each));
+    return out;
   }
-  const std::size_t of_slave = mesh_->face_sets.at(spec.slave).size();
-  for (std::size_t s = 0; s < cut_.faces.size(); ++s) left_out_.segment_side.push_back(s < of_slave ? 0 : 1);
+  const std::size_t of_slave = sides.bodies->face_sets.at(spec.slave).size();
+  for (std::size_t s = 0; s < faces.size(); ++s) out.segment_side.push_back(s < of_slave ? 0 : 1);
   std::set<int> nodes;
   for (std::size_t s = 0; s < of_slave; ++s)
-    for (int a = 0; a < cut_.faces[s].count; ++a)
-      nodes.insert(dofs_->representative(cut_.faces[s].nodes[static_cast<std::size_t>(a)]));
-  for (std::size_t k = 0; k < points_.size(); ++k)
-    left_out_.side.push_back(points_.are_nodes() ? (nodes.count(points_.nodes[k]) != 0 ? 0 : 1)
-                                                 : left_out_.segment_side[k / each]);
-}
-
-void Contact::measure_thickness(const Configuration& begin) {
-  if (!one_surface_) return;
-  place(begin);
-  slave_normals_ = slave_normals(begin);
-  const ents_master_mesh where = mesh();
-  detector_.move(where);
-  thickness_below_.resize(points_.size(), 0.0);
-  detector_.measure(where, slave_positions_, slave_normals_, left_out_, thickness_below_);
-  left_out_.depth = thickness_below_;
-  for (double& depth : left_out_.depth) depth *= 0.5;
+    for (int a = 0; a < faces[s].count; ++a)
+      nodes.insert(sides.dofs->representative(faces[s].nodes[static_cast<std::size_t>(a)]));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    out.side.push_back(points.are_nodes() ? (nodes.count(points.nodes[k]) != 0 ? 0 : 1)
+                                          : out.segment_side[k / each]);
+  return out;
 }
 
 } // namespace host

@@ -32,6 +32,10 @@ inline bool has_both_sides(const ContactSpec& spec) { return spec.two_pass || is
 /// @throws InputError where a set does not exist, or two passes are over surfaces that meet
 std::vector<Face> slave_faces(const Mesh& mesh, const ContactSpec& spec);
 
+class ContactSides;
+/// What the points of surfaces that are slave and master must not find.
+LeftOut left_out_of(const ContactSpec& spec, const ContactSides& sides);
+
 /// @throws InputError for what needs one slave and one master
 void refuse_one_sided(const ContactSpec& spec);
 

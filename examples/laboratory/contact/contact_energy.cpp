@@ -7,7 +7,7 @@
 namespace host {
 
 void Contact::ask_for_energy(ents_output& out, std::vector<double>& energies) const {
-  energies.assign(3 * points_.size(), 0.0);
+  energies.assign(3 * slaves().size(), 0.0);
   out.wanted |= ENTS_ENERGY | ENTS_FRICTION_ENERGY | ENTS_DISSIPATION;
   out.energy = energies.data(), out.energy_stride = 3;
   out.friction_energy = energies.data() + 1, out.friction_energy_stride = 3;
