@@ -87,14 +87,17 @@ ents_detection Contact::detection() {
   return io;
 }
 
-ents_input Contact::input() const {
+Outcome Contact::iterate(const ents_output& out, const ents_system* system) {
+  const ents_master_mesh surface = mesh();
+  const ents_detection io = detection();
   auto in = ents::make<ents_input>();
   in.area = areas_.data(), in.area_stride = 1;
   in.state_begin = states_.begin.data(), in.state_begin_stride = states_.size;
   in.positions_begin = master_begin_.data(), in.slave_begin = slave_begin_.data();
   in.time_increment = duration_;
   if (heat_) in.slave_temperature = slave_temperature_.data(), in.slave_temperature_stride = 1;
-  return in;
+  return outcome(ents::call(ents_iterate, model_.get(), &surface, tree_.data(), tree_.size(), 0,
+                            ssize_of(points()), &io, &in, &out, system));
 }
 
 Outcome Contact::outcome(const ents::Result& result) const {
@@ -169,11 +172,7 @@ Outcome Contact::assemble(const Configuration& at, std::vector<double>& residual
   out.wanted = ENTS_FLAGS | ENTS_STATE;
   out.flags = flags_.data(), out.flags_stride = 1;
   out.state_end = states_.end.data(), out.state_end_stride = states_.size;
-  const ents_master_mesh surface = mesh();
-  const ents_detection io = detection();
-  const ents_input in = input();
-  const Outcome found = outcome(ents::call(ents_iterate, model_.get(), &surface, tree_.data(), tree_.size(),
-                                           0, ssize_of(points()), &io, &in, &out, &system));
+  const Outcome found = iterate(out, &system);
   if (!found.ok) return found;
   for (const int node : slave_nodes_) {
     for (std::size_t i = 0; i < d_; ++i) {
@@ -234,12 +233,7 @@ ContactResults Contact::results(const Configuration& at) {
     out.wanted |= ENTS_HEAT;
     out.heat = r.heat.data(), out.heat_stride = 2;
   }
-  const ents_master_mesh surface = mesh();
-  const ents_detection io = detection();
-  const ents_input in = input();
-  const Outcome found = outcome(ents::call(ents_iterate, model_.get(), &surface, tree_.data(), tree_.size(),
-                                           0, ssize_of(n), &io, &in, &out, nullptr));
-  if (!found.ok) throw JobError(found.reason);
+  if (const Outcome found = iterate(out, nullptr); !found.ok) throw JobError(found.reason);
   for (std::size_t k = 0; k < n; ++k)
     if (segment_[k] < 0) r.gap[k] = std::nan(""); // nothing is opposite
   for (std::size_t k = 0; k < n && heat_; ++k)

@@ -107,7 +107,8 @@ private:
   std::vector<double> slave_positions(const Configuration& at) const;
   std::vector<double> master_positions(const Configuration& at) const;
   ents_detection detection();
-  ents_input input() const;
+  /// The library's elements: rows of `system`, if there is one, and results in `out`.
+  Outcome iterate(const ents_output& out, const ents_system* system);
   Outcome outcome(const ents::Result& result) const;
 
   const Mesh* bodies_;
