@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""friction.py [ENTS-HOST] [--out FOLDER]: the scene of sheet.py with Coulomb friction, 0.1, in steps a third as long.
+"""friction.py [ENTS-HOST] [--out FOLDER]: the scene of sheet.py with Coulomb friction, 0.1, in 40 and 240 steps.
 
 The height on the strip against the mesh of the corrugation. The mesh is given surface coordinates: a slave node slides over three of its segments
 in a step, and without them the place that friction holds it at is found up to one segment and a half beyond a segment's border.
@@ -13,7 +13,7 @@ import sheet
 from sheet import HERE, runs
 
 FRICTION = {"type": "coulomb", "coefficient": 0.1, "stiffness": 10}
-STEPS = [{"to": 1, "count": 20}, {"to": 2, "count": 240}]
+STEPS = [{"to": 1, "count": 40}, {"to": 2, "count": 240}]
 
 
 def main():

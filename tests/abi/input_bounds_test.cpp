@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "sample_count.hpp"
 #include "support/element.hpp"
 
 namespace input_bounds_test {
@@ -76,7 +77,7 @@ TEST(InputBounds, EvaluationReadsItsArraysAndNothingBeside) {
 }
 
 // The begin of the increment is not written, whatever comes of it: its memory is read only above; and the
-// model is the same after 1000 evaluations as before.
+// model is the same after many evaluations as before.
 TEST(InputBounds, StateAndModelStayAsTheyAre) {
   Random random(62);
   for (const ModelKind& kind : some_kinds()) {
@@ -87,7 +88,7 @@ TEST(InputBounds, StateAndModelStayAsTheyAre) {
     const Fenced state(e[state_begin], Fenced::at_back);
     ents_input input = input_of(e);
     input.state_begin = state.data();
-    for (int i = 0; i < 1000; ++i) { // iterations of an increment that are thrown away
+    for (int i = 0; i < test::samples(1000); ++i) { // iterations of an increment that are thrown away
       Element trial = e;
       for (double& x : trial[slave]) x += random(-0.1, 0.1);
       ents_input other = input_of(trial);

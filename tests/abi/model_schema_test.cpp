@@ -442,7 +442,7 @@ TEST_F(ModelSchema, ReaderAndSchemaAgreeOnEveryChange) {
   });
 
   int accepted = 0, refused = 0;
-  test::Turns turns(11);
+  test::Turns turns(37);
   const auto compare = [&](const json& model) {
     if (!turns.take()) return;
     const Verdict got = read(model);

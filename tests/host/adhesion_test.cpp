@@ -128,6 +128,7 @@ TEST(Adhesion, CylinderOfTheOtherLaws) {
                                {"work", work},
                                {"length", 1.0264 * work / stronger},
                                {"range", 0.005}}}) {
+    if (law["type"] == "lennard_jones" && ::test::long_divisor() > 1) continue;
     const double force = cylinder(law, 1024, -1e-4, -0.0046, 1e-4);
     std::cout << law["type"] << ": " << force << ", JKR " << force / jkr - 1 << "\n";
     EXPECT_NEAR(force / jkr, 1, 0.01) << law["type"];
