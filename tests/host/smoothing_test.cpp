@@ -80,7 +80,7 @@ TEST(SmoothedMaster, AHalfWithAPlaneOfSymmetryIsTheWhole) {
         // In space the runs are long where Newton's iteration fails on these coarse meshes and steps are cut,
         // and pieces are divided into triangles, which are not symmetric.
         if (solid && (sampling == "cut" || friction == sampling.is_number())) continue;
-        if (segment == std::string("catmull_rom16") && (friction || test::long_divisor() > 1)) continue;
+        if (segment == std::string("catmull_rom16") && (friction || ::test::long_divisor() > 1)) continue;
         const auto solve_it = [&](bool part) {
           Json json = scene({segment, solid, part, friction});
           if (!sampling.is_null()) json["contact"]["sampling"] = sampling;

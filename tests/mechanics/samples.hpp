@@ -8,7 +8,6 @@
 namespace mechanics {
 
 using test::long_divisor;
-using test::long_divisor;
 using test::long_samples;
 using test::sample_divisor;
 using test::samples;
