@@ -53,20 +53,17 @@ struct Error : std::runtime_error {
 };
 
 /// Every function of ents.h, without its prefix.
-#define ENTS_FUNCTIONS(X)                                                                                    \
-  X(status_text)                                                                                             \
-  X(version)                                                                                                 \
-  X(check_contract)                                                                                          \
-  X(height_register)                                                                                         \
-  X(model_create)                                                                                            \
-  X(model_create_from_file) X(model_destroy) X(model_layout) X(model_bind) X(parameter_place) X(field_size)  \
-      X(field_init) X(field_sample) X(tree_size) X(tree_build) X(tree_refit) X(surface_boxes) X(detect)      \
-          X(thickness) X(evaluate) X(state_init) X(state_augment) X(state_transfer) X(wear_collect)          \
-              X(parameter_derivatives) X(tributary_areas) X(contact_area) X(contact_resultants) X(suggest)   \
-                  X(combine) X(sampling_points) X(raise_points) X(smooth_size) X(smooth)                     \
-                      X(smooth_mirrored_size) X(smooth_mirrored) X(pose_init) X(pose_move) X(pose_to_body)   \
-                          X(pose_to_space) X(pose_element) X(assemble) X(iterate) X(surface_evaluate)        \
-                              X(model_check) X(surface_check) X(wear_collect_slave)
+// clang-format off
+#define ENTS_FUNCTIONS(X) \
+  X(status_text) X(version) X(check_contract) X(height_register) X(model_create) \
+  X(model_create_from_file) X(model_destroy) X(model_layout) X(model_bind) X(parameter_place) \
+  X(field_size) X(field_init) X(field_sample) X(tree_size) X(tree_build) X(tree_refit) X(surface_boxes) \
+  X(detect) X(thickness) X(evaluate) X(state_init) X(state_augment) X(state_transfer) X(wear_collect) \
+  X(parameter_derivatives) X(tributary_areas) X(contact_area) X(contact_resultants) X(suggest) X(combine) \
+  X(sampling_points) X(raise_points) X(smooth_size) X(smooth) X(smooth_mirrored_size) X(smooth_mirrored) \
+  X(pose_init) X(pose_move) X(pose_to_body) X(pose_to_space) X(pose_element) X(assemble) X(iterate) \
+  X(surface_evaluate) X(model_check) X(surface_check) X(wear_collect_slave)
+// clang-format on
 
 /// The addresses of these functions: those that the program is linked with, or those of a library that it has loaded.
 struct Library {
