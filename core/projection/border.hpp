@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The point of a segment's border (its end points in the plane, its edges in space) that is closest to a
-// point, found by branch and bound along each edge with the balls of ball.hpp.
+// point, found by branch and bound along each edge with the bounds of net.hpp.
 #pragma once
 
 #include "core/projection/branch_and_bound.hpp"
@@ -48,13 +48,12 @@ template <class B, bool H> struct ClosestOnBorder {
   }
 
   // Does a part of the edge come closer than the limit? Its centre is considered.
-  ENTS_NOINLINE bool may_be_closer(int e, double centre, double half) {
+  ENTS_NOINLINE bool may_be_closer(const SurfaceRange<1, B, H>& range, int e, double centre, double half) {
     Ball xi[T];
     for (int a = 0; a < T; ++a)
       xi[a] = {edge.middle[a] + edge.along[a] * centre, absolute(edge.along[a]) * half};
-    Shape<Ball, T, B::nodes> N;
     Surface<B, H, Ball> s;
-    const bool normal = evaluate_surface<1>(g, xi, N, s);
+    const bool normal = range(xi, s);
     if (!normal && H) {               // the height is anywhere within its bound
       constexpr double narrow = 1e-3; // without a surface at its centre: an edge that is crushed has none
       const double at = distance(centre);
@@ -133,6 +132,7 @@ template <class B, bool H> struct ClosestOnBorder {
   }
 
   ENTS_NOINLINE void search_edge(int e) {
+    const SurfaceRange<1, B, H> range(g, 0.0);
     constexpr double smallest = 1e-6; // half-width: the distance is then known to the square of it
     struct Part {
       double centre, half;
@@ -142,7 +142,7 @@ template <class B, bool H> struct ClosestOnBorder {
     int count = 1;
     while (count > 0) {
       const Part now = waiting[--count];
-      if (!may_be_closer(e, now.centre, now.half) || now.half < smallest) continue;
+      if (!may_be_closer(range, e, now.centre, now.half) || now.half < smallest) continue;
       const double half = 0.5 * now.half;
       waiting[count++] = {now.centre - half, half};
       waiting[count++] = {now.centre + half, half};

@@ -4,7 +4,8 @@
 // then finds.
 //   normal: the closest of the projections on the segment.
 //   shadow: the lit point, the one nearest to the light along the ray.
-// Bounds come from the kernel's own formulae evaluated with balls (ball.hpp). A box is dropped when
+// Bounds come from the control nets of the segment (net.hpp) and, for what the height adds, from the kernel's
+// own formulae evaluated with balls (ball.hpp). A box is dropped when
 //   - all of it is farther from the slave (normal) or from the ray (shadow) than any candidate may be,
 //   - the equations of the projection have no root in it (Krawczyk 1969; Moore, Kearfott, Cloud, Introduction
 //     to Interval Analysis, 2009, section 8.2), or only roots that are no minimum,
@@ -13,8 +14,8 @@
 // certain.
 #pragma once
 
-#include "core/projection/ball.hpp"
 #include "core/projection/collapsed_corner.hpp"
+#include "core/projection/net.hpp"
 #include "core/projection/search.hpp"
 
 namespace ents::ENTS_ISA {
@@ -30,10 +31,18 @@ inline constexpr double tie_size = 1e-9;     // of the segment's size
 
 template <int T> struct Box { double c[T], w[T]; };
 
+// Of a flat segment without a height no box is judged.
+struct NoRange {
+  template <class Geometry> ENTS_INLINE NoRange(const Geometry&, double) {}
+};
+template <class B, bool H>
+using JudgedRange = std::conditional_t<is_flat<B> && !H, NoRange, SurfaceRange<2, B, H>>;
+
 // The best projection so far.
 template <class B, bool H> struct Candidates {
   static constexpr int T = B::dim - 1;
   const Geometry<B>& g;
+  const JudgedRange<B, H>& range;
   const Target& t;
   Projection<B, H>& best;
   const Plan& plan;
@@ -177,10 +186,9 @@ ENTS_NOINLINE Verdict judge(const Box<B::dim - 1>& box, Candidates<B, H>& all, P
   longest = T == 2 && box.w[T - 1] > box.w[0];
   Ball xi[T];
   for (int a = 0; a < T; ++a) xi[a] = {box.c[a], box.w[a]};
-  Shape<Ball, T, B::nodes> N;
   Surface<B, H, Ball> s;
   ++all.evaluations;
-  all.no_normal = !evaluate_surface<2>(g, xi, N, s);
+  all.no_normal = !all.range(xi, s);
   if (all.no_normal) {
     const Vec<Ball, D> m = normal_of_tangents(s.a);
     const Ball area2 = dot(m, m);
@@ -300,7 +308,8 @@ template <class B, bool H>
 Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projection<B, H>& best, double limit,
               int budget) {
   constexpr int T = B::dim - 1;
-  Candidates<B, H> all{g, t, best, plan, limit};
+  const JudgedRange<B, H> range(g, plan.border);
+  Candidates<B, H> all{g, range, t, best, plan, limit};
   Projection<B, H> p;
   Box<T> box;
   domain_centre(g.basis, box.c);
@@ -335,17 +344,18 @@ Search search(const Geometry<B>& g, const Target& t, const Plan& plan, Projectio
     box.w[a] = (simplex ? 0.5 : 1.0) + rim;
   }
   // Most plain neighbours of the segment that has the projection are excluded as a whole.
-  if (int half; !H && !is_flat<B> && collapsed < 0 && limit < no_limit) {
-    double towards[T];
-    if (judge(box, all, p, half, towards) == Verdict::drop) {
-      best.evaluations = all.evaluations;
-      return all.result;
+  if constexpr (!H && !is_flat<B>)
+    if (int half; collapsed < 0 && limit < no_limit) {
+      double towards[T];
+      if (judge(box, all, p, half, towards) == Verdict::drop) {
+        best.evaluations = all.evaluations;
+        return all.result;
+      }
     }
-  }
   double centre[T];
   domain_centre(g.basis, centre);
   if (!all.inside) all.attempt(centre, p);
-  if (!is_flat<B> || H) {
+  if constexpr (!is_flat<B> || H) {
     if (collapsed >= 0) { // short of the collapsed edge, where there is no normal
       constexpr double left_out = 100.0 * next_to_collapsed_edge<false>;
       const int normal = collapsed % 2 == 0;

@@ -74,52 +74,55 @@ template <class B> double hull_spread(Basis which, double border) {
   return most;
 }
 
-// Largest |h| on the segment and its border.
-template <class B> ENTS_NOINLINE double height_range(const Plan& plan, const double* surface_coordinates) {
-  constexpr int T = B::dim - 1;
-  const B basis = basis_of<B>(plan.basis);
-  const int nodes = node_count(basis);
-  Ball s[T], xi[T];
-  for (Ball& x : xi) x = is_simplex(basis) ? Ball(0.5, 0.5 + plan.border) : Ball(0.0, 1.0 + plan.border);
-  const double* c = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
-  for (int a = 0; a < T; ++a) {
-    s[a] = xi[a];
-    if (!c) continue;
-    double least = c[a], most = c[a];
-    for (int i = 1; i < nodes; ++i) {
-      least = lesser(least, c[T * i + a]);
-      most = greater(most, c[T * i + a]);
-    }
-    s[a] = {0.5 * (least + most), 0.5 * (most - least) * plan.hull_spread};
+// Between the coefficients of a net, which is narrow where nodes lie beside the segment; of triangles and of the
+// bases whose nodes are their corners, between the values at the nodes.
+template <class B> ENTS_INLINE bool has_net(const B& basis) { return is_counted<B> && !is_simplex(basis); }
+template <int V, class B>
+ENTS_INLINE void range_of_segment(const B& basis, const Plan& plan, const double* of, Ball (&out)[V]) {
+  double least[V], most[V];
+  for (int k = 0; k < V; ++k) least[k] = no_bound, most[k] = -no_bound;
+  const auto take = [&](const double* values) {
+    for (int k = 0; k < V; ++k) least[k] = lesser(least[k], values[k]), most[k] = greater(most[k], values[k]);
+  };
+  double spread = 1.0;
+  if (!has_net(basis)) {
+    for (int i = 0; i < node_count(basis); ++i) take(of + V * i);
+    spread = plan.hull_spread;
+  } else if constexpr (is_counted<B>) {
+    const SegmentNet<B, V> net(basis, Domain<B>(basis, plan.border), of);
+    for (int j = 0; j < net.count[1]; ++j)
+      for (int i = 0; i < net.count[0]; ++i) take(net.c[j][i].c);
   }
-  return magnitude(evaluate_height<T>(*plan.height, s).h);
+  for (int k = 0; k < V; ++k) out[k] = {0.5 * (least[k] + most[k]), 0.5 * (most[k] - least[k]) * spread};
 }
 
 template <class B, bool H>
-void segment_box(const Plan& plan, const double* master, const double* surface_coordinates, double* low,
-                 double* high) {
-  constexpr int D = B::dim;
-  const int nodes = node_count(basis_of<B>(plan.basis));
-  double centre[D], half[D], size = 0.0;
-  for (int k = 0; k < D; ++k) {
-    double least = master[k], most = master[k];
-    for (int i = 1; i < nodes; ++i) {
-      least = lesser(least, master[D * i + k]);
-      most = greater(most, master[D * i + k]);
-    }
-    centre[k] = 0.5 * (least + most);
-    half[k] = 0.5 * (most - least) * plan.hull_spread;
-    size += half[k];
-  }
+ENTS_NOINLINE void segment_box(const Plan& plan, const double* master, const double* surface_coordinates,
+                               double* low, double* high) {
+  constexpr int D = B::dim, T = D - 1;
+  const B basis = basis_of<B>(plan.basis);
+  const double* c = surface_coordinates ? surface_coordinates : plan.surface_coordinates;
+  Ball x[D];
+  range_of_segment(basis, plan, master, x);
+  double size = 0.0;
+  for (int k = 0; k < D; ++k) size += x[k].r;
   double margin = 1e-9 * size; // ties, and rays along an edge
   if constexpr (H) {
     double height = plan.height_bound;
-    if (!(height < 0.1 * size)) height = lesser(height, height_range<B>(plan, surface_coordinates));
+    if (!(height < 0.1 * size)) {
+      Ball s[T];
+      if (c)
+        range_of_segment(basis, plan, c, s);
+      else
+        for (Ball& xi : s)
+          xi = is_simplex(basis) ? Ball(0.5, 0.5 + plan.border) : Ball(0.0, 1.0 + plan.border);
+      height = lesser(height, magnitude(evaluate_height<T>(*plan.height, s).h)); // largest |h|
+    }
     margin += height < no_bound ? height : no_bound;
   }
   for (int k = 0; k < D; ++k) {
-    low[k] = centre[k] - half[k] - margin;
-    high[k] = centre[k] + half[k] + margin;
+    low[k] = x[k].v - x[k].r - margin;
+    high[k] = x[k].v + x[k].r + margin;
   }
 }
 

@@ -65,7 +65,28 @@ template <class Basis, bool Enriched, class Scalar> struct Surface {
   V e2[K]; // rho_e,ab
 };
 
-// h(s(xi)) by the chain rule. coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
+// The chain rule: of j, h and its derivatives by s, with s_,a and s_,ab
+template <int Order, class Basis, int T, class Scalar>
+ENTS_INLINE void height_by_xi(const HeightJet<T, Scalar>& j, const Scalar (&s1)[T][T],
+                              const Scalar (&s2)[symmetric_size<T>][T], HeightJet<T, Scalar>& out) {
+  out.h = j.h;
+  for (int a = 0; a < T; ++a) {
+    out.h1[a] = j.h1[0] * s1[a][0];
+    if constexpr (T == 2) out.h1[a] = out.h1[a] + j.h1[1] * s1[a][1];
+  }
+  if constexpr (Order > 1)
+    unroll<symmetric_size<T>>([&](auto k) ENTS_LAMBDA_INLINE {
+      constexpr int a = k / 2, b = (k + 1) / 2; // 11, 12, 22
+      Scalar v = j.h2[0] * (s1[a][0] * s1[b][0]);
+      if constexpr (T == 2)
+        v = v + j.h2[1] * (s1[a][0] * s1[b][1] + s1[a][1] * s1[b][0]) + j.h2[2] * (s1[a][1] * s1[b][1]);
+      if constexpr (Basis::second[k])
+        for (int t = 0; t < T; ++t) v = v + j.h1[t] * s2[k][t];
+      out.h2[k] = v;
+    });
+}
+
+// h(s(xi)). coordinates: [nodes][T], or null: s = xi; height(s): h and its derivatives by s
 template <int Order, class Basis, class Height, class Scalar, class C>
 ENTS_INLINE void evaluate_height_by_xi(const Basis& basis, Height&& height, const C* coordinates,
                                        const Scalar (&xi)[Basis::dim - 1],
@@ -102,22 +123,7 @@ ENTS_INLINE void evaluate_height_by_xi(const Basis& basis, Height&& height, cons
   }
   if constexpr (is_range<Scalar>)
     for (int t = 0; t < T; ++t) s[t] = s[t] + coordinates[t];
-  const HeightJet<T, Scalar> j = height(s);
-  out.h = j.h;
-  for (int a = 0; a < T; ++a) {
-    out.h1[a] = j.h1[0] * s1[a][0];
-    if constexpr (T == 2) out.h1[a] = out.h1[a] + j.h1[1] * s1[a][1];
-  }
-  if constexpr (Order > 1)
-    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      constexpr int a = k / 2, b = (k + 1) / 2; // 11, 12, 22
-      Scalar v = j.h2[0] * (s1[a][0] * s1[b][0]);
-      if constexpr (T == 2)
-        v = v + j.h2[1] * (s1[a][0] * s1[b][1] + s1[a][1] * s1[b][0]) + j.h2[2] * (s1[a][1] * s1[b][1]);
-      if constexpr (Basis::second[k])
-        for (int t = 0; t < T; ++t) v = v + j.h1[t] * s2[k][t];
-      out.h2[k] = v;
-    });
+  height_by_xi<Order, Basis>(height(s), s1, s2, out);
 }
 
 // sum_i w_i y_i of the nodes
@@ -133,30 +139,15 @@ ENTS_INLINE Vec<Scalar, Basis::dim> combine(const Scalar (&w)[Basis::nodes], con
   return v;
 }
 
-// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface
-// is complete but for it.
-template <int Order, class Basis, bool Enriched, class Scalar>
-ENTS_INLINE bool evaluate_surface(const Geometry<Basis>& g, const Scalar (&xi)[Basis::dim - 1],
-                                  Shape<Scalar, Basis::dim - 1, Basis::nodes>& N,
+// The curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc.
+template <class Basis, bool Enriched> inline constexpr bool bent_below = Enriched && !is_flat<Basis>;
+
+// The rest of the surface from rho_,a, rho_,ab, rho_,abc and d = x_s - rho. by_xi(height): h and its derivatives by xi
+template <int Order, class Basis, bool Enriched, class Scalar, class Height>
+ENTS_INLINE bool complete_surface(const Geometry<Basis>& g, Height&& by_xi,
                                   Surface<Basis, Enriched, Scalar>& s) {
   constexpr int D = Basis::dim, T = D - 1, K = symmetric_size<T>;
-  // the curvature of rho_e needs one derivative more of rho than that of rho: n_,ab contains rho_,abc
-  constexpr bool bent = Enriched && !is_flat<Basis>;
-  constexpr int basis_order = bent || is_range<Scalar> ? Order + 1 : Order;
-  g.basis.template shape<basis_order>(xi, N);
-  s.d = -combine(N.n, g);
-  for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g);
-  if constexpr (basis_order > 1)
-    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Basis::second[k]) s.a2[k] = combine(N.d2[k], g);
-    });
-  if constexpr (basis_order > 2)
-    unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
-      if constexpr (Basis::third[k])
-        if (has_third(g.basis, k)) s.a3[k] = combine(N.d3[k], g);
-    });
-  if constexpr (is_range<Scalar>) narrow<basis_order>(g.basis, xi, s);
-
+  constexpr bool bent = bent_below<Basis, Enriched>;
   const Vec<Scalar, D> m = normal_of_tangents(s.a);
   const Scalar area2 = dot(m, m);
   Scalar metric[K];
@@ -186,9 +177,7 @@ ENTS_INLINE bool evaluate_surface(const Geometry<Basis>& g, const Scalar (&xi)[B
       s.dual[a] = s.dual_metric[symmetric_index(a, 0)] * s.a[0];
       if constexpr (T == 2) add_scaled(s.dual[a], s.dual_metric[symmetric_index(a, 1)], s.a[1]);
     }
-    const auto height_at = [&](const Scalar(&at)[T])
-                               ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
-    evaluate_height_by_xi<Order>(g.basis, height_at, g.surface_coordinates, xi, N, s.height);
+    by_xi(s.height);
     const auto& h = s.height;
     add_scaled(s.d, -h.h, s.n);
     if constexpr (bent) {
@@ -229,6 +218,35 @@ ENTS_INLINE bool evaluate_surface(const Geometry<Basis>& g, const Scalar (&xi)[B
       });
   }
   return true;
+}
+
+// Evaluate the surface and the shape functions at xi. Returns false where rho has no normal; a plain surface
+// is complete but for it.
+template <int Order, class Basis, bool Enriched, class Scalar>
+ENTS_INLINE bool evaluate_surface(const Geometry<Basis>& g, const Scalar (&xi)[Basis::dim - 1],
+                                  Shape<Scalar, Basis::dim - 1, Basis::nodes>& N,
+                                  Surface<Basis, Enriched, Scalar>& s) {
+  constexpr int T = Basis::dim - 1, K = symmetric_size<T>;
+  constexpr int basis_order = bent_below<Basis, Enriched> || is_range<Scalar> ? Order + 1 : Order;
+  g.basis.template shape<basis_order>(xi, N);
+  s.d = -combine(N.n, g);
+  for (int a = 0; a < T; ++a) s.a[a] = combine(N.d1[a], g);
+  if constexpr (basis_order > 1)
+    unroll<K>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (Basis::second[k]) s.a2[k] = combine(N.d2[k], g);
+    });
+  if constexpr (basis_order > 2)
+    unroll<T == 1 ? 1 : 4>([&](auto k) ENTS_LAMBDA_INLINE {
+      if constexpr (Basis::third[k])
+        if (has_third(g.basis, k)) s.a3[k] = combine(N.d3[k], g);
+    });
+  if constexpr (is_range<Scalar>) narrow<basis_order>(g.basis, xi, s);
+  const auto by_xi = [&](HeightJet<T, Scalar>& height) ENTS_LAMBDA_INLINE {
+    const auto height_at = [&](const Scalar(&at)[T])
+                               ENTS_LAMBDA_INLINE { return evaluate_height(*g.height, at); };
+    evaluate_height_by_xi<Order>(g.basis, height_at, g.surface_coordinates, xi, N, height);
+  };
+  return complete_surface<Order>(g, by_xi, s);
 }
 
 // Unit normal and |area| of rho_e; false where rho_e has no tangent plane.
