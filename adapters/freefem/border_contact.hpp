@@ -4,11 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include <ents.h>
+#include <ents.hpp>
 
 namespace freefem {
 
@@ -39,8 +38,8 @@ struct Forces {
 class BorderContact {
 public:
   /// @param model  JSON text, or the name of a file with it
-  /// @param dofs   of the whole mesh
-  BorderContact(const std::string& model, Border slave, Border master, long dofs, const Options& options);
+  /// @param vertices  of the whole mesh
+  BorderContact(const std::string& model, Border slave, Border master, long vertices, const Options& options);
   BorderContact(const BorderContact&) = delete;
   BorderContact& operator=(const BorderContact&) = delete;
 
@@ -62,37 +61,32 @@ private:
     double weight;
   };
   /// @return basis of the model's smoothed segment, or ""
-  std::string read_model(const std::string& model);
+  /// @throws what these borders cannot do
+  std::string basis_of(const std::string& model) const;
   void make_segments(const std::string& basis, const Options& options);
   void make_tree(const Options& options);
   std::vector<double> positions(const Border& border, const double* u) const;
-  std::vector<double> points(const double* u) const;
-  std::int32_t transfer(std::size_t slave, double* state, ents_report& report) const;
-  bool find_begin(std::size_t slave, double* state) const;
+  std::vector<double> control_points(const std::vector<double>& of_nodes) const;
   void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
   /// The element of slave node k: residual [dofs] and tangent [dofs][dofs], column by column.
   void add_element(std::size_t k, const double* residual, const double* tangent, double* r, Forces& to) const;
 
-  /// A constructor that throws has no destructor: the model goes with this.
-  struct Destroy {
-    void operator()(ents_model* model) const { ents_model_destroy(&model, nullptr); }
-  };
-  std::unique_ptr<ents_model, Destroy> model_;
-  ents_layout layout_{};
+  ents::Model model_;
   Border slave_, master_;
   long dofs_;
   double reach_;
   std::vector<double> areas_;
   // The master surface: segments over control points, which are combinations of its nodes (plain facets: the
   // nodes themselves).
-  std::vector<std::int64_t> segments_, begin_, of_;
-  std::vector<double> weights_, coordinates_, points_;
+  std::vector<std::int64_t> segments_;
+  ents::Combination net_;
+  std::vector<double> coordinates_, points_;
   ents_master_mesh mesh_{};
-  std::vector<double> tree_;
+  ents::Tree tree_;
   // Where slave nodes are and their history: at the begin of the increment, and as of the last evaluation.
   std::vector<std::int64_t> segment_, segment_begin_;
-  std::vector<double> xi_, xi_begin_, state_begin_, state_end_, points_begin_, now_, now_begin_;
-  bool undeformed_ = true; ///< the increment begins there
+  std::vector<double> xi_, xi_begin_, points_begin_, now_, now_begin_;
+  ents::States states_;
 };
 
 } // namespace freefem

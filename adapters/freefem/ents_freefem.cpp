@@ -81,7 +81,7 @@ public:
     options.ends = static_cast<int>(value(4, stack, long{options.ends}));
     const string model = *GetAny<string*>((*model_)(stack));
     variable->contact = checked([&] {
-      return new BorderContact(model, border(*mesh, slave), border(*mesh, master), 2L * mesh->nv, options);
+      return new BorderContact(model, border(*mesh, slave), border(*mesh, master), mesh->nv, options);
     });
     return variable;
   }

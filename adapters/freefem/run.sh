@@ -33,7 +33,7 @@ mkdir -p "$build/freefem"
 cd "$build/freefem"
 failed() { tail -n 30 "$1" >&2; echo "run.sh: $2 (whole output: $build/freefem/$1)" >&2; exit 1; }
 
-if [ ! -f ents.so ] || [ -n "$(find "$here" "$here/../../abi/ents.h" -name '*.[hc]*' -newer ents.so)" ]; then
+if [ ! -f ents.so ] || [ -n "$(find "$here" "$here/../../abi/ents.h" "$here/../../abi/ents.hpp" -name '*.[hc]*' -newer ents.so)" ]; then
   echo "== building the plugin"
   ff-c++ "$here/ents_freefem.cpp" "$here/border_contact.cpp" "-I$here" "-I$here/../../abi" "-L$build/lib" -lents "-Wl,-rpath,$build/lib" \
     -o ents >build.log 2>&1 || failed build.log "the plugin did not compile"

@@ -48,7 +48,7 @@ protected:
     EXPECT_EQ(a.forces.value, b.forces.value);
   }
 
-  BorderContact contact_{model, slave(), master(), 10, options()};
+  BorderContact contact_{model, slave(), master(), 5, options()};
 };
 
 TEST_F(Valley, ACutReturnsToTheBeginOfTheIncrement) {
@@ -78,8 +78,14 @@ TEST_F(Valley, ANodeThatLeavesTheMasterInContactAsksForACut) {
     EXPECT_EQ(left.forces.message.find("beside all segments") != std::string::npos, !above)
         << left.forces.message;
   }
-  // An open one leaves it as it likes.
+  // An open one leaves it as it likes, unless it passes through the flank on its way.
   EXPECT_EQ(at(0.5, 0.6).force[0], 0);
+  contact_.accept();
+  const Answer through = at(1.3, 1.2);
+  EXPECT_LT(through.forces.step_factor, 1);
+  EXPECT_NE(through.forces.message.find("passes through the master surface"), std::string::npos)
+      << through.forces.message;
+  EXPECT_EQ(at(1.3, 1.5).forces.step_factor, 1);
   contact_.accept();
   EXPECT_EQ(at(1.3, 1.2).forces.step_factor, 1);
 }
@@ -101,14 +107,13 @@ TEST_F(Valley, SoDoesAnIncrementThatTheScriptThrowsAway) {
   expect_same(before, at(0.1, 0.05));
 }
 
-/// A space [P1, P1] has no temperatures.
 // What opens in the first increment has the bonds of the undeformed borders.
 TEST(Border, ABondHoldsFromTheFirstIncrementOn) {
   const char model[] =
       R"({"segment": "line2", "contact": {"normal": {"type": "tied", "stiffness": 100, "range": 1e-6}}})";
   Options options;
   options.reach = 0.5;
-  BorderContact contact(model, {{2, 3}, {0.9, 0, 0.1, 0}, {0, 1}}, {{0, 1}, {0, 0, 1, 0}, {0, 1}}, 8,
+  BorderContact contact(model, {{2, 3}, {0.9, 0, 0.1, 0}, {0, 1}}, {{0, 1}, {0, 0, 1, 0}, {0, 1}}, 4,
                         options);
   std::vector<double> u(8), r(8);
   for (const double gap : {0.1, 0.2}) {
@@ -120,12 +125,32 @@ TEST(Border, ABondHoldsFromTheFirstIncrementOn) {
   }
 }
 
+// A bond whose energy, 0.05 of an area, is spent does not form again where its node comes back.
+TEST(Border, ABondThatHasBrokenStaysBroken) {
+  const char model[] = R"({"segment": "line2", "contact": {"normal": {"type": "cohesive", "stiffness": 100,
+    "strength": 1, "energy": 0.05, "range": 0.01}}})";
+  Options options;
+  options.reach = 0.5;
+  BorderContact contact(model, {{2, 3}, {0.9, 0, 0.1, 0}, {0, 1}}, {{0, 1}, {0, 0, 1, 0}, {0, 1}}, 4,
+                        options);
+  std::vector<double> u(8), r(8);
+  const auto force = [&](double gap) {
+    u[5] = u[7] = gap;
+    r.assign(8, 0);
+    EXPECT_EQ(contact.evaluate(u.data(), r.data()).step_factor, 1);
+    contact.accept();
+    return r[5] + r[7];
+  };
+  EXPECT_NEAR(force(0.005), 0.4, 1e-12);
+  for (const double gap : {0.2, 0.0, 0.005}) EXPECT_EQ(force(gap), 0) << gap;
+}
+
 TEST(Border, WithHeatIsRefused) {
   const Border master{{0, 1}, {-1, 0, 1, 0}, {0, 1}}, slave{{2, 3}, {0.5, 0, -0.5, 0}, {0, 1}};
   try {
     BorderContact(R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100},
                   "heat": {"conductance": 3}}})",
-                  slave, master, 10, Options());
+                  slave, master, 5, Options());
     FAIL() << "no refusal";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("the model has \"heat\""), std::string::npos) << error.what();
@@ -138,7 +163,7 @@ TEST(Border, WithAnEdgeWithoutLengthIsRefused) {
       slave{{2, 3, 4}, {0.5, 0, -0.5, 0, -0.5, 0}, {0, 1, 1, 2}};
   try {
     BorderContact(R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100}}})",
-                  slave, master, 10, Options());
+                  slave, master, 5, Options());
     FAIL() << "no refusal";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("facet 1"), std::string::npos) << error.what();
