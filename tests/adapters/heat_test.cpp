@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Heat through Abaqus: two bars and their contact, heat of friction, and what is refused.
-#include <array>
 #include <cmath>
 #include <functional>
 
@@ -9,6 +8,7 @@
 
 #include "abaqus_services.hpp"
 #include "emulated_host.hpp"
+#include "heat_problems.hpp"
 #include "measured.hpp"
 #include "plain_model.hpp"
 #include "uel_host.hpp"
@@ -18,12 +18,7 @@ namespace adapters::heat_test {
 namespace {
 
 using Values = std::vector<double>;
-
-/// One contact element at nodes with (x, y, T) each, slave first, then the ends of a line: [9], [9][9] column-major.
-struct Response {
-  Values residual, tangent;
-};
-using Element = std::function<Response(int element, const Values& reference, const Values& unknowns)>;
+using Response = Bars::Response;
 
 /// Abaqus/Standard with the degrees of freedom 1, 2, 11.
 UelCall abaqus_call(int model, const Values& reference, const Values& unknowns) {
@@ -47,70 +42,6 @@ Response abaqus(int model, const Values& reference, const Values& unknowns) {
   for (std::size_t i = 0; i < n * n; ++i) r.tangent.push_back(c.amatrx[i]);
   return r;
 }
-
-/// Two bars of areas 1.2: a power enters the far end of the upper one, the far end of the lower one has a
-/// temperature. Between them two slave nodes on one segment; a spring presses each down, two hold each master
-/// node.
-struct Bars {
-  static constexpr double area = 1.2, k_up = 3, k_low = 5, length_up = 2, length_low = 0.7, power = 8,
-                          end = 20;
-  // Nodes: 0, 1 slave, 2, 3 master, 4, 5 upper and 6, 7 lower ends: (x, y, T) each.
-  static constexpr int n = 24;
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(n);
-  int iterations = 0;
-
-  /// @return size of the residual, relative to that of its parts
-  double assemble(const Element& contact, Eigen::VectorXd& residual, Eigen::MatrixXd& tangent) const {
-    residual = Eigen::VectorXd::Zero(n), tangent = Eigen::MatrixXd::Zero(n, n);
-    Eigen::VectorXd size = Eigen::VectorXd::Constant(n, 1.0);
-    const auto spring = [&](int dof, double stiffness, double foot) {
-      residual(dof) += stiffness * (unknowns(dof) - foot), tangent(dof, dof) += stiffness;
-      size(dof) += std::abs(stiffness * foot);
-    };
-    for (int node = 0; node < 8; ++node)
-      for (int i = 0; i < 2; ++i) spring(3 * node + i, node < 2 ? 40 : 300, node < 2 && i == 1 ? -0.3 : 0);
-    for (const int node : {6, 7}) spring(3 * node + 2, 1, end);
-    for (const auto& [a, b, c] : {std::array{0, 4, 1}, {1, 5, 1}, {2, 6, 0}, {3, 7, 0}}) {
-      const double s = 0.5 * area * (c ? k_up / length_up : k_low / length_low);
-      const int i = 3 * a + 2, j = 3 * b + 2;
-      const double q = s * (unknowns(i) - unknowns(j));
-      residual(i) += q, residual(j) -= q;
-      tangent(i, i) += s, tangent(j, j) += s, tangent(i, j) -= s, tangent(j, i) -= s;
-    }
-    for (const int node : {4, 5}) residual(3 * node + 2) -= power / 2;
-    for (const int node : {6, 7}) { // prescribed
-      const int i = 3 * node + 2;
-      residual(i) = unknowns(i) - end;
-      tangent.row(i).setZero(), tangent(i, i) = 1;
-    }
-    for (int slave = 0; slave < 2; ++slave) {
-      const int nodes[3] = {slave, 2, 3};
-      Values reference{slave == 0 ? -0.5 : 0.5, 0, -1, 0, 1, 0}, at;
-      for (const int node : nodes)
-        for (int i = 0; i < 3; ++i) at.push_back(unknowns(3 * node + i));
-      const Response r = contact(slave, reference, at);
-      for (std::size_t i = 0; i < 9; ++i) {
-        const int row = 3 * nodes[i / 3] + static_cast<int>(i % 3);
-        residual(row) += r.residual[i];
-        for (std::size_t j = 0; j < 9; ++j)
-          tangent(row, 3 * nodes[j / 3] + static_cast<int>(j % 3)) += r.tangent[i + 9 * j];
-      }
-    }
-    return residual.cwiseQuotient(size).norm();
-  }
-
-  void solve(const Element& contact) {
-    Eigen::VectorXd residual;
-    Eigen::MatrixXd tangent;
-    while (assemble(contact, residual, tangent) > 1e-12) {
-      ASSERT_LT(++iterations, 20);
-      unknowns -= tangent.partialPivLu().solve(residual);
-    }
-  }
-  double resistance(double conductance) const {
-    return length_up / (k_up * area) + length_low / (k_low * area) + 1 / (conductance * area);
-  }
-};
 
 // T_out = T_in + q R, R = sum of L / (k A), and 1 / (h A). The springs and the contact that closes at zero are
 // linear: one iteration.
@@ -140,14 +71,8 @@ TEST(Heat, TwoBarsWithAConductanceOfThePressure) {
   EXPECT_LE(bars.iterations, 3);
 }
 
-constexpr double mu = 0.3, k_t = 80, depth = 0.02, step = 0.05, normal = 0.6 * 100 * depth;
-
-std::string dragged(double slave) {
-  return R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100},
-    "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 80},
-    "heat": {"friction": {"share": 0.9, "slave": )" +
-         std::to_string(slave) + "}}}}";
-}
+using dragged::depth, dragged::mu, dragged::step;
+constexpr double k_t = dragged::tangential, normal = 0.6 * dragged::normal * depth;
 
 // A block that is dragged: 0.9 mu N v, split as asked; ENERGY(4) is the sum of what is dissipated, mu N times the
 // way less the elastic slip, and ENERGY(2) what is stored.
@@ -155,7 +80,7 @@ TEST(Heat, ADraggedBlockHeatsAbaqusWithThePowerOfItsFriction) {
   int model = 814;
   double worst = 0, worst_energy = 0;
   for (const double share : {0.0, 0.3, 1.0}) {
-    write("ents_" + std::to_string(model) + ".json", dragged(share));
+    write("ents_" + std::to_string(model) + ".json", dragged::model(share));
     const double dtime = 0.1, power = 0.9 * mu * normal * step / dtime;
     Values history(30), energy(8);
     for (int i = 0; i < 20; ++i) {
@@ -210,7 +135,7 @@ TEST(Heat, SelfcheckLooksAtAllBlocks) {
 }
 
 TEST(Heat, WhatAbaqusLacksIsNamed) {
-  write("ents_818.json", dragged(0.5));
+  write("ents_818.json", dragged::model(0.5));
   write("ents_819.json", R"({"segment": "line2", "master": "rigid", "contact": {"normal": {"type": "penalty",
     "stiffness": 400}, "heat": {"conductance": 10}}})");
   write("ents_819.txt", "body -1 0\nbody 1 0\n");
