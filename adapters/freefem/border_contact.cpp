@@ -42,7 +42,7 @@ std::string smoothed_basis(const std::string& text) {
 BorderContact::BorderContact(const std::string& model, Border slave, Border master, long vertices,
                              const Options& options)
     : model_(read(model)), slave_(std::move(slave)), master_(std::move(master)),
-      dofs_(model_.layout().node_dofs * vertices), reach_(options.reach) {
+      components_(model_.layout().node_dofs), dofs_(components_ * vertices), reach_(options.reach) {
   make_segments(basis_of(model), options);
   make_tree(options);
   const std::size_t n = slave_.vertices.size();
@@ -71,10 +71,6 @@ std::string BorderContact::basis_of(const std::string& model) const {
   if (layout.multipliers > 0)
     throw std::runtime_error(
         "the model has multipliers as unknowns, which a space [P1, P1] has no place for: take \"penalty\"");
-  if (layout.heat)
-    throw std::runtime_error(
-        "the model has \"heat\", which takes a temperature in each node, and a space [P1, P1] "
-        "has displacements alone: remove \"heat\" from \"contact\"");
   return basis;
 }
 
@@ -100,7 +96,7 @@ void BorderContact::make_segments(const std::string& basis, const Options& optio
 
 void BorderContact::make_tree(const Options& options) {
   const std::vector<double> at_rest(static_cast<std::size_t>(dofs_), 0.0);
-  points_ = points_begin_ = control_points(positions(master_, at_rest.data()));
+  points_ = points_begin_ = control_points(2, positions(master_, at_rest.data()));
   now_ = now_begin_ = positions(slave_, at_rest.data());
   if (options.coordinate > 1) throw std::runtime_error("coordinate: 0 (x) or 1 (y)");
   for (std::size_t a = 0; options.coordinate >= 0 && a < segments_.size(); ++a)
@@ -122,14 +118,21 @@ std::vector<double> BorderContact::positions(const Border& border, const double*
   std::vector<double> result = border.start;
   for (std::size_t a = 0; a < border.vertices.size(); ++a)
     for (std::size_t i = 0; i < 2; ++i)
-      result[2 * a + i] += u[2 * static_cast<std::size_t>(border.vertices[a]) + i];
+      result[2 * a + i] += u[first_dof(border.vertices[a]) + static_cast<long>(i)];
   return result;
 }
 
-std::vector<double> BorderContact::control_points(const std::vector<double>& of_nodes) const {
+std::vector<double> BorderContact::temperatures(const Border& border, const double* u) const {
+  std::vector<double> result;
+  for (const int vertex : border.vertices) result.push_back(u[first_dof(vertex) + 2]);
+  return result;
+}
+
+std::vector<double> BorderContact::control_points(std::int32_t values,
+                                                  const std::vector<double>& of_nodes) const {
   const ents_combination net = net_.get();
-  std::vector<double> result(2 * static_cast<std::size_t>(net.points));
-  require(ents_combine, &net, std::int32_t{2}, nodes(master_), of_nodes.data(), result.data());
+  std::vector<double> result(static_cast<std::size_t>(values * net.points));
+  require(ents_combine, &net, values, nodes(master_), of_nodes.data(), result.data());
   return result;
 }
 
@@ -137,7 +140,7 @@ std::vector<double> BorderContact::control_points(const std::vector<double>& of_
 void BorderContact::terms(std::size_t k, std::size_t local, std::vector<Term>& of) const {
   of.clear();
   if (local == 0) {
-    of.push_back({2L * slave_.vertices[k], 1.0});
+    of.push_back({first_dof(slave_.vertices[k]), 1.0});
     return;
   }
   const auto m = static_cast<std::size_t>(model_.layout().nodes);
@@ -146,15 +149,32 @@ void BorderContact::terms(std::size_t k, std::size_t local, std::vector<Term>& o
   const auto begin = static_cast<std::size_t>(net_.begin[point]),
              end = static_cast<std::size_t>(net_.begin[point + 1]);
   for (std::size_t j = begin; j < end; ++j)
-    of.push_back({2L * master_.vertices[static_cast<std::size_t>(net_.nodes[j])], net_.weights[j]});
+    of.push_back({first_dof(master_.vertices[static_cast<std::size_t>(net_.nodes[j])]), net_.weights[j]});
 }
 
-Forces BorderContact::evaluate(const double* u, double* r) {
+void BorderContact::require_sizes(long u, long r) const {
+  if (u == dofs_ && r == dofs_) return;
+  const bool heat = model_.layout().heat != 0;
+  throw std::runtime_error(
+      "u has " + std::to_string(u) + " entries, and r " + std::to_string(r) + "; the model has " +
+      (heat ? "\"heat\": write u[] of a space [P1, P1, P1] on the mesh, two displacements and the temperature"
+            : "no \"heat\": write u[] of a space [P1, P1] on the mesh, two displacements") +
+      ", " + std::to_string(dofs_) + " entries, and an r of that size");
+}
+
+void BorderContact::place(const double* u) {
   now_ = positions(slave_, u);
-  points_ = control_points(positions(master_, u));
+  points_ = control_points(2, positions(master_, u));
   mesh_.positions = points_.data();
+  if (model_.layout().heat) {
+    slave_temperatures_ = temperatures(slave_, u);
+    point_temperatures_ = control_points(1, temperatures(master_, u));
+    mesh_.temperature = point_temperatures_.data();
+  }
   tree_.refit(model_, mesh_);
-  const std::size_t n = slave_.vertices.size(), dofs = static_cast<std::size_t>(model_.layout().dofs);
+}
+
+ents::Result BorderContact::iterate(double dt, const ents_output& out) {
   auto detection = ents::make<ents_detection>();
   detection.slave = now_.data(), detection.reach = reach_;
   detection.segment = segment_.data(), detection.xi = xi_.data();
@@ -162,6 +182,20 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   in.area = areas_.data(), in.area_stride = 1;
   in.state_begin = states_.begin.data(), in.state_begin_stride = states_.size;
   in.positions_begin = points_begin_.data(), in.slave_begin = now_begin_.data();
+  in.slave_temperature = slave_temperatures_.data(), in.slave_temperature_stride = 1;
+  in.time_increment = dt;
+  try {
+    return ents::call(ents_iterate, model_.get(), &mesh_, tree_.data(), tree_.size(), 0,
+                      signed_size(areas_.size()), &detection, &in, &out, nullptr);
+  } catch (const ents::Error& error) {
+    const bool of_time = std::string(error.what()).find("time_increment") != std::string::npos;
+    throw std::runtime_error(error.what() + std::string(of_time ? ": write entsForces(..., dt=...)" : ""));
+  }
+}
+
+Forces BorderContact::evaluate(const double* u, double* r, double dt) {
+  place(u);
+  const std::size_t n = areas_.size(), dofs = static_cast<std::size_t>(model_.layout().dofs);
   std::vector<double> residual(n * dofs), tangent(n * dofs * dofs);
   std::vector<std::int32_t> flags(n);
   auto out = ents::make<ents_output>();
@@ -170,8 +204,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
   out.tangent = tangent.data(), out.tangent_stride = signed_size(dofs * dofs);
   out.flags = flags.data(), out.flags_stride = 1;
   out.state_end = states_.end.data(), out.state_end_stride = states_.size;
-  const ents::Result done = ents::call(ents_iterate, model_.get(), &mesh_, tree_.data(), tree_.size(), 0,
-                                       signed_size(n), &detection, &in, &out, nullptr);
+  const ents::Result done = iterate(dt, out);
   Forces result;
   if (!done.ok()) {
     reject();
@@ -181,7 +214,7 @@ Forces BorderContact::evaluate(const double* u, double* r) {
     return result;
   }
   for (std::size_t k = 0; k < n; ++k) {
-    if (segment_[k] >= 0)
+    if (segment_[k] >= 0) // an open gap has no force, but may conduct heat
       add_element(k, residual.data() + k * dofs, tangent.data() + k * dofs * dofs, r, result);
     // An open node is searched anew: it may move over another flank, or leave the master.
     if ((flags[k] & ENTS_FLAG_CONTACT) == 0) segment_[k] = -1;
@@ -192,18 +225,21 @@ Forces BorderContact::evaluate(const double* u, double* r) {
 void BorderContact::add_element(std::size_t k, const double* residual, const double* tangent, double* r,
                                 Forces& to) const {
   const auto dofs = static_cast<std::size_t>(model_.layout().dofs);
+  const auto of_node = static_cast<std::size_t>(components_);
   std::vector<Term> rows, columns;
   for (std::size_t a = 0; a < dofs; ++a) {
-    terms(k, a / 2, rows);
-    for (const Term& row : rows) r[row.dof + static_cast<long>(a % 2)] += row.weight * residual[a];
+    const auto i = static_cast<long>(a % of_node);
+    terms(k, a / of_node, rows);
+    for (const Term& row : rows) r[row.dof + i] += row.weight * residual[a];
     for (std::size_t b = 0; b < dofs; ++b) {
       const double stiffness = tangent[b * dofs + a]; // column-major
       if (stiffness == 0) continue;
-      terms(k, b / 2, columns);
+      const auto j = static_cast<long>(b % of_node);
+      terms(k, b / of_node, columns);
       for (const Term& row : rows)
         for (const Term& column : columns) {
-          to.row.push_back(row.dof + static_cast<long>(a % 2));
-          to.column.push_back(column.dof + static_cast<long>(b % 2));
+          to.row.push_back(row.dof + i);
+          to.column.push_back(column.dof + j);
           to.value.push_back(row.weight * column.weight * stiffness);
         }
     }

@@ -29,12 +29,13 @@ struct Options {
 
 struct Forces {
   std::vector<long> row, column; ///< of the entries of K; the same place may come again
-  std::vector<double> value;     ///< [F/L]
+  std::vector<double> value;     ///< [F/L]; in rows of temperatures [power/L], [power/temperature]
   double step_factor = 1;        ///< below 1: nothing was added; rejected, cut the step by this factor
   std::string message;           ///< why
 };
 
-/// All methods throw std::runtime_error with the library's message. dof = 2 vertex + component.
+/// All methods throw std::runtime_error with the library's message. dof = 2 vertex + component; with "heat" in the
+/// model 3 vertex + component, and the temperature is the last one.
 class BorderContact {
 public:
   /// @param model  JSON text, or the name of a file with it
@@ -43,11 +44,17 @@ public:
   BorderContact(const BorderContact&) = delete;
   BorderContact& operator=(const BorderContact&) = delete;
 
+  /// Dofs of the whole mesh.
   long dofs() const { return dofs_; }
 
-  /// @param u  [dofs] displacements, [L]
-  /// @param r  [dofs] R is added, [F]
-  Forces evaluate(const double* u, double* r);
+  /// @param u, r  numbers of entries that a script gives
+  /// @throws what to write, if they are not `dofs`
+  void require_sizes(long u, long r) const;
+
+  /// @param u   [dofs] displacements, [L], and temperatures
+  /// @param r   [dofs] R is added, [F]; of a temperature: the power that leaves the vertex
+  /// @param dt  time of the increment, > 0, where friction heats or depends on the slip rate; else not read
+  Forces evaluate(const double* u, double* r, double dt = 0);
 
   /// What the last `evaluate` found is the begin of the next increment.
   void accept();
@@ -66,21 +73,27 @@ private:
   void make_segments(const std::string& basis, const Options& options);
   void make_tree(const Options& options);
   std::vector<double> positions(const Border& border, const double* u) const;
-  std::vector<double> control_points(const std::vector<double>& of_nodes) const;
+  std::vector<double> temperatures(const Border& border, const double* u) const;
+  /// Values of control points, [points][values], from those of the master's nodes.
+  std::vector<double> control_points(std::int32_t values, const std::vector<double>& of_nodes) const;
+  long first_dof(int vertex) const { return components_ * vertex; }
+  /// Positions and temperatures of slave nodes and master.
+  void place(const double* u);
+  ents::Result iterate(double dt, const ents_output& out);
   void terms(std::size_t slave, std::size_t local, std::vector<Term>& of) const;
   /// The element of slave node k: residual [dofs] and tangent [dofs][dofs], column by column.
   void add_element(std::size_t k, const double* residual, const double* tangent, double* r, Forces& to) const;
 
   ents::Model model_;
   Border slave_, master_;
-  long dofs_;
+  long components_, dofs_; ///< of a vertex, of the mesh
   double reach_;
   std::vector<double> areas_;
   // The master surface: segments over control points, which are combinations of its nodes (plain facets: the
   // nodes themselves).
   std::vector<std::int64_t> segments_;
   ents::Combination net_;
-  std::vector<double> coordinates_, points_;
+  std::vector<double> coordinates_, points_, point_temperatures_, slave_temperatures_;
   ents_master_mesh mesh_{};
   ents::Tree tree_;
   // Where slave nodes are and their history: at the begin of the increment, and as of the last evaluation.

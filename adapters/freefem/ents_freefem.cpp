@@ -3,7 +3,8 @@
 //
 //   load "ents"
 //   EntsContact contact(Th, slave, master, "model.json");  // labels of two borders of Th
-//   real factor = entsForces(contact, u[], r, I, J, C);    // r += R, triplets of K; factor < 1: cut the step
+//   real factor = entsForces(contact, u[], r, I, J, C);    // r += R, triplets of K; factor < 1: cut the step.
+//                                                          // dt=...: where friction heats
 //   entsAccept(contact);                                   // the increment has converged: its history counts
 //   entsReject(contact);                                   // or it is thrown away: back to its begin
 #include <ff++.hpp>
@@ -105,7 +106,9 @@ class Forces : public E_F0mps {
 public:
   explicit Forces(const basicAC_F0& args)
       : variable_(to<EntsContact*>(args[0])), u_(to<KN<double>*>(args[1])), r_(to<KN<double>*>(args[2])),
-        i_(to<KN<long>*>(args[3])), j_(to<KN<long>*>(args[4])), k_(to<KN<double>*>(args[5])) {}
+        i_(to<KN<long>*>(args[3])), j_(to<KN<long>*>(args[4])), k_(to<KN<double>*>(args[5])) {
+    args.SetNameParam(1, name_param, &dt_);
+  }
   AnyType operator()(Stack stack) const override {
     EntsContact* variable = GetAny<EntsContact*>((*variable_)(stack));
     KN<double>&u = *GetAny<KN<double>*>((*u_)(stack)), &r = *GetAny<KN<double>*>((*r_)(stack));
@@ -113,10 +116,9 @@ public:
     KN<double>& k = *GetAny<KN<double>*>((*k_)(stack));
     return checked([&] {
       BorderContact& contact = made(variable);
-      if (u.N() != contact.dofs() || r.N() != contact.dofs())
-        throw std::runtime_error("entsForces: u and r must have " + std::to_string(contact.dofs()) +
-                                 " entries, u[] of a space [P1, P1] on the mesh");
-      const freefem::Forces forces = contact.evaluate(&u[0], &r[0]);
+      contact.require_sizes(u.N(), r.N());
+      const double dt = dt_ ? GetAny<double>((*dt_)(stack)) : 0;
+      const freefem::Forces forces = contact.evaluate(&u[0], &r[0], dt);
       const auto n = static_cast<long>(forces.value.size());
       i.resize(n), j.resize(n), k.resize(n);
       for (long e = 0; e < n; ++e) i[e] = forces.row[e], j[e] = forces.column[e], k[e] = forces.value[e];
@@ -126,8 +128,11 @@ public:
   }
 
 private:
-  Expression variable_, u_, r_, i_, j_, k_;
+  static basicAC_F0::name_and_type name_param[1];
+  Expression variable_, u_, r_, i_, j_, k_, dt_ = nullptr;
 };
+
+basicAC_F0::name_and_type Forces::name_param[] = {{"dt", &typeid(double)}};
 
 /// The end of an increment.
 template <void (BorderContact::*end)()> class End : public E_F0mps {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build FreeFEM's plugin, solve the block problem with it and with ents-lab, compare.
+# Build FreeFEM's plugin, solve the block problem with it and with ents-lab, compare; two bars with heat, mistakes.
 set -eu
 
 usage() {
@@ -70,8 +70,36 @@ for variant in textured flat flat_facets; do
   [ $code -eq 0 ] || [ $variant = flat_facets ] || failed fine_$variant.log "no convergence"
 done
 
-# 3. A mistake reaches the user as FreeFEM's own errors do.
-echo "== a mistake"
-code=0
-solve -model nowhere.json >mistake.log 2>&1 || code=$?
-grep 'ents: .*nowhere.json' mistake.log && [ $code -ne 0 ] || failed mistake.log "no message, or exit status 0"
+# 3. Heat: the script compares with the closed form, and fails beyond 1e-10.
+echo "== two bars, heat"
+FreeFem++-nw -nw -v 0 "$here/two_bars.edp" >two_bars.log 2>&1 || failed two_bars.log "the flow is another one"
+grep '^flow' two_bars.log
+
+# 4. A mistake reaches the user as FreeFEM's own errors do.
+echo "== mistakes"
+small() { # components, more arguments of entsForces: a square whose upper side is the slave of its lower one, with heat of friction
+  cat >small.edp <<EDP
+load "ents"
+mesh Th = square(2, 2);
+fespace Vh(Th, $1);
+string heat = "\"friction\": {\"type\": \"coulomb\", \"coefficient\": 0.3, \"stiffness\": 50}, \"heat\": {\"friction\": {}}";
+EntsContact contact(Th, 3, 1, "{\"segment\": \"line2\", \"contact\": {\"normal\": {\"type\": \"penalty\", \"stiffness\": 100}, " + heat + "}}");
+int[int] I(1), J(1);
+real[int] C(1), r(Vh.ndof), x(Vh.ndof);
+x = 0;
+r = 0;
+entsForces(contact, x, r, I, J, C$2);
+EDP
+  FreeFem++-nw -nw -v 0 small.edp >mistake.log 2>&1
+}
+refused() { # words of the message, command
+  words=$1
+  shift
+  code=0
+  "$@" >mistake.log 2>&1 || code=$?
+  grep "ents: .*$words" mistake.log && [ $code -ne 0 ] || failed mistake.log "no message, or exit status 0"
+}
+refused 'nowhere.json' solve -model nowhere.json
+refused 'write u\[\] of a space \[P1, P1, P1\]' small '[P1, P1]' ', dt=0.1'
+refused 'write entsForces(..., dt=...)' small '[P1, P1, P1]' ''
+small '[P1, P1, P1]' ', dt=0.1' || failed mistake.log "refused without a mistake"

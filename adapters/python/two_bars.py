@@ -99,8 +99,10 @@ def main():
         u[free] -= spsolve((tangent + bulk).tocsc()[free][:, free], residual[free])
     flow = residual[dofs[ends[1], 2]].sum()
     exact = ARGUMENTS.hot / (sum((high - low) / k for low, high, k in BARS) + 1 / ARGUMENTS.conductance)
-    print(f"flow {flow:.12f}, exact {exact:.12f}; through the gap {contact.heat[:, 0].sum():.12f}; pressure {contact.pressure.min():.6g} to {contact.pressure.max():.6g}")
-    if not (abs(flow / exact - 1) < 1e-10 and abs(contact.heat[:, 0].sum() / exact - 1) < 1e-10 and size < 1e-11):
+    error = max(abs(flow / exact - 1), abs(contact.heat[:, 0].sum() / exact - 1))
+    print(f"flow {flow:.12f}, exact {exact:.12f}; through the gap {contact.heat[:, 0].sum():.12f}; larger error {error:.1e}, bound 1e-10; "
+          f"pressure {contact.pressure.min():.6g} to {contact.pressure.max():.6g}")
+    if not (error < 1e-10 and size < 1e-11):
         sys.exit("the flow is another one")
 
 

@@ -145,18 +145,6 @@ TEST(Border, ABondThatHasBrokenStaysBroken) {
   for (const double gap : {0.2, 0.0, 0.005}) EXPECT_EQ(force(gap), 0) << gap;
 }
 
-TEST(Border, WithHeatIsRefused) {
-  const Border master{{0, 1}, {-1, 0, 1, 0}, {0, 1}}, slave{{2, 3}, {0.5, 0, -0.5, 0}, {0, 1}};
-  try {
-    BorderContact(R"({"segment": "line2", "contact": {"normal": {"type": "penalty", "stiffness": 100},
-                  "heat": {"conductance": 3}}})",
-                  slave, master, 5, Options());
-    FAIL() << "no refusal";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("the model has \"heat\""), std::string::npos) << error.what();
-  }
-}
-
 /// Without areas the contact would have no forces.
 TEST(Border, WithAnEdgeWithoutLengthIsRefused) {
   const Border master{{0, 1}, {-1, 0, 1, 0}, {0, 1}},
