@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "program.hpp"
+#include "restarts.hpp"
 #include "sliding.hpp"
 
 namespace host::history_test {
@@ -72,25 +73,7 @@ TEST_P(History, RandomCutsLeaveNoBit) {
 }
 
 TEST_P(History, RestartGoesOnWithTheSameBits) {
-  const Json json = scene(GetParam());
-  const Scene scene = test::scene_from(json);
-  Simulation whole(scene, &test::library());
-  std::vector<std::string> checkpoints, fingerprints; // as text, as a file would hold them
-  RunObserver observer;
-  observer.step_done = [&](const Simulation& simulation, const StepRecord&) {
-    checkpoints.push_back(simulation.checkpoint().dump());
-    fingerprints.push_back(simulation.fingerprint());
-  };
-  solve(whole, observer);
-  for (std::size_t step = 1; step < checkpoints.size(); ++step) {
-    Simulation again(scene, &test::library());
-    again.restore(Json::parse(checkpoints[step - 1]));
-    EXPECT_EQ(again.fingerprint(), fingerprints[step - 1]);
-    StepPlan rest;
-    rest.first = static_cast<int>(step) + 1;
-    solve(again, {}, rest);
-    EXPECT_EQ(again.fingerprint(), fingerprints.back()) << "restarted after step " << step;
-  }
+  test::expect_restarts(test::scene_from(scene(GetParam())), GetParam().name);
 }
 
 // Tried with too few iterations, then with a library that refuses deep penetrations: the increment fails,
@@ -188,25 +171,13 @@ std::map<std::string, Json> scenes_to_restart() {
 TEST(Restart, OfAnySceneGoesOnWithTheSameBits) {
   for (const auto& [name, json] : scenes_to_restart()) {
     const Scene scene = test::scene_from(json);
-    Simulation whole(scene, &test::library());
-    std::vector<std::string> checkpoints;
-    solve(whole, {{}, [&](const Simulation& at, const StepRecord&) {
-                    checkpoints.push_back(at.checkpoint().dump());
-                  }});
-    const std::size_t steps = checkpoints.size();
+    const std::size_t steps = scene.steps.size();
     ASSERT_GE(steps, 3u) << name;
+    const std::vector<std::string> checkpoints = test::expect_restarts(scene, name, {1, steps - 1});
     const Json last = Json::parse(checkpoints.back());
     if (!last.at("factors").is_null()) { // as distances from the rest, which are short
       const std::size_t factors = last.at("factors").dump().size();
       EXPECT_LT(factors, (checkpoints.back().size() - factors) * 3 / 4) << name;
-    }
-    for (const std::size_t step : {std::size_t{1}, steps - 1}) {
-      Simulation again(scene, &test::library());
-      again.restore(Json::parse(checkpoints[step - 1]));
-      StepPlan rest;
-      rest.first = static_cast<int>(step) + 1;
-      solve(again, {}, rest);
-      EXPECT_EQ(again.fingerprint(), whole.fingerprint()) << name << ", restarted after step " << step;
     }
   }
 }

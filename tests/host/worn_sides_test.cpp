@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support.hpp"
+#include "restarts.hpp"
 
 namespace host::worn_sides_test {
 namespace {
@@ -143,34 +143,10 @@ TEST(WornSides, TriesLeaveNoBitAndRestartsGoOn) {
   json["steps"]["values"] = {0.3, 1, 0.2, 2};
   json["history"]["slid"] = {0, 20, 45, 50};
   const Scene scene = test::scene_from(json);
-  std::vector<std::string> ends;
-  for (const bool discard : {false, true}) {
-    Simulation simulation(scene, &test::library());
-    StepPlan plan;
-    plan.cut = StepPlan::Cut::halves, plan.discard = discard;
-    const auto records = solve(simulation, {}, plan);
-    EXPECT_GT(records.back().worn_slave, 0);
-    EXPECT_GT(records.back().worn_master, 0);
-    ends.push_back(simulation.fingerprint());
-  }
-  EXPECT_EQ(ends[0], ends[1]);
-  Simulation whole(scene, &test::library());
-  std::vector<std::string> checkpoints;
-  RunObserver observer;
-  observer.step_done = [&](const Simulation& simulation, const StepRecord&) {
-    checkpoints.push_back(simulation.checkpoint().dump());
-  };
-  const StepRecord end = solve(whole, observer).back();
-  for (std::size_t step = 1; step < checkpoints.size(); ++step) {
-    Simulation again(scene, &test::library());
-    again.restore(Json::parse(checkpoints[step - 1]));
-    StepPlan rest;
-    rest.first = static_cast<int>(step) + 1;
-    const StepRecord last = solve(again, {}, rest).back();
-    EXPECT_EQ(last.approach, end.approach) << "after step " << step;
-    EXPECT_EQ(last.worn_slave, end.worn_slave) << "after step " << step;
-    EXPECT_EQ(again.fingerprint(), whole.fingerprint()) << "restarted after step " << step;
-  }
+  const StepRecord last = test::expect_no_bit_of_tries(scene, "two sides");
+  EXPECT_GT(last.worn_slave, 0);
+  EXPECT_GT(last.worn_master, 0);
+  const std::vector<std::string> checkpoints = test::expect_restarts(scene, "two sides");
   Json other = Json::parse(checkpoints.back());
   other["contact"].erase("slave_fields"), other["contact"].erase("given_away");
   Simulation again(scene, &test::library());
