@@ -46,9 +46,7 @@ Json scene_of(double length, int cells, double thickness, const Json& height, do
 
 std::vector<StepRecord> solved(Json json, const Json& values) {
   json["steps"]["values"] = values;
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
+  return test::run(json);
 }
 
 /// The largest tension while the master moves away, from contact at 0 over `near` until it is free: force over all of the

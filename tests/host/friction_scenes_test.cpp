@@ -173,9 +173,7 @@ TEST(FrictionScene, ThreadSharesItsLoad) {
 // iteration.
 TEST(FrictionScene, FrictionOverACubicMap) {
   const auto run = [](const std::function<void(Json&)>& edit) {
-    const Scene scene = test::shipped_scene("texture", [&](Json& json) { edit(json["contact"]["model"]); });
-    Simulation simulation(scene, &test::library());
-    return solve(simulation, {});
+    return test::run(test::shipped_scene("texture", [&](Json& json) { edit(json["contact"]["model"]); }));
   };
   const auto iterations = [](const std::vector<StepRecord>& records) {
     int sum = 0;
@@ -235,9 +233,7 @@ TEST(FrictionScene, HertzWithEveryNormalMethod) {
 
 TEST(FrictionScene, PenaltyChattersAndRegularisedLawsDoNot) {
   const auto run = [](const std::string& variant) {
-    const Scene scene = read_scene(test::scene_file("chatter"), variant);
-    Simulation simulation(scene, &test::library());
-    return solve(simulation, {}).front();
+    return test::run(read_scene(test::scene_file("chatter"), variant)).front();
   };
   try {
     run("");

@@ -28,15 +28,10 @@ Json block(const Json& height, const char* enrichment) {
   return json;
 }
 
-StepRecord run(const Json& json) {
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {}).back();
-}
-
 TEST(GapOnly, IsTheSameForAConstantHeight) {
   const Json height{{"type", "constant"}, {"value", 0.03}};
-  const StepRecord full = run(block(height, nullptr)), only = run(block(height, "gap_only"));
+  const StepRecord full = test::last_step(block(height, nullptr)),
+                   only = test::last_step(block(height, "gap_only"));
   EXPECT_GT(full.fields.pressure[3], 1);
   for (std::size_t k = 0; k < full.fields.pressure.size(); ++k) {
     EXPECT_NEAR(only.fields.pressure[k], full.fields.pressure[k], 1e-9 * full.fields.pressure[k]) << k;
@@ -47,7 +42,8 @@ TEST(GapOnly, IsTheSameForAConstantHeight) {
 // A slope pushes sideways; a gap does not.
 TEST(GapOnly, HasTheNormalOfTheSegment) {
   const Json height{{"type", "polynomial"}, {"coefficients", {0.03, 0.05}}};
-  const StepRecord full = run(block(height, "full")), only = run(block(height, "gap_only"));
+  const StepRecord full = test::last_step(block(height, "full")),
+                   only = test::last_step(block(height, "gap_only"));
   EXPECT_LT(only.fields.force[1], -1);
   EXPECT_NEAR(only.fields.force[0], 0, 1e-10 * std::abs(only.fields.force[1]));
   EXPECT_NEAR(std::abs(full.fields.force[0] / full.fields.force[1]), 0.05, 1e-6);

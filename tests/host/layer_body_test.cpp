@@ -153,14 +153,8 @@ Json scene_of(int divisions, const char* law, double stiffness = 1e5) {
   return json;
 }
 
-std::vector<StepRecord> solved(const Json& json) {
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
-}
-
 TEST(LayerBody, WithMultipliersIsTheAnswerOfBoundaryElements) {
-  for (const StepRecord& record : solved(scene_of(64, "augmented_multiplier"))) {
+  for (const StepRecord& record : test::run(scene_of(64, "augmented_multiplier"))) {
     EXPECT_LT(record.penetration, 1e-12);
     EXPECT_NEAR(test::quantity(record, "mean pressure").error, 0, 1e-3);
     EXPECT_NEAR(test::quantity(record, "contact fraction, estimated").error, 0, 0.02);
@@ -172,10 +166,10 @@ TEST(LayerBody, WithMultipliersIsTheAnswerOfBoundaryElements) {
 }
 
 TEST(LayerBody, AllNormalLawsMeetInTheSameAnswer) {
-  const std::vector<StepRecord> hard = solved(scene_of(24, "augmented_multiplier"));
+  const std::vector<StepRecord> hard = test::run(scene_of(24, "augmented_multiplier"));
   const auto difference = [&](const Json& json) {
     double worst = 0;
-    const std::vector<StepRecord> records = solved(json);
+    const std::vector<StepRecord> records = test::run(json);
     for (std::size_t i = 0; i < records.size(); ++i)
       worst = std::max(worst, std::abs(records[i].force / hard[i].force - 1));
     return worst;
@@ -194,10 +188,10 @@ TEST(LayerBody, AllNormalLawsMeetInTheSameAnswer) {
 }
 
 TEST(LayerBody, ForcesAreGivenAsWellAsMotions) {
-  const std::vector<StepRecord> moved = solved(scene_of(24, "augmented_multiplier"));
+  const std::vector<StepRecord> moved = test::run(scene_of(24, "augmented_multiplier"));
   Json json = scene_of(24, "augmented_multiplier");
   json["steps"] = {{"control", "force"}, {"values", {moved[0].force, moved[1].force}}};
-  const std::vector<StepRecord> pressed = solved(json);
+  const std::vector<StepRecord> pressed = test::run(json);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_NEAR(pressed[i].approach / moved[i].approach, 1, 1e-8);
     EXPECT_NEAR(pressed[i].peak_pressure / moved[i].peak_pressure, 1, 1e-8);

@@ -15,11 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::vector<StepRecord> run(const Scene& scene) {
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
-}
-
 // Hertz's cylinder, pressed in by prescribed displacements: as the master that moves along a line.
 TEST(RigidBody, MovedAlongALineIsTheMasterThatOnlyMovesSo) {
   const auto edit = [](Json& json) {
@@ -36,7 +31,7 @@ TEST(RigidBody, MovedAlongALineIsTheMasterThatOnlyMovesSo) {
                                    {"segments", {{0, 1}}},
                                    {"prescribed", {{{"y", -1}}}}}}};
   });
-  const std::vector<StepRecord> one = run(line), two = run(body);
+  const std::vector<StepRecord> one = test::run(line), two = test::run(body);
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t s = 0; s < one.size(); ++s) {
     EXPECT_GT(one[s].contact_fraction, 0.001);
@@ -120,11 +115,11 @@ TEST(RigidBody, AForcePressesItQuadratically) {
   moved["contact"]["master"] = {{"nodes", {{2, 0.1}, {-2, 0.1}}}, {"direction", {0, -1}}};
   moved["contact"]["model"]["surface_coordinates"] = {{2}, {-2}};
   moved["steps"] = {{"control", "force"}, {"values", {10.8333}}};
-  const double expected = peak(run(test::scene_from(moved)).back());
+  const double expected = peak(test::run(moved).back());
   json["steps"] = {{"control", "load_factor"}, {"values", {1}}};
   for (const double overlap : {1e-5, 1e-4, 1e-2}) {
     model["height"]["coefficients"][0] = 0.1 + overlap;
-    const StepRecord record = run(test::scene_from(json)).back();
+    const StepRecord record = test::run(json).back();
     EXPECT_EQ(record.increments.size(), 1u) << overlap;
     EXPECT_TRUE(quadratic(record.increments.back().residuals, 1e8, 1e-9)) << overlap;
     EXPECT_NEAR(peak(record) / expected, 1, 1e-9) << overlap;
@@ -151,7 +146,7 @@ TEST(RigidBody, AMomentTurnsItQuadratically) {
 // The scene of the gallery, as far as the whole flank slips.
 TEST(RigidBody, AScrewHasItsTorque) {
   const Scene scene = test::shipped_scene("screw", [](Json& json) { json["steps"]["values"] = {1, 1.001}; });
-  const std::vector<StepRecord> records = run(scene);
+  const std::vector<StepRecord> records = test::run(scene);
   const Quantity& torque = test::quantity(records.back(), "torque / force, tightened");
   EXPECT_GT(torque.exact, 1.4);
   EXPECT_NEAR(torque.error, 0, 1e-3);

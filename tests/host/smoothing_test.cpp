@@ -64,12 +64,6 @@ Json scene(const Pressed& pressed) {
   return json;
 }
 
-StepRecord last_step(const Json& json) {
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {}).back();
-}
-
 // What lies beyond a plane of symmetry is the other half: the half with the plane gives the bits of the whole
 // but for rounding, and Newton's iteration, which sees the images in its tangent, as many steps.
 TEST(SmoothedMaster, AHalfWithAPlaneOfSymmetryIsTheWhole) {
@@ -84,7 +78,7 @@ TEST(SmoothedMaster, AHalfWithAPlaneOfSymmetryIsTheWhole) {
         const auto solve_it = [&](bool part) {
           Json json = scene({segment, solid, part, friction});
           if (!sampling.is_null()) json["contact"]["sampling"] = sampling;
-          return last_step(json);
+          return test::last_step(json);
         };
         const StepRecord whole = solve_it(false), part = solve_it(true);
         const double copies = solid ? 4 : 2, force = std::abs(whole.contact_force.back());
@@ -115,12 +109,12 @@ Json even(const char* segment, const char* ends, const char* element = "hex8") {
 // With straight ends it ends where they do.
 TEST(SmoothedMaster, StraightEndsReachTheBorder) {
   for (const char* segment : {"bspline16", "catmull_rom16"})
-    EXPECT_EQ(last_step(even(segment, "straight")).contact_fraction, 1) << segment;
+    EXPECT_EQ(test::last_step(even(segment, "straight")).contact_fraction, 1) << segment;
   for (const char* ends : {"quasi_cubic", "quasi_parabolic"})
-    EXPECT_EQ(last_step(even("bspline16", ends)).contact_fraction, 1) << ends;
-  EXPECT_EQ(last_step(even("bezier15", "straight", "tet4")).contact_fraction, 1);
-  EXPECT_EQ(last_step(even("catmull_rom16", "repeated")).contact_fraction, 1);
-  EXPECT_LT(last_step(even("bspline16", "repeated")).contact_fraction, 0.99);
+    EXPECT_EQ(test::last_step(even("bspline16", ends)).contact_fraction, 1) << ends;
+  EXPECT_EQ(test::last_step(even("bezier15", "straight", "tet4")).contact_fraction, 1);
+  EXPECT_EQ(test::last_step(even("catmull_rom16", "repeated")).contact_fraction, 1);
+  EXPECT_LT(test::last_step(even("bspline16", "repeated")).contact_fraction, 0.99);
 }
 
 // What ParaView shows is the surface that the slave nodes touch, with its height, where the body has moved.
@@ -168,7 +162,7 @@ TEST(SmoothedMaster, MistakesAreNamed) {
     Json json = scene({segment, false, true});
     edit(json);
     try {
-      last_step(json);
+      test::last_step(json);
       FAIL() << text;
     } catch (const std::exception& error) {
       EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();

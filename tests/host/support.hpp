@@ -43,6 +43,14 @@ inline Scene shipped_scene(const std::string& name, const std::function<void(Jso
 
 inline Scene scene_from(const Json& json) { return read_scene_text(json.dump(), "test.json"); }
 
+/// All steps of a scene, solved.
+inline std::vector<StepRecord> run(const Scene& scene) {
+  Simulation simulation(scene, &library());
+  return solve(simulation, {});
+}
+inline std::vector<StepRecord> run(const Json& json) { return run(scene_from(json)); }
+inline StepRecord last_step(const Json& json) { return run(json).back(); }
+
 /// The message with which a scene is refused; empty: it is not.
 inline std::string refusal(const Json& json) {
   try {

@@ -87,9 +87,7 @@ TEST(ThinSheet, ASmoothedRingOfFourIsNone) {
 
 /// The last step of a shipped scene of the fold, as a variant of it says.
 StepRecord pressed_fold(const std::string& variant, const std::function<void(Json&)>& edit = {}) {
-  const Scene scene = test::shipped_scene("fold", edit, variant);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {}).back();
+  return test::run(test::shipped_scene("fold", edit, variant)).back();
 }
 
 // Each leg of 0.3 is behind its own other side by less than the surface is wide. Both legs are slaves, with half of

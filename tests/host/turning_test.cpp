@@ -99,12 +99,6 @@ void add_components(Json& list, const Vector3d& moves, const Vector3d& turns) {
   list.back().update({{"turn_x", turns[0]}, {"turn_y", turns[1]}, {"turn_z", turns[2]}});
 }
 
-std::vector<StepRecord> run(const Json& json) {
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
-}
-
 /// A cap of a sphere about the reference point.
 Json sphere(int bricks = 6) {
   return pressed("turning_sphere.inp", "sqrt(4-u^2-v^2)-1", 1, -1, {0.05, 0.02, 2}, Matrix3d::Identity(),
@@ -115,10 +109,10 @@ TEST(Turning, OfASphereChangesNothing) {
   Json json = sphere();
   Json& prescribed = json["contact"]["master"]["rigid_body"]["prescribed"];
   add_components(prescribed, {0, 0, -0.03}, Vector3d::Zero());
-  const StepRecord still = run(json).back();
+  const StepRecord still = test::run(json).back();
   prescribed = Json::array();
   add_components(prescribed, {0, 0, -0.03}, {0.2, -0.15, 0.4});
-  const StepRecord turned = run(json).back();
+  const StepRecord turned = test::run(json).back();
   EXPECT_GT(still.contact_force[2], 1);
   EXPECT_GT((rotation_of(turned) - Matrix3d::Identity()).norm(), 0.5);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -136,9 +130,9 @@ TEST(Turning, AFlatPunchTiltsUntilTheLoadHasNoMoment) {
   Json& body = json["contact"]["master"]["rigid_body"];
   body["loads"] = {{{"z", -200}}};
   body["free"] = {"turn_x", "turn_y"};
-  const StepRecord still = run(json).back();
+  const StepRecord still = test::run(json).back();
   body["prescribed"] = {{{"turn_z", 0.7}}};
-  const StepRecord turned = run(json).back();
+  const StepRecord turned = test::run(json).back();
   for (const StepRecord* record : {&still, &turned}) {
     EXPECT_NEAR(record->contact_force[2], 200, 1e-7);
     EXPECT_NEAR(record->moment[0], 0, 1e-7);
@@ -175,7 +169,7 @@ TEST(Turning, AScenesForcesTurnWithIt) {
         add_components(body["prescribed"], at * Vector3d(0.1, 0.02, -0.02), at * Vector3d(0.15, -0.2, 0.3));
       }
       json["steps"]["values"] = {{{"to", 1}, {"count", 2}}};
-      records.push_back(run(json));
+      records.push_back(test::run(json));
       const std::vector<double>& residuals = records.back().back().increments.back().residuals;
       EXPECT_TRUE(quadratic(residuals, 1e3, 1e-13)) << loaded << turned << testing::PrintToString(residuals);
     }
@@ -198,7 +192,7 @@ TEST(Turning, TurnsAreIntegralsOfTheSpin) {
     Json json = sphere(1);
     json["contact"]["master"]["rigid_body"]["prescribed"] = prescribed;
     json["steps"]["values"] = values;
-    return rotation_of(run(json).back());
+    return rotation_of(test::run(json).back());
   };
   const auto count = [](int steps) -> Json { return {{{"to", 1}, {"count", steps}}}; };
   Json vector;

@@ -32,17 +32,11 @@ Json waves(int n, bool two_pass) {
   return json;
 }
 
-StepRecord last(const Json& json) {
-  const Scene scene = test::scene_from(json);
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {}).back();
-}
-
 // Both differ by less than what the mesh costs one pass, and both converge to the same force.
 TEST(TwoPass, WavesOnWavesCarryTheForceOfOnePass) {
-  const double fine = last(waves(64, false)).contact_force[1];
+  const double fine = test::last_step(waves(64, false)).contact_force[1];
   for (const int n : {8, 16, 32}) {
-    const StepRecord one = last(waves(n, false)), two = last(waves(n, true));
+    const StepRecord one = test::last_step(waves(n, false)), two = test::last_step(waves(n, true));
     EXPECT_GT(two.fields.pressure.size(), one.fields.pressure.size());
     EXPECT_GT(std::abs(one.contact_force[1]), 0.1);
     const double apart = std::abs(two.contact_force[1] / one.contact_force[1] - 1),
@@ -58,9 +52,9 @@ TEST(TwoPass, WavesOnWavesCarryTheForceOfOnePass) {
 // Which of the two is called the slave has no effect.
 TEST(TwoPass, SidesWithOneHeightMayBeSwapped) {
   Json json = waves(8, true);
-  const StepRecord as_given = last(json);
+  const StepRecord as_given = test::last_step(json);
   json["contact"]["slave"] = "lower.y_max", json["contact"]["master"]["faces"] = "upper.y_min";
-  EXPECT_NEAR(-last(json).contact_force[1] / as_given.contact_force[1], 1, 1e-9);
+  EXPECT_NEAR(-test::last_step(json).contact_force[1] / as_given.contact_force[1], 1, 1e-9);
 }
 
 TEST(TwoPass, TwoHeightsAreRefused) {

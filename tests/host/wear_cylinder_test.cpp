@@ -66,15 +66,10 @@ struct HalfPlane {
   }
 };
 
-std::vector<StepRecord> run(const Scene& scene) {
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
-}
-
 // Rigid cylinder, R = 20 mm, 10.8333 N/mm, 3600 m, k = 2e-9 / MPa, E* = 115 385 MPa.
 TEST(Wear, ACylinderWearsInAsOnAHalfPlane) {
   const Scene scene = read_scene(std::filesystem::path(EXAMPLES) / "wear_cylinder/scene.json");
-  const std::vector<StepRecord> records = run(scene);
+  const std::vector<StepRecord> records = test::run(scene);
   ASSERT_EQ(records.size(), 51u);
   const double modulus = 105000 / (1 - 0.09);
   const HalfPlane coarse{modulus, 20, 10.8333, 2e-9, 150, 1.5}, fine{modulus, 20, 10.8333, 2e-9, 300, 1.5};
@@ -128,10 +123,10 @@ TEST(Wear, ACylinderWearsInTheSameWithAnySegments) {
     json["steps"]["values"][1]["count"] = increments;
     json["history"]["distance"][1] = {{"to", 72000 * increments}, {"count", increments}};
   });
-  const StepRecord expected = run(one).back();
+  const StepRecord expected = test::run(one).back();
   for (const int segments : {1, 4, 16}) {
     const Scene scene = test::scene_from(cylinder_of(segments, increments));
-    const std::vector<StepRecord> records = run(scene);
+    const std::vector<StepRecord> records = test::run(scene);
     ASSERT_EQ(records.size(), increments + 1u);
     EXPECT_NEAR(records.back().worn_depth / expected.worn_depth, 1, 1e-9) << segments;
     EXPECT_NEAR(records.back().worn_slave / expected.worn_slave, 1, 1e-9) << segments;

@@ -15,11 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-std::vector<StepRecord> run(const Scene& scene) {
-  Simulation simulation(scene, &test::library());
-  return solve(simulation, {});
-}
-
 /// A wave of the master in full contact on a layer of depth `depth`.
 Json wave(double depth, double share, const char* scheme) {
   Json json = Json::parse(R"({
@@ -86,7 +81,7 @@ TEST(Wear, ASineInFullContactDecaysByTheComplianceOfItsLayer) {
       json["parts"][0]["y"]["pieces"][0]["divisions"] = static_cast<int>(cells * depth);
       json["history"]["slid"] = {0, {{"to", distance}, {"count", 20}}};
       const Scene scene = test::scene_from(json);
-      const std::vector<StepRecord> records = run(scene);
+      const std::vector<StepRecord> records = test::run(scene);
       for (const std::size_t i : {0u, 1u, 2u}) {
         const StepRecord& record = records[5u << i];
         EXPECT_EQ(record.contact_fraction, 1) << "no full contact";
@@ -108,7 +103,7 @@ TEST(Wear, BothSidesLoseTheirShares) {
   const double c = compliance(1000, 0.3, 2 * pi, 0.2) + 1e-8, distance = 1.5 * c / 1e-6;
   json["history"]["slid"] = {0, {{"to", distance}, {"count", 20}}};
   const Scene scene = test::scene_from(json);
-  const std::vector<StepRecord> records = run(scene);
+  const std::vector<StepRecord> records = test::run(scene);
   const StepRecord& last = records.back();
   EXPECT_NEAR(last.worn_slave / (last.worn_slave + last.worn_master), 0.4, 1e-12);
   EXPECT_NEAR((last.worn_slave + last.worn_master) / (1e-6 * 4 * distance), 1, 1e-4);
@@ -132,7 +127,7 @@ TEST(Wear, AFlatPunchRunsInToUniformPressure) {
     "steps": {"control": "force", "values": [2, {"to": 2, "count": 30}]},
     "history": {"slid": [0, {"to": 60000, "count": 30}]}})");
   const Scene scene = test::scene_from(json);
-  const std::vector<StepRecord> records = run(scene);
+  const std::vector<StepRecord> records = test::run(scene);
   Simulation simulation(scene, &test::library());
   for (std::size_t k = 0; k < simulation.contact()->slaves().size(); ++k) {
     const double x = simulation.contact()->slaves().place(k, simulation.mesh())[0];
@@ -150,7 +145,7 @@ TEST(Wear, TheCoefficientMayFollowThePressure) {
   json["contact"]["wear_factor"] = {{1, 0}, {3, 2}};
   json["steps"]["values"] = {2, 4, 2.5, 0.5, 4};
   json["history"]["slid"] = {100, 200, 350, 400, 500};
-  const std::vector<StepRecord> records = run(test::scene_from(json));
+  const std::vector<StepRecord> records = test::run(json);
   constexpr double pressure[] = {2, 4, 2.5, 0.5, 4}, slid[] = {100, 100, 150, 50, 100},
                    factor[] = {0, 1, 2, 1.5, 0}; // of the pressure before
   double depth = 0;
@@ -176,7 +171,7 @@ TEST(Wear, AnAnnularPunchRunsInToPressuresOfOneOverTheRadius) {
     "steps": {"control": "force", "values": [2, {"to": 2, "count": 30}]},
     "history": {"angle": [0, {"to": 60000, "count": 30}]}})");
   const Scene scene = test::scene_from(json);
-  const std::vector<StepRecord> records = run(scene);
+  const std::vector<StepRecord> records = test::run(scene);
   Simulation simulation(scene, &test::library());
   int looked_at = 0;
   for (std::size_t k = 0; k < simulation.contact()->slaves().size(); ++k) {
@@ -255,10 +250,10 @@ TEST(Scenes, AParameterChangesTheHeight) {
   model["height"] = {{"type", "sum"}, {"of", {sine, {{"type", "constant"}, {"value", "rise"}}}}};
   json["steps"] = {{"control", "approach"}, {"values", {0.0005, 0.0005}}};
   json["history"]["rise"] = {0, 0.0002};
-  const auto risen = run(test::scene_from(json));
+  const auto risen = test::run(json);
   json.erase("history");
   json["steps"]["values"] = {0.0005, 0.0007};
-  const auto moved = run(test::scene_from(json));
+  const auto moved = test::run(json);
   EXPECT_EQ(risen[0].force, moved[0].force);
   EXPECT_NEAR(risen[1].force / moved[1].force, 1, 1e-9);
 }
@@ -278,9 +273,9 @@ TEST(Scenes, AHeightThatGivesWayToThePressureConvergesQuadratically) {
                      {"of", {{"type", "sum"}, {"of", {sine, {{"type", "constant"}, {"value", 0.0065}}}}}}};
   model["parameters"] = {{"flat", 1}};
   model["contact"] = {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}};
-  const std::vector<StepRecord> hard = run(test::scene_from(json));
+  const std::vector<StepRecord> hard = test::run(json);
   model["contact"]["flattening"] = {{"scale", "flat"}, {"pressure", 20}, {"least", 0.2}};
-  const std::vector<StepRecord> soft = run(test::scene_from(json));
+  const std::vector<StepRecord> soft = test::run(json);
   for (std::size_t s = 0; s < soft.size(); ++s) {
     EXPECT_LT(soft[s].peak_pressure, 0.8 * hard[s].peak_pressure);
     EXPECT_GT(soft[s].contact_fraction, hard[s].contact_fraction);
