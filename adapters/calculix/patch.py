@@ -4,7 +4,7 @@
 
 usage: patch.py CCX_SOURCES OUT
 
-Writes the nine changed files to OUT. ccx itself is not part of this project (GPL); its files are read from CCX_SOURCES, the folder
+Writes the eleven changed files to OUT. ccx itself is not part of this project (GPL); its files are read from CCX_SOURCES, the folder
 with ccx_2.20.c. Every place that is changed must be there exactly once: another version of ccx is refused, not damaged."""
 import pathlib
 import sys
@@ -56,7 +56,32 @@ PATCHES = {
         "            if((nasym.eq.1).and.((lakon(i)(1:3).eq.'U1E').or.\n"
         "     &           (lakon(i)(1:3).eq.'U1A'))) cycle\n"
         "            ndof=ichar(lakon(i)(7:7))\n            nope=ichar(lakon(i)(8:8))\n          else\n            cycle\n"
-        "          endif\n!     \nc     mortar start\n")],
+        "          endif\n!     \nc     mortar start\n"), (
+        # stiffness pass of temperatures; nope = 0: an element without heat
+        "          elseif((lakon(i)(1:1).eq.'E').and.(lakon(i)(7:7).ne.'A')) then\n",
+        "          elseif(lakon(i)(1:3).eq.'U1E') then\n"
+        "            call ents_ccx_heat_stiffness(i,nope,s,sm,ff)\n"
+        "            if(nope.eq.0) cycle\n"
+        "          elseif((lakon(i)(1:1).eq.'E').and.(lakon(i)(7:7).ne.'A')) then\n"), (
+        "          call e_c3d_th(",
+        "          if(lakon(i)(1:3).ne.'U1E')\n     &         call e_c3d_th(")],
+    # Force pass of temperatures. Elements with heat alone have some: their nodes may be those of no solid, and a row of zeros is singular.
+    "resultstherm.f": [(
+        "         if(lakon(i)(4:5).eq.'20') then\n            nope=20\n",
+        "         if(lakon(i)(1:3).eq.'U1E') then\n"
+        "            call ents_ccx_heat_force(i,kon,ipkon,lakon(i),co,v,mi,\n"
+        "     &           ielprop,prop,fn,qa,nal,calcul_fn,calcul_qa,xstateini,\n"
+        "     &           nstate_,dtime,ithermal,nmethod)\n"
+        "            cycle\n"
+        "         elseif(lakon(i)(4:5).eq.'20') then\n            nope=20\n")],
+    "mastruct.c": [
+        ("\telse if (strcmp1(&lakon[8*i+3],\"6\")==0)nope=6;\n",
+         "\telse if((strcmp1(&lakon[8*i],\"U1E\")==0)&&ents_ccx_has_heat_(&i))nope=lakon[8*i+7];\n"
+         "\telse if (strcmp1(&lakon[8*i+3],\"6\")==0)nope=6;\n"),
+        ("      else if (strcmp1(&lakon[8*i+3],\"6\")==0)nope=6;\n",
+         "      else if((strcmp1(&lakon[8*i],\"U1E\")==0)&&ents_ccx_has_heat_(&i))nope=lakon[8*i+7];\n"
+         "      else if (strcmp1(&lakon[8*i+3],\"6\")==0)nope=6;\n"),
+        ("void mastruct(ITG *nk,", "extern ITG ents_ccx_has_heat_(ITG *);\n\nvoid mastruct(ITG *nk,")],
     "mafillsmas.f": [
         ("          if(lakon(i)(1:2).ne.'ES') cycle\n",
          "          if((lakon(i)(1:3).eq.'U1E').or.\n"
@@ -86,7 +111,12 @@ PATCHES = {
         "          if(((textpart(i)(1:8).eq.'TYPE=U1E').or.\n"
         "     &         (textpart(i)(1:8).eq.'TYPE=U1A')).and.\n"
         "     &         (iperturb(1).eq.0)) iperturb(1)=2\n"
-        "        enddo\n")],
+        "        enddo\n"), (
+        # at the end of each step's lines: which elements have heat
+        "      if(istep.eq.1) ncs_=lprev\n",
+        "      if(ier.eq.0) call ents_ccx_find_heat(ne,ipkon,lakon,ielprop,prop,\n"
+        "     &     nprop,ithermal)\n"
+        "      if(istep.eq.1) ncs_=lprev\n")],
     # User elements are no shells or beams: without this one of them crashes a job with elements of one or two dimensions (CalculiX issue 170).
     "gen3delem.f": [(
         "     &         (lakon(i)(1:4).ne.'MASS')) then\n",
@@ -108,6 +138,7 @@ PATCHES = {
         "  extern ITG ents_ccx_uel_unsymmetric_(ITG *,ITG *,char *,ITG *,double *);\n"
         "  ITG ents_unsymmetric=ents_ccx_unsymmetric_(ne,ipkon,lakon,ielprop,prop,nprop)||\n"
         "    ents_ccx_uel_unsymmetric_(ne,ipkon,lakon,ielprop,prop);\n"
+        "  if(*ithermal==2) ents_unsymmetric=0; // temperatures alone\n"
         "  if(ents_unsymmetric) nasym=1;\n"
         "  ITG ents_elements=0;\n"
         "  for(i=0;i<*ne;i++){\n"

@@ -125,7 +125,7 @@ libraries='-lspooles -lpthread -larpack -llapack -lblas -lm'
 # shellcheck disable=SC2086 # words
 {
   for file in *.c; do gcc $c -c "$file"; done &&
-    for file in *.f; do gfortran $fortran -c "$file"; done &&
+    for file in *.f; do gfortran $fortran -I"$ccx" -c "$file"; done &&
     gfortran -O2 -fopenmp -o ../ccx_ents "$ccx/ccx_2.20.o" ./*.o "$ccx/ccx_2.20.a" \
       -L"$build/lib" -lents_calculix -lents -Wl,-rpath,"$build/lib" $libraries
 } >"$log" 2>&1 || failed "ccx did not link"
@@ -155,19 +155,28 @@ python3 "$here/example/native.py" write "$work/native"
 for folder in "$work"/native/*; do (cd "$folder" && OMP_NUM_THREADS=2 "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $folder"; done
 python3 "$here/example/native.py" compare "$work/native" || status=1
 
-# 7. A deck without U1E and U1A: ccx as it was, iterations included.
-step "ccx's own contact with friction, in ccx without the changes, too"
-cd "$work/native/friction"
+# 7. Temperatures: exact values, and ccx's own contact.
+step "heat through U1E and through ccx's own contact"
+rm -rf "${work:?}/heat"
+python3 -B "$here/example/heat.py" write "$work/heat"
+for folder in "$work"/heat/*; do (cd "$folder" && OMP_NUM_THREADS=2 "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $folder"; done
+python3 -B "$here/example/heat.py" compare "$work/heat" || status=1
+
+# 8. A deck without U1E and U1A: ccx as it was, iterations included.
+step "ccx's own contact with friction, and with heat, in ccx without the changes, too"
 # shellcheck disable=SC2086 # words
 gfortran -O2 -fopenmp -o "$work/ccx_plain" "$ccx/ccx_2.20.o" "$ccx/ccx_2.20.a" $libraries >"$log" 2>&1 || failed "ccx did not link"
-for program in ccx_plain ccx_ents; do
-  OMP_NUM_THREADS=1 "$work/$program" job >"$log" 2>&1 || failed "$program stopped"
-  mv job.dat $program.dat
-  mv job.sta $program.sta
+for folder in native/friction heat/native; do
+  cd "$work/$folder"
+  for program in ccx_plain ccx_ents; do
+    OMP_NUM_THREADS=1 "$work/$program" job >"$log" 2>&1 || failed "$program stopped"
+    mv job.dat $program.dat
+    mv job.sta $program.sta
+  done
+  cmp ccx_plain.dat ccx_ents.dat && cmp ccx_plain.sta ccx_ents.sta || { echo "run.sh: $PWD: ccx is another one for decks without U1E" >&2; status=1; }
 done
-cmp ccx_plain.dat ccx_ents.dat && cmp ccx_plain.sta ccx_ents.sta || { echo "run.sh: $PWD: ccx is another one for decks without U1E" >&2; status=1; }
 
-# 8. Mistakes reach the user as ccx's own errors do.
+# 9. Mistakes reach the user as ccx's own errors do.
 step "mistakes"
 # shellcheck disable=SC2086 # words
 if gcc $c -DLONGLONG -fsyntax-only "$work/patched/nonlingeo.c" >"$log" 2>&1 || ! grep 'error: .*LONGLONG' "$log"; then
@@ -189,8 +198,17 @@ done; done
 python3 "$here/example/make.py" sphere U1E .
 rm ents_1.json
 refused U1E ents_1.json
+cd "$work/heat/conducts"
+with() { sed "s/^\*HEAT TRANSFER.*/$1/" given.inp >job.inp; } # another procedure
+mv job.inp given.inp
+with '*STATIC, DIRECT'
+refused U1E 'has "heat".*write \*HEAT TRANSFER or \*COUPLED'
+with '*UNCOUPLED TEMPERATURE-DISPLACEMENT'
+refused U1E 'write \*COUPLED'
+mv given.inp job.inp
+cd "$work/sphere"
 
-# 9. A master that is pulled away below the block: a slave that leaves its segment in contact ends the job.
+# 10. A master that is pulled away below the block: a slave that leaves its segment in contact ends the job.
 step "a slave that leaves its segment"
 python3 "$here/example/make.py" texture U1E .
 sed -i -e 's/^MASTER, 1, 1, .*/MASTER, 1, 1, 2.4/' -e 's/^0.2, 1., 1e-5, 0.2/0.02, 1., 1e-3, 0.02/' job.inp
@@ -201,7 +219,7 @@ if ! grep -m 1 'has left its segments' "$log" || [ $code -eq 0 ]; then
   status=1
 fi
 
-# 10. Elements of two dimensions in the same deck (CalculiX issue 170: a crash): the block's forces stay what they are.
+# 11. Elements of two dimensions in the same deck (CalculiX issue 170: a crash): the block's forces stay what they are.
 step "a shell in the same deck"
 python3 "$here/example/make.py" sphere U1E .
 OMP_NUM_THREADS=2 "$work/ccx_ents" job >"$log" 2>&1 || failed "ccx stopped"

@@ -16,6 +16,25 @@ std::vector<double>& stiffness(int element) {
   return all[element];
 }
 
+namespace {
+
+// Never freed, as above. Of one step; threads find theirs without a lock: no element is added meanwhile.
+std::map<int, HeatFlow>& heat_flows() {
+  static auto& all = *new std::map<int, HeatFlow>;
+  return all;
+}
+
+} // namespace
+
+HeatFlow& heat_flow(int element) { return heat_flows().at(element); }
+
+bool has_heat(int element) { return heat_flows().count(element) != 0; }
+
+void begin_heat(const std::set<int>& elements) {
+  heat_flows().clear();
+  for (const int element : elements) heat_flows()[element];
+}
+
 void stop(const char* label, const char* message) {
   std::printf("*ERROR in %s: %s\n", label, message);
   std::fflush(stdout);
@@ -81,5 +100,28 @@ ents_ccx_linear_force_(const int* nelem, const int* kon, const int* ipkon, const
   for (int j = 0; j < dofs; ++j) {
     const double moved = v[nodal(j)] - vold[nodal(j)];
     for (int i = 0; i < dofs; ++i) fn[nodal(i)] += kept[static_cast<std::size_t>(i + dofs * j)] * moved;
+  }
+}
+
+/// Structure of the matrix: has the element `*index` + 1, of type U1E, rows of temperatures in this step?
+extern "C" __attribute__((visibility("default"))) int ents_ccx_has_heat_(const int* index) {
+  return ccx::has_heat(*index + 1) ? 1 : 0;
+}
+
+/// Stiffness pass of temperatures of U1E: s = d(power) / dT, no capacity, no load. *nope: nodes, 0: no heat.
+extern "C" __attribute__((visibility("default"))) void
+ents_ccx_heat_stiffness_(const int* nelem, int* nope, double* s, double* sm, double* ff) {
+  *nope = 0;
+  if (!ccx::has_heat(*nelem)) return;
+  const ccx::HeatFlow& kept = ccx::heat_flow(*nelem);
+  if (kept.power.empty()) ccx::stop_linear("U1E", *nelem);
+  const std::size_t nodes = kept.power.size();
+  *nope = static_cast<int>(nodes);
+  for (std::size_t j = 0; j < nodes; ++j) {
+    ff[j] = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      sm[i + ccx::leading_dimension * j] = 0;
+      s[i + ccx::leading_dimension * j] = kept.conductance[i + nodes * j];
+    }
   }
 }

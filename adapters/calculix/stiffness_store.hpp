@@ -6,6 +6,7 @@
 
 #include <map>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace ccx {
@@ -15,6 +16,17 @@ inline constexpr int leading_dimension = 60; ///< s(60,60): 20 nodes of 3 degree
 /// Column-major stiffness of an element as its last force pass left it; empty before. Elements come from
 /// several threads, each from one at a time.
 std::vector<double>& stiffness(int element);
+
+/// What flows through an element with heat, as its last force pass left it.
+struct HeatFlow {
+  std::vector<double> power;       ///< [nodes] that leaves each node [F L / time]
+  std::vector<double> conductance; ///< [nodes][nodes] its derivatives by the temperatures, symmetric
+};
+
+/// Of elements with heat; those that a step has are told at its begin, by one thread.
+HeatFlow& heat_flow(int element);
+bool has_heat(int element);
+void begin_heat(const std::set<int>& elements);
 
 /// "*ERROR in LABEL: message" into ccx's output, and its exit status.
 [[noreturn]] void stop(const char* label, const char* message);

@@ -166,6 +166,7 @@ bool find_start(const LoadedModel& model, const ents_input& input, double* start
 void describe(const Arguments& arguments, Result& result) {
   const ents_layout& layout = arguments.model->layout;
   result.symmetric = layout.symmetric_tangent != 0 && !arguments.body; // finite rotations do not commute
+  result.symmetric_forces = arguments.model->symmetric_forces && !arguments.body;
   result.dimension = layout.dimension;
   result.heat = layout.heat != 0;
   result.rigid = layout.dofs - layout.multipliers == layout.node_dofs;

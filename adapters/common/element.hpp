@@ -112,12 +112,13 @@ enum class Outcome {
 
 struct Result {
   Outcome outcome = Outcome::done;
-  double step_factor = 1; ///< in (0, 1) for Outcome::cut
-  bool symmetric = true;  ///< the tangent of this model always is
-  bool contact = false;   ///< the element carries pressure
-  bool left = false;      ///< `cut` because the slave has left its segments while in contact
-  bool beside = false;    ///< open, beside the model's patch and below the surface that goes on there
-  double depth = 0;       ///< [L] below it
+  double step_factor = 1;       ///< in (0, 1) for Outcome::cut
+  bool symmetric = true;        ///< the tangent of this model always is
+  bool symmetric_forces = true; ///< its block of forces by displacements
+  bool contact = false;         ///< the element carries pressure
+  bool left = false;            ///< `cut` because the slave has left its segments while in contact
+  bool beside = false;          ///< open, beside the model's patch and below the surface that goes on there
+  double depth = 0;             ///< [L] below it
   int dimension = 0, state_size = 0; ///< of the model, as far as it could be read
   bool heat = false, rigid = false;  ///< the model has "heat", "master": "rigid"
   char message[1024];                ///< for `cut` and `failed`, and what the selfcheck found; else empty

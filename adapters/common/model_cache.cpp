@@ -138,16 +138,32 @@ void read_rows(const std::string& file, LoadedModel& loaded) {
       throw file + ": two lines for element " + std::to_string(loaded.rows[i].element);
 }
 
+ents_model* create(const nlohmann::json& model, const std::string& directory) {
+  const std::string text = model.dump();
+  ents_model* created = nullptr;
+  ents_model_create(text.data(), static_cast<std::int64_t>(text.size()),
+                    directory.empty() ? nullptr : directory.c_str(), nullptr, 0, &created, nullptr);
+  return created;
+}
+
 /// @return null if the model has no height, or takes no start
 ents_model* without_height(nlohmann::json model, const std::string& directory) {
   if (!model.contains("height") || model["height"].is_null() || model.contains("patch"))
     return nullptr; // on a patch the library finds the start by itself
   model["height"] = nullptr;
-  const std::string text = model.dump();
-  ents_model* base = nullptr;
-  ents_model_create(text.data(), static_cast<std::int64_t>(text.size()),
-                    directory.empty() ? nullptr : directory.c_str(), nullptr, 0, &base, nullptr);
-  return base;
+  return create(model, directory);
+}
+
+/// No force depends on a temperature: those of a model with heat are those of the same without.
+bool has_symmetric_forces(nlohmann::json model, const std::string& directory) {
+  model["contact"]["heat"] = nullptr;
+  ents_model* forces = create(model, directory);
+  ents_layout layout{};
+  layout.struct_size = sizeof layout;
+  const bool symmetric =
+      forces && ents_model_layout(forces, &layout, nullptr) == ENTS_OK && layout.symmetric_tangent;
+  ents_model_destroy(&forces, nullptr);
+  return symmetric;
 }
 
 std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
@@ -175,6 +191,8 @@ std::unique_ptr<LoadedModel> load(int number, const std::string& directory) {
   std::ifstream in(loaded->file, std::ios::binary);
   if (auto model = nlohmann::json::parse(in, nullptr, false); model.is_object()) {
     loaded->patch = model.contains("patch");
+    loaded->symmetric_forces =
+        loaded->layout.heat ? has_symmetric_forces(model, directory) : loaded->layout.symmetric_tangent != 0;
     loaded->base = without_height(std::move(model), directory);
   }
   return loaded;

@@ -32,7 +32,8 @@ struct LoadedModel {
   /// lie to the side.
   ents_model* base = nullptr;
   ents_layout layout{};
-  std::string file; ///< ents_k.json with its folder
+  bool symmetric_forces = false; ///< the block of forces by displacements always is; else as `layout` says
+  std::string file;              ///< ents_k.json with its folder
   std::string error;
   std::vector<ElementRow> rows; ///< sorted by element
   int slave_nodes = 1;          ///< of each row

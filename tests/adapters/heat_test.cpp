@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "abaqus_services.hpp"

@@ -125,4 +125,5 @@ def main():
                 (folder / "ents_1.txt").write_text("\n".join(areas) + "\n")
 
 
-main()
+if __name__ == "__main__":
+    main()
