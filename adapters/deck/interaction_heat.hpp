@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// *GAP CONDUCTANCE and *GAP HEAT GENERATION of an Abaqus deck.
+// *GAP CONDUCTANCE and *GAP HEAT GENERATION of a deck.
 #pragma once
 
 #include "contact_pair.hpp"
@@ -11,6 +11,6 @@ namespace ents_deck {
 /// @return "heat" of a model's "contact"; null: there is none
 /// @throws Error with the line of a table that no contact element has
 nlohmann::ordered_json heat_law(const Source& source, const std::vector<const Statement*>& statements,
-                                bool has_friction, std::vector<std::string>& remarks);
+                                Program program, bool has_friction, std::vector<std::string>& remarks);
 
 } // namespace ents_deck

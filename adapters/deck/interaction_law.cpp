@@ -90,10 +90,6 @@ Interaction interaction_of(const Mesh& mesh, const ContactPair& pair, Program pr
       continue;
     }
     if (s.keyword == "GAP CONDUCTANCE" || s.keyword == "GAP HEAT GENERATION") {
-      if (program == Program::calculix)
-        source.fail(s.place, "*" + s.keyword +
-                                 " of this contact cannot be had from contact elements: ccx assembles "
-                                 "temperatures of its own elements alone; leave this pair to ccx");
       out.heat.push_back(&s);
       continue;
     }
@@ -358,7 +354,7 @@ Law law_of(const Mesh& mesh, const ContactPair& pair, const Bodies& bodies, Prog
             friction_law(mesh, *parts.friction, normal.stiffness, program, bodies, is_tied, out.remarks);
         !law.is_null())
       out.contact["friction"] = std::move(law);
-  if (auto heat = heat_law(mesh.source, parts.heat, out.contact.contains("friction"), out.remarks);
+  if (auto heat = heat_law(mesh.source, parts.heat, program, out.contact.contains("friction"), out.remarks);
       !heat.is_null())
     out.contact["heat"] = std::move(heat);
   return out;

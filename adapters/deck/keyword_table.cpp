@@ -41,8 +41,7 @@ std::vector<KeywordRule> shared_rules() {
   const auto never = [&](const char* name, const std::string& why) {
     out.push_back({name, Use::refused, why, {}, {}});
   };
-  for (const char* name :
-       {"HEAT TRANSFER", "UNCOUPLED TEMPERATURE-DISPLACEMENT", "COUPLED THERMAL-ELECTRICAL"})
+  for (const char* name : {"UNCOUPLED TEMPERATURE-DISPLACEMENT", "COUPLED THERMAL-ELECTRICAL"})
     never(name, no_heat);
   for (const char* name : {"FREQUENCY", "BUCKLE", "COMPLEX FREQUENCY", "MODAL DYNAMIC",
                            "STEADY STATE DYNAMICS", "GREEN", "RANDOM RESPONSE", "RESPONSE SPECTRUM"})
@@ -188,9 +187,24 @@ std::vector<KeywordRule> calculix_rules() {
        "U1E has been verified in *STATIC and *VISCO steps alone; leave the pair to ccx",
        {},
        {}},
-      {"COUPLED TEMPERATURE-DISPLACEMENT", Use::refused, no_heat, {}, {}},
-      {"GAP CONDUCTANCE", Use::used, "", {any}, {}}, // refused where an interaction of a pair has them
-      {"GAP HEAT GENERATION", Use::used, "", {any}, {}},
+      {"HEAT TRANSFER",
+       Use::used,
+       "",
+       {{"FREQUENCY", Use::refused, "", linear}, {"MODAL DYNAMIC", Use::refused, "", linear}, any},
+       {}},
+      {"COUPLED TEMPERATURE-DISPLACEMENT", Use::used, "", {any}, {}},
+      {"GAP CONDUCTANCE",
+       Use::used,
+       "",
+       {{"USER", Use::refused, "",
+         std::string("a subroutine of your own gives the conductance") + written_by_hand}},
+       {{"conductance"}, {"pressure"}, {"temperature"}}},
+      {"GAP HEAT GENERATION",
+       Use::used,
+       "",
+       {{"USER", Use::refused, "", std::string("a subroutine of your own gives the heat") + written_by_hand}},
+       {{"part that becomes heat"}, {"part of the slave"}, {"relative velocity"}},
+       1},
       model_change("MECHSTRAINTORESIDUAL")};
 }
 
@@ -249,6 +263,7 @@ std::vector<KeywordRule> abaqus_rules() {
       std::string("a conductance that depends on it is no law of a contact element; write one table") +
       written_by_hand;
   return {{"COUPLED TEMPERATURE-DISPLACEMENT", Use::used, "", {any}, {}},
+          {"HEAT TRANSFER", Use::refused, no_heat, {}, {}},
           {"GAP CONDUCTANCE",
            Use::used,
            "",

@@ -81,7 +81,8 @@ void allow_iterations(const Job& job, Edits& edits) {
   bool own = false;
   for (const Statement& s : source.list) {
     if (s.keyword == "STEP") procedure = nullptr, own = false;
-    if (s.keyword == "STATIC" || s.keyword == "VISCO") procedure = &s;
+    for (const char* name : {"STATIC", "VISCO", "COUPLED TEMPERATURE-DISPLACEMENT", "HEAT TRANSFER"})
+      if (s.keyword == name) procedure = &s;
     if (s.keyword == "CONTROLS")
       own = own || canonical(s.value("PARAMETERS")) == "TIMEINCREMENTATION" || s.has("RESET");
     if (s.keyword != "END STEP" || !procedure || own) continue;

@@ -82,9 +82,7 @@ HostText calculix_text(const Job& job) {
   for (const Model& model : job.models) {
     states = std::max(states, model.state_size);
     const int nodes = model.nodes();
-    if (has_heat(model))
-      throw Error("the model has \"heat\", and ccx assembles temperatures of its own elements alone: leave "
-                  "\"heat\" out of the model, or leave this pair to ccx");
+    if (has_heat(model)) check_procedures(job);
     if (types.count(nodes) != 0) continue;
     const string type = types.empty() ? "U1E" : string("U1E") + static_cast<char>('A' + types.size() - 1);
     types[nodes] = type;

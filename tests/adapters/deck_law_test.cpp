@@ -207,8 +207,6 @@ TEST(DeckLaw, GapConductanceAndHeatGenerationAreHeat) {
     EXPECT_NE(error.find(reason), string::npos) << error;
     EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
   };
-  for (const string& text : {by_gap, by_pressure, string("*GAP HEAT GENERATION\n")})
-    refused(text, Program::calculix, "ccx assembles temperatures of its own elements alone");
   refused(by_gap + by_gap, Program::abaqus, "over the clearance is there a second time");
   refused("*GAP CONDUCTANCE\n4., 0.\n1., 0.1\n", Program::abaqus,
           "write a line more, with a conductance of 0");
@@ -222,24 +220,73 @@ TEST(DeckLaw, GapConductanceAndHeatGenerationAreHeat) {
   refused("*GAP RADIATION\n1., 0.3\n", Program::abaqus, "without damping, radiation or cohesion");
 }
 
+// ccx: over the pressure alone, constant beyond both ends, and the velocity of the slip itself where it is negative.
+TEST(DeckLaw, GapConductanceAndHeatGenerationOfCcx) {
+  const string head = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e6\n",
+               friction = "*FRICTION\n0.2, 1e5\n";
+  const auto heat = [&](const string& text) {
+    const Law made = law(head + text, Program::calculix);
+    return made.contact.contains("heat") ? made.contact.at("heat").dump() : "none";
+  };
+  EXPECT_EQ(heat("*GAP CONDUCTANCE\n4., , 293.\n"), R"({"conductance":4.0})");
+  EXPECT_EQ(heat("*GAP CONDUCTANCE\n1., 0., 20.\n3., 1., 20.\n2., 4., 20.\n"),
+            R"({"table":{"pressures":[0.0,1.0,4.0],"conductances":[1.0,3.0,2.0]}})");
+  EXPECT_EQ(heat("*GAP CONDUCTANCE\n1., 2.\n3., 5.\n"),
+            R"({"table":{"pressures":[0.0,2.0,5.0],"conductances":[1.0,1.0,3.0]}})");
+  EXPECT_EQ(heat(friction + "*GAP HEAT GENERATION\n0.9, 0.3, -1.\n"),
+            R"({"friction":{"share":0.9,"slave":0.3}})");
+  EXPECT_EQ(heat(friction + "*GAP HEAT GENERATION\n0.9, , -1.\n"),
+            R"({"friction":{"share":0.9,"slave":0.0}})");
+  const auto refused = [&](const string& text, const char* reason) {
+    const string error = error_of([&] { law(head + text, Program::calculix); });
+    EXPECT_NE(error.find(reason), string::npos) << error;
+    EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  };
+  refused("*GAP CONDUCTANCE\n1., 0., 20.\n3., 0., 30.\n", "a second temperature");
+  refused("*GAP CONDUCTANCE\n1., 2.\n3., 2.\n", "they rise, from 0 or more");
+  refused("*GAP CONDUCTANCE\n1., -2.\n", "they rise, from 0 or more");
+  refused("*GAP CONDUCTANCE\n-1., 2.\n", "the conductance is -1");
+  refused("*GAP CONDUCTANCE\n", "has no line");
+  refused("*GAP CONDUCTANCE, USER\n", "a subroutine of your own");
+  refused("*GAP CONDUCTANCE, PRESSURE\n1., 0.\n3., 1.\n", "is not known");
+  refused(friction + "*GAP HEAT GENERATION\n0.9, 0.3, 200.\n", "the relative velocity (entry 3) is 200");
+  refused(friction + "*GAP HEAT GENERATION\n0.9, 0.3\n", "write -1.");
+  refused(friction + "*GAP HEAT GENERATION\n", "has no line");
+  refused(friction + "*GAP HEAT GENERATION, USER\n", "a subroutine of your own");
+}
+
 TEST(DeckLaw, HeatTakesTemperaturesAndTheirSteps) {
-  const string heat = "1e6\n*GAP CONDUCTANCE, PRESSURE\n1., 0.\n3., 1.\n";
+  const string by_pressure = "1e6\n*GAP CONDUCTANCE, PRESSURE\n1., 0.\n3., 1.\n",
+               of_ccx = "1e6\n*GAP CONDUCTANCE\n1., 0.\n3., 1.\n";
+  const auto with = [](const string& text, const string& procedure) {
+    string changed = text;
+    return changed.replace(changed.find("*STATIC"), 7, procedure);
+  };
+  const string coupled = "*COUPLED TEMPERATURE-DISPLACEMENT", transfer = "*HEAT TRANSFER, STEADY STATE";
+  const auto refused = [](const std::function<void()>& run, const char* reason) {
+    const string error = error_of(run);
+    EXPECT_NE(error.find(reason), string::npos) << error;
+    EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  };
   Options options;
   options.program = Program::abaqus;
-  const string coupled = deck("1e6\n", heat);
-  string text = coupled;
-  text.replace(text.find("*STATIC"), 7, "*COUPLED TEMPERATURE-DISPLACEMENT");
-  EXPECT_NE(abaqus_text(converted(text, options)).text.find("UNSYMM\n1, 2, 3, 11\n"), string::npos);
-  const string error = error_of([&] { abaqus_text(converted(coupled, options)); });
-  EXPECT_NE(error.find("*STATIC has no temperatures"), string::npos) << error;
-  EXPECT_NE(error.find("deck.inp:"), string::npos) << error;
+  const string text = deck("1e6\n", by_pressure);
+  EXPECT_NE(abaqus_text(converted(with(text, coupled), options)).text.find("UNSYMM\n1, 2, 3, 11\n"),
+            string::npos);
+  refused([&] { abaqus_text(converted(text, options)); }, "*STATIC has no temperatures");
+  refused([&] { abaqus_text(converted(with(text, transfer), options)); }, "conduct no heat in such a step");
   EXPECT_NE(abaqus_text(converted(deck(), options)).text.find("\n1, 2, 3\n"), string::npos);
-  write("job/heat.json",
-        R"({"contact": {"normal": {"type": "penalty", "stiffness": 1e6}, "heat": {"conductance": 2}}})");
   Options ccx;
-  ccx.model = "job/heat.json";
-  const string refusal = error_of([&] { calculix_text(converted(deck(), ccx)); });
-  EXPECT_NE(refusal.find("ccx assembles temperatures of its own elements alone"), string::npos) << refusal;
+  const string own = deck("1e6\n", of_ccx);
+  for (const string& procedure : {coupled, transfer})
+    EXPECT_NE(calculix_text(converted(with(own, procedure), ccx)).text.find("MAXDOF=3"), string::npos);
+  refused([&] { calculix_text(converted(own, ccx)); }, "*STATIC has no temperatures");
+  refused([&] { converted(with(own, "*HEAT TRANSFER, FREQUENCY"), ccx); }, "linear step");
+  // ccx's limits of iterations are for these steps, too
+  ccx.deck = "job/deck.inp";
+  std::filesystem::remove_all("coupled");
+  write_job(converted(with(own, coupled), ccx), ccx, "coupled");
+  EXPECT_NE(content("coupled/deck.inp").find("*CONTROLS, PARAMETERS=TIME INCREMENTATION"), string::npos);
 }
 
 } // namespace

@@ -206,11 +206,11 @@ TEST(DeckRefuses, WithLineAndReason) {
   };
   const Mistake mistakes[] = {
       {"=LINEAR\n1e6", "=SOFT\n1e6", line_of("*SURFACE BEHAVIOR"), "SOFT"},
-      {"*STATIC", "*HEAT TRANSFER", line_of("*STATIC"), "conduct no heat"},
+      {"*STATIC", "*UNCOUPLED TEMPERATURE-DISPLACEMENT", line_of("*STATIC"), "conduct no heat"},
       {"*STATIC", "*MODAL DYNAMIC", line_of("*STATIC"), "linear step"},
       {"*STATIC", "*DYNAMIC", line_of("*STATIC"), "verified in *STATIC"},
       {"*STEP, NLGEOM", "*STEP, PERTURBATION", line_of("*STEP"), "linear step"},
-      {"1e6\n", "1e6\n*GAP CONDUCTANCE\n1., 2.\n", line_of("*CONTACT PAIR"),
+      {"1e6\n", "1e6\n*GAP RADIATION\n1., 2.\n", line_of("*CONTACT PAIR"),
        "cannot be had from contact elements"},
       {"SLAVE, MASTER\n", "SLAVE, NOBODY\n", line_of("SLAVE, MASTER"), "no surface or set 'NOBODY'"},
       {"INTERACTION=I,", "INTERACTION=J,", line_of("SLAVE, MASTER"), "no *SURFACE INTERACTION, NAME=J"},
