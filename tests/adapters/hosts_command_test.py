@@ -38,7 +38,7 @@ class Hosts(unittest.TestCase):
         for segment, dofs in (("line2", "1, 2, 11"), ("quad4", "1, 2, 3, 11")):
             lines = dict(_hosts.lines(ents.Model({"segment": segment, "contact": CONTACT | {"heat": {"conductance": 3}}})))
             self.assertTrue(lines["Abaqus/Standard, UEL"].endswith(", UNSYMM; below it " + dofs), lines)
-            self.assertEqual(set(lines), {"Abaqus/Standard, UEL", "Abaqus/Standard, UINTER", "other hosts"})
+            self.assertEqual(set(lines), {"Abaqus/Standard, UEL", "Abaqus/Standard, UINTER", "CalculiX", "other hosts"})
 
     def test_command_line(self):
         run = lambda *words: subprocess.run([sys.executable, "-m", "ents", "hosts", *words], capture_output=True, text=True, check=False,

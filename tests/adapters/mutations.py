@@ -56,11 +56,11 @@ LIBRARIES = [
     Library("ents_calculix", ["calculix/stiffness_store.cpp", "calculix/ccx_element.cpp", "calculix/uel_loader.cpp"], ["-ldl"], HOSTS, "*calculix*",
             user_element(
                 "calculix/ccx_element.cpp",
-                tangent=("e.tangent = {tangent.data(), 1, dofs}", "e.tangent = {tangent.data(), dofs, 1}"),
-                coordinates=("e.position = {reference, 1, 3}", "e.position = {reference + 2, -1, 3}"),
-                nodes=("e.position = {reference, 1, 3}", "e.position = {reference + 3 * (e.nodes - 1), 1, -3}"),
-                forces=("e.residual = {residual, 1, 3}", "e.residual = {residual + 2, -1, 3}"),
-                displacements=("e.displacement = {displacement, 1, 3}", "e.displacement = {displacement + 2, -1, 3}"))),
+                tangent=("e.tangent = {tangent.data(), 1, rows}", "e.tangent = {tangent.data(), rows, 1}"),
+                coordinates=("e.position = {local.reference, 1, 3}", "e.position = {local.reference + 2, -1, 3}"),
+                nodes=("e.position = {local.reference, 1, 3}", "e.position = {local.reference + 3 * (e.nodes - 1), 1, -3}"),
+                forces=("e.residual = {local.residual, 1, e.dofs}", "e.residual = {local.residual + 2, -1, 3}"),
+                displacements=("e.displacement = {local.displacement, 1, e.dofs}", "e.displacement = {local.displacement + 2, -1, 3}"))),
     Library("entsContact", ["opensees/entsContact.cpp"], [], HOSTS, "*opensees*",
             user_element(
                 "opensees/entsContact.cpp",
@@ -134,6 +134,17 @@ LIBRARIES = [
         Mutant("heat: temperatures of point and face swapped", "common/point.cpp", "p.temperature[node == 0 ? 0 : 1]",
                "p.temperature[node == 0 ? 1 : 0]"),
         Mutant("heat: sign of the closing in DDFDDR", "common/point.cpp", "p.flux_by_closing[i + 2 * j] -= side(j) *", "p.flux_by_closing[i + 2 * j] -=")]),
+    Library("ents_calculix", ["calculix/stiffness_store.cpp", "calculix/ccx_element.cpp", "calculix/uel_loader.cpp", "common/element.cpp"], ["-ldl"], HEAT, "HeatThroughCcx.*", [
+        Mutant("heat: temperature of another component", "calculix/ccx_element.cpp", "i == e.temperature ? at : at + 1 + i", "at + i"),
+        Mutant("heat: power of another node", "calculix/ccx_element.cpp", "heat.power[j] = local.residual[dofs * j + 3]",
+               "heat.power[j] = local.residual[dofs * (nodes - 1 - j) + 3]"),
+        Mutant("heat: slopes of forces for those of powers", "calculix/ccx_element.cpp", "tangent(dofs * i + 3, dofs * j + 3)",
+               "tangent(dofs * i, dofs * j)"),
+        Mutant("heat: sign of the power", "calculix/ccx_element.cpp", "+= power[node];\n    if", "-= power[node];\n    if"),
+        Mutant("heat: friction rubs where nothing moves", "calculix/ccx_element.cpp", "gather(e, local, nodes, co, v, v, mt)",
+               "gather(e, local, nodes, co, v, co, mt)"),
+        Mutant("heat: elements of the step before", "calculix/stiffness_store.cpp", "  heat_flows().clear();\n", ""),
+        Mutant("heat: unsymmetric without friction", "common/element.cpp", "arguments.model->symmetric_forces &&", "result.symmetric &&")]),
     # A rigid body with a reference node.
     Library("ents_abaqus", ["abaqus/abaqus.cpp", "abaqus/uel/uel.cpp", "abaqus/uinter/uinter.cpp", "common/element.cpp", "common/body.cpp"], [], HOSTS,
             "RigidBodyElement.*", [

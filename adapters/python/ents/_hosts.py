@@ -23,11 +23,12 @@ def lines(model, slave_nodes=1):
     found = [("Abaqus/Standard, UEL", f"*USER ELEMENT, TYPE=U101, {element}{unsymmetric}{temperatures}")]
     if layout.nodes == 2 * (d - 1) and not layout.multipliers:
         found.append(("Abaqus/Standard, UINTER", f"*SURFACE INTERACTION, NAME=ENTS, USER, DEPVAR={3 + states}, PROPERTIES=3{unsymmetric}"))
+    calculix = ("CalculiX", f"*DEPVAR {states}" + ("" if nodes <= 20 else "; 20 nodes an element is ccx's limit"))
     if layout.heat:
-        return found + [("other hosts", "refused: their elements carry no temperatures")]
+        return found + [calculix, ("other hosts", "refused: their elements carry no temperatures")]
     if not layout.multipliers:
         found.append(("Abaqus/Explicit", f"*USER ELEMENT, TYPE=VU101, {element}"))
-    found.append(("CalculiX", f"*DEPVAR {states}" + ("" if nodes <= 20 else "; 20 nodes an element is ccx's limit")))
+    found.append(calculix)
     found.append(("Ansys", f"USRELEM,{nodes},{d},ANYSHAPE,3,{states},0,0,1,0,{0 if layout.symmetric_tangent else 1}"))
     found.append(("Marc", f"STATE VARS, {states}"))
     if d == 3 and nodes <= 8 and not layout.multipliers:
