@@ -156,7 +156,19 @@ PATCHES = {
          "    extern void ents_ccx_increment_end_(double *,double *,ITG *,ITG *,ITG *);\n"
          "    if(ents_elements&&(icutb==0)) ents_ccx_increment_end_(co,vold,mi,istep,&iinc);\n"
          "    /* icutb=0 means that the iterations in the increment converged,\n"),
-        ("    if((iinc==1)&&(*ithermal<2)&&(*nmethod!=4)){\n", "    if(((iinc==1)||ents_unsymmetric)&&(*ithermal<2)&&(*nmethod!=4)){\n")],
+        ("    if((iinc==1)&&(*ithermal<2)&&(*nmethod!=4)){\n",
+         "    if((((iinc==1)&&(*ithermal<2))||(ents_unsymmetric&&(*ithermal!=2)))&&(*nmethod!=4)){\n"),
+        # ... in coupled steps, too: forces are linear from the last temperatures, whose strains are in the forces there; powers are those at v
+        ("      results(co,nk,kon,ipkon,lakon,ne,v,stn,inum,stx,\n"
+         "\t      elcon,nelcon,rhcon,nrhcon,alcon,nalcon,alzero,ielmat,\n"
+         "\t      ielorien,norien,orab,ntmat_,t1ini,t1act,ithermal,\n",
+         "      double *ents_t=t1ini;\n"
+         "      if(*ithermal>1){ents_t=NULL;NNEW(ents_t,double,*nk);for(k=0;k<*nk;++k) ents_t[k]=vold[mt*k];}\n"
+         "      results(co,nk,kon,ipkon,lakon,ne,v,stn,inum,stx,\n"
+         "\t      elcon,nelcon,rhcon,nrhcon,alcon,nalcon,alzero,ielmat,\n"
+         "\t      ielorien,norien,orab,ntmat_,ents_t,t1act,ithermal,\n"),
+        ("      iperturb[0]=0;if(ne1d2d==1)SFREE(inum);\n", "      if(*ithermal>1) SFREE(ents_t);\n      iperturb[0]=0;if(ne1d2d==1)SFREE(inum);\n"),
+        ("      for(k=0;k<neq[1];++k){\n\tf[k]=f[k]+b[k];}\n", "      for(k=0;k<neq[0];++k){\n\tf[k]=f[k]+b[k];}\n")],
 }
 
 

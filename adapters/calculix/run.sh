@@ -135,15 +135,18 @@ if [ -n "$quick" ]; then step "built in $build for a first job; for large ones: 
 # 5. The same problems in ccx and in the reference host.
 status=0
 export CCX_UEL="$build/lib/libents_abaqus.so" # what U1A loads
+by_one_and_two_threads() { # in the folder $1
+  for threads in 1 2; do
+    (cd "$1" && OMP_NUM_THREADS=$threads "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $1"
+    [ $threads -eq 1 ] && mv "$1/job.dat" "$1/one_thread.dat"
+    cp "$log" "$1/ccx.log"
+  done
+}
 for name in sphere texture friction turned; do for element in U1E U1A; do
   step "$name, $element"
   rm -rf "${work:?}/$name"
   python3 "$here/example/make.py" "$name" $element "$work/$name"
-  for threads in 1 2; do
-    (cd "$work/$name" && OMP_NUM_THREADS=$threads "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped"
-    [ $threads -eq 1 ] && mv "$work/$name/job.dat" "$work/$name/one_thread.dat"
-    cp "$log" "$work/$name/ccx.log"
-  done
+  by_one_and_two_threads "$work/$name"
   "$build/bin/ents-lab" run "$work/$name/scene.json" --out "$work/$name/host" >"$log" 2>&1 || failed "ents-lab failed"
   python3 "$here/example/compare.py" "$work/$name" || status=1
 done; done
@@ -161,6 +164,17 @@ rm -rf "${work:?}/heat"
 python3 -B "$here/example/heat.py" write "$work/heat"
 for folder in "$work"/heat/*; do (cd "$folder" && OMP_NUM_THREADS=2 "$work/ccx_ents" job) >"$log" 2>&1 || failed "ccx stopped in $folder"; done
 python3 -B "$here/example/heat.py" compare "$work/heat" || status=1
+
+step "friction that heats, in a coupled step: forces and displacements as without temperatures"
+rm -rf "${work:?}/rubbed"
+python3 "$here/example/make.py" friction U1E "$work/rubbed"
+sed -i -e 's/^\*STATIC/*COUPLED TEMPERATURE-DISPLACEMENT, STEADY STATE/' -e '0,/^\*ELASTIC/s//*CONDUCTIVITY\n10.\n*ELASTIC/' \
+  -e 's/^\*STEP/*INITIAL CONDITIONS, TYPE=TEMPERATURE\nALL, 0.\nMASTER, 50.\n&/' \
+  -e 's/^\*BOUNDARY$/&\nBOTTOM, 11, 11, 0.\nMASTER, 11, 11, 50./' "$work/rubbed/job.inp"
+sed -i 's/"friction": {/"heat": {"table": {"pressures": [0, 100], "conductances": [10, 200]}, "friction": {}},\n  &/' "$work/rubbed/ents_1.json"
+cp -r "$work/friction/host" "$work/rubbed"
+by_one_and_two_threads "$work/rubbed"
+python3 "$here/example/compare.py" "$work/rubbed" || status=1
 
 # 8. A deck without U1E and U1A: ccx as it was, iterations included.
 step "ccx's own contact with friction, and with heat, in ccx without the changes, too"

@@ -84,13 +84,21 @@ ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm,
 }
 
 /// Linear start of an increment, U1E and U1A: fn += K (v - vold), with the stiffness that the force pass at
-/// vold has just left.
+/// vold has just left; so with the power of an element with heat, which the pass of temperatures then adds.
 extern "C" __attribute__((visibility("default"))) void
 ents_ccx_linear_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
                        const double* vold, const double* v, const int* mi, double* fn, const int* calcul_fn,
                        std::size_t) {
   const int dofs = 3 * static_cast<unsigned char>(lakonl[7]);
   const int* nodes = kon + ipkon[*nelem - 1];
+  if (ccx::has_heat(*nelem)) {
+    ccx::HeatFlow& heat = ccx::heat_flow(*nelem);
+    const std::size_t n = heat.power.size();
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(mi[1] + 1) * (nodes[j] - 1);
+      for (std::size_t i = 0; i < n; ++i) heat.power[i] += heat.conductance[i + n * j] * (v[at] - vold[at]);
+    }
+  }
   const std::vector<double>& kept = ccx::stiffness(*nelem);
   if (*calcul_fn != 1 || kept.size() != static_cast<std::size_t>(dofs) * static_cast<std::size_t>(dofs))
     return;

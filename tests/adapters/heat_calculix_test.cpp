@@ -24,6 +24,9 @@ void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const c
                      const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
                      const int* calcul_qa, const double* xstateini, double* xstate, const int* nstate_,
                      const double* dtime, std::size_t);
+void ents_ccx_linear_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
+                            const double* vold, const double* v, const int* mi, double* fn,
+                            const int* calcul_fn, std::size_t);
 void ents_ccx_heat_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
                           const double* co, const double* v, const int* mi, const int* ielprop,
                           const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
@@ -191,6 +194,34 @@ TEST(HeatThroughCcx, AStepOfTemperaturesAloneHasTheSameFlow) {
   for (const std::size_t i : {2, 5, 8})
     for (const std::size_t j : {2, 5, 8}) EXPECT_EQ(found.tangent[i + 9 * j], expected.tangent[i + 9 * j]);
   EXPECT_EQ(alone.after, Values(Ccx::nstate)) << "the history stays";
+}
+
+// The linear begin of an increment: forces go on linearly from where the last one ended, and so do powers with the
+// temperatures that are prescribed anew, where they are linear.
+TEST(HeatThroughCcx, ALinearBeginTakesTheNewTemperatures) {
+  write("ents_839.json", dragged(R"("conductance": 3)"));
+  const Values x{-0.3, 0, -1, 0, 1, 0}, begin{0.1, -depth, 4, 0, 0, 1, 0, 0, 2},
+      end{0.1, -depth, 6, 0, 0, -3, 0, 0, 5};
+  const int one = 1, no = 0;
+  int count = 0;
+  Ccx expected(839);
+  expected.place(x, end, begin);
+  expected.forces();
+  Ccx host(839);
+  host.place(x, begin, begin);
+  const Values vold = host.v;
+  host.place(x, end, begin);
+  std::fill(host.fn.data(), host.fn.data() + host.fn.size(), 0.0);
+  ents_ccx_force_(&one, host.kon, host.ipkon, host.label, host.co.data(), vold.data(), host.vini.data(),
+                  host.mi, host.ielprop, host.prop, host.fn.data(), host.qa, &count, &no, &no,
+                  host.before.data(), host.after.data(), &Ccx::nstate, &host.dtime, 8);
+  ents_ccx_linear_force_(&one, host.kon, host.ipkon, host.label, vold.data(), host.v.data(), host.mi,
+                         host.fn.data(), &one, 8);
+  ents_ccx_heat_force_(&one, host.kon, host.ipkon, host.label, host.co.data(), host.v.data(), host.mi,
+                       host.ielprop, host.prop, host.fn.data(), host.qa, &count, &one, &no,
+                       host.before.data(), &Ccx::nstate, &host.dtime, &host.ithermal, &host.nmethod, 8);
+  for (const std::size_t node : {0, 4, 8}) EXPECT_NEAR(host.fn[node], expected.fn[node], 1e-13);
+  EXPECT_GT(std::abs(host.fn[0]), 1);
 }
 
 // What stops the job, and what needs no unsymmetric solver: rows of forces and of temperatures are apart.

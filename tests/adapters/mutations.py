@@ -143,6 +143,7 @@ LIBRARIES = [
         Mutant("heat: sign of the power", "calculix/ccx_element.cpp", "+= power[node];\n    if", "-= power[node];\n    if"),
         Mutant("heat: friction rubs where nothing moves", "calculix/ccx_element.cpp", "gather(e, local, nodes, co, v, v, mt)",
                "gather(e, local, nodes, co, v, co, mt)"),
+        Mutant("heat: a linear begin with old temperatures", "calculix/stiffness_store.cpp", "* (v[at] - vold[at])", "* 0"),
         Mutant("heat: elements of the step before", "calculix/stiffness_store.cpp", "  heat_flows().clear();\n", ""),
         Mutant("heat: unsymmetric without friction", "common/element.cpp", "arguments.model->symmetric_forces &&", "result.symmetric &&")]),
     # A rigid body with a reference node.
