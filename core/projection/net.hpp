@@ -13,10 +13,10 @@
 namespace ents::ENTS_ISA {
 
 // Coefficients [j][i] of a polynomial of V components, of degree count - 1 per direction, on 0 .. 1.
-template <int V, int T, int Most> struct Net {
-  static constexpr int rows = T == 2 ? Most : 1;
-  int count[2]; // second one: 1 of a line
-  Vec<double, V> c[rows][Most];
+template <int V, int T> struct Net {
+  static constexpr int most = 5, rows = T == 2 ? most : 1; // degree 4
+  int count[2];                                            // second one: 1 of a line
+  Vec<double, V> c[rows][most];
 
   // Of the derivative along direction a
   ENTS_INLINE Net derivative(int a, double inverse_width) const {
@@ -35,7 +35,7 @@ template <int V, int T, int Most> struct Net {
   ENTS_INLINE void cut(const double (&from)[T], const double (&to)[T]) {
     for (int j = 0; j < count[1]; ++j) cut(&c[j][0], 1, count[0], from[0], to[0]);
     if constexpr (T == 2)
-      for (int i = 0; i < count[0]; ++i) cut(&c[0][i], Most, count[1], from[1], to[1]);
+      for (int i = 0; i < count[0]; ++i) cut(&c[0][i], most, count[1], from[1], to[1]);
   }
 
   // Value at the centre, and the largest departure of a coefficient from it.
@@ -105,10 +105,8 @@ template <class B> struct Domain {
         width(is_simplex(basis) ? 1.0 + 2.0 * border : 2.0 + 2.0 * border) {}
 };
 
-inline constexpr int most_coefficients = 5; // degree 4
-
 // The net of a segment over its domain, of V numbers per node.
-template <class B, int V> struct SegmentNet : Net<V, B::dim - 1, most_coefficients> {
+template <class B, int V> struct SegmentNet : Net<V, B::dim - 1> {
   static constexpr int T = B::dim - 1;
 
   ENTS_INLINE SegmentNet(const B& basis, const Domain<B>& domain, const double* of) {
@@ -129,7 +127,7 @@ template <class B, int V> struct SegmentNet : Net<V, B::dim - 1, most_coefficien
       }
     for (int j = 0; j < this->count[1]; ++j) interpolate(&this->c[j][0], 1, n);
     if constexpr (T == 2)
-      for (int i = 0; i < n; ++i) interpolate(&this->c[0][i], most_coefficients, n);
+      for (int i = 0; i < n; ++i) interpolate(&this->c[0][i], this->most, n);
   }
 };
 
@@ -149,11 +147,11 @@ private:
 // The same of nets, made once.
 template <int Order, int Dim, bool H> class SurfaceRange<Order, CountedBasis<Dim>, H> {
   using B = CountedBasis<Dim>;
-  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>, most = most_coefficients;
+  static constexpr int D = B::dim, T = D - 1, K = symmetric_size<T>;
   static constexpr int basis_order = bent_below<B, H> ? Order + 1 : Order;
   static constexpr int K3 = T == 1 ? 1 : 4;
-  using Positions = Net<D, T, most>;
-  using Coordinates = Net<T, T, most>;
+  using Positions = Net<D, T>;
+  using Coordinates = Net<T, T>;
 
 public:
   ENTS_NOINLINE SurfaceRange(const Geometry<B>& g, double border) : g_(g), domain_(g.basis, border) {
@@ -197,8 +195,8 @@ private:
         to[a] = (xi[a].v + xi[a].r - domain.low) / domain.width;
       }
     }
-    template <int V> ENTS_INLINE void range(const Net<V, T, most>& whole, Vec<Ball, V>& out) const {
-      Net<V, T, most> part = whole;
+    template <int V> ENTS_INLINE void range(const Net<V, T>& whole, Vec<Ball, V>& out) const {
+      Net<V, T> part = whole;
       part.cut(from, to);
       part.range(out);
     }
