@@ -6,9 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include "chart/master_check.hpp"
+#include "spectrum.hpp"
 
 namespace host::chart {
 namespace {
@@ -196,10 +197,10 @@ private:
     next.soft = false;
     if (!rules_.stable || !next.closed) return std::nullopt;
     const Mat body = press_.spring().asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Mat> spectrum(Mat(body + exact_tangent(next)));
-    const double least = spectrum.eigenvalues()[0];
+    const Spectrum spectrum = spectrum_of(Mat(body + exact_tangent(next)));
+    const double least = spectrum.values[0];
     if (!(least > 0)) return Obstacle{End::unstable};
-    const Vec mode = spectrum.eigenvectors().col(0);
+    const Vec mode = spectrum.vectors.col(0);
     next.soft = least < 0.75 * mode.dot(body * mode);
     return std::nullopt;
   }

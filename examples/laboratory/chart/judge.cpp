@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "spectrum.hpp"
 
 namespace host::chart {
 namespace {
@@ -23,11 +23,11 @@ Mat energy_hessian(const Press& press, const Pair& pair) {
 
 /// Newton's step with the curvatures' absolute values: downhill in every direction.
 Vec downhill(const Mat& hessian, const Vec& gradient, double least) {
-  const Eigen::SelfAdjointEigenSolver<Mat> spectrum(hessian);
+  const Spectrum spectrum = spectrum_of(hessian);
   Vec step = Vec::Zero(gradient.size());
   for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    const Vec mode = spectrum.eigenvectors().col(i);
-    step -= mode * (mode.dot(gradient) / std::max(std::abs(spectrum.eigenvalues()[i]), least));
+    const Vec mode = spectrum.vectors.col(i);
+    step -= mode * (mode.dot(gradient) / std::max(std::abs(spectrum.values[i]), least));
   }
   return step;
 }

@@ -8,8 +8,8 @@ namespace host {
 namespace {
 
 constexpr std::size_t half = 4, window = 2 * half; // iterations that are looked at
-constexpr double rounding = 1e-3; // what stands above this is no rounding of a large stiffness
-constexpr double scatter = 100;   // of residuals that are rounding
+constexpr double above_rounding = 1e-3; // what stands above this is no rounding of a large stiffness
+constexpr double scatter = 100;         // of residuals that are rounding
 
 /// The key of the law that makes it stiff, in brackets; empty: there is none.
 std::string stiffness_of(const Json& model) {
@@ -45,7 +45,7 @@ bool stands_still(const std::vector<double>& residuals) {
   const auto begin = residuals.end() - window, middle = residuals.end() - half;
   const double high = *std::max_element(begin, residuals.end());
   const double before = *std::min_element(begin, middle), after = *std::min_element(middle, residuals.end());
-  return high <= rounding && high <= scatter * std::min(before, after) && after > 0.5 * before;
+  return high <= above_rounding && high <= scatter * std::min(before, after) && after > 0.5 * before;
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
+#include "spectrum.hpp"
 
 namespace host {
 namespace {
@@ -101,14 +101,14 @@ std::string what_can_move(const Mesh& mesh, const DofMap& dofs, const std::vecto
     }
   }
   for (const auto& [first, body] : all) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(body.held);
-    if (spectrum.eigenvalues()[0] > 1e-12 * std::max(1., spectrum.eigenvalues()[count - 1])) continue;
+    const Spectrum spectrum = spectrum_of(body.held);
+    if (spectrum.values[0] > 1e-12 * std::max(1., spectrum.values[count - 1])) continue;
     std::string part;
     for (const ElementGroup& group : mesh.groups)
       for (std::size_t e = 0; part.empty() && e < group.size(); ++e)
         if (bodies.of(group.element(e)[0]) == first)
           part = scene.parts[static_cast<std::size_t>(group.part)].name;
-    return "part " + part + " can move " + name_of(spectrum.eigenvectors().col(0), d, axisymmetric);
+    return "part " + part + " can move " + name_of(spectrum.vectors.col(0), d, axisymmetric);
   }
   return "";
 }
