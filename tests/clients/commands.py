@@ -157,7 +157,7 @@ def main(arguments):
                 left_out.setdefault(reason, []).append(command)
                 continue
             begin = time.monotonic()
-            short = " --last-step 1" if "ents-host run" in command and any(scene in command for scene in FIRST_STEP) else ""
+            short = " --last-step 1" if re.match(r"build/bin/ents-(host|lab) run", command) and any(scene in command for scene in FIRST_STEP) else ""
             try:
                 done = subprocess.run(command + short, shell=True, cwd=scratch, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
                                       text=True, timeout=300)
