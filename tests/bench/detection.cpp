@@ -80,7 +80,7 @@ void run_detection(std::ostream& out, std::int64_t most) {
   out << "n slave nodes over n segments; build, refit: ns per segment; search, follow, nothing (within "
          "reach): ns per slave "
          "node;\nbytes of the tree per segment; thread CPU time\n";
-  for (const std::string basis : {"line2", "tri3", "quad4"})
+  for (const std::string basis : {"line2", "tri3", "quad4", "bspline16"})
     for (const bool enriched : {false, true}) {
       const int t = mechanics::basis_named(basis).parameters();
       nlohmann::json text{{"segment", basis}};
