@@ -51,11 +51,16 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
   return true;
 }
 
+// A net is narrow where nodes lie beside the segment; the box of the nodes is, too, of triangles and where they are
+// its corners.
+template <class B> ENTS_INLINE bool has_net(const B& basis) { return is_counted<B> && !is_simplex(basis); }
+
 // The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes:
 // with c the centre of that box, rho - c = sum_i N_i (x_i - c).
 template <class B> double hull_spread(Basis which, double border) {
   constexpr int T = B::dim - 1, parts = T == 1 ? 64 : 16;
   const B basis = basis_of<B>(which);
+  if (has_net(basis)) return 1.0;
   const double low = is_simplex(basis) ? -border : -1.0 - border, high = 1.0 + border;
   const double half = 0.5 * (high - low) / parts;
   double most = 1.0;
@@ -74,9 +79,7 @@ template <class B> double hull_spread(Basis which, double border) {
   return most;
 }
 
-// Between the coefficients of a net, which is narrow where nodes lie beside the segment; of triangles and of the
-// bases whose nodes are their corners, between the values at the nodes.
-template <class B> ENTS_INLINE bool has_net(const B& basis) { return is_counted<B> && !is_simplex(basis); }
+// Between the coefficients of a net or, without one, between the values at the nodes.
 template <int V, class B>
 ENTS_INLINE void range_of_segment(const B& basis, const Plan& plan, const double* of, Ball (&out)[V]) {
   double least[V], most[V];
