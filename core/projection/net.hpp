@@ -71,6 +71,14 @@ private:
   }
 };
 
+// Has a net room for every counted basis?
+template <int D> constexpr bool nets_have_room() {
+  for (const CountedBasis<D>& basis : counted_bases<D>.of)
+    if (basis.degree >= Net<D, D - 1>::most) return false;
+  return true;
+}
+static_assert(nets_have_room<2>() && nets_have_room<3>());
+
 // Values at equal distances to Bernstein coefficients, in place.
 template <int V> ENTS_INLINE void interpolate(Vec<double, V>* p, int step, int n) {
   static constexpr double inverse[5][5][5] = {
