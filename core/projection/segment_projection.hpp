@@ -56,7 +56,29 @@ bool project_on_segment(const Plan& plan, const double* slave, const double* mas
 template <class B> ENTS_INLINE bool has_net(const B& basis) { return is_counted<B> && !is_simplex(basis); }
 
 // The half-sizes of a segment with its border are at most `hull_spread` times those of the box of its nodes:
-// with c the centre of that box, rho - c = sum_i N_i (x_i - c).
+// with c the centre of that box, rho - c = sum_i N_i (x_i - c), and sum_i |N_i| = 1 + 2 sum_i max(-N_i, 0). A box
+// that lies across the long side of a triangle is halved some times: there N_i < 0 beside the segment.
+template <class B>
+double spread_in_box(const B& basis, double border, const double (&centre)[2], double half, int halvings) {
+  constexpr int T = B::dim - 1;
+  const double sum = centre[0] + centre[1], high = 1.0 + border;
+  if (is_simplex(basis) && sum - 2.0 * half > high) return 1.0;
+  double most = 1.0;
+  if (is_simplex(basis) && halvings > 0 && sum + 2.0 * half > high) {
+    for (const double x : {-0.5 * half, 0.5 * half})
+      for (const double y : {-0.5 * half, 0.5 * half})
+        most = greater(
+            most, spread_in_box(basis, border, {centre[0] + x, centre[1] + y}, 0.5 * half, halvings - 1));
+    return most;
+  }
+  Ball xi[T];
+  for (int a = 0; a < T; ++a) xi[a] = {centre[a], half};
+  Shape<Ball, T, B::nodes> N;
+  basis.template shape<0>(xi, N);
+  double negative = 0.0;
+  for (int n = 0; n < node_count(basis); ++n) negative += greater(N.n[n].r - N.n[n].v, 0.0);
+  return 1.0 + 2.0 * negative;
+}
 template <class B> double hull_spread(Basis which, double border) {
   constexpr int T = B::dim - 1, parts = T == 1 ? 64 : 16;
   const B basis = basis_of<B>(which);
@@ -65,17 +87,9 @@ template <class B> double hull_spread(Basis which, double border) {
   const double half = 0.5 * (high - low) / parts;
   double most = 1.0;
   for (int j = 0; j < (T == 1 ? 1 : parts); ++j)
-    for (int i = 0; i < parts; ++i) {
-      const double centre[2] = {low + (2 * i + 1) * half, low + (2 * j + 1) * half};
-      if (is_simplex(basis) && centre[0] + centre[1] - 2.0 * half > high) continue;
-      Ball xi[T];
-      for (int a = 0; a < T; ++a) xi[a] = {centre[a], half};
-      Shape<Ball, T, B::nodes> N;
-      basis.template shape<0>(xi, N);
-      double sum = 0.0;
-      for (int n = 0; n < node_count(basis); ++n) sum += magnitude(N.n[n]);
-      most = greater(most, sum);
-    }
+    for (int i = 0; i < parts; ++i)
+      most = greater(
+          most, spread_in_box(basis, border, {low + (2 * i + 1) * half, low + (2 * j + 1) * half}, half, 3));
   return most;
 }
 
