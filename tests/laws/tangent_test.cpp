@@ -95,19 +95,29 @@ protected:
     return error;
   }
 
-  // An augmented law holds an element that touches within the increment above the surface, too; its slip begins
-  // where it is not, with a kink.
-  static bool dips_in(const LawElements& e, const LawResults& centre, const LawResults& points,
-                      std::size_t element) {
-    if (GetParam().normal["type"] != "augmented" ||
-        e.state[element * static_cast<std::size_t>(e.layout.state_size) + 1] != 1.0)
-      return false;
+  // Gaps beside which differences are not those of the law at one gap. An augmented law holds an element that touches
+  // within the increment above the surface, too; its slip begins where it is not, with a kink. Dugdale's tension has a
+  // rate that bends sharply where it begins, has risen, and begins to fall.
+  static std::vector<double> bends(const LawElements& e, std::size_t element) {
+    const auto& normal = GetParam().normal;
+    if (normal["type"] == "augmented" &&
+        e.state[element * static_cast<std::size_t>(e.layout.state_size) + 1] == 1.0)
+      return {0.0};
+    if (normal["type"] != "dugdale") return {};
+    const double strength = normal["strength"], length = normal["work"].get<double>() / strength,
+                 rise = 2.0 * strength / normal["stiffness"].get<double>();
+    return {0.0, rise, length + rise / 3.0 - 0.125 * length};
+  }
+
+  static bool crosses_a_bend(const LawElements& e, const LawResults& centre, const LawResults& points,
+                             std::size_t element) {
     const double offset = GetParam().offset.is_number() ? GetParam().offset.get<double>() : 0.0;
-    const bool above = centre.gap[element] + offset > 0.0;
-    bool same = true;
-    for (std::size_t k = 0; k < mechanics::stencil_points; ++k)
-      same = same && (points.gap[mechanics::stencil_points * element + k] + offset > 0.0) == above;
-    return !same;
+    for (const double bend : bends(e, element)) {
+      const bool above = centre.gap[element] + offset > bend;
+      for (std::size_t k = 0; k < mechanics::stencil_points; ++k)
+        if ((points.gap[mechanics::stencil_points * element + k] + offset > bend) != above) return true;
+    }
+    return false;
   }
 
   static bool same_branch(const LawResults& centre, const LawResults& points, std::size_t e, bool& flagged) {
@@ -153,7 +163,7 @@ protected:
     for (std::size_t i = 0; i < static_cast<std::size_t>(e.at.count); ++i) {
       bool flagged = false;
       const bool same = same_branch(centre, points, i, flagged) && !starts_to_slide(e, centre, i) &&
-                        !dips_in(e, centre, points, i) && !conducts_from_zero(e, centre, i);
+                        !crosses_a_bend(e, centre, points, i) && !conducts_from_zero(e, centre, i);
       count_.flagged += flagged;
       count_.crossing += !flagged && !same;
       if (flagged || !same) continue;
