@@ -23,7 +23,7 @@ struct HeatFlow {
   std::vector<double> conductance; ///< [nodes][nodes] its derivatives by the temperatures, symmetric
 };
 
-/// Of elements with heat; those that a step has are told at its begin, by one thread.
+/// Of the elements with heat. begin_heat() names those of a step before its first pass; one thread calls it.
 HeatFlow& heat_flow(int element);
 bool has_heat(int element);
 void begin_heat(const std::set<int>& elements);

@@ -5,27 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "calculix_routines.hpp"
 #include "guarded.hpp"
-
-extern "C" {
-void ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm, double* ff,
-                         std::size_t);
-void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl, const double* co,
-                     const double* v, const double* vini, const int* mi, const int* ielprop,
-                     const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
-                     const int* calcul_qa, const double* xstateini, double* xstate, const int* nstate_,
-                     const double* dtime, std::size_t);
-void ents_ccx_uel_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
-                         const double* co, const double* v, const double* vini, const int* mi,
-                         const int* ielprop, const double* prop, double* fn, double* qa, int* nal,
-                         const int* calcul_fn, const int* calcul_qa, const double* xstateini, double* xstate,
-                         const int* nstate_, const double* time, const double* ttime, const double* dtime,
-                         const int* istep, const int* iinc, std::size_t);
-int ents_ccx_uel_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                              const double* prop);
-int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                          const double* prop, const int* nprop);
-}
 
 namespace adapters {
 CalculixHost::CalculixHost(const Elements& elements, const std::string& element_type)

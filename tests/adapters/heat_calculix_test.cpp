@@ -6,35 +6,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "calculix_routines.hpp"
 #include "guarded.hpp"
 #include "heat_problems.hpp"
 #include "measured.hpp"
 #include "plain_model.hpp"
 #include "worst.hpp"
-
-extern "C" {
-void ents_ccx_find_heat_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                         const double* prop, const int* nprop, const int* ithermal, std::size_t);
-int ents_ccx_has_heat_(const int* index);
-void ents_ccx_stiffness_(const int* nelem, const char* lakonl, double* s, double* sm, double* ff,
-                         std::size_t);
-void ents_ccx_heat_stiffness_(const int* nelem, int* nope, double* s, double* sm, double* ff);
-void ents_ccx_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl, const double* co,
-                     const double* v, const double* vini, const int* mi, const int* ielprop,
-                     const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
-                     const int* calcul_qa, const double* xstateini, double* xstate, const int* nstate_,
-                     const double* dtime, std::size_t);
-void ents_ccx_linear_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
-                            const double* vold, const double* v, const int* mi, double* fn,
-                            const int* calcul_fn, std::size_t);
-void ents_ccx_heat_force_(const int* nelem, const int* kon, const int* ipkon, const char* lakonl,
-                          const double* co, const double* v, const int* mi, const int* ielprop,
-                          const double* prop, double* fn, double* qa, int* nal, const int* calcul_fn,
-                          const int* calcul_qa, const double* xstateini, const int* nstate_,
-                          const double* dtime, const int* ithermal, const int* nmethod, std::size_t);
-int ents_ccx_unsymmetric_(const int* ne, const int* ipkon, const char* lakon, const int* ielprop,
-                          const double* prop, const int* nprop);
-}
 
 namespace adapters::heat_calculix_test {
 namespace {
