@@ -21,7 +21,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
     : sides_(std::move(master), mesh, dofs, std::move(points), std::move(cut),
              find_json(spec.model, "/contact/wear/sliding")),
       values_(sides_, spec, sides_.d == 2 && thickness == 0 && sides_.slides()), search_(sides_, spec),
-      states_(sides_), wear_(sides_, spec.wear_factor, thickness),
+      states_(sides_), wear_(sides_, spec.wear_factor, thickness), tangent_(sides_),
       normal_stiffness_(stiffness_of(spec.model, "normal")),
       tangential_stiffness_(stiffness_of(spec.model, "friction")) {
   const Json normal = find_json(spec.model, "/contact/normal/type");
@@ -39,7 +39,7 @@ Contact::Contact(Master master, const ContactSpec& spec, const Mesh& mesh, const
 }
 
 void Contact::reset_points() {
-  unknowns_ = {sides_.master, sides_.points, sides_.mesh_dofs()};
+  tangent_.reset();
   states_.reset();
   at_ = states_.begun;
   changes_.found = at_.segment;
@@ -84,7 +84,7 @@ bool Contact::choose(const Configuration& at, bool only_lost, ents_report& repor
   sides_.place(at);
   search_.find(at, changes_.closed, only_lost, states_.begun, accepted().pressure, at_);
   if (at_.segment != before) states_.move(at_, time_increment_, report);
-  return at_.segment != pattern_segment_;
+  return !tangent_.is_for(at_.segment);
 }
 
 void Contact::read_profile() {
@@ -117,7 +117,7 @@ bool Contact::cut_again(const Configuration& begin, bool again) {
   states_.begin = states_.in; // those of elements without history
   states_.begun = at_;
   begin_increment(begin);
-  pattern_segment_.clear();
+  tangent_.forget();
   return true;
 }
 

@@ -8,32 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "contact_energy.hpp"
 #include "contact_search.hpp"
 #include "contact_sides.hpp"
 #include "contact_states.hpp"
-#include "contact_unknowns.hpp"
+#include "contact_tangent.hpp"
 #include "contact_wear.hpp"
 #include "slave_values.hpp"
-#include "sparse_system.hpp"
 #include "status_changes.hpp"
 
 namespace host {
-
-/// What a rigid master feels: total force along its direction of motion e, and how it and the forces on the
-/// other unknowns depend on its motion.  dW/d(motion) = -sum R_s . e
-struct RigidCoupling {
-  double force = 0;           ///< -sum R_s . e [F]; > 0 presses
-  std::vector<double> column; ///< [dofs, multipliers] dR/d(motion) = -K_s e
-  std::vector<double> row;    ///< [dofs, multipliers] d(force)/du = -e K_s
-  double diagonal = 0;        ///< d(force)/d(motion) = sum e K_s e
-};
-
-/// Of all elements together.
-struct ContactEnergy {
-  double stored = 0;     ///< by the laws of normal contact and friction [F L]
-  double dissipated = 0; ///< within the increment [F L]
-  double size = 0;       ///< sum of the elements' sizes: the measure of rounding
-};
 
 /// What a restart needs: the history at the end of the last accepted increment.
 struct ContactHistory {
@@ -88,12 +72,6 @@ public:
   }
   /// Of the last `assemble`, if the law pulls.
   const ContactEnergy& energy() const { return energy_; }
-  /// Rows that may make the tangent of the last `assemble` indefinite get a diagonal as large as the sum of the sizes
-  /// of their other entries (Gershgorin).
-  /// @param every_row  false: only those whose diagonal is negative
-  /// @param coupling   optional, becomes that of the changed tangent
-  /// @return what has been added, of the tangent's pattern
-  SparseMatrix make_definite(bool every_row, RigidCoupling* coupling);
   /// Does the model wear?
   bool wears() const { return wear_.acts(); }
   /// Volumes that slave and master have lost until the last accepted increment, of this mesh [L^3].
@@ -145,13 +123,12 @@ public:
   void take(const ElementStart& start) { at_ = start.at, states_.in = start.state; }
 
   /// The tangent's pattern for the present choice.
-  void build_tangent();
-  /// Tangent of the elements over `unknowns`, compressed rows.
-  const SparseMatrix& tangent() const { return tangent_; }
-  /// Those of [dofs, multipliers] that contact elements have.
-  const std::vector<std::size_t>& unknowns() const { return unknowns_.dofs; }
+  void build_tangent() { tangent_.build(at_.segment); }
+  /// That of the last `assemble`.
+  const ContactTangent& tangent() const { return tangent_; }
+  ContactTangent& tangent() { return tangent_; }
 
-  /// Add the contact forces to the residual; the tangents are in `tangent` then.
+  /// Add the contact forces to the residual; the elements' tangents are in `tangent` then.
   /// @param residual  [dofs, multipliers]
   /// @param coupling  optional, rigid master only
   /// @param squared_force  |R|^2 on the slave nodes: the size of the contact forces
@@ -162,9 +139,6 @@ public:
   /// Of each of `unknowns` the size of the numbers beside its own that a gap is made of: the coordinate of
   /// the node, and of a rigid master its motion and the nodes of the segment; multipliers: 0.
   std::vector<double> position_sizes(const Configuration& at) const;
-
-  /// residual += tangent of the last `assemble` times displacements [dofs].
-  void add_tangent_times(const std::vector<double>& direction, std::vector<double>& residual) const;
 
   /// Uzawa: the forces of the last `assemble`, which found equilibrium, become multipliers unless they are
   /// close enough.
@@ -200,27 +174,17 @@ private:
   /// The library's elements, added to `system`.
   /// @throws JobError for what a smaller step does not cure
   std::int32_t add_elements(const ents_output& out, ents_system system, ents_report& report);
-  /// Mirror images move against their nodes: the signs of their unknowns go into the tangent.
-  void turn_images();
-  /// @param energies  three of each point: stored, stored by friction, dissipated
-  void ask_for_energy(ents_output& out, std::vector<double>& energies) const;
-  void add_up(const std::vector<double>& energies);
-  /// The tangent's part of the coupling.
-  void couple(RigidCoupling& coupling) const;
-
   ContactSides sides_;
   SlaveValues values_;
   ContactSearch search_;
   ContactStates states_;
   ContactWear wear_;
+  ContactTangent tangent_;
   double normal_stiffness_, tangential_stiffness_, time_increment_ = 1;
   bool pulls_ = false;
   Projections at_; ///< present ones
   StatusChanges changes_;
-  ContactUnknowns unknowns_;                  ///< rows and columns of `tangent_`
-  std::vector<std::int64_t> pattern_segment_; ///< for which the tangent's pattern was made
-  std::vector<std::int64_t> point_begin_, point_nodes_, places_;
-  SparseMatrix tangent_;
+  std::vector<std::int64_t> point_begin_, point_nodes_;
   ContactEnergy energy_;
 };
 

@@ -39,7 +39,8 @@ ContactFields Contact::fields(const Configuration& at) {
 
   // The forces on the slave points, one equation for each of their dofs, and none for the master.
   fields.node_forces.assign(slaves * sides_.d, 0.0);
-  const std::vector<std::int64_t> none(std::max(unknowns_.of_master.size(), multiplier_count()), -1);
+  const std::vector<std::int64_t> none(std::max(tangent_.unknowns().of_master.size(), multiplier_count()),
+                                       -1);
   std::vector<std::int64_t> equations(slaves * sides_.d);
   for (std::size_t i = 0; i < equations.size(); ++i) equations[i] = static_cast<std::int64_t>(i);
   auto system = ents_struct<ents_system>();

@@ -37,7 +37,7 @@ bool Simulation::solve_downhill(Evaluation& at, double force_error, Increment& s
     if (solve(at, true, 0, force_error, step) && !solver_->indefinite() && slope(at, force_error, step) < 0)
       return true;
     left_out = true;
-    system_->add(contact_->make_definite(every_row, force_controlled() ? &at.coupling : nullptr));
+    system_->add(contact_->tangent().make_definite(every_row, force_controlled() ? &at.coupling : nullptr));
   }
   return solve(at, true, 0, force_error, step) && slope(at, force_error, step) < 0;
 }

@@ -122,8 +122,8 @@ Simulation::Evaluation Simulation::evaluate(const Configuration& at, const std::
     const bool follows = !direction.empty() && contact_->master().body_node >= 0;
     const std::int32_t status =
         contact_->assemble(at, result.residual, want_tangent || follows, coupling, squared_contact, report);
-    if (follows && status == ENTS_OK) contact_->add_tangent_times(direction, result.residual);
-    if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent());
+    if (follows && status == ENTS_OK) contact_->tangent().add_times(direction, result.residual);
+    if (want_tangent && status == ENTS_OK) system_->add(contact_->tangent().matrix());
     timings_.contact += watch.seconds();
     timings_.contact_cpu += cpu.seconds();
     if (status != ENTS_OK) {

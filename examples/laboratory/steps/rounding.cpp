@@ -51,8 +51,8 @@ Simulation::Rounding Simulation::rounding_of_residual(const Evaluation& at,
     if (const int row = equation(dof); row >= 0) sum[row] += std::abs(load[dof]);
   double force = 0;
   if (contact_) {
-    const SparseMatrix& tangent = contact_->tangent();
-    const std::vector<std::size_t>& unknowns = contact_->unknowns();
+    const SparseMatrix& tangent = contact_->tangent().matrix();
+    const std::vector<std::size_t>& unknowns = contact_->tangent().unknowns().dofs;
     const std::vector<double> positions = contact_->position_sizes(where);
     for (std::size_t i = 0; i < unknowns.size(); ++i) {
       double by_positions = 0, by_unknowns = 0;

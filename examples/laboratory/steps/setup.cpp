@@ -331,8 +331,9 @@ void Simulation::build_pattern() {
   }
   if (contact_) {
     contact_->build_tangent();
-    contact.matrix = &contact_->tangent();
-    for (const std::size_t unknown : contact_->unknowns()) contact.equations.push_back(equation(unknown));
+    contact.matrix = &contact_->tangent().matrix();
+    for (const std::size_t unknown : contact_->tangent().unknowns().dofs)
+      contact.equations.push_back(equation(unknown));
   }
   system_->build(groups, contact);
   solver_->analyze(system_->matrix());
