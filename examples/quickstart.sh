@@ -9,9 +9,9 @@ case ${1-} in
     cat <<'HELP'
 usage: sh examples/quickstart.sh [--deck]
 
-Installs what is missing and builds the library and ents-host in build/ (see sh examples/setup.sh --help), then solves
-examples/rough_afm, variant block: a surface measured by atomic force microscopy on ONE contact segment, pressed into a block of hex8.
-The results go to out/rough_afm. With --deck it builds ents-deck, too, which converts CalculiX's and Abaqus's decks.
+Installs what is missing and builds the library and ents-host in build-quick/ (configuration quick of sh examples/setup.sh, which takes
+elements one by one), then solves examples/rough_afm, variant block: a surface measured by atomic force microscopy on ONE contact segment, pressed into a
+block of hex8. The results go to out/rough_afm. With --deck it builds ents-deck, too, which converts CalculiX's and Abaqus's decks.
 
 exit status: 0 done; 1 the build or the solution failed; 2 a package is missing, or the command line is wrong
 HELP
@@ -22,8 +22,8 @@ HELP
 esac
 
 # shellcheck disable=SC2086 # words
-sh examples/setup.sh --target ents-host $deck
-echo "== build/bin/ents-host run examples/rough_afm/scene.json --variant block --out out/rough_afm"
-build/bin/ents-host run examples/rough_afm/scene.json --variant block --out out/rough_afm
+sh examples/setup.sh --configuration quick --target ents-host $deck
+echo "== build-quick/bin/ents-host run examples/rough_afm/scene.json --variant block --out out/rough_afm"
+build-quick/bin/ents-host run examples/rough_afm/scene.json --variant block --out out/rough_afm
 /usr/bin/python3 -B examples/rough_afm/picture.py out/rough_afm
-echo "== more: sh examples/gallery.sh builds ents-lab and solves all scenes, with exact answers and pictures"
+echo "== more: sh examples/gallery.sh builds ents-lab and fast kernels of this processor in build/ and solves all scenes, with exact answers"

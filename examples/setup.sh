@@ -1,5 +1,5 @@
 #!/bin/sh
-# Install what is missing and build in build/. quickstart.sh and tests/run.sh begin with this, so that both share one build.
+# Install what is missing and build in build/. quickstart.sh, gallery.sh and tests/run.sh begin with this.
 set -eu
 
 usage() {
@@ -11,6 +11,7 @@ library, the reference host, the benchmark and the tests in build/; with --targe
 package, too; with --try, that package, too, if it can be had. A configuration is an initial cache of CMake, and has a folder of its own;
 tests/configurations/README.md says what each costs:
   --configuration native                 build/: what is built without this option
+  --configuration quick                  build-quick/: sooner, for a first picture or a first job; slower elements, no tests
   --configuration dev                    build-dev/: to change the sources
   --configuration release                build-release/: for every processor of this family, without tests; what packages are made of
   --configuration asan                   build-asan/: under the address and undefined-behaviour sanitizers

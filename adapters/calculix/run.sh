@@ -100,8 +100,6 @@ if [ "$(cat "$work/optimize" 2>/dev/null)" != "$optimize" ]; then
 fi
 
 # 4. The adapter, the changed routines, and the program.
-options=''
-[ -z "$quick" ] || options='-DENTS_INSTRUCTION_SETS= -DENTS_GROUPED=ON -DENTS_BUILD_TESTS=OFF -DENTS_BUILD_BENCH=OFF -DENTS_BUILD_HOST=OFF'
 targets='ents_calculix ents_abaqus ents-lab' needed='lib/libents_calculix.so lib/libents_abaqus.so bin/ents-lab'
 if [ -n "$only_build" ]; then
   targets=ents_calculix needed=lib/libents_calculix.so
@@ -110,8 +108,8 @@ fi
 for file in $needed; do
   [ -f "$build/$file" ] && continue
   step "building ents: $targets"
-  # shellcheck disable=SC2086 # words
-  [ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release $options >"$log" 2>&1 || failed "cmake failed; sh examples/setup.sh installs what is missing"
+  [ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release \
+    ${quick:+-C "$root/tests/configurations/quick.cmake"} >"$log" 2>&1 || failed "cmake failed; sh examples/setup.sh installs what is missing"
   # shellcheck disable=SC2086 # words
   cmake --build "$build" --target $targets --parallel "$(nproc)" >"$log" 2>&1 || failed "build this project first: sh examples/setup.sh"
   break

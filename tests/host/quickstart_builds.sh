@@ -1,7 +1,7 @@
 #!/bin/sh
 # quickstart_builds.sh NINJA BUILD ROOT: what examples/quickstart.sh builds is the library, the reading of decks and ents-host.
 set -eu
-target=$(sed -n 's/^sh examples\/setup.sh --target \([a-z-]*\).*/\1/p' "$3/examples/quickstart.sh")
+target=$(sed -n 's/^sh examples\/setup.sh --configuration quick --target \([a-z-]*\).*/\1/p' "$3/examples/quickstart.sh")
 objects=$("$1" -C "$2" -t commands "$target" | sed -n 's/.* -o \([^ ]*\.o\) .*/\1/p')
 count() { printf '%s\n' "$objects" | grep -c "$1" || true; }
 echo "$target: $(count .) objects; core $(count ^core/), abi $(count ^abi/), host $(count ^examples/)"
