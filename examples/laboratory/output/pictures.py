@@ -62,7 +62,8 @@ def titles(figure, title, subtitle, left=0.1):
 # Charts
 
 class Scale:
-    """An axis with its range: the data with a margin, so that no marker sits on a border; from 0 it stays at 0."""
+    """An axis with its range: the data with a margin, so that no marker sits on a border; from 0 it stays at 0. Numbers that differ by less
+    than a thousandth are drawn as equal: the axis has their digits."""
 
     def __init__(self, axis, values):
         self.logarithmic = axis["logarithmic"]
@@ -72,12 +73,21 @@ class Scale:
             margin = max((high / low) ** 0.06, 1.15)
             self.low, self.high = low / margin, high * margin
         else:
-            span = high - low if high > low else max(1.0, abs(low))
+            low, high = (given if given is not None else value for given, value in ((axis["min"], low), (axis["max"], high)))
+            if abs(high - low) < 1e-3 * max(abs(low), abs(high)) or high == low:
+                middle, half = 0.5 * (low + high), 0.05 * max(abs(low), abs(high)) or 0.5
+                low, high = middle - half, middle + half
+            span = high - low
             self.low, self.high = 0 if 0 <= low <= 0.1 * span else low - 0.05 * span, high + 0.06 * span
         self.low = self.low if axis["min"] is None else axis["min"]
         self.high = self.high if axis["max"] is None else axis["max"]
         self.power = 0 if self.logarithmic else common_power(max(abs(self.low), abs(self.high)))
         self.unit = 10.0 ** -self.power
+
+    def holds(self, values):
+        """Whether all numbers lie in the range, its ends included."""
+        values = values[np.isfinite(values)]
+        return bool(np.all((values >= self.low) & (values <= self.high)))
 
     def set(self, which, axis):
         if self.logarithmic:
@@ -170,7 +180,8 @@ def draw_chart(chart, folder):
         if curve["fit_order"] and not math.isnan(order := fitted_order(u, v)):
             label += f", order {abs(order):.2f}"
         style = look(curve, next((i for i, c in enumerate(colored) if c is curve), 0), len(colored))
-        axes.plot(u * x.unit, v * y.unit, label=label or "_", **style)
+        cut = not (x.holds(u) and y.holds(v))  # else markers on a border are whole
+        axes.plot(u * x.unit, v * y.unit, label=label or "_", clip_on=cut, **style)
         if curve["style"] == "area":
             axes.fill_between(u * x.unit, 0, v * y.unit, color=style["color"], alpha=0.18)
     x.set(axes.xaxis, chart["x"]), y.set(axes.yaxis, chart["y"])
