@@ -124,8 +124,19 @@ Chart along_surface(Simulation& simulation, const StepRecord& record,
   return chart;
 }
 
+/// Cuts the x-axis to where a curve of the chart is not zero, and three tenths of that beside it.
+void show_where_not_zero(Chart& chart, const Curve& curve) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (curve.y[i] != 0) low = std::min(low, curve.x[i]), high = std::max(high, curve.x[i]);
+  if (!(high > low)) return;
+  chart.x.min = std::max(low - 0.3 * (high - low), curve.x.front());
+  chart.x.max = std::min(high + 0.3 * (high - low), curve.x.back());
+}
+
 Chart pressure_along_surface(Simulation& simulation, const StepRecord& record) {
   Chart chart = along_surface(simulation, record, {{"", record.fields.pressure}});
+  show_where_not_zero(chart, chart.curves.back());
   chart.title = "Contact pressure, last step";
   chart.y = {"pressure", simulation.scene().units.pressure, false, 0};
   return chart;
@@ -143,15 +154,7 @@ Chart worn_profile(Simulation& simulation, const std::vector<StepRecord>& record
     if (profiles.empty() || profiles.back().first != name) profiles.emplace_back(name, std::move(profile));
   }
   Chart chart = along_surface(simulation, records.back(), profiles);
-  double low = std::numeric_limits<double>::infinity(),
-         high = -low; // where something has been worn off, and beside it
-  const Curve& end = chart.curves.back();
-  for (std::size_t i = 0; i < end.x.size(); ++i)
-    if (end.y[i] != 0) low = std::min(low, end.x[i]), high = std::max(high, end.x[i]);
-  if (high > low) {
-    chart.x.min = std::max(low - 0.3 * (high - low), end.x.front());
-    chart.x.max = std::min(high + 0.3 * (high - low), end.x.back());
-  }
+  show_where_not_zero(chart, chart.curves.back());
   chart.title = "Worn profile of the slave surface";
   chart.y = {"worn off", simulation.scene().units.length};
   return chart;
@@ -201,20 +204,27 @@ Chart force_curve(const Simulation& simulation, const std::vector<StepRecord>& r
   return chart;
 }
 
-/// Contact fraction or mean gap of all steps against the mean pressure.
+/// Contact fraction or mean gap of all steps against the mean pressure, or against the step where that is held.
 Chart against_pressure(const Simulation& simulation, const std::vector<StepRecord>& records, bool gap) {
   const Scene& scene = simulation.scene();
+  const double first = records.front().mean_pressure;
+  const bool held = records.size() > 1 && std::all_of(records.begin(), records.end(), [&](auto& record) {
+                      return std::abs(record.mean_pressure - first) <= 1e-3 * std::abs(first);
+                    });
   Chart chart;
-  chart.title = gap ? "Mean gap against mean pressure" : "Contact fraction against mean pressure";
+  chart.title = std::string(gap ? "Mean gap" : "Contact fraction") +
+                (held ? " over the steps" : " against mean pressure");
   chart.subtitle = mesh_note(simulation);
-  chart.x = {"mean pressure", scene.units.pressure, false, 0};
+  chart.x =
+      held ? pictures::Axis{"step", ""} : pictures::Axis{"mean pressure", scene.units.pressure, false, 0};
   chart.y = gap ? pictures::Axis{"mean gap", scene.units.length, false, 0}
                 : pictures::Axis{"contact area / apparent area", "%", false, 0};
   Curve curve;
   for (const StepRecord& record : records) {
-    curve.x.push_back(record.mean_pressure);
+    curve.x.push_back(held ? record.step : record.mean_pressure);
     curve.y.push_back(gap ? record.mean_gap : 100 * record.contact_fraction);
   }
+  if (*std::min_element(curve.y.begin(), curve.y.end()) < 0) chart.y.min = pictures::automatic; // worn off
   chart.curves = {curve};
   if (gap) return chart;
   Curve estimate{"computed, corrected between the nodes", curve.x, {}, Style::line};
@@ -228,7 +238,7 @@ Chart against_pressure(const Simulation& simulation, const std::vector<StepRecor
   Curve exact{"boundary elements, hard contact", {}, {}, Style::exact};
   for (const StepRecord& record : records)
     for (const Quantity& quantity : record.exact) {
-      if (quantity.name == "mean pressure") exact.x.push_back(quantity.exact);
+      if (quantity.name == "mean pressure") exact.x.push_back(held ? record.step : quantity.exact);
       if (quantity.name == "contact fraction") exact.y.push_back(100 * quantity.exact);
     }
   chart.curves.push_back(exact);
@@ -260,11 +270,9 @@ pictures::Map height_map(const Simulation& simulation, const Contact& contact, p
     ++columns[grid_line(x)], ++rows[grid_line(y)];
   }
   if (heights.empty() || columns.size() * rows.size() != heights.size()) return map;
-  map.title = "height of the rigid surface";
-  map.unit = simulation.scene().units.length;
+  map.title = "height of the rigid surface", map.unit = simulation.scene().units.length;
   map.columns = static_cast<int>(columns.size()), map.rows = static_cast<int>(rows.size());
-  map.at_nodes = true;
-  map.palette = pictures::Map::Palette::cividis;
+  map.at_nodes = true, map.palette = pictures::Map::Palette::cividis;
   for (const auto& [place, height] : heights) map.values.push_back(height);
   return map;
 }
@@ -291,8 +299,7 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
     }
     return even;
   };
-  const bool even_columns = regular(columns), even_rows = regular(rows);
-  if (!even_columns || !even_rows) return maps;
+  if (!regular(columns) || !regular(rows)) return maps;
   maps.title = scene.title;
   const double estimate = record.area.fraction; // the count of nodes is too large
   maps.subtitle =
@@ -303,8 +310,7 @@ pictures::Maps surface_maps(Simulation& simulation, const StepRecord& record) {
   maps.y_min = rows.begin()->first, maps.y_max = rows.rbegin()->first;
   pictures::Map pressure;
   pressure.title = "contact pressure", pressure.unit = scene.units.pressure;
-  pressure.blank_zero = pressure.at_nodes = true;
-  pressure.clip = 0.99;
+  pressure.blank_zero = pressure.at_nodes = true, pressure.clip = 0.99;
   pressure.columns = static_cast<int>(columns.size()), pressure.rows = static_cast<int>(rows.size());
   pressure.values.assign(slaves, 0.0);
   pictures::Map difference = pressure;
