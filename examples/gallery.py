@@ -15,7 +15,7 @@ body { font: 16px/1.5 sans-serif; color: #222; max-width: 70rem; margin: 0 auto;
 h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin: 0 0 .3rem; }
 .wide { overflow-x: auto; } table { border-collapse: collapse; }
 th, td { text-align: left; padding: .25rem .7rem .25rem 0; border-bottom: 1px solid #ddd; vertical-align: top; white-space: nowrap; }
-td.text { white-space: normal; min-width: 14rem; } .number { text-align: right; } .missed { color: #a00; font-weight: bold; }
+td.text { white-space: normal; min-width: 9rem; } .number { text-align: right; } .missed { color: #a00; font-weight: bold; }
 section { margin: 2rem 0; } img { max-width: 100%; height: auto; }
 """
 TITLES = ("scene", "quantity", "exact answer", "reached", "exact", "difference", "bound", "time [s]", "")
@@ -121,7 +121,7 @@ def readme(rows, labels):
 
 def page(rows, scenes):
     def cell(i, text, tag="td"):
-        kind = "number" if i in NUMBERS else "missed" if text == "MISSED" else "text" if i == 2 else ""
+        kind = "number" if i in NUMBERS else "missed" if text == "MISSED" else "text" if i in (1, 2) else ""
         return f'<{tag} class="{kind}">{html.escape(text)}</{tag}>'
 
     table = "".join("<tr>" + "".join(cell(i, text) for i, text in enumerate(row)) + "</tr>\n" for row in rows)

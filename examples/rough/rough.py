@@ -41,9 +41,9 @@ def draw(folder, results):
             axes.plot([p["value"] for p, _ in rows[cells]], [q["value"] for _, q in rows[cells]], marker, fillstyle="none", markersize=7,
                       label=f"{cells} x {cells} cells")
         axes.set(xscale="log", yscale="log", xlim=(0.06, 4), xlabel="mean pressure [MPa]", ylabel=label)
-        if index == 2:
-            axes.set(ylim=(150, 2000), yticks=(200, 500, 1000, 2000), yticklabels=("200", "500", "1000", "2000"))
-            axes.tick_params(which="minor", labelleft=False)
+        ticks = (0.002, 0.005, 0.01, 0.02, 0.05) if index == 1 else (200, 500, 1000, 2000)
+        axes.set(ylim=(0.001, 0.06) if index == 1 else (150, 2000), yticks=ticks, yticklabels=[f"{tick:g}" for tick in ticks])
+        axes.tick_params(which="minor", labelleft=False)
         axes.legend(loc="upper left")
 
     runs.draw(folder / "rough.png", (1000, 450), lambda axes: panel(axes, 1, "contact area / area"),
