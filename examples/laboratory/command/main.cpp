@@ -262,7 +262,7 @@ void Program::add_chart() {
       "What does an error cost, and where does each method work? Work-precision diagrams and stability maps");
   chart_app_
       ->add_option("--out", chart_.out,
-                   "folder for chart_.html (one page, no network), chart_.json and the pictures")
+                   "folder for chart.html (one page, no network), chart.json and the pictures")
       ->type_name("DIR");
   chart_app_->add_flag("--quick", chart_.quick, "a few runs of each scene and points of each map");
   chart_app_->add_option("--only", chart_.only, "these scenes alone, as wavy3d,rough_truth, and no maps")
@@ -277,7 +277,7 @@ void Program::add_chart() {
   add_common(*chart_app_);
   chart_app_->footer("Exit code 1 if any result is wrong without a status or flag that says so.\n\n"
                      "Example:\n"
-                     "  ents-lab chart --out out/chart && xdg-open out/chart/chart_.html");
+                     "  ents-lab chart --out out/chart && xdg-open out/chart/chart.html");
 }
 
 /// @return an exit code; -1: the command line is right
