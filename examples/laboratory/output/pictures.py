@@ -178,7 +178,7 @@ def draw_chart(chart, folder):
         u, v = values_of(curve["x"]), values_of(curve["y"])
         label = curve["label"]
         if curve["fit_order"] and not math.isnan(order := fitted_order(u, v)):
-            label += f", order {abs(order):.2f}"
+            label += f", order {abs(order):.2f}" + " of the last three" * (len(u) > 3)
         style = look(curve, next((i for i, c in enumerate(colored) if c is curve), 0), len(colored))
         cut = not (x.holds(u) and y.holds(v))  # else markers on a border are whole
         axes.plot(u * x.unit, v * y.unit, label=label or "_", clip_on=cut, **style)

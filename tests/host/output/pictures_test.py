@@ -58,7 +58,7 @@ class Drawn(unittest.TestCase):
         log = axis(logarithmic=True)
         for x, y in (([0.1, 0.2, 0.3, 0.4, 0.5], [0.01, 0.04, 0.09, 0.16, 0.25]), ([4, 8, 16, 32], [n ** -2 for n in (4, 8, 16, 32)])):
             figure = self.draw(pictures.draw_chart, a_chart([{"x": x, "y": y, "fit_order": True}], x=log, y=log, slope_triangle=2))
-            self.assertEqual(figure.axes[0].get_legend_handles_labels()[1], ["force, order 2.00"])
+            self.assertEqual(figure.axes[0].get_legend_handles_labels()[1], ["force, order 2.00 of the last three"])
             triangle = figure.axes[0].patches[0].get_xy()
             (a, left), (b, right) = triangle[0], triangle[1]
             self.assertAlmostEqual(abs(math.log(right / left) / math.log(b / a)), 2)
