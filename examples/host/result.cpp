@@ -33,10 +33,15 @@ Json step_json(Equations& equations, const Step& step) {
   for (std::size_t k = 0; k < contact->points(); ++k)
     if (!std::isnan(step.contact.gap[k]))
       gap += contact->areas()[k] * step.contact.gap[k], gap_area += contact->areas()[k];
-  out["approach"] = step.approach, out["force"] = step.force;
-  out["mean_pressure"] = step.force / scene.symmetry_copies / equations.slave_area();
-  out["contact_force"] = step.contact.force;
-  for (Json& component : out["contact_force"]) component = component.get<double>() * scene.symmetry_copies;
+  double squared = 0; // of what the contact carries: on a body no force is prescribed
+  out["contact_force"] = Json::array();
+  for (const double component : step.contact.force) {
+    out["contact_force"].push_back(component * scene.symmetry_copies);
+    squared += component * component;
+  }
+  const double force = contact->rigid() ? step.force : std::sqrt(squared) * scene.symmetry_copies;
+  out["approach"] = step.approach, out["force"] = force;
+  out["mean_pressure"] = force / scene.symmetry_copies / equations.slave_area();
   out["contact_fraction"] = sum.area / equations.slave_area();
   out["peak_pressure"] = sum.largest_pressure;
   if (!step.contact.heat.empty()) {

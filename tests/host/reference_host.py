@@ -8,7 +8,7 @@ import tempfile
 
 # Both converge to residuals of 1e-10 relative to the forces present, by different paths.
 SAME = 1e-6
-COMPARED = ("contact_force", "approach", "peak_pressure", "contact_fraction", "mean_gap")
+COMPARED = ("contact_force", "force", "mean_pressure", "approach", "peak_pressure", "contact_fraction", "mean_gap")
 SCENES = (("hertz2d", None), ("patch_test", None), ("patch_test", "sampling2"), ("fortran_host", None))
 failures = []
 
