@@ -242,10 +242,10 @@ def panel_svg(chart, panel):
     figure = plt.figure(figsize=((width + 66) / 72, (height + 44) / 72))
     axes = figure.add_axes([58 / (width + 66), 38 / (height + 44), width / (width + 66), height / (height + 44)])
     cells(axes, chart, panel, ends_only=True)
-    axes.spines[:].set_visible(False)
-    axes.set(xlabel=chart["x"]["label"], ylabel=chart["y"]["label"])
-    axes.xaxis.set_label_coords(0.5, -18 / height)
-    axes.yaxis.set_label_coords(-46 / width, 0.5)
+    axes.set(xlabel=chart["x"]["label"], ylabel=chart["y"]["label"], frame_on=False)
+    cell = min(width / columns, height / rows)  # of few cells the axes are smaller than their place
+    axes.xaxis.set_label_coords(0.5, -18 / (cell * rows))
+    axes.yaxis.set_label_coords(-46 / (cell * columns), 0.5)
     texts = []
     for k, fate in enumerate(panel["fate"]):
         end = f"status {panel['status'][k]}" if panel["end"][k] == "status" else panel["end"][k]
@@ -292,7 +292,7 @@ def truth_section(works):
             first = k == 0
             rows.append(("new" if first else None, [
                 work["title"] if first else "", f"{100 * m['asked']:.3g} %" if first else "", m["method"],
-                "yes" if m["reached"] else f"no: {100 * m['best_error']:.3g} %", m["segments"], m["dofs"], number(m["cpu"])]))
+                "yes" if m["reached"] else f"no:\u00a0{100 * m['best_error']:.3g}\u00a0%", m["segments"], m["dofs"], number(m["cpu"])]))
     return "" if not rows else table(["scene and quantity", "asked", "method", "reached", "segments", "dofs", "solve [s]"], rows) + items(
         f"<b>{html.escape(work['title'])}:</b> {html.escape(work['sentence'])}" for work in works if work["sentence"])
 

@@ -173,7 +173,7 @@ class Charts(unittest.TestCase):
             {"method": "enriched", "asked": 0.01, "reached": False, "segments": 1, "dofs": 50, "cpu": 4, "best_error": 0.02}]}
         text = chart.truth_section([work])
         self.assertIn("<td>plain</td><td>yes</td><td>64</td><td>60</td><td>2.0</td>", text)
-        self.assertIn("<td>no: 2 %</td>", text)
+        self.assertIn("<td>no:\u00a02\u00a0%</td>", text)
         self.assertIn("<li><b>t:</b> plain is the fastest.</li>", text)
 
     def test_cells_have_colour_letter_and_words(self):
