@@ -56,7 +56,7 @@ TEST_F(Program, ScriptsNameOptionsThatAreWrong) {
     expect(script(std::string("examples/setup.sh\" ") + options), 2,
            {"setup.sh: --target needs a NAME and stands before -D..."});
   expect(script("examples/setup.sh\" --configuration foo"), 2,
-         {"setup.sh: there is no configuration 'foo'; write one of: asan dev native release"});
+         {"setup.sh: there is no configuration 'foo'; write one of: asan dev native quick release"});
   expect(script("examples/setup.sh\" --configuration"), 2, {"setup.sh: --configuration needs a NAME"});
   expect(script("examples/setup.sh\" --with"), 2, {"setup.sh: --with needs a PACKAGE"});
   for (const char* options : {"--foo", "-DA=1 --foo", "foo"}) {
