@@ -146,6 +146,15 @@ std::string warning_of_explicit_wear(const Simulation& simulation, int step) {
          " here (4 dx / (pi k E*)); take \"scheme\": \"implicit\", or more steps";
 }
 
+/// A little above and below the end of the step.
+void probe_conductance(Simulation& simulation, const Target& end, StepRecord& record) {
+  const Scene& scene = simulation.scene();
+  Target higher = end, lower = end;
+  higher.value *= 1 + scene.probe, lower.value *= 1 - scene.probe;
+  record.conductance = incremental_conductance(simulation, higher, lower);
+  add_exact_conductance(scene, record);
+}
+
 } // namespace
 
 Convergence convergence(const std::vector<double>& residuals) {
@@ -259,12 +268,7 @@ std::vector<StepRecord> solve(Simulation& simulation, const RunObserver& observe
     for (const IncrementRecord& increment : record.increments) record.dissipated += increment.dissipated;
     if (scene.contact) record.heat = scene.contact->heat_share * record.dissipated / scene.durations[index];
     fill_contact_results(simulation, record);
-    if (scene.probe > 0) {
-      Target higher = target_at(1, 1), lower = higher;
-      higher.value *= 1 + scene.probe, lower.value *= 1 - scene.probe;
-      record.conductance = incremental_conductance(simulation, higher, lower);
-      add_exact_conductance(scene, record);
-    }
+    if (scene.probe > 0) probe_conductance(simulation, target_at(1, 1), record);
     record.wall_time = watch.seconds();
     say(step_line(scene, record));
     if (observer.step_done) observer.step_done(simulation, record);
