@@ -35,7 +35,7 @@ std::int32_t Contact::assemble(const Configuration& at, std::vector<double>& res
     out.wanted |= ENTS_STATE;
     out.state_end = states_.out.data(), out.state_end_stride = stride(sides_.state_size);
   }
-  const ElementEnergies energies(pulls_ ? slaves().size() : 0, out);
+  ElementEnergies energies(pulls_ ? slaves().size() : 0, out);
   std::vector<double> nodes;
   if (!sides_.points.heights.empty()) {
     nodes = sides_.nodes_at(at.displacement);
