@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/element/inputs.hpp"
-#include "core/law/laws.hpp"
+#include "core/law/power.hpp"
 
 namespace ents::ENTS_ISA {
 

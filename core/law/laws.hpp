@@ -84,12 +84,6 @@ template <class S> ENTS_INLINE S next_bond(const ContactLaw& law, const S& gap, 
            [&](auto type) ENTS_LAMBDA_INLINE { next = decltype(type)::next_bond(law, gap, bond); });
   return next;
 }
-// What damage has taken between them, of a unit of area
-inline double bond_dissipation(const ContactLaw& law, double begin, double end) {
-  double taken = 0.0;
-  with_law(law.normal, [&](auto type) { taken = decltype(type)::dissipation(law, begin, end); });
-  return taken;
-}
 
 // The pressure that friction acts on, W' that of the law at this gap: what of it is compression or, with
 // ContactLaw::rubs_adhering, p + strength() up to the gap of the largest tension. 0 beyond.
