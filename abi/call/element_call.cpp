@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "abi/call/undefined_height.hpp"
-#include "core/law/multiplier.hpp"
+#include "core/law/open_multiplier.hpp"
 #include "core/model/slave_values.hpp"
 
 namespace ents {

@@ -2,10 +2,9 @@
 // Ordinary elements of a call: a block of up to 64, each written or left to evaluate_element().
 #pragma once
 
-#include <cstring>
-
-#include "core/element/block_kernels.hpp"
-#include "core/element/small_results.hpp"
+#include "core/element/block_parts.hpp"
+#include "core/law/friction.hpp"
+#include "core/law/power.hpp"
 #include "core/tangent/friction_residual.hpp"
 #include "core/tangent/reduced_friction_tangent.hpp"
 
@@ -15,36 +14,14 @@ template <bool Frictional, bool Rigid, class Basis, bool Enriched, class Scalar>
 using TangentOf = std::conditional_t<Frictional, FrictionTangentOf<Basis, Enriched, Rigid, Scalar>,
                                      FrictionlessTangent<Basis, Enriched, Rigid, Scalar>>;
 
-inline constexpr std::int32_t beside_forces = want::block & ~want::forces;
-
-// Is the height, or a part of it, a function whose derivatives may be anything?
-ENTS_INLINE bool has_functions(const Plan& plan) {
-  for (std::int32_t i = 0; i < plan.height_nodes; ++i)
-    if (plan.height[i].kind == HeightKind::external) return true;
-  return false;
-}
-// Are its third derivatives finite, which tangents with friction have?
-template <class Basis, bool Enriched, class Scalar>
-ENTS_NOINLINE Truth<Scalar> height_has_thirds(const ProjectedPoint<Basis, Enriched, Scalar>& p) {
-  constexpr int T = Basis::dim - 1;
-  Scalar size(0.0);
-  for (int c = 0; c < T; ++c) {
-    Scalar along[T];
-    for (int a = 0; a < T; ++a) along[a] = Scalar(a == c ? 1.0 : 0.0);
-    HeightJet<T, Dual<Scalar>> jet;
-    p.projector.nodes.height_along(p.xi, along, p.projector.s.height, jet);
-    for (const Dual<Scalar>& second : jet.h2) size = size + absolute(second.d);
-  }
-  return size < safe_magnitude;
-}
-
 // Gap, force and friction at the projection.
 template <bool Frictional, class Basis, bool Enriched, class Scalar>
 ENTS_INLINE void evaluate_law(const Plan& plan, std::int32_t wanted,
                               ProjectedPoint<Basis, Enriched, Scalar>& p, Friction<Scalar, Basis::dim - 1>& f,
                               const SlipBegin<Scalar, Basis::dim - 1>* begin) {
   p.evaluate_at_solution();
-  p.evaluate_law(plan, Frictional || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
+  p.template evaluate_law<Power>(plan,
+                                 Frictional || plan.law.twice_exponent > 2 || (wanted & beside_forces) != 0);
   if constexpr (Frictional) {
     f.evaluate(plan.law, p.place(), *begin, slip_share(begin->clearance, -p.gap),
                -(p.area * p.per_gap * p.gap));
@@ -74,35 +51,6 @@ ENTS_INLINE void tangent(const Plan& plan, ProjectedPoint<Basis, Enriched, Scala
     out.evaluate(plan, p, f);
   else
     out.evaluate(plan, p);
-}
-
-// The `rest` of a block of one element at its projection
-template <class Basis, bool Enriched>
-ENTS_INLINE bool write_rest(const Plan& plan, const ElementBlock& block,
-                            const ProjectedPoint<Basis, Enriched, double>& p) {
-  ProjectedElement at{};
-  for (int a = 0; a < Basis::dim - 1; ++a) at.xi[a] = p.xi[a];
-  const auto& sine = p.projector.sine;
-  at.sine[0] = sine.turns, at.sine[1] = sine.h, at.sine[2] = sine.slope;
-  at.area = p.area;
-  return plan.rest(plan, *block.one, *block.rest, at);
-}
-
-// An element that is clearly open
-ENTS_INLINE void write_open(const ElementBlock& block, std::int64_t e) {
-  if (block.wanted & want::flags) block.flags[e * block.flags_stride] = 0;
-}
-// An element that is open
-ENTS_INLINE void write_zeros(const ElementBlock& block, std::int64_t e, int N) {
-  if (block.wanted & forces_only) return;
-  if (block.wanted & want::residual)
-    for (int i = 0; i < N; ++i) block.residual[e * block.residual_stride + i] = 0.0;
-  if (!(block.wanted & want::tangent)) return;
-  double* tangent = block.tangent + e * block.tangent_stride;
-  const std::int64_t columns = block.leading == N ? 1 : N,
-                     length = block.leading == N ? std::int64_t{N} * N : N;
-  for (std::int64_t j = 0; j < columns; ++j)
-    std::memset(tangent + j * block.leading, 0, sizeof(double) * static_cast<std::size_t>(length));
 }
 
 // Residual and tangent of an element in contact.
@@ -318,7 +266,7 @@ std::uint64_t evaluate_fast(const Plan& plan, const ElementBlock& block, std::in
 }
 
 // Those of a basis, instantiated; block_table.cpp lists them.
-#define ENTS_PAIR_KERNELS(Basis)                                                                             \
+#define ENTS_FAST_KERNELS(Basis)                                                                             \
   template std::uint64_t evaluate_fast<Basis, false, false>(const Plan&, const ElementBlock&, std::int32_t); \
   template std::uint64_t evaluate_fast<Basis, false, true>(const Plan&, const ElementBlock&, std::int32_t);  \
   template std::uint64_t evaluate_fast<Basis, true, false>(const Plan&, const ElementBlock&, std::int32_t);  \

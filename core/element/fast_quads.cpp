@@ -2,5 +2,5 @@
 #include "core/element/fast_block.hpp"
 
 namespace ents::ENTS_ISA {
-ENTS_PAIR_KERNELS(Quad4)
+ENTS_FAST_KERNELS(Quad4)
 } // namespace ents::ENTS_ISA

@@ -4,7 +4,7 @@
 // needs care is left to evaluate_element().
 #pragma once
 
-#include "core/element/fast_block.hpp"
+#include "core/element/block_parts.hpp"
 #include "core/element/general_element.hpp"
 
 namespace ents::ENTS_ISA {

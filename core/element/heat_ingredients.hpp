@@ -104,8 +104,8 @@ private:
     if (at_.slipping.some) slipping = slip_share(from.clearance, seeded(-lane(at_.clearance, k), by_depth));
     Friction<S, T> friction;
     from.time = begin_.begin.time;
-    friction.template evaluate<true>(law, {xi, metric, area, true}, from, slipping, force,
-                                     begin_.has_multiplier ? multiplier : nullptr);
+    evaluate_friction(law, FrictionPlace<S, T>{xi, metric, area, true}, from, slipping, force,
+                      begin_.has_multiplier ? static_cast<const S*>(multiplier) : nullptr, friction);
     return dissipation_of(law, friction);
   }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/element/inputs.hpp"
-#include "core/law/power.hpp"
+#include "core/law/normal_force.hpp"
 
 namespace ents::ENTS_ISA {
 

@@ -112,10 +112,6 @@ struct ContactLaw {
   constexpr bool multiplier_is_dof() const { return multiplier == Multiplier::is_dof; }
 };
 
-// What damage takes between two numbers of the state, of a unit of area (laws.cpp: who writes results need
-// not know the laws).
-double bond_dissipation(const ContactLaw& law, double begin, double end);
-
 namespace ENTS_ISA {
 
 // A number of the law; for dual numbers with its derivative

@@ -17,188 +17,139 @@
 #pragma once
 
 #include "core/law/friction_coefficient.hpp"
-#include "core/law/touch.hpp"
-#include "core/numbers/vec.hpp"
+#include "core/law/friction_point.hpp"
 
 namespace ents::ENTS_ISA {
 
-// What friction sees of an element's place: T surface coordinates, the metric A_ab there.
-template <class S, int T> struct FrictionPlace {
-  const S (&xi)[T];
-  const S (&metric)[symmetric_size<T>];
-  const S& area;
-  Truth<S> contact;
-};
-
-// What slip dissipates in an increment: the force that is left, L, times how far the anchor moves
-template <class S> ENTS_INLINE S slip_dissipation(const S& limit, const S& norm, const S& scale) {
-  return limit * ((norm - limit) / scale);
+template <class S, int T>
+template <bool Varies>
+ENTS_INLINE void Friction<S, T>::evaluate(const ContactLaw& law, const FrictionPlace<S, T>& at,
+                                          const SlipBegin<S, T>& begin, const SlipShare<S>& slipping,
+                                          const S& pressure_force, const S* multiplier) {
+  const auto& metric = at.metric;
+  active = both(at.contact, begin.known > 0.0);
+  closes = both(active, slipping.touches > 0.5);
+  share = slipping.share;
+  scale = law.friction_stiffness * at.area;
+  S lowered[T], far = scale / safe_magnitude;
+  for (int a = 0; a < T; ++a) {
+    moved[a] = select(active, share * (at.xi[a] - begin.from[a]), S(0.0));
+    far = far + 1e-6 * absolute(moved[a]);
+  }
+  ordinary = far < 1.0;
+  for (int a = 0; a < T; ++a) {
+    stretch[a] = moved[a];
+    lowered[a] = metric[symmetric_index(a, 0)] * moved[0];
+    if constexpr (T == 2) lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * moved[1];
+  }
+  if (multiplier) add_multiplier(law, metric, multiplier, lowered);
+  S norm2 = stretch[0] * lowered[0];
+  if constexpr (T == 2) norm2 = norm2 + stretch[1] * lowered[1];
+  norm = scale * square_root(norm2);
+  if (!law.has_friction_force()) return slip_freely();
+  by_pressure = law_number<S>(law.friction_coefficient, law.rates.friction);
+  limit = by_pressure * pressure_force;
+  if (law.may_not_press()) { // what pulls leaves no friction
+    const Truth<S> presses = pressure_force > 0.0;
+    limit = select(presses, limit, S(0.0));
+    by_pressure = select(presses, by_pressure, S(0.0));
+  }
+  if constexpr (Varies) {
+    by_norm = S(0.0), radial = S(1.0);
+    if (law.coefficient_varies()) vary(law, at, begin, pressure_force);
+  }
+  at_shear_limit = limit < limit; // none
+  if (law.shear_limit > 0.0) {
+    const S most = law.shear_limit * at.area;
+    at_shear_limit = most < limit;
+    limit = select(at_shear_limit, most, limit);
+    by_pressure = select(at_shear_limit, S(0.0), by_pressure);
+    if constexpr (Varies) {
+      by_norm = select(at_shear_limit, S(0.0), by_norm);
+      radial = select(at_shear_limit, S(1.0), radial);
+    }
+  }
+  // a negative area, which is refused later, has a negative limit, and no direction at norm 0
+  slip = both(both(active, norm > limit), norm > 0.0);
+  if (law.friction == FrictionKind::rough) slip = limit < limit;
+  at_shear_limit = both(at_shear_limit, slip);
+  const S q = scale / select(slip, norm, S(1.0));
+  for (int a = 0; a < T; ++a) {
+    direction[a] = q * lowered[a];
+    raised[a] = q * stretch[a];
+    force[a] = select(slip, limit * direction[a], scale * lowered[a]);
+    by_gap[a] = S(0.0);
+    by_force[a] = select(slip, direction[a] * by_pressure, S(0.0));
+  }
+  if (slipping.some) differentiate_share<Varies>(law, at, begin, slipping.rate);
 }
 
-template <class S, int T> struct Friction {
-  static constexpr int K = symmetric_size<T>;
-  Truth<S> active, slip, at_shear_limit;
-  Truth<S> ordinary;    // false: numbers near the edge of their range
-  Truth<S> closes;      // was it open at the begin of the increment?
-  S share;              // s of touch.hpp
-  S moved[T];           // s (xi - xi_0); 0 where there is no friction
-  S stretch[T];         // A^ab t_b / (eps_t A) of the trial: that of the elastic slip, and of the multiplier
-  S force[T];           // t_a
-  S scale;              // eps_t A
-  S norm;               // |t| of the trial
-  S limit, by_pressure; // L, dL / d(p A)
-  S by_norm, radial;    // of a coefficient that varies: dL / d|t|, 1 - |t| / L of it
-  S direction[T], raised[T];
-  S by_gap[T], by_force[T]; // dt_a / dg, dt_a / d(p A) at a fixed place
-
-  // slipping: the part of the increment; pressure_force: p A; multiplier: lambda_a [F/L], or null; Varies: may the
-  // coefficient?
-  template <bool Varies = false>
-  ENTS_INLINE void evaluate(const ContactLaw& law, const FrictionPlace<S, T>& at,
-                            const SlipBegin<S, T>& begin, const SlipShare<S>& slipping,
-                            const S& pressure_force, const S* multiplier = nullptr) {
-    const auto& metric = at.metric;
-    active = both(at.contact, begin.known > 0.0);
-    closes = both(active, slipping.touches > 0.5);
-    share = slipping.share;
-    scale = law.friction_stiffness * at.area;
-    S lowered[T], far = scale / safe_magnitude;
-    for (int a = 0; a < T; ++a) {
-      moved[a] = select(active, share * (at.xi[a] - begin.from[a]), S(0.0));
-      far = far + 1e-6 * absolute(moved[a]);
-    }
-    ordinary = far < 1.0;
-    for (int a = 0; a < T; ++a) {
-      stretch[a] = moved[a];
-      lowered[a] = metric[symmetric_index(a, 0)] * moved[0];
-      if constexpr (T == 2) lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * moved[1];
-    }
-    if (multiplier) add_multiplier(law, metric, multiplier, lowered);
-    S norm2 = stretch[0] * lowered[0];
-    if constexpr (T == 2) norm2 = norm2 + stretch[1] * lowered[1];
-    norm = scale * square_root(norm2);
-    if (!law.has_friction_force()) return slip_freely();
-    by_pressure = law_number<S>(law.friction_coefficient, law.rates.friction);
-    limit = by_pressure * pressure_force;
-    if (law.may_not_press()) { // what pulls leaves no friction
-      const Truth<S> presses = pressure_force > 0.0;
-      limit = select(presses, limit, S(0.0));
-      by_pressure = select(presses, by_pressure, S(0.0));
-    }
-    if constexpr (Varies) {
-      by_norm = S(0.0), radial = S(1.0);
-      if (law.coefficient_varies()) vary(law, at, begin, pressure_force);
-    }
-    at_shear_limit = limit < limit; // none
-    if (law.shear_limit > 0.0) {
-      const S most = law.shear_limit * at.area;
-      at_shear_limit = most < limit;
-      limit = select(at_shear_limit, most, limit);
-      by_pressure = select(at_shear_limit, S(0.0), by_pressure);
-      if constexpr (Varies) {
-        by_norm = select(at_shear_limit, S(0.0), by_norm);
-        radial = select(at_shear_limit, S(1.0), radial);
-      }
-    }
-    // a negative area, which is refused later, has a negative limit, and no direction at norm 0
-    slip = both(both(active, norm > limit), norm > 0.0);
-    if (law.friction == FrictionKind::rough) slip = limit < limit;
-    at_shear_limit = both(at_shear_limit, slip);
-    const S q = scale / select(slip, norm, S(1.0));
-    for (int a = 0; a < T; ++a) {
-      direction[a] = q * lowered[a];
-      raised[a] = q * stretch[a];
-      force[a] = select(slip, limit * direction[a], scale * lowered[a]);
-      by_gap[a] = S(0.0);
-      by_force[a] = select(slip, direction[a] * by_pressure, S(0.0));
-    }
-    if (slipping.some) differentiate_share<Varies>(law, at, begin, slipping.rate);
-  }
-
-  // No friction.
-  ENTS_INLINE void set_none() {
-    const S zero(0.0);
-    active = slip = at_shear_limit = zero < zero;
-    closes = active;
-    ordinary = zero <= zero;
-    share = S(1.0);
-    for (int a = 0; a < T; ++a) {
-      moved[a] = stretch[a] = force[a] = direction[a] = raised[a] = zero;
-      by_gap[a] = by_force[a] = zero;
-    }
-    scale = norm = limit = by_pressure = by_norm = zero;
-    radial = S(1.0);
-  }
-
-private:
-  ENTS_INLINE void vary(const ContactLaw& law, const FrictionPlace<S, T>& at, const SlipBegin<S, T>& begin,
-                        const S& pressure_force) {
-    const Truth<S> presses = pressure_force > 0.0;
-    const auto of =
-        slip_limit_of(law, norm, select(presses, pressure_force, S(0.0)), at.area, scale, begin.time);
-    limit = of.limit, by_norm = of.by_norm;
-    by_pressure = select(presses, of.by_force, S(0.0));
-    const Truth<S> some = limit > 0.0;
-    radial = select(some, 1.0 - of.by_norm * (norm / select(some, limit, S(1.0))), S(1.0));
-  }
-
-  // A coefficient of 0: an element that was in contact slips, without a force.
-  ENTS_INLINE void slip_freely() {
-    slip = active;
-    at_shear_limit = norm < norm;
-    limit = by_pressure = by_norm = S(0.0);
-    radial = S(1.0);
-    for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = by_gap[a] = by_force[a] = S(0.0);
-  }
-
-  ENTS_INLINE void add_multiplier(const ContactLaw& law, const S (&metric)[K], const S* multiplier,
-                                  S (&lowered)[T]) {
-    S inverse[K], own[T];
-    const double compliance = 1.0 / law.friction_stiffness;
-    invert_with(metric, unchecked_inverse(determinant(metric)), inverse);
-    for (int a = 0; a < T; ++a) own[a] = select(active, compliance * multiplier[a], S(0.0));
-    for (int a = 0; a < T; ++a) {
-      lowered[a] = lowered[a] + own[a];
-      S raised_own = inverse[symmetric_index(a, 0)] * own[0];
-      if constexpr (T == 2) raised_own = raised_own + inverse[symmetric_index(a, 1)] * own[1];
-      stretch[a] = stretch[a] + select(active, raised_own, S(0.0));
-    }
-  }
-
-  // t_a changes with the part of the increment that is slip; its direction only beside a multiplier.
-  template <bool Varies>
-  ENTS_INLINE void differentiate_share(const ContactLaw& law, const FrictionPlace<S, T>& at,
-                                       const SlipBegin<S, T>& begin, const S& rate) {
-    const auto& metric = at.metric;
-    S lowered[T], along = S(0.0);
-    for (int a = 0; a < T; ++a) {
-      lowered[a] = metric[symmetric_index(a, 0)] * (at.xi[0] - begin.from[0]);
-      if constexpr (T == 2)
-        lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * (at.xi[1] - begin.from[1]);
-    }
-    for (int a = 0; a < T; ++a) along = along + raised[a] * lowered[a];
-    // The direction of an element that slips follows its multiplier, if it has one beside the trial.
-    const S turns(law.multiplier_in_state() ? 1.0 : 0.0), none(0.0);
-    const S q = select(slip, turns * (limit / select(slip, norm, S(1.0))), S(1.0)) * (scale * rate);
-    for (int a = 0; a < T; ++a) {
-      S change = q * (lowered[a] - select(slip, direction[a] * along, none));
-      if constexpr (Varies)
-        change = change + select(slip, direction[a] * (by_norm * (scale * (rate * along))), none);
-      const S by_depth = select(closes, change, none);
-      by_gap[a] = none - by_depth;
-    }
-  }
-};
-
-// The same of one element: t_a times what of xi - xi_0 is slip; all of it is where a multiplier has the force.
 template <class S, int T>
-ENTS_INLINE S dissipation_of(const ContactLaw& law, const Friction<S, T>& friction) {
-  S sum(0.0);
-  if (!friction.active || !friction.slip) return sum;
-  if (law.multiplier == Multiplier::none)
-    return slip_dissipation(friction.limit, friction.norm, friction.scale);
-  for (int a = 0; a < T; ++a) sum = sum + friction.force[a] * friction.moved[a];
-  return sum;
+ENTS_INLINE void Friction<S, T>::vary(const ContactLaw& law, const FrictionPlace<S, T>& at,
+                                      const SlipBegin<S, T>& begin, const S& pressure_force) {
+  const Truth<S> presses = pressure_force > 0.0;
+  const auto of =
+      slip_limit_of(law, norm, select(presses, pressure_force, S(0.0)), at.area, scale, begin.time);
+  limit = of.limit, by_norm = of.by_norm;
+  by_pressure = select(presses, of.by_force, S(0.0));
+  const Truth<S> some = limit > 0.0;
+  radial = select(some, 1.0 - of.by_norm * (norm / select(some, limit, S(1.0))), S(1.0));
+}
+
+// A coefficient of 0: an element that was in contact slips, without a force.
+template <class S, int T> ENTS_INLINE void Friction<S, T>::slip_freely() {
+  slip = active;
+  at_shear_limit = norm < norm;
+  limit = by_pressure = by_norm = S(0.0);
+  radial = S(1.0);
+  for (int a = 0; a < T; ++a) direction[a] = raised[a] = force[a] = by_gap[a] = by_force[a] = S(0.0);
+}
+
+template <class S, int T>
+ENTS_INLINE void Friction<S, T>::add_multiplier(const ContactLaw& law, const S (&metric)[K],
+                                                const S* multiplier, S (&lowered)[T]) {
+  S inverse[K], own[T];
+  const double compliance = 1.0 / law.friction_stiffness;
+  invert_with(metric, unchecked_inverse(determinant(metric)), inverse);
+  for (int a = 0; a < T; ++a) own[a] = select(active, compliance * multiplier[a], S(0.0));
+  for (int a = 0; a < T; ++a) {
+    lowered[a] = lowered[a] + own[a];
+    S raised_own = inverse[symmetric_index(a, 0)] * own[0];
+    if constexpr (T == 2) raised_own = raised_own + inverse[symmetric_index(a, 1)] * own[1];
+    stretch[a] = stretch[a] + select(active, raised_own, S(0.0));
+  }
+}
+
+// t_a changes with the part of the increment that is slip; its direction only beside a multiplier.
+template <class S, int T>
+template <bool Varies>
+ENTS_INLINE void Friction<S, T>::differentiate_share(const ContactLaw& law, const FrictionPlace<S, T>& at,
+                                                     const SlipBegin<S, T>& begin, const S& rate) {
+  const auto& metric = at.metric;
+  S lowered[T], along = S(0.0);
+  for (int a = 0; a < T; ++a) {
+    lowered[a] = metric[symmetric_index(a, 0)] * (at.xi[0] - begin.from[0]);
+    if constexpr (T == 2)
+      lowered[a] = lowered[a] + metric[symmetric_index(a, 1)] * (at.xi[1] - begin.from[1]);
+  }
+  for (int a = 0; a < T; ++a) along = along + raised[a] * lowered[a];
+  // The direction of an element that slips follows its multiplier, if it has one beside the trial.
+  const S turns(law.multiplier_in_state() ? 1.0 : 0.0), none(0.0);
+  const S q = select(slip, turns * (limit / select(slip, norm, S(1.0))), S(1.0)) * (scale * rate);
+  for (int a = 0; a < T; ++a) {
+    S change = q * (lowered[a] - select(slip, direction[a] * along, none));
+    if constexpr (Varies)
+      change = change + select(slip, direction[a] * (by_norm * (scale * (rate * along))), none);
+    const S by_depth = select(closes, change, none);
+    by_gap[a] = none - by_depth;
+  }
+}
+
+template <class S, int T>
+void evaluate_friction(const ContactLaw& law, const FrictionPlace<S, T>& at, const SlipBegin<S, T>& begin,
+                       const SlipShare<S>& slipping, const S& pressure_force, const S* multiplier,
+                       Friction<S, T>& to) {
+  to.template evaluate<true>(law, at, begin, slipping, pressure_force, multiplier);
 }
 
 } // namespace ents::ENTS_ISA

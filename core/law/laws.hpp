@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All normal laws: the force of a model's law at a gap, for a number, a dual number or one number per lane.
+// All normal laws, and what normal_force.hpp declares of them: included where they are compiled, where a model
+// is read, and in tests of laws alone.
 #pragma once
 
 #include <iterator>
@@ -62,50 +63,33 @@ template <class F> ENTS_INLINE void with_law(NormalKind kind, F&& f) {
   }
 }
 
-// The gap [L] from which on there is contact; scale: of the slave node; bond: of the state
-template <class S> ENTS_INLINE S touching_gap(const ContactLaw& law, const S& scale, const S& bond = S(0.0)) {
+template <class S> S touching_gap(const ContactLaw& law, const S& scale, const S& bond) {
   S gap(0.0);
   with_law(law.normal,
            [&](auto type) ENTS_LAMBDA_INLINE { gap = decltype(type)::touching_gap(law, scale, bond); });
   return gap;
 }
-
-// Largest tension, and where
-template <class S> ENTS_INLINE Strength<S> strength(const ContactLaw& law, const S& scale) {
+template <class S> Strength<S> strength(const ContactLaw& law, const S& scale) {
   Strength<S> of{S(0.0), S(0.0)};
   with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { of = decltype(type)::strength(law, scale); });
   return of;
 }
-
-// The number of the state at the end of an increment, from that of its begin and the gap at its end
-template <class S> ENTS_INLINE S next_bond(const ContactLaw& law, const S& gap, const S& bond) {
+template <class S> S next_bond(const ContactLaw& law, const S& gap, const S& bond) {
   S next(0.0);
   with_law(law.normal,
            [&](auto type) ENTS_LAMBDA_INLINE { next = decltype(type)::next_bond(law, gap, bond); });
   return next;
 }
-
-// The pressure that friction acts on, W' that of the law at this gap: what of it is compression or, with
-// ContactLaw::rubs_adhering, p + strength() up to the gap of the largest tension. 0 beyond.
-template <class S>
-ENTS_INLINE S rubbing_pressure(const ContactLaw& law, const S& force, const S& gap, const S& scale) {
-  if (!law.rubs_adhering) return larger(-force, S(0.0));
-  const Strength<S> of = strength(law, scale);
-  return select(gap < of.gap, larger(of.most - force, S(0.0)), S(0.0));
+template <class S> S force_per_gap(const ContactLaw& law, const S& gap) {
+  S per_gap(0.0);
+  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE {
+    per_gap = decltype(type)::template force_per_gap<S>(law, gap);
+  });
+  return per_gap;
 }
-
-// Is W'' constant in contact?
-ENTS_INLINE bool is_linear(const ContactLaw& law) {
-  bool linear = false;
-  with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE { linear = decltype(type)::is_linear(law); });
-  return linear;
-}
-
-// multiplier: lambda of the augmented and the multiplier laws, a pressure; scale: of the slave node; bond: of
-// the state
 template <class S>
-ENTS_INLINE NormalForce<S> normal_force(const ContactLaw& law, const S& gap, const S& multiplier,
-                                        const S& scale = S(1.0), const S& bond = S(0.0)) {
+NormalForce<S> normal_force(const ContactLaw& law, const S& gap, const S& multiplier, const S& scale,
+                            const S& bond) {
   NormalForce<S> f{S(0.0), S(0.0), S(0.0), S(1.0) < S(0.0)};
   if (law.normal == NormalKind::none) return f;
   with_law(law.normal, [&](auto type) ENTS_LAMBDA_INLINE {

@@ -8,8 +8,7 @@
 // and a line in laws.hpp. All are functions of numbers: they know no element and no model.
 #pragma once
 
-#include "core/law/contact_law.hpp"
-#include "core/numbers/lanes.hpp"
+#include "core/law/normal_force.hpp"
 
 namespace ents {
 
@@ -29,18 +28,9 @@ struct LawNumber {
 
 namespace ENTS_ISA {
 
-// Per area: dW/dg (<= 0, but of a law that pulls), d2W/dg2, W, and whether the element is in contact.
-template <class S> struct NormalForce {
-  S force, stiffness, energy;
-  Truth<S> contact;
-};
-
 // What the law is asked for. multiplier: lambda, a pressure; scale: of the slave node, r of r p(g / r) or of r w;
 // bond: of a law that bonds, from the state at the begin of the increment
 template <class S> struct NormalPlace { const S &gap, &multiplier, &scale, &bond; };
-
-// The largest tension of a law that adheres, and the gap where it is
-template <class S> struct Strength { S most, gap; };
 
 // What most laws have.
 struct NormalLaw {
@@ -63,11 +53,11 @@ struct NormalLaw {
   template <class S> static ENTS_INLINE Strength<S> strength(const ContactLaw&, const S&) {
     return {S(0.0), S(0.0)};
   }
+  // W'/g, of a law that has a slope
+  template <class S> static ENTS_INLINE S force_per_gap(const ContactLaw&, const S&) { return S(0.0); }
   template <class S> static ENTS_INLINE S next_bond(const ContactLaw&, const S&, const S&) { return S(0.0); }
   static double dissipation(const ContactLaw&, double, double) { return 0.0; } // from one bond to another
 };
-
-template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); }
 
 } // namespace ENTS_ISA
 } // namespace ents

@@ -9,18 +9,6 @@
 
 namespace ents::ENTS_ISA {
 
-// W'/g = c (-g)^(m-1), where there is contact
-template <class S> ENTS_INLINE S force_per_gap(const ContactLaw& law, const S& gap) {
-  S per_gap = law_number<S>(law.number[0], law.rates.normal);
-  if (law.twice_exponent > 2) {
-    const int n = law.twice_exponent - 2;
-    const S depth = larger(-gap, S(0.0));
-    if (n % 2) per_gap = per_gap * square_root(depth);
-    for (int i = 0; i < n / 2; ++i) per_gap = per_gap * depth;
-  }
-  return per_gap;
-}
-
 struct Power : NormalLaw {
   static constexpr char type[] = "power", formula[] = "Pressure coefficient (-g)^exponent for gap g < 0.";
   static constexpr LawNumber table[] = {{"coefficient", "[F/L^(2+exponent)].", LawNumber::positive, true},
@@ -28,6 +16,17 @@ struct Power : NormalLaw {
   static constexpr bool has_slope = true;
   static bool is_linear(const ContactLaw& law) { return law.twice_exponent == 2; }
 
+  // c (-g)^(m-1), where there is contact
+  template <class S> static ENTS_INLINE S force_per_gap(const ContactLaw& law, const S& gap) {
+    S per_gap = law_number<S>(law.number[0], law.rates.normal);
+    if (law.twice_exponent > 2) {
+      const int n = law.twice_exponent - 2;
+      const S depth = larger(-gap, S(0.0));
+      if (n % 2) per_gap = per_gap * square_root(depth);
+      for (int i = 0; i < n / 2; ++i) per_gap = per_gap * depth;
+    }
+    return per_gap;
+  }
   template <class S>
   static ENTS_INLINE NormalForce<S> force(const ContactLaw& law, const NormalPlace<S>& at) {
     const double m = 0.5 * law.twice_exponent;

@@ -16,33 +16,14 @@
 // All of the slip counts, its elastic part with friction included.
 #pragma once
 
-#include "core/law/laws.hpp"
-#include "core/law/touch.hpp"
-#include "core/numbers/vec.hpp"
+#include "core/law/worn_depth.hpp"
 
 namespace ents::ENTS_ISA {
 
-// What an element begins the increment with.
-template <class S, int T> struct WornState {
-  S depth, pressure;        // w_n of both surfaces, p_n
-  S anchor[T], seen;        // xi_n; 1 where it is known, else the element has not slid yet
-  S factor, sliding_factor; // of k and of Wear::sliding, for this slave node
-};
-
-template <class S, int D> struct WearOfIncrement {
-  S slid;             // ds
-  S lost = S(0.0);    // w - w_n
-  S by_slid = S(0.0); // dW'/dds
-  S by_gap;           // dds/dg at a fixed place
-  S moved[D - 1];     // D
-  Vec<S, D> m;
-};
-
 // ds, and what its variation needs
 template <class S, int D>
-ENTS_INLINE void set_slid(const ContactLaw& law, const WornState<S, D - 1>& begin, const S (&xi)[D - 1],
-                          const Vec<S, D> (&tangents)[D - 1], const SlipShare<S>& slipping,
-                          WearOfIncrement<S, D>& to) {
+void set_slid(const ContactLaw& law, const WornState<S, D - 1>& begin, const S (&xi)[D - 1],
+              const Vec<S, D> (&tangents)[D - 1], const SlipShare<S>& slipping, WearOfIncrement<S, D>& to) {
   S whole[D - 1];
   for (int a = 0; a < D - 1; ++a) {
     whole[a] = select(begin.seen > 0.0, xi[a] - begin.anchor[a], S(0.0));
@@ -98,9 +79,8 @@ ENTS_INLINE S worn_pressure(const ContactLaw& law, const S& known, const S& shar
 
 // The force of the law with wear; `to` has ds, and gets the rest. found: see worn_pressure()
 template <class S, int D>
-ENTS_INLINE NormalForce<S> worn_force(const ContactLaw& law, const S& gap, const S& multiplier,
-                                      const WornState<S, D - 1>& begin, WearOfIncrement<S, D>& to,
-                                      Truth<S>& found) {
+NormalForce<S> worn_force(const ContactLaw& law, const S& gap, const S& multiplier,
+                          const WornState<S, D - 1>& begin, WearOfIncrement<S, D>& to, Truth<S>& found) {
   const Wear& wear = law.wear;
   const S coefficient = begin.factor * law_number<S>(wear.coefficient, law.rates.wear);
   const S rate = coefficient * to.slid, share = wear.implicit * rate;

@@ -19,6 +19,7 @@ namespace ents::ENTS_ISA {
 inline constexpr double two_pi = 6.283185307179586476925286766559;
 
 ENTS_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+template <class S> ENTS_INLINE S larger(S a, S b) { return select(a > b, a, b); }
 template <class M, class S> ENTS_INLINE Dual<S> select(M condition, Dual<S> a, Dual<S> b) {
   return {select(condition, a.v, b.v), select(condition, a.d, b.d)};
 }

@@ -46,6 +46,19 @@ ENTS_INLINE double lane(double x, int) { return x; }
 
 template <int W> struct Lanes; // where the compiler has them
 
+#if !defined(__GNUC__) || defined(__clang__)
+#define ENTS_REGISTER_WIDTH 1
+#elif defined(__AVX512F__)
+#define ENTS_REGISTER_WIDTH 8
+#elif defined(__AVX__)
+#define ENTS_REGISTER_WIDTH 4
+#elif (defined(__SSE2__) && !defined(ENTS_PORTABLE_IS_SCALAR)) || !defined(__x86_64__)
+#define ENTS_REGISTER_WIDTH 2
+#else
+#define ENTS_REGISTER_WIDTH 1
+#endif
+inline constexpr int register_width = ENTS_REGISTER_WIDTH; // of the widest
+
 // Numbers that a scalar stands for.
 template <class S> inline constexpr int width_of = 1;
 template <int W> inline constexpr int width_of<Lanes<W>> = W;

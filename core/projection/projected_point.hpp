@@ -4,15 +4,14 @@
 // lane; both run the same operations in the same order. Whatever is not ordinary (no start, a projection that
 // needs care, an edge of the range of numbers, an error) is left to evaluate_element().
 //
-// evaluate_law() is that of the penalty and the power law under normal projection: F = |x_s - rho_e|^2 / 2 is
+// evaluate_law() is that of a law with a slope (power.hpp) under normal projection: F = |x_s - rho_e|^2 / 2 is
 // g^2 / 2 at its minimum, so that with s the weights of delta X = x_s - rho and f_a = - F_,xi_a u
 //   dg dg^T + g D2g = D2F* = F_uu - f F_,xixi^-1 f,   F_uu = s s^T I + sum_k (w_k z_k^T + z_k w_k^T)
 //   K = A [ W'/g D2F* + (W'' - W'/g) dg dg^T ]
 // W'/g is finite where the pressure vanishes with the gap.
 #pragma once
 
-#include "core/law/friction.hpp"
-#include "core/law/power.hpp"
+#include "core/law/friction_point.hpp"
 #include "core/model/plan.hpp"
 #include "core/projection/projection.hpp"
 #include "core/surface/surface_at.hpp"
@@ -260,12 +259,12 @@ template <class Basis, bool Enriched, class Scalar> struct ProjectedPoint {
     return across * across >= 0.99 * deep2 * at.area2_e;
   }
 
-  // Gap, force and status of the penalty and the power law.
-  ENTS_INLINE void evaluate_law(const Plan& plan, bool measures) {
+  // Gap, force and status of a law that has a slope.
+  template <class Law> ENTS_INLINE void evaluate_law(const Plan& plan, bool measures) {
     const Measured at = measure(plan, measures);
     ordinary = both(ordinary, is_regular(at));
     contact = without(at.across <= 0.0, outside);
-    per_gap = force_per_gap(plan.law, gap);
+    per_gap = Law::force_per_gap(plan.law, gap);
     ordinary = both(ordinary, area * per_gap < safe_magnitude);
     ordinary = without(ordinary, both(contact, is_deep(plan, at, at.across)));
     per_gap = select(contact, per_gap, Scalar(0.0));

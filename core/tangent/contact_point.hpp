@@ -7,7 +7,8 @@
 //   p = delta x_s - delta rho_e (- g delta e where the ray turns with the slave)
 #pragma once
 
-#include "core/law/wear.hpp"
+#include "core/law/open_multiplier.hpp"
+#include "core/law/worn_depth.hpp"
 #include "core/tangent/friction_residual.hpp"
 
 namespace ents::ENTS_ISA {
@@ -99,8 +100,8 @@ template <class Basis, bool Enriched, class Scalar> struct ContactPoint {
         slipping = slip_share(begin.clearance, -clearance);
       const Scalar press = plan.law.pulls ? point.area * rubbing_pressure(plan.law, law.force, law_gap, scale)
                                           : -(point.area * law.force);
-      friction.template evaluate<true>(plan.law, point.place(), of, slipping, press,
-                                       multiplier ? multiplier + 1 : nullptr);
+      evaluate_friction(plan.law, point.place(), of, slipping, press, multiplier ? multiplier + 1 : nullptr,
+                        friction);
       point.ordinary = both(point.ordinary, friction.ordinary);
     } else {
       friction.set_none();

@@ -14,18 +14,6 @@
 
 namespace ents::ENTS_ISA {
 
-#if !defined(ENTS_HAS_LANES)
-inline constexpr int register_width = 1;
-#elif defined(__AVX512F__)
-inline constexpr int register_width = 8;
-#elif defined(__AVX__)
-inline constexpr int register_width = 4;
-#elif (defined(__SSE2__) && !defined(ENTS_PORTABLE_IS_SCALAR)) || !defined(__x86_64__)
-inline constexpr int register_width = 2;
-#else
-inline constexpr int register_width = 1;
-#endif
-
 // Elements that the block kernels of a basis take at once. Sanitizers check those of few dofs, which have all
 // of the code.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

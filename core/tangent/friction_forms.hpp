@@ -10,7 +10,7 @@
 // a_k and delta a_k' = y^l delta a_kl; only third derivatives of the basis ask for an expansion of their own.
 #pragma once
 
-#include "core/law/friction.hpp"
+#include "core/law/friction_point.hpp"
 #include "core/tangent/directional_derivative.hpp"
 #include "core/tangent/frictionless_tangent.hpp"
 

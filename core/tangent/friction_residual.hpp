@@ -2,7 +2,7 @@
 // The residual of an element with friction (theory.md, section 5).
 #pragma once
 
-#include "core/law/friction.hpp"
+#include "core/law/friction_point.hpp"
 #include "core/tangent/frictionless_tangent.hpp"
 
 namespace ents::ENTS_ISA {

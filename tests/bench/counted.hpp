@@ -2,6 +2,7 @@
 #pragma once
 
 #define ENTS_ISA counted
+#include "core/law/friction.hpp"
 #include "core/law/laws.hpp"
 #include "core/tangent/friction_residual.hpp"
 #include "core/tangent/reduced_friction_tangent.hpp"

@@ -95,22 +95,22 @@ template <class B, bool H> double count(bool wants_tangent, bool friction) {
   begin.known = 1.0;
 
   Counted::operations = 0;
-  ProjectedPoint<B, H, Counted> pair(nodes, start);
+  ProjectedPoint<B, H, Counted> point(nodes, start);
   Friction<Counted, B::dim - 1> rub;
-  pair.area = 1.0;
-  pair.project();
-  pair.evaluate_at_solution();
-  pair.evaluate_law(plan, friction);
-  if (!pair.ordinary || !pair.contact) return std::nan("");
+  point.area = 1.0;
+  point.project();
+  point.evaluate_at_solution();
+  point.template evaluate_law<Power>(plan, friction);
+  if (!point.ordinary || !point.contact) return std::nan("");
   Counted residual[N];
   if (friction) {
-    rub.evaluate(plan.law, pair.place(), begin, slip_share(begin.clearance, -pair.gap),
-                 -(pair.area * pair.per_gap * pair.gap));
-    friction_residual<false>(pair, rub, (pair.area * pair.per_gap) * pair.gap_vector, residual);
-    if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, pair, rub);
+    rub.evaluate(plan.law, point.place(), begin, slip_share(begin.clearance, -point.gap),
+                 -(point.area * point.per_gap * point.gap));
+    friction_residual<false>(point, rub, (point.area * point.per_gap) * point.gap_vector, residual);
+    if (wants_tangent) count_tangent<FrictionTangentOf<B, H, false, Counted>>(plan, point, rub);
   } else {
-    frictionless_residual<false>(pair, residual);
-    if (wants_tangent) count_tangent<FrictionlessTangent<B, H, false, Counted>>(plan, pair);
+    frictionless_residual<false>(point, residual);
+    if (wants_tangent) count_tangent<FrictionlessTangent<B, H, false, Counted>>(plan, point);
   }
   return static_cast<double>(Counted::operations);
 }

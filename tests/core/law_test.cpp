@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/law/friction.hpp"
+#include "core/law/laws.hpp"
 #include "core/law/wear.hpp"
 
 namespace law_test {
