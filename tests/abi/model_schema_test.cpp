@@ -18,6 +18,7 @@
 #include "abi/read/height_registry.hpp"
 #include "model_errors.hpp"
 #include "sample_count.hpp"
+#include "schema_models.hpp"
 #include "schema_validator.hpp"
 
 namespace model_schema_test {
@@ -26,6 +27,7 @@ namespace {
 using nlohmann::json;
 using Pointer = json::json_pointer;
 using namespace ents;
+using ents::testing::schema_models;
 using ents::testing::SchemaValidator;
 using ents::testing::Verdict;
 
@@ -53,251 +55,6 @@ protected:
   Verdict read(const json& model) const {
     const NamedData data[] = {{"heights", samples_, 2, 3}, {"profile", samples_, 1, 3}};
     return ents::testing::verdict(model.dump(), directory_, data);
-  }
-
-  // Together they use every key and every word of the schema; EveryPropertyIsUsed holds them to it.
-  static std::vector<json> models() {
-    const json one = {{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1}}, {"phase", 0.5}};
-    const json two = {{"type", "sine"}, {"amplitude", 0.1}, {"wave_vector", {1, 2}}, {"phase", 0.5}};
-    std::vector<json> result = {
-        {{"segment", "line2"},
-         {"height", nullptr},
-         {"surface_coordinates", {{-1}, {1}}},
-         {"projection", {{"type", "normal"}}},
-         {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1e5}}}}},
-         {"tangent", "consistent"},
-         {"master", "deformable"},
-         {"penetration_limit", 0.1},
-         {"border", 0.01}},
-        {{"segment", "line2"}, {"patch", {{0, 1}, {1, 2}}}},
-        {{"segment", "tri3"},
-         {"height", {{"type", "constant"}, {"value", 1}}},
-         {"surface_coordinates", {{0, 0}, {1, 0}, {0, 1}}},
-         {"projection", {{"type", "shadow_point"}, {"emitter", {1, 2, 3}}}},
-         {"tangent", "small_gap"},
-         {"master", "rigid"}},
-        {{"segment", "line2"},
-         {"height", one},
-         {"projection", {{"type", "shadow_direction"}, {"direction", {1, 2}}}},
-         {"tangent", "first_variation"}},
-        {{"segment", "quad4"}, {"height", two}},
-        {{"segment", "line2"}, {"height", {{"type", "polynomial"}, {"coefficients", {1, 2, 3}}}}},
-        {{"segment", "quad4"}, {"height", {{"type", "polynomial"}, {"coefficients", {{1, 2}, {3}}}}}},
-        {{"segment", "line2"},
-         {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0}}, {"width", 1}}}},
-        {{"segment", "quad4"},
-         {"height", {{"type", "gaussian"}, {"amplitude", 1}, {"center", {0, 1}}, {"width", 1}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "thread"},
-           {"pitch", 1.5},
-           {"flank_angles", {30, 45}},
-           {"crest", 0.2},
-           {"root", 0.3},
-           {"rounding", 0.1},
-           {"offset", 1}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "thread"},
-           {"pitch", 6},
-           {"flank_angles", {3, 30}},
-           {"crest", 1},
-           {"root", 0},
-           {"starts", 2},
-           {"turn", 360},
-           {"hand", "left"}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "callback"},
-           {"name", "wave"},
-           {"bound", 0.1},
-           {"slope", 1},
-           {"curvature", 10},
-           {"feature_length", {0.5}}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "expression"},
-           {"h", "a*sin(2*pi*u)*exp(-b*v^2)"},
-           {"constants", {{"a", 0.1}, {"b", 2}}},
-           {"feature_length", {0.25, 0.5}}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "roughness"},
-           {"seed", 1},
-           {"rms", 0.01},
-           {"hurst", 0.8},
-           {"wavelengths", {0.25, 0.5, 1}},
-           {"size", {1}},
-           {"samples", {32}},
-           {"cut_off", 0.5}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "fourier"},
-           {"wave_vectors", {{1, 0}, {1, 2}}},
-           {"amplitudes", {0.1, 0.2}},
-           {"phases", {0, 1}},
-           {"cut_off", 0.5}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "weierstrass"},
-           {"amplitude", 0.1},
-           {"wave_vector", {1}},
-           {"hurst", 0.8},
-           {"terms", 5},
-           {"ratio", 2},
-           {"seed", 1},
-           {"cut_off", 0.1}}}},
-        {{"segment", "quad4"},
-         {"height", {{"type", "window"}, {"of", two}, {"low", {-1, -1}}, {"high", {1, 1}}}}},
-        {{"segment", "quad4"},
-         {"height", {{"type", "sum"}, {"of", {two, {{"type", "product"}, {"of", {two, two}}}}}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "map"},
-           {"file", "scan.txt"},
-           {"boundary", "periodic"},
-           {"size", {1, 2}},
-           {"origin", {0, 0}},
-           {"scale", 2},
-           {"length_unit", 1e-6},
-           {"cut_off", 0.3}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "map"},
-           {"file", "profile.txt"},
-           {"boundary", "clamped"},
-           {"size", {1}},
-           {"origin", {0}},
-           {"scale", 2}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "map"},
-           {"data", "heights"},
-           {"boundary", "clamped"},
-           {"size", {1, 2}},
-           {"origin", {0, 0}},
-           {"scale", 2}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "map"},
-           {"data", "profile"},
-           {"boundary", "periodic"},
-           {"size", {1}},
-           {"origin", {0}},
-           {"scale", 2},
-           {"cut_off", 0.1}}}},
-        {{"segment", "quad4"},
-         {"height",
-          {{"type", "map"},
-           {"values", {{1, 2}, {3, 4}}},
-           {"boundary", "clamped"},
-           {"size", {1, 2}},
-           {"origin", {0, 0}},
-           {"scale", 2}}}},
-        {{"segment", "line2"},
-         {"height",
-          {{"type", "map"},
-           {"values", {1, 2, 3}},
-           {"boundary", "clamped"},
-           {"size", {1}},
-           {"origin", {0}},
-           {"scale", 2},
-           {"cut_off", 0.1}}}},
-    };
-    const json wear = {{"coefficient", "k"}, {"scheme", "trapezoidal"}, {"slave", 0.5}, {"sliding", 1}};
-    result.push_back({{"segment", "quad4"},
-                      {"parameters", {{"k", 1}, {"a", 0.1}}},
-                      {"height",
-                       {{"type", "sum"},
-                        {"of",
-                         {{{"type", "scale"}, {"by", "a"}, {"of", two}},
-                          {{"type", "shift"}, {"by", {"a", 1}}, {"of", two}},
-                          {{"type", "expression"}, {"h", "a*u"}, {"parameters", {"a"}}},
-                          {{"type", "field"},
-                           {"name", "worn"},
-                           {"points", {4, 5}},
-                           {"boundary", "clamped"},
-                           {"size", {1, 2}},
-                           {"origin", {0, 0}}}}}}},
-                      {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", "k"}}}, {"wear", wear}}}});
-    result.push_back({{"segment", "line2"},
-                      {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}, {"wear", nullptr}}}});
-    const json flattening = {{"scale", "a"}, {"pressure", 1}, {"least", 0.5}};
-    for (const json& offset : {json(0.1), json("b"), json(nullptr)})
-      result.push_back({{"segment", "quad4"},
-                        {"parameters", {{"a", 1}, {"b", -1}}},
-                        {"height", {{"type", "scale"}, {"by", "a"}, {"of", two}}},
-                        {"contact",
-                         {{"normal", {{"type", "penalty"}, {"stiffness", 1}}},
-                          {"offset", offset},
-                          {"flattening", flattening}}}});
-    result.push_back(
-        {{"segment", "line2"},
-         {"contact", {{"normal", {{"type", "penalty"}, {"stiffness", 1}}}, {"flattening", nullptr}}}});
-    for (const char* scheme : {"implicit", "explicit"})
-      result.push_back({{"segment", "line2"},
-                        {"contact",
-                         {{"normal", {{"type", "power"}, {"coefficient", 1}, {"exponent", 2}}},
-                          {"wear", {{"coefficient", 1}, {"scheme", scheme}}}}}});
-    const json penalty = {{"type", "penalty"}, {"stiffness", 1e5}};
-    const json coulomb = {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}};
-    for (const json& heat :
-         std::vector<json>{nullptr,
-                           {{"conductance", "k"}},
-                           {{"power", {{"coefficient", "k"}, {"pressure", 5}, {"exponent", 0.95}}},
-                            {"table", {{"pressures", {0, 1}}, {"conductances", {1, 2}}}},
-                            {"clearance", {{"gaps", {0, 1}}, {"conductances", {1, 0}}}},
-                            {"gas", {{"conductivity", "k"}, {"jump", 0.1}}},
-                            {"friction", {{"share", "k"}, {"slave", 0.3}}}}})
-      result.push_back({{"segment", "tri3"},
-                        {"parameters", {{"k", 1}}},
-                        {"contact", {{"normal", penalty}, {"friction", coulomb}, {"heat", heat}}}});
-    for (const json& contact : std::vector<json>{
-             {{"normal", penalty},
-              {"friction",
-               {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}, {"shear_limit", 5}}}},
-             {{"normal", penalty},
-              {"friction", {{"type", "rough"}, {"stiffness", 1e4}}},
-              {"symmetrised", true}},
-             {{"normal", penalty}, {"friction", nullptr}, {"symmetrised", false}},
-             {{"normal", {{"type", "power"}, {"coefficient", 1e5}, {"exponent", 1.5}}}},
-             {{"normal", {{"type", "exponential"}, {"pressure", 1e5}, {"clearance", 0.01}}}},
-             {{"normal", {{"type", "augmented"}, {"stiffness", 1e5}}}},
-             {{"normal", {{"type", "augmented_multiplier"}, {"stiffness", 1e5}}}},
-             {{"normal", {{"type", "multiplier"}, {"stiffness", 1e5}}}},
-             {{"normal", {{"type", "table"}, {"gap", {-1, 0.5}}, {"pressure", {3, 0}}}}},
-             {{"normal", {{"type", "tied"}, {"stiffness", 1e5}, {"range", 1e-6}}}},
-             {{"normal",
-               {{"type", "cohesive"},
-                {"stiffness", 1e5},
-                {"strength", 10},
-                {"energy", 0.1},
-                {"range", 1e-6}}}},
-             {{"normal", {{"type", "dugdale"}, {"work", 0.01}, {"strength", 10}, {"stiffness", 1e5}}},
-              {"friction",
-               {{"type", "coulomb"}, {"coefficient", 0.3}, {"stiffness", 1e4}, {"adhesion", true}}}},
-             {{"normal", {{"type", "separation"}, {"work", 0.01}, {"length", 1e-3}}}},
-             {{"normal", {{"type", "lennard_jones"}, {"work", 0.01}, {"length", 1e-3}, {"range", 0.02}}}},
-             {{"normal", penalty},
-              {"friction",
-               {{"type", "coulomb"},
-                {"coefficient",
-                 {{"pressures", {0, 5}},
-                  {"slip_rates", {0, 1, 2}},
-                  {"coefficients", {{3, 2, 1}, {2, 1, 0}}}}},
-                {"stiffness", 1e4}}}},
-             {{"normal", {{"type", "dugdale"}, {"work", 0.01}, {"strength", 10}, {"stiffness", 1e5}}},
-              {"friction",
-               {{"type", "coulomb"},
-                {"coefficient", 0.3},
-                {"kinetic", 0.2},
-                {"decay", 1.5},
-                {"stiffness", 1e4},
-                {"shear_limit", 5},
-                {"adhesion", false}}}}})
-      result.push_back({{"segment", "line2"}, {"contact", contact}});
-    for (const BasisEntry& basis : basis_table) result.push_back({{"segment", basis.name}});
-    return result;
   }
 
   std::filesystem::path directory_ =
@@ -398,7 +155,7 @@ bool depends_on_more(const std::string& message) {
 
 TEST_F(ModelSchema, TheModelsAreValid) {
   const SchemaValidator validator(schema());
-  for (const json& model : models()) {
+  for (const json& model : schema_models()) {
     EXPECT_TRUE(validator.accepts(model)) << model;
     EXPECT_EQ(read(model).status, ENTS_OK) << model << "\n" << read(model).message;
   }
@@ -443,51 +200,42 @@ TEST_F(ModelSchema, ReaderAndSchemaAgreeOnEveryChange) {
 
   int accepted = 0, refused = 0;
   test::Turns turns(37);
-  const auto compare = [&](const json& model) {
+  // change(copy): made of the models whose turn it is
+  const auto compare = [&](const json& model, const auto& change) {
     if (!turns.take()) return;
-    const Verdict got = read(model);
-    if (validator.accepts(model)) {
+    json changed = model;
+    change(changed);
+    const Verdict got = read(changed);
+    if (validator.accepts(changed)) {
       EXPECT_TRUE(got.status == ENTS_OK || depends_on_more(got.message))
-          << model << "\nreader: " << got.message;
+          << changed << "\nreader: " << got.message;
       ++accepted;
     } else {
-      EXPECT_NE(got.status, ENTS_OK) << model << "\nonly the schema refuses";
+      EXPECT_NE(got.status, ENTS_OK) << changed << "\nonly the schema refuses";
       ++refused;
     }
   };
-  for (const json& model : models())
+  for (const json& model : schema_models())
     every_place(model, Pointer(), [&](const Pointer& at) {
-      for (const json& replacement : replacements) {
-        json changed = model;
-        changed[at] = replacement;
-        compare(changed);
-      }
-      if (model.at(at).is_array()) {
-        json longer = model;
-        for (const int count : {1, 2, 70}) {
-          for (int i = 0; i < count; ++i)
-            longer[at].push_back(model.at(at).empty() ? json(1) : model.at(at).back());
-          compare(longer);
-        }
-      }
-      if (model.at(at).is_object()) {
-        json more = model;
-        more[at]["x"] = 1;
-        compare(more);
-      }
+      for (const json& replacement : replacements)
+        compare(model, [&](json& changed) { changed[at] = replacement; });
+      if (model.at(at).is_array())
+        for (const int count : {1, 3, 73})
+          compare(model, [&](json& longer) {
+            for (int i = 0; i < count; ++i)
+              longer[at].push_back(model.at(at).empty() ? json(1) : model.at(at).back());
+          });
+      if (model.at(at).is_object()) compare(model, [&](json& more) { more[at]["x"] = 1; });
       if (at.empty()) return;
       const Pointer parent = at.parent_pointer();
       if (model.at(parent).is_object()) {
-        json fewer = model, renamed = model;
-        fewer[parent].erase(at.back());
-        compare(fewer);
-        renamed[parent].erase(at.back());
-        renamed[parent][at.back() + "s"] = model.at(at);
-        compare(renamed);
+        compare(model, [&](json& fewer) { fewer[parent].erase(at.back()); });
+        compare(model, [&](json& renamed) {
+          renamed[parent].erase(at.back());
+          renamed[parent][at.back() + "s"] = model.at(at);
+        });
       } else {
-        json fewer = model;
-        fewer[parent].erase(std::stoul(at.back()));
-        compare(fewer);
+        compare(model, [&](json& fewer) { fewer[parent].erase(std::stoul(at.back())); });
       }
     });
   EXPECT_GT(accepted, 100);
@@ -509,7 +257,7 @@ std::set<std::string> words_after(const std::string& message, const std::string&
 // What the reader says it takes is what the schema lists, in every object of every model.
 TEST_F(ModelSchema, ReaderTakesNoKeyThatTheSchemaLacks) {
   const SchemaValidator validator(schema());
-  for (const json& model : models())
+  for (const json& model : schema_models())
     every_place(model, Pointer(), [&](const Pointer& at) {
       if (!model.at(at).is_object()) return;
       json changed = model;
@@ -574,7 +322,7 @@ TEST_F(ModelSchema, EveryPropertyIsUsed) {
   const json text = schema();
   const SchemaValidator validator(text);
   std::set<std::pair<std::string, std::string>> keys_used;
-  for (const json& model : models())
+  for (const json& model : schema_models())
     every_place(model, Pointer(), [&](const Pointer& at) {
       if (!model.at(at).is_object()) return;
       for (const json* object : validator.object_schemas(model, at))
