@@ -187,28 +187,6 @@ class History(unittest.TestCase):
             self.assertGreater(len(seen), 20)
             np.testing.assert_allclose(many, one, rtol=0, atol=1e-9 * np.abs(one).max())
 
-    def test_open_points_keep_what_has_been_worn_off(self):
-        wear = {**PENALTY, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
-        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, 0.0], [0.8, 0.0]], [[1, 0]],
-                               [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
-        for y in (-0.01, 0.1, 5.0, 0.1, -0.02):  # closed, open, nowhere, open, closed
-            before = contact.state[:, contact.model.layout.worn].copy()
-            contact.update(np.tile([0.0, y], 2))
-            contact.commit()
-            worn = contact.state[:, contact.model.layout.worn]
-            if y > 0:
-                np.testing.assert_array_equal(worn, before)
-                self.assertGreater(worn.min(), 0)
-            else:  # p = k (y + worn) / (1 + k 5e-3), worn off: 5e-3 p
-                np.testing.assert_allclose(worn, before + 5e-3 * 800 * (-y - before) / (1 + 4), rtol=1e-12)
-
-    def test_the_first_configuration_wears_nothing(self):
-        wear = {**FRICTION, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
-        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, -0.01], [0.8, -0.01]], [[1, 0]],
-                               [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
-        contact.update(np.zeros(4))
-        np.testing.assert_allclose(contact.state[:, contact.model.layout.worn], 5e-3 * 800 * 0.01 / (1 + 4), rtol=1e-12)
-
     def test_update_without_commit_leaves_no_trace(self):
         x, slave, master = strips(np.random.default_rng(3))
         fresh, used = (ents.Contact(CASES["friction"][1], x, slave, master, surface_coordinates="x", reach=0.3) for _ in range(2))

@@ -50,6 +50,30 @@ def sample(model, x):
     return model.field_sample("worn", model.fields["worn"], np.asarray(x)[:, None])
 
 
+class States(unittest.TestCase):
+    def test_open_points_keep_what_has_been_worn_off(self):
+        wear = {"normal": {"type": "penalty", "stiffness": 800}, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, 0.0], [0.8, 0.0]], [[1, 0]],
+                               [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
+        for y in (-0.01, 0.1, 5.0, 0.1, -0.02):  # closed, open, nowhere, open, closed
+            before = contact.state[:, contact.model.layout.worn].copy()
+            contact.update(np.tile([0.0, y], 2))
+            contact.commit()
+            worn = contact.state[:, contact.model.layout.worn]
+            if y > 0:
+                np.testing.assert_array_equal(worn, before)
+                self.assertGreater(worn.min(), 0)
+            else:  # p = k (y + worn) / (1 + k 5e-3), worn off: 5e-3 p
+                np.testing.assert_allclose(worn, before + 5e-3 * 800 * (-y - before) / (1 + 4), rtol=1e-12)
+
+    def test_the_first_configuration_wears_nothing(self):
+        wear = {"normal": {"type": "penalty", "stiffness": 800}, "friction": {"type": "coulomb", "coefficient": 0.3, "stiffness": 700}, "wear": {"coefficient": 1e-3, "sliding": "slid"}}
+        contact = ents.Contact({"segment": "line2", "master": "rigid", "parameters": {"slid": 5.0}, "contact": wear}, [[0.2, -0.01], [0.8, -0.01]], [[1, 0]],
+                               [[0, 1]], master_positions=[[0, 0], [1, 0]], reach=0.5)
+        contact.update(np.zeros(4))
+        np.testing.assert_allclose(contact.state[:, contact.model.layout.worn], 5e-3 * 800 * 0.01 / (1 + 4), rtol=1e-12)
+
+
 class Uniform(unittest.TestCase):
     """Facets that are pressed into each other by a given depth, and slide: both lose their share of k p s."""
 

@@ -28,7 +28,7 @@ sys.path.insert(0, str(root / "adapters" / "python"))
 mistakes = []
 counts = dict.fromkeys(["READMEs", "listings", "links", "commands", "filters", "heights", "models", "python"], 0)
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
-# python_test.py runs the block of the first page, python_page_test.py those of the second.
+# python_surfaces_test.py runs the block of the first page, python_page_test.py those of the second.
 RUN_ELSEWHERE = {"adapters/README.md": "python", "adapters/python/README.md": "python"}
 
 
