@@ -155,8 +155,45 @@ std::vector<std::string> names_of(const std::vector<Basis>& some) {
 std::vector<std::string> basis_names() { return names_of(bases()); }
 std::vector<std::string> all_basis_names() { return names_of(all_bases()); }
 
+namespace {
+
+// Of a quadrilateral whose shape functions are products: the factors of each direction, of every node of a row.
+template <class S> struct Factors {
+  explicit Factors(const Basis& basis, const S& x, const S& y)
+      : count(basis.family == Family::linear      ? 2
+              : basis.family == Family::quadratic ? 3
+                                                  : 4),
+        first(count == 4 ? -3.0 : -1.0), apart(count == 3 ? 1.0 : 2.0) {
+    for (int i = 0; i < count; ++i) {
+      f[i] = on_line(basis.family, first + apart * i, x);
+      g[i] = on_line(basis.family, first + apart * i, y);
+    }
+  }
+  const S& along_1(const std::array<double, 2>& node) const {
+    return f[static_cast<int>((node[0] - first) / apart)];
+  }
+  const S& along_2(const std::array<double, 2>& node) const {
+    return g[static_cast<int>((node[1] - first) / apart)];
+  }
+  static bool are_of(const Basis& basis) {
+    return basis.dimension == 3 && !basis.simplex && basis.family != Family::serendipity;
+  }
+
+  int count;
+  double first, apart;
+  S f[4], g[4];
+};
+
+} // namespace
+
 std::vector<double> shape_values(const Basis& basis, const double* xi) {
   std::vector<double> out;
+  out.reserve(basis.nodes.size());
+  if (Factors<double>::are_of(basis)) {
+    const Factors<double> factors(basis, xi[0], xi[1]);
+    for (const auto& node : basis.nodes) out.push_back(factors.along_1(node) * factors.along_2(node));
+    return out;
+  }
   for (int i = 0; i < basis.node_count(); ++i)
     out.push_back(shape(basis, i, xi[0], basis.dimension == 3 ? xi[1] : 0.0));
   return out;
@@ -168,18 +205,11 @@ Shape shape_functions(const Basis& basis, const double* xi) {
   constexpr double h = 1e-30;
   const double y = basis.dimension == 3 ? xi[1] : 0.0;
   Shape out;
-  if (basis.dimension == 3 && !basis.simplex &&
-      basis.family != Family::serendipity) { // products, each factor once
-    const int count = basis.family == Family::linear ? 2 : (basis.family == Family::quadratic ? 3 : 4);
-    const double first = count == 4 ? -3.0 : -1.0, apart = count == 3 ? 1.0 : 2.0;
-    Complex f[4], g[4];
-    for (int i = 0; i < count; ++i) {
-      f[i] = on_line(basis.family, first + apart * i, Complex(xi[0], h));
-      g[i] = on_line(basis.family, first + apart * i, Complex(xi[1], h));
-    }
+  for (std::vector<double>* row : {&out.value, &out.d1, &out.d2}) row->reserve(basis.nodes.size());
+  if (Factors<Complex>::are_of(basis)) {
+    const Factors<Complex> factors(basis, Complex(xi[0], h), Complex(xi[1], h));
     for (const auto& node : basis.nodes) {
-      const Complex a = f[static_cast<int>((node[0] - first) / apart)],
-                    b = g[static_cast<int>((node[1] - first) / apart)];
+      const Complex &a = factors.along_1(node), &b = factors.along_2(node);
       out.value.push_back(a.real() * b.real());
       out.d1.push_back(a.imag() / h * b.real());
       out.d2.push_back(a.real() * (b.imag() / h));

@@ -22,7 +22,7 @@ constexpr double tangent_tolerance = 1e-12;
 
 class Equilibrium : public testing::TestWithParam<std::string> {
 protected:
-  const Basis& basis() const { return basis_named(GetParam()); }
+  const Basis& basis() const { return basis_; }
   std::size_t dofs() const { return static_cast<std::size_t>(basis().dofs()); }
   int dimension() const { return basis().dimension; }
 
@@ -79,6 +79,7 @@ protected:
     return {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   }
 
+  const Basis& basis_ = basis_named(GetParam());
   std::string place_;
   std::int64_t elements_ = 0;
 };

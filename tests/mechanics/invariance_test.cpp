@@ -54,7 +54,7 @@ protected:
   // condition numbers of the projection and its second variation up to 1e3.
   static constexpr double tolerance = 1e-12;
 
-  const Basis& basis() const { return basis_named(GetParam()); }
+  const Basis& basis() const { return basis_; }
 
   // Calls f(scene, model, elements) for every height and projection, about 1000 elements in all per basis.
   template <class F> void for_every_scene(std::uint64_t seed, F&& f) {
@@ -163,6 +163,7 @@ protected:
   }
 
   Worst worst_;
+  const Basis& basis_ = basis_named(GetParam());
   std::string place_;
   std::int64_t compared_ = 0, elements_ = 0;
 };
