@@ -5,6 +5,9 @@
 #include <new>
 
 #include <dlfcn.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
@@ -24,6 +27,15 @@ namespace {
 void keep_to_this_thread() {
   if (void* function = dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))
     reinterpret_cast<void (*)(int)>(function)(0);
+}
+
+/// Factors of one iteration are freed before the next ones are made: memory that goes back to the system in
+/// between is cleared by it each time, which takes up to a sixth of a scene's time.
+void keep_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
 }
 
 /// LU of a matrix with all its entries.
@@ -134,6 +146,7 @@ private:
 
 std::unique_ptr<LinearSolver> LinearSolver::create(bool symmetric, std::unique_ptr<LinearSolver> indefinite) {
   keep_to_this_thread();
+  keep_memory();
   if (!symmetric) return std::make_unique<GeneralSolver>(false);
   if (!indefinite) indefinite = std::make_unique<GeneralSolver>(true);
   return std::make_unique<SymmetricSolver>(std::move(indefinite));
