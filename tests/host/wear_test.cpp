@@ -109,6 +109,10 @@ TEST(Wear, BothSidesLoseTheirShares) {
   EXPECT_NEAR((last.worn_slave + last.worn_master) / (1e-6 * 4 * distance), 1, 1e-4);
   const double left = 0.0005 - std::abs(first_wave(scene, last)) / 0.4;
   EXPECT_NEAR(left / (0.0005 * std::exp(-1.5)), 1, 3e-3);
+  // Gaps are those of the worn surfaces: the penalty's pressure over its stiffness.
+  for (std::size_t k = 0; k < last.fields.gap.size(); ++k)
+    EXPECT_NEAR(-1e8 * last.fields.gap[k], last.fields.pressure[k], 1e-6) << k;
+  EXPECT_LT(last.penetration, 1e-7);
 }
 
 // A flat punch: first the root-singular pressure of a rigid punch, in the end the uniform one.

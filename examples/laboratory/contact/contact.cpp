@@ -128,6 +128,7 @@ double Contact::augment(const Configuration& at, double enough) {
 void Contact::accept(const Configuration& at) {
   states_.accept(at_, fields(at));
   wear_.read_depths(states_);
+  wear_.open_gaps(states_);
   const ents_master_mesh where = sides_.mesh();
   wear_.collect(input(where), states_);
   begin_increment(at);

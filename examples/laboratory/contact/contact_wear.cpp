@@ -49,6 +49,14 @@ void ContactWear::read_depths(ContactStates& states) const {
         (given_away.empty() ? 0 : given_away[k]));
 }
 
+void ContactWear::open_gaps(ContactStates& states) const {
+  for (std::size_t k = 0; acts() && k < sides_->points.size(); ++k) {
+    const double* lost =
+        &states.begin[k * sides_->state_size + static_cast<std::size_t>(sides_->layout().worn)];
+    states.accepted.gap[k] += lost[0] + lost[1], states.accepted.normal_gap[k] += lost[0] + lost[1];
+  }
+}
+
 double ContactWear::of_slave(const ContactStates& states) const {
   double sum = 0;
   for (std::size_t k = 0; k < states.accepted.worn.size(); ++k)

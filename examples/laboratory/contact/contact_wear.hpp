@@ -29,6 +29,8 @@ public:
   void collect(ents_input input, ContactStates& states);
   /// The accepted depths, from the states of the begin.
   void read_depths(ContactStates& states) const;
+  /// The accepted gaps are those to the surfaces with what they have lost and no height has.
+  void open_gaps(ContactStates& states) const;
   /// Volume that the slave has lost until the last accepted increment, of this mesh [L^3].
   double of_slave(const ContactStates& states) const;
 
