@@ -18,21 +18,21 @@ bool is_linear(const ContactLaw& law) {
   return linear;
 }
 
-#define ENTS_OF_DIMENSION(S, D)                                                                              \
-  template void set_slid<S, D>(const ContactLaw&, const WornState<S, D - 1>&, const S(&)[D - 1],             \
-                               const Vec<S, D>(&)[D - 1], const SlipShare<S>&, WearOfIncrement<S, D>&);      \
-  template NormalForce<S> worn_force<S, D>(const ContactLaw&, const S&, const S&,                            \
-                                           const WornState<S, D - 1>&, WearOfIncrement<S, D>&, Truth<S>&);   \
-  template void evaluate_friction<S, D - 1>(const ContactLaw&, const FrictionPlace<S, D - 1>&,               \
-                                            const SlipBegin<S, D - 1>&, const SlipShare<S>&, const S&,       \
-                                            const S*, Friction<S, D - 1>&);
+#define ENTS_OF_DIMENSION(S, D, T)                                                                           \
+  template void set_slid<S, D>(const ContactLaw&, const WornState<S, T>&, const S(&)[T],                     \
+                               const Vec<S, D>(&)[T], const SlipShare<S>&, WearOfIncrement<S, D>&);          \
+  template NormalForce<S> worn_force<S, D>(const ContactLaw&, const S&, const S&, const WornState<S, T>&,    \
+                                           WearOfIncrement<S, D>&, Truth<S>&);                               \
+  template void evaluate_friction<S, T>(const ContactLaw&, const FrictionPlace<S, T>&,                       \
+                                        const SlipBegin<S, T>&, const SlipShare<S>&, const S&, const S*,     \
+                                        Friction<S, T>&);
 #define ENTS_OF_SCALAR(S)                                                                                    \
   template NormalForce<S> normal_force<S>(const ContactLaw&, const S&, const S&, const S&, const S&);        \
   template S force_per_gap<S>(const ContactLaw&, const S&);                                                  \
   template S touching_gap<S>(const ContactLaw&, const S&, const S&);                                         \
   template Strength<S> strength<S>(const ContactLaw&, const S&);                                             \
   template S next_bond<S>(const ContactLaw&, const S&, const S&);                                            \
-  ENTS_OF_DIMENSION(S, 2) ENTS_OF_DIMENSION(S, 3)
+  ENTS_OF_DIMENSION(S, 2, 1) ENTS_OF_DIMENSION(S, 3, 2)
 ENTS_OF_SCALAR(double)
 ENTS_OF_SCALAR(Dual<double>)
 #if ENTS_REGISTER_WIDTH > 1
