@@ -34,7 +34,7 @@ struct AugmentedMultiplier : Augmented {
 
 struct PureMultiplier : NormalLaw {
   static constexpr char type[] = "multiplier", formula[] = "Lagrange multipliers as dofs; stiffness only "
-                                                           "decides which pairs are active.";
+                                                           "decides which elements are in contact.";
   static constexpr LawNumber table[] = {{"stiffness", "[F/L^3].", LawNumber::positive, true}};
   static constexpr Multiplier multiplier = Multiplier::is_dof;
 
